@@ -254,6 +254,14 @@ class RegisterSetAside(CarpusFault):
     """Told, never raised: a damaged register was given another name, and the list made again from the sessions."""
 
 
+class RegisterMissing(CarpusFault):
+    """Told, never raised: there are sessions and no list of patients, so that one was made from them."""
+
+
+class LogUnguarded(CarpusFault):
+    """Told, never raised: what keeps the log from being changed had been taken out of the store."""
+
+
 class FilesSetApart(CarpusFault):
     """Told, never raised: files among the sessions that are none; ``subject`` names some, ``detail`` counts them."""
 
@@ -300,6 +308,10 @@ class PseudonymTaken(CarpusFault):
 
 class ErasureUnfinished(CarpusFault):
     """Files of what was erased could not be deleted yet; ``subject`` names one, ``detail`` counts them."""
+
+
+class ErasureLeadsOut(CarpusFault):
+    """Nothing was erased: ``subject`` is a link on the way to what should go."""
 
 
 class BackupPlaceUnsuited(CarpusFault):

@@ -243,9 +243,21 @@ FAULTS: dict[type[CarpusFault], Words] = {
         phrase("Start Carpus again, or take the list from a backup."),
     ),
     errors.RegisterSetAside: Words(
-        phrase("The list of patients was damaged ({detail}), so Carpus has made a new one from the sessions."),
-        phrase("All sessions are safe; names and notes are missing. The damaged list is kept as {subject}."),
+        phrase("The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions."),
+        phrase(
+            "All sessions are safe; names, notes and comments may be missing. The damaged list is kept as {subject}."
+        ),
+        phrase("Look through the list; restore it from a backup, or enter again what is missing."),
+    ),
+    errors.RegisterMissing: Words(
+        phrase("There are sessions, but no list of patients ({subject}); Carpus has made one from the sessions."),
+        phrase("All sessions are safe. If there was a list before, its names, notes and comments are gone."),
         phrase("Restore the list from a backup, or enter the names again."),
+    ),
+    errors.LogUnguarded: Words(
+        phrase("What keeps the log of deeds from being changed had been taken out of {subject}; it is there again."),
+        phrase("Patients and sessions are safe. Lines of the log may have been changed or taken out."),
+        phrase("Compare the log with that of a backup."),
     ),
     errors.FilesSetApart: Words(
         phrase("{detail} among the sessions cannot be read and are set apart: {subject}."),
@@ -310,6 +322,11 @@ FAULTS: dict[type[CarpusFault], Words] = {
         phrase(
             "Close other programs that have them open, or allow Carpus to write in their folder, and start it again."
         ),
+    ),
+    errors.ErasureLeadsOut: Words(
+        phrase("Nothing was erased: {subject} is a link that leads elsewhere."),
+        phrase("Carpus deletes no file behind a link; everything is as it was."),
+        phrase("Put what it leads to in its place, then erase again."),
     ),
     errors.BackupPlaceUnsuited: Words(
         phrase("Back-ups cannot lie there: {subject} ({detail})."),

@@ -116,6 +116,8 @@ class SessionLine:
     set_aside: str = ""
     """Why it does not count; empty when it does."""
     damaged: bool = False
+    away: bool = False
+    """Its file is not where it was."""
     figure: str = ""
     counted: str = ""
     counted_words: str = ""

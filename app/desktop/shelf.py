@@ -10,6 +10,7 @@ from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.output.report_content import SessionFigures
+from carpus.core.records.log import fingerprint
 from carpus.core.records.values import SessionEntry
 from carpus.ui import terms
 from carpus.ui.check_card.standing_words import unsure_name
@@ -46,10 +47,11 @@ class StoredSessions:
 
     def with_figures(self, line: SessionLine) -> SessionLine:
         """The same with what its file says."""
+        entry = self._library.entry(line.session_id)
         try:
-            figures = self._library.figures(self._library.entry(line.session_id))
+            figures = self._library.figures(entry)
         except SessionUnreadable:
-            return replace(line, damaged=True)
+            return replace(line, damaged=True, away=not entry.path.exists())
         counted = f"{figures.counted} / {len(figures.repetitions)}" if figures.repetitions else ""
         said = [] if line.of_practice else warnings(figures)
         return replace(
@@ -79,8 +81,9 @@ class StoredSessions:
 
     def move(self, session_id: str, patient_id: str) -> None:
         """Give it to another patient."""
+        self._library.forget_pictures()
         self._library.index.move(session_id, patient_id)
-        self._library.note_session("moved", session_id, to=patient_id)
+        self._library.note_session("moved", session_id, to=fingerprint(patient_id))
         self._library.forget_figures(session_id)
 
     def rename_exercise(self, session_id: str, exercise: str) -> None:

@@ -15,7 +15,7 @@ from carpus.core.library.beside import MARKERS_SUFFIX
 from carpus.core.library.library import Library
 from carpus.core.output.range_rows import best_motion
 from carpus.core.private import make_private
-from carpus.core.records.erasure import TRIALS_FOLDER
+from carpus.core.records.session_list import TRIALS_FOLDER
 from carpus.core.records.values import SessionEntry
 from carpus.core.session.disk import free_name
 from carpus.core.session.reader import read_detections, read_outline, read_session

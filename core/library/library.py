@@ -270,7 +270,8 @@ class Library:
             header = outline.header
             self.note_session("recovered", header.session_id)
             owner = self.owner(header.session_id)
-            found.append(Recovered(owner, header.session_id, header.subject_id, header.when, outline.duration_s))
+            pseudonym = self.patients.one(owner).entry.pseudonym if owner else header.subject_id
+            found.append(Recovered(owner, header.session_id, pseudonym, header.when, outline.duration_s))
         if len(apart) > MOST_TOLD:
             names = ", ".join(Path(fault.subject).name for fault in apart[:MOST_TOLD])
             apart = [FilesSetApart(f"{names}, …", phrase("{count} files", count=len(apart)))]
@@ -278,8 +279,7 @@ class Library:
 
     def _folder_of(self, subject_id: str) -> Path:
         """Where recordings of a pseudonym lie."""
-        practice = self.patients.one(PRACTICE_PATIENT).entry.pseudonym == subject_id
-        owner = PRACTICE_PATIENT if practice else self.patients.called(subject_id)
+        owner = PRACTICE_PATIENT if subject_id == PRACTICE_PATIENT else self.patients.called(subject_id)
         return self.store.sessions_folder / (owner or "unknown")
 
     # --- what is read of a session ------------------------------------------------------------------------

@@ -72,6 +72,11 @@ class SetUp:
     """The set that it is a part of."""
 
     @property
+    def subject_id(self) -> str:
+        """What a session file says of whose it is; of the practice patient the same in every language."""
+        return PRACTICE_PATIENT if self.patient_id == PRACTICE_PATIENT else self.pseudonym
+
+    @property
     def protocol(self) -> MarkerProtocol:
         """The discs on the hand."""
         return protocol_named(self.discs) if self.discs in protocol_names() else self.exercise.protocol

@@ -327,7 +327,7 @@ class SourceMeasuring:
             hand=calibration.clicks.side,
             protocol=calibration.clicks.protocol,
             software_version=self._software_version,
-            subject_id=self._set_up.pseudonym,
+            subject_id=self._set_up.subject_id,
             exercise=self._set_up.exercise.id,
             parameters=self._parameters(learnt),
             dip_free=self._settings.tracker.dip == "free",

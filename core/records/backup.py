@@ -125,20 +125,28 @@ def back_up(
     before = backups(place)
     known = {one.path: one for one in before[0].files} if before else {}
     done, total = 0, 2 * sources.size_bytes or 1
-    files, lacking = list[Kept](), list(sources.lacking)
+    files, lacking, of = list[Kept](), list(sources.lacking), dict[str, Path]()
     if sources.snapshot:
         files.append(_stored(place, STORE_FILE, iter((sources.snapshot,)), 0))
     for path, source, size in sources.files:
         try:
             files.append(_kept(path, source, place, known.get(path)))
+            of[path] = source
         except FileNotFoundError:
             pass  # taken away meanwhile
         except SourceFails:
             lacking.append(path)
         done += size
         progress(done, total)
-    for one in files:
-        _compare(place, one)
+    for number, one in enumerate(files):
+        try:
+            _compare(place, one)
+        except BackupUnequal:  # kept from an earlier back-up, and damaged since
+            if one.path not in of:
+                raise
+            with contextlib.suppress(FileNotFoundError, SourceFails):
+                files[number] = _stored(place, one.path, _blocks(of[one.path]), one.changed_ns)
+            _compare(place, files[number])
         done += one.size
         progress(min(done, total), total)
     when = (now or datetime.now().astimezone()).replace(microsecond=0)

@@ -16,7 +16,7 @@ from sqlalchemy.exc import DBAPIError
 from carpus.core.errors import DiskFull, OutputNotWritable, RegisterBusy, RegisterDamaged, RegisterUnreadable
 from carpus.core.phrase import phrase
 from carpus.core.private import make_private_file
-from carpus.core.records.schema import METADATA, VERSION
+from carpus.core.records.schema import METADATA, OUTBOX, SESSION, SHARED, SQLITE_LOG, VERSION
 
 STORE_FILE = "records.sqlite3"
 SMALL_BYTES = 64 << 20
@@ -29,7 +29,8 @@ _MIGRATING = threading.Lock()
 class Database:
     """Reading never waits for writing; one writes at a time, also among several programs.
 
-    ``is_new`` tells that the tables had to be made. Raises :class:`RegisterUnreadable`, or :class:`RegisterDamaged`
+    ``is_new`` tells that the tables had to be made, ``was_unguarded`` that somebody had taken the triggers of the log
+    away, which are there again. Raises :class:`RegisterUnreadable`, or :class:`RegisterDamaged`
     where waiting does not help, :class:`OutputNotWritable`, :class:`DiskFull`.
     """
 
@@ -43,6 +44,7 @@ class Database:
             with self.writing() as connection:
                 self._check(connection)
                 self.is_new = up_to_date(connection, path)
+                self.was_unguarded = _guard(connection)
                 for table in METADATA.sorted_tables:
                     connection.execute(select(table).limit(0))
         except (DBAPIError, sqlite3.Error) as cause:
@@ -132,6 +134,43 @@ def up_to_date(connection: Connection, name: Path | str) -> bool:
         said = phrase("version {version}, this Carpus reads up to {count}", version=found or "", count=VERSION)
         raise RegisterUnreadable(name, said) from cause
     return found is None
+
+
+def _guard(connection: Connection) -> bool:
+    """See that the triggers of the log are there and as they were made; whether they were not."""
+    query = "SELECT name, sql FROM sqlite_master WHERE type = 'trigger'"
+    there = {str(name): sql for name, sql in connection.exec_driver_sql(query)}
+    wanted = {one.split()[2]: one for one in SQLITE_LOG.strip().removesuffix(";").split(";\n")}
+    for name in (changed := [name for name in wanted if there.get(name) != wanted[name]]):
+        connection.exec_driver_sql(f"DROP TRIGGER IF EXISTS {name}")
+        connection.exec_driver_sql(wanted[name])
+    return bool(changed)
+
+
+def rescue(aside: Path, into: Database) -> int:
+    """Take what can still be read of a damaged store into a new one, each table from both its ends up to where it is
+    damaged; how many rows. What others have changed and what the files say comes anew."""
+    count = 0
+    with (
+        contextlib.suppress(sqlite3.Error),
+        contextlib.closing(sqlite3.connect(f"{aside.absolute().as_uri()}?mode=ro", uri=True)) as old,
+        into.writing() as connection,
+    ):
+        new = connection.connection.cursor()
+        new.execute("PRAGMA defer_foreign_keys = ON")
+        for table in (*SHARED.values(), OUTBOX):
+            names = ", ".join(f'"{column.name}"' for column in table.c)
+            put = f"INSERT OR IGNORE INTO {table.name} ({names}) VALUES ({', '.join('?' * len(table.c))})"
+            for order in ("ASC", "DESC"):
+                with contextlib.suppress(sqlite3.Error):
+                    for row in old.execute(f"SELECT {names} FROM {table.name} ORDER BY rowid {order}"):
+                        with contextlib.suppress(sqlite3.Error):  # a value of another kind, or what is there already
+                            count += new.execute(put, row).rowcount
+        while orphans := new.execute("PRAGMA foreign_key_check").fetchall():
+            for name, rowid, _, _ in orphans:
+                lost = f"UPDATE {name} SET patient_id = NULL" if name == SESSION.name else f"DELETE FROM {name}"
+                new.execute(f"{lost} WHERE rowid = ?", (rowid,))
+    return count
 
 
 def set_aside(path: Path, now: datetime) -> Path:

@@ -1,36 +1,35 @@
 """A session, or a patient, deleted with everything: rows are marked, then files go, then the rows.
 
 An erasure that is cut short is finished when the store is opened next. Only files in the folder of the sessions, and
-what Carpus keeps beside it, are touched: by relative paths without links; reports and exports that were saved elsewhere
-are named, and so are back-ups, which stay. What is deleted is overwritten in the store; what the disk itself keeps of
-deleted files only its encryption protects.
+what Carpus keeps beside it, are touched: by relative paths without links; where a link leads elsewhere, nothing is
+begun. Reports and exports that were saved elsewhere are named, and so are back-ups, which stay. What is deleted is
+overwritten in the store; what the disk itself keeps of deleted files only its encryption protects.
 """
 
 from __future__ import annotations
 
 import contextlib
 import glob
-from collections.abc import Iterable, Iterator, Sequence
+import mmap
+import re
+from collections import Counter
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from sqlalchemy import delete, select
 
-from carpus.core.errors import ErasureUnfinished, SessionUnreadable
+from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished
 from carpus.core.names import folded
-from carpus.core.records.changes import Row, changed, dropped
+from carpus.core.records.changes import PRACTICE, Row, changed, dropped
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import Kind, Log
 from carpus.core.records.of_sessions import MadeFile, made_from
 from carpus.core.records.patients import Patients
 from carpus.core.records.schema import PATIENT, RECIPIENT, SEEN, SESSION
-from carpus.core.records.session_list import FilesOfSessions, SessionList
+from carpus.core.records.session_list import FilesOfSessions, SessionList, file_name, trials_of
 from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry
-from carpus.core.session.reader import read_outline
-
-TRIALS_FOLDER = "corrections"
-"""In the data folder: sessions tracked again that nobody has decided about."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +50,9 @@ class ErasurePlan:
 
 
 def plan_session(store: Store, session_id: str) -> ErasurePlan:
-    """One recording with all its results. Raises KeyError for a session that is not in the store."""
+    """One recording with all its results, also those copied in since the last look. Raises KeyError for a session that
+    is not in the store, :class:`ErasureLeadsOut`."""
+    FilesOfSessions(store).take_in(tells=False)
     sessions = SessionList(store)
     results, patient_id = sessions.results_of(session_id), sessions.owner(session_id)
     mine = {one.recording_id for one in sessions.of_patient(patient_id, archived=True)} if patient_id else set()
@@ -59,7 +60,9 @@ def plan_session(store: Store, session_id: str) -> ErasurePlan:
 
 
 def plan_patient(store: Store, patient_id: str) -> ErasurePlan:
-    """A patient with all sessions. Raises KeyError for one that is not in the store."""
+    """A patient with all sessions, also those copied in since the last look. Raises KeyError for one that is not in the
+    store, :class:`ErasureLeadsOut`."""
+    FilesOfSessions(store).take_in(tells=False)
     Patients(store).one(patient_id)
     results = SessionList(store).of_patient(patient_id, archived=True)
     return _plan(store, "patient", patient_id, patient_id, results, 0)
@@ -68,23 +71,27 @@ def plan_patient(store: Store, patient_id: str) -> ErasurePlan:
 def _plan(
     store: Store, kind: Kind, identity: str, patient_id: str, results: Sequence[SessionEntry], others: int
 ) -> ErasurePlan:
-    going = [patient_id] if kind == "patient" else []
-    files = sorted(_files(store, going, [one.session_id for one in results]))
+    going, sessions = [patient_id] if kind == "patient" else [], [one.session_id for one in results]
+    links = _links(store, going, sessions)
+    if links:
+        raise ErasureLeadsOut(links[0])
+    files = sorted(_files(store, going, sessions))
     return ErasurePlan(
         kind, identity, patient_id, Patients(store).one(patient_id).entry.pseudonym if patient_id else "",
         tuple(results), len({one.recording_id for one in results}), tuple(files),
-        sum(path.lstat().st_size for path in files), tuple(made_from(store, [one.session_id for one in results])),
-        others,
+        sum(path.lstat().st_size for path in files), tuple(made_from(store, sessions)), others,
     )  # fmt: skip
 
 
 def erase(store: Store, plan: ErasurePlan, log: Log) -> int:
-    """Do it; how many files went. What cannot be deleted now is tried again whenever the store is opened.
+    """Do it; how many files went. What cannot be deleted now is tried again whenever the store is opened. Of a patient
+    also what came since it was planned.
 
     Raises :class:`ErasureUnfinished` where files are left, :class:`OutputNotWritable` where it could not be logged and
     so was not begun.
     """
     log.note("erase_begun", plan.kind, plan.identity, files=len(plan.files))
+    FilesOfSessions(store).take_in(tells=False)
     marked = [changed(SESSION, one.session_id, erasing=1) for one in plan.results]
     store.do([*marked, *([changed(PATIENT, plan.patient_id, erasing=1)] if plan.kind == "patient" else [])])
     left = _go_on(store)
@@ -113,7 +120,7 @@ def _go_on(store: Store) -> list[Path]:
     rows = store.rows(select(SESSION.c.id, SESSION.c.path).where(mine))
     sessions = [str(row.id) for row in rows]
     files = _files(store, patients, sessions)
-    left = [path for path in sorted(files) if not _gone(path)]
+    left = [*_links(store, patients, sessions), *(path for path in sorted(files) if not _gone(path))]
     for folder in sorted({path.parent for path in files} | {store.sessions_folder / one for one in patients}):
         if folder.is_relative_to(store.sessions_folder) and folder != store.sessions_folder:
             with contextlib.suppress(OSError):  # another patient's session is in it
@@ -142,19 +149,47 @@ def _letters_to(store: Store, names: Sequence[str]) -> list[Row]:
 
 def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> set[Path]:
     """Every file of these: the sessions' own with what lies beside them and copies, all that is left in the folders of
-    the patients, new results that wait for a decision, and damaged stores that were set aside, which may hold names."""
-    rows = store.rows(select(SESSION.c.id, SESSION.c.path))
-    going = set(sessions)
-    others = {path for row in rows if row.id not in going for path in _beside(store, row.path)}
-    found = {path for row in rows if row.id in going for path in _beside(store, row.path)}
-    files = FilesOfSessions(store)
-    found |= {path for row in rows if row.id in going for path in files.copies_of(row.path) if path.is_file()}
+    the patients, what is no session and names them, new results that wait for a decision, and damaged stores that were
+    set aside, which may hold names."""
+    paths, going, root = dict[str, str](), set(sessions), store.sessions_folder
+    for row in store.rows(select(SESSION.c.id, SESSION.c.path)):
+        paths[row.id] = row.path
+    others = {f"{root / path}".removesuffix(".h5") for session_id, path in paths.items() if session_id not in going}
+    mine, files = [paths[session_id] for session_id in paths.keys() & going], FilesOfSessions(store)
+    own = {path for stored in mine if (path := _inside(root, stored)) is not None and path.exists()}
+    found = own | {path for stored in mine for path in _beside(store, stored)}
+    found |= {path for stored in mine for path in files.copies_of(stored) if path.is_file()}
     for patient_id in patients:
-        folder = _inside(store.sessions_folder, patient_id)
-        found |= set(_plain_files(folder)) if folder is not None else set()
-    found |= set(_trials(store.folder / TRIALS_FOLDER, going))
+        found |= set(_plain_files(root / patient_id))
+    for name, said in _names_of(store, patients):
+        orphans = (path for path in _plain_files(root) if not _is_beside(path, others))
+        found |= {path for path in orphans if name.search(path.name) or _says(path, said)}
+    found |= set(trials_of(store, going))
     stem, suffix = STORE_FILE.split(".")
-    return (found | set(store.folder.glob(f"{stem}.damaged-*.{suffix}*"))) - others
+    found |= set(store.folder.glob(f"{stem}.damaged-*.{suffix}*"))
+    return own | {path for path in found if not _is_beside(path, others)}
+
+
+def _names_of(store: Store, patients: Sequence[str]) -> Iterator[tuple[re.Pattern[str], re.Pattern[bytes]]]:
+    """Of each patient the pseudonym as a word in a file's name, where that could be nobody else's, and in a file."""
+    names = {row.id: row.pseudonym for row in store.rows(select(PATIENT.c.id, PATIENT.c.pseudonym))} if patients else {}
+    alike = Counter(map(file_name, names.values()))
+    for pseudonym in (names[one] for one in patients if one != PRACTICE):
+        stem, word = re.escape(file_name(pseudonym)), re.escape(pseudonym)
+        name = rf"(?<![^\W_])(?:{stem}|{word})(?![^\W_])" if alike[file_name(pseudonym)] == 1 else r"(?!)"
+        said = rb"(?<![\w\x80-\xff])" + re.escape(pseudonym.encode()) + rb"(?![\w\x80-\xff])"
+        yield re.compile(name), re.compile(said)
+
+
+def _says(path: Path, word: re.Pattern[bytes]) -> bool:
+    if path.suffix in (".h5", ".part"):
+        with (
+            contextlib.suppress(OSError, ValueError),
+            path.open("rb") as file,
+            mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content,
+        ):
+            return word.search(content) is not None
+    return False
 
 
 def _beside(store: Store, stored: str) -> set[Path]:
@@ -163,6 +198,22 @@ def _beside(store: Store, stored: str) -> set[Path]:
     return set() if path is None else {
         one for one in path.parent.glob(f"{glob.escape(path.stem)}.*") if one.is_file() or one.is_symlink()
     }  # fmt: skip
+
+
+def _is_beside(path: Path, stems: Collection[str]) -> bool:
+    """Whether a file lies beside one of these under its name."""
+    parts = path.name.split(".")
+    return any(str(path.with_name(".".join(parts[:end]))) in stems for end in range(1, len(parts)))
+
+
+def _links(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> list[Path]:
+    """Links on the way to what is to go: nobody knows what else lies behind them."""
+    root = store.sessions_folder
+    ways = {root / one / "_" for one in patients}
+    for row in store.rows(select(SESSION.c.path).where(SESSION.c.id.in_(sessions))):
+        ways |= {root / row.path} if ".." not in Path(row.path).parts else set()
+    on_way = {one for way in ways for one in (way, *way.parents) if one != root and one.is_relative_to(root)}
+    return sorted(one for one in on_way if one.is_symlink())
 
 
 def _inside(folder: Path, stored: str) -> Path | None:
@@ -177,13 +228,6 @@ def _inside(folder: Path, stored: str) -> Path | None:
 def _plain_files(folder: Path) -> Iterator[Path]:
     if not folder.is_symlink():
         yield from (path for path in folder.rglob("*") if path.is_symlink() or path.is_file())
-
-
-def _trials(folder: Path, going: Iterable[str]) -> Iterator[Path]:
-    for path in folder.glob("*.h5") if not folder.is_symlink() else ():
-        with contextlib.suppress(SessionUnreadable):
-            if read_outline(path).header.origin in set(going):
-                yield path
 
 
 def _is_session_file(store: Store, path: Path) -> bool:

@@ -138,8 +138,10 @@ COPIED = (
 """What every computer has a copy of, in an order in which no row comes before what it belongs to."""
 SHARED = {table.name: table for table in (*COPIED, DEED)}
 
-_SQLITE_LOG = """
+SQLITE_LOG = """
 CREATE TRIGGER deed_stays BEFORE UPDATE ON deed BEGIN SELECT RAISE(ABORT, 'the log is only added to'); END;
+CREATE TRIGGER deed_is_new BEFORE INSERT ON deed WHEN EXISTS (SELECT 1 FROM deed WHERE id = NEW.id OR rowid = NEW.rowid)
+BEGIN SELECT RAISE(ABORT, 'the log is only added to'); END;
 CREATE TRIGGER deed_is_kept BEFORE DELETE ON deed BEGIN SELECT RAISE(ABORT, 'the log is only added to'); END;
 """
 _POSTGRESQL = """
@@ -170,7 +172,7 @@ def statements(dialect_name: str) -> str:
         out += [str(CreateIndex(index).compile(dialect=dialect)).strip() for index in indices]
     text = "".join(f"{' '.join(one.split())};\n" for one in out)
     if dialect_name == "sqlite":
-        return text + _SQLITE_LOG
+        return text + SQLITE_LOG
     steps = "".join(
         f"CREATE TRIGGER step BEFORE INSERT OR UPDATE ON {name} FOR EACH ROW EXECUTE FUNCTION carpus_next_step();\n"
         for name in [*SHARED, "tombstone"]

@@ -8,7 +8,9 @@ else was quicker, is told; the copy then has what the server has.
 
 from __future__ import annotations
 
+import logging
 import pickle
+import socket
 import tempfile
 import threading
 import time
@@ -18,26 +20,30 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
-from sqlalchemy import Connection, Row, Select, Table, create_engine, delete, func, select, text, update
+from sqlalchemy import Connection, Row, Select, Table, create_engine, delete, event, func, select, text, update
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.exc import DataError, DBAPIError, IntegrityError
 
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, ChangeRefused, PseudonymGiven, PseudonymTaken, ServerGone
-from carpus.core.records.changes import Change, is_practice, joining, make, read_back
+from carpus.core.records.changes import PRACTICE, Change, is_practice, joining, make, read_back
 from carpus.core.records.changes import Row as Changed
 from carpus.core.records.database import Database, up_to_date
 from carpus.core.records.outbox import lay_out
-from carpus.core.records.schema import COPIED, DEED, DELIVERED, OUTBOX, OWN, PATIENT, SEEN, SHARED, TOMBSTONE
+from carpus.core.records.schema import COPIED, DEED, DELIVERED, OUTBOX, OWN, PATIENT, SEEN, SESSION, SHARED, TOMBSTONE
 
 LOOK_S, RETRY_S, KEEP_DELIVERED_S = 2.0, 5.0, 90 * 86_400.0
 AT_ONCE, PAGE = 500, 5000
 IN_MEMORY_BYTES = 64 << 20
 MOST_NAMESAKES = 99
+logging.getLogger("sqlalchemy.pool").addHandler(logging.NullHandler())  # what a broken line says is told as a fault
 _OPTIONS = {
     "connect_timeout": 3, "tcp_user_timeout": 4000, "keepalives_idle": 5, "keepalives_interval": 5,
     "keepalives_count": 3, "application_name": "carpus",
     "options": "-c statement_timeout=60000 -c lock_timeout=5000",
 }  # fmt: skip
+PATIENCE_S, MOST_CONNECTING_S = 2.0, 30.0
+"""How long a program that ends waits for what is on its way; and, once every line is cut, for a connection that is
+being made to each of the server's addresses."""
 _UNIQUE = {"patient": "folded", "session": "path"}
 
 
@@ -47,6 +53,8 @@ class Server:
     def __init__(self, url: str, copy: Database, tell: Callable[[CarpusFault], None]) -> None:
         plain = url.removeprefix("postgresql+psycopg").removeprefix("postgresql").removeprefix("postgres")
         self._engine = create_engine(f"postgresql+psycopg{plain}", connect_args=_OPTIONS, pool_size=1, max_overflow=1)
+        self._lines: list[Any] = []
+        event.listen(self._engine, "connect", self._connected)
         self._name = self._engine.url.render_as_string(hide_password=True).split("@")[-1]
         self._copy, self._tell = copy, tell
         self._fetched = -1
@@ -64,11 +72,19 @@ class Server:
         self._thread.start()
 
     def close(self) -> None:
-        """Ends the thread; what is not delivered waits for the next start."""
+        """Ends the thread; what is not delivered waits for the next start. A server that keeps it waiting is left: what
+        still runs when Python ends pulls the program down with it."""
         self._ends.set()
         self._work.set()
-        self._thread.join(10.0)
-        self._engine.dispose()
+        self._thread.join(PATIENCE_S)
+        for one in self._lines:
+            _cut(one)
+        self._thread.join(MOST_CONNECTING_S)
+        if not self._thread.is_alive():
+            self._engine.dispose()
+
+    def _connected(self, line: Any, _: object) -> None:
+        self._lines = [*(one for one in self._lines if not one.closed), line]
 
     def wake(self) -> None:
         """There is something to deliver."""
@@ -109,7 +125,7 @@ class Server:
                 self._has_looked = self.is_there = self._answers = True
             except Exception as cause:  # whatever a server says, the copy goes on
                 pause = RETRY_S
-                if self.is_there or not self._has_looked:
+                if (self.is_there or not self._has_looked) and not self._ends.is_set():
                     said = cause if isinstance(cause, CarpusFault) else ServerGone(self._name, _said(cause))
                     self._tell(said)
                 self._has_looked, self.is_there = True, False
@@ -155,6 +171,8 @@ class Server:
             query = select(OUTBOX).where(OUTBOX.c.refused == "").order_by(OUTBOX.c.number).limit(AT_ONCE)
             waiting = connection.execute(query).all()
         for row in waiting:
+            if self._ends.is_set():
+                return False
             change, fault = read_back(row.change), None
             try:
                 self._send(row.id, change)
@@ -284,6 +302,11 @@ def _next(table: Table, after: int) -> Select[Any]:
 
 def _put(connection: Connection, name: str, rows: Sequence[dict[str, Any]]) -> None:
     table = SHARED[name]
+    if table is SESSION:  # what is of this computer alone is nobody else's to change
+        mine = set(connection.scalars(select(SESSION.c.id).where(SESSION.c.patient_id == PRACTICE)))
+        rows = [row for row in rows if row["id"] not in mine]
+    if not rows:
+        return
     if name in _UNIQUE:  # what is unique there may have changed hands: the names that come are free first
         unique = table.c[_UNIQUE[name]]
         these = unique.in_([row[unique.name] for row in rows]) | table.c.id.in_([row["id"] for row in rows])
@@ -300,6 +323,12 @@ def _numbered(change: Change, number: int) -> Change:
         return values | {key: f"{values[key]} ({number})" for key in ("pseudonym", "folded") if key in values}
 
     return [replace(row, values=name(dict(row.values))) if row.table == PATIENT.name else row for row in change]
+
+
+def _cut(line: Any) -> None:
+    """End a connection from another thread than the one that waits for its answer."""
+    with suppress(Exception), socket.fromfd(line.fileno(), socket.AF_INET, socket.SOCK_STREAM) as wire:
+        wire.shutdown(socket.SHUT_RDWR)
 
 
 def _said(cause: Exception) -> str:

@@ -2,26 +2,31 @@
 
 from __future__ import annotations
 
+import glob
+import os
 import re
-from collections.abc import Iterable
+import shutil
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from sqlalchemy import Row, delete, select
 
+from carpus.core.durable import write_fault
 from carpus.core.errors import CarpusFault, SessionUnreadable
 from carpus.core.names import folded
 from carpus.core.phrase import phrase
 from carpus.core.private import make_private
 from carpus.core.records import changes
 from carpus.core.records.changes import PRACTICE, changed, kept, new
-from carpus.core.records.patients import columns
+from carpus.core.records.patients import Patients, columns
 from carpus.core.records.schema import PATIENT, SEEN, SESSION
 from carpus.core.records.seen_files import COPY, Seen, can_be_stored, files_there, remembered, stored
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import AffectedSide, PatientEntry, Rebuilt, SessionEntry, moment
-from carpus.core.session.reader import read_outline
+from carpus.core.session.reader import give, read_outline
 from carpus.core.session.values import SessionOutline
 from carpus.core.types import Side
 
@@ -29,6 +34,8 @@ MOST_LETTERS = 40
 """Of a pseudonym in a file's name, which no system lets be as long as one likes."""
 NOWHERE = "lost/"
 """Begins the path of a session in whose place a file of another lies, and whose own was not found."""
+TRIALS_FOLDER = "corrections"
+"""In the data folder: sessions tracked again that nobody has decided about."""
 AT_ONCE = 500
 """Rows of one change when the list is made anew."""
 
@@ -78,7 +85,7 @@ class SessionList:
         identity for a name."""
         folder = self.folder / patient_id
         make_private(folder)
-        stem = f"{_file_name(pseudonym) or 'patient'}_{when:%Y-%m-%d_%H%M%S}_{_file_name(exercise) or 'session'}_{hand}"
+        stem = f"{file_name(pseudonym) or 'patient'}_{when:%Y-%m-%d_%H%M%S}_{file_name(exercise) or 'session'}_{hand}"
         candidate, number = folder / f"{stem}.h5", 1
         while candidate.exists():
             number += 1
@@ -97,8 +104,35 @@ class SessionList:
         return self.one(outline.header.session_id)
 
     def move(self, session_id: str, patient_id: str) -> None:
-        """Give a session to another patient; the file keeps the pseudonym under which it was recorded."""
-        self._store.do([changed(SESSION, session_id, patient_id=patient_id)])
+        """Give a session to another patient, with all that lies beside it: written anew under that one's pseudonym and
+        into that one's folder, so that nothing of it says whose it was taken for. Results that wait for a decision go.
+
+        Raises :class:`SessionUnreadable` for a file that is not whole, :class:`ChangedMeanwhile`, the faults of
+        writing; then all is as it was.
+        """
+        entry, pseudonym = self.one(session_id), Patients(self._store).one(patient_id).entry.pseudonym
+        if not entry.path.exists():
+            self._store.do([changed(SESSION, session_id, patient_id=patient_id)])
+            return
+        path = self.new_path(patient_id, pseudonym, entry.exercise, entry.hand, entry.recorded)
+        beside = [one for one in entry.path.parent.glob(f"{glob.escape(entry.path.stem)}.*") if one != entry.path]
+        made = [path, *(path.with_name(f"{path.stem}{one.name.removeprefix(entry.path.stem)}") for one in beside)]
+        try:
+            give(entry.path, path, pseudonym)
+            for one, other in zip(beside, made[1:], strict=True):
+                _same(one, other)
+            outline = read_outline(path)
+            stored_path, seal, size = self.stored_path(path), outline.seal, outline.size_bytes
+            self._store.do(
+                [changed(SESSION, session_id, patient_id=patient_id, path=stored_path, seal=seal, size=size)]
+            )
+        except BaseException:
+            for one in made:
+                one.unlink(missing_ok=True)
+            raise
+        for one in (entry.path, *beside, *trials_of(self._store, [session_id])):
+            with suppress(OSError):  # open elsewhere: it is nobody's, and goes with the patient
+                one.unlink()
 
     def rename_exercise(self, session_id: str, exercise: str) -> None:
         """List a session as another exercise; the file keeps what was chosen then."""
@@ -141,6 +175,15 @@ class SessionList:
         )  # fmt: skip
 
 
+def trials_of(store: Store, session_ids: Collection[str]) -> Iterator[Path]:
+    """New results of these sessions that nobody has decided about."""
+    folder = store.folder / TRIALS_FOLDER
+    for path in folder.glob("*.h5") if not folder.is_symlink() else ():
+        with suppress(SessionUnreadable):
+            if read_outline(path).header.origin in session_ids:
+                yield path
+
+
 class FilesOfSessions:
     """Brings the list up to date with the files that are there, or makes it anew: all but names, notes and what people
     wrote comes of the files."""
@@ -149,10 +192,11 @@ class FilesOfSessions:
         self._store, self._list = store, SessionList(store)
         self._folder = store.sessions_folder
 
-    def take_in(self) -> Rebuilt:
+    def take_in(self, *, tells: bool = True) -> Rebuilt:
         """Read what was copied in or changed since the last look; a session whose file is gone stays in the list.
 
-        A pseudonym without a patient becomes one; a file without a pseudonym is listed without a patient.
+        A pseudonym without a patient becomes one; a file without a pseudonym is listed without a patient. What cannot
+        be read is remembered as told, unless nobody ``tells`` of it.
         """
         before, (there, nameless) = remembered(self._store), self._there()
         known = {row.path: row for row in self._store.rows(select(SESSION))}
@@ -169,8 +213,11 @@ class FilesOfSessions:
                     raise SessionUnreadable(self._folder / path, look.reason)
                 found.append((path, read_outline(self._folder / path)))
             except SessionUnreadable as fault:
-                now_seen[path] = Seen(look.size, look.changed_ns, fault.detail or "cannot be read")
                 faults.append(fault)
+                if tells:
+                    now_seen[path] = Seen(look.size, look.changed_ns, fault.detail or "cannot be read")
+                else:
+                    del now_seen[path]
         if now_seen:  # of what has no name that can be kept nobody knows whether it was told
             faults += [SessionUnreadable(ascii(Path(one).name), phrase("a name that is no text")) for one in nameless]
         gone = [path for path in before if path not in there and not self._is_part(path)]
@@ -200,15 +247,17 @@ class FilesOfSessions:
                 now_seen[path] = Seen(now_seen[path].size, now_seen[path].changed_ns, f"{COPY}{place[session_id]}")
                 continue
             place[session_id], subject = path, outline.header.subject_id.strip()
-            owner = PRACTICE if path.startswith(f"{PRACTICE}/") else people.get(folded(subject))
-            if owner is None and subject and session_id not in rows:
+            of_practice = subject == PRACTICE or path.startswith(f"{PRACTICE}/")
+            owner = PRACTICE if of_practice else people.get(folded(subject))
+            before = rows.get(session_id)
+            if owner is None and subject and (before is None or before.patient_id is None):
                 owner, added = people.setdefault(folded(subject), new_id()), added + 1
                 hands = {one.header.hand for _, one in found if folded(one.header.subject_id) == folded(subject)}
                 side: AffectedSide = "both" if len(hands) == 2 else outline.header.hand
                 change.append(new(PATIENT, owner, **columns(PatientEntry(subject, side)), added_s=0.0))
-            before, values = rows.get(session_id), _columns(path, owner, outline)
+            values = _columns(path, owner, outline)
             if before is not None:  # what a person said of it stays
-                values |= {"patient_id": before.patient_id, "exercise": before.exercise}
+                values |= {"patient_id": before.patient_id or owner, "exercise": before.exercise}
             if before is None or any(getattr(before, name) != value for name, value in values.items()):
                 change.append(kept(SESSION, session_id, **values))
                 taken += 1
@@ -264,6 +313,18 @@ class FilesOfSessions:
         return path.endswith(".part") and (self._folder / path).exists()
 
 
+def _same(one: Path, other: Path) -> None:
+    """The file under another name as well, so that a kill in between loses none."""
+    try:
+        os.link(one, other)
+    except OSError:  # no hard links here
+        try:
+            shutil.copyfile(one, other)
+            other.chmod(0o600)
+        except OSError as cause:
+            raise write_fault(other, cause) from cause
+
+
 def _columns(path: str, patient_id: str | None, outline: SessionOutline) -> dict[str, Any]:
     header = outline.header
     created = datetime.fromisoformat(header.created)
@@ -276,5 +337,6 @@ def _columns(path: str, patient_id: str | None, outline: SessionOutline) -> dict
     }  # fmt: skip
 
 
-def _file_name(text: str) -> str:
+def file_name(text: str) -> str:
+    """A text as it stands in names of files."""
     return re.sub(r"\W+", "-", text)[:MOST_LETTERS].strip("-")

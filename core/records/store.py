@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any, Self
 
 from sqlalchemy import Delete, Insert, Row, Select, Update, select
 
-from carpus.core.errors import CarpusFault, RegisterDamaged, RegisterSetAside, ServerGone
+from carpus.core.errors import CarpusFault, LogUnguarded, RegisterDamaged, RegisterMissing, RegisterSetAside, ServerGone
+from carpus.core.phrase import phrase
 from carpus.core.private import make_private
 from carpus.core.records.changes import PRACTICE, Change, is_practice, make, new
-from carpus.core.records.database import STORE_FILE, Database, set_aside
+from carpus.core.records.database import STORE_FILE, Database, rescue, set_aside
 from carpus.core.records.outbox import forget, is_shared, lay_out
 from carpus.core.records.schema import PATIENT
 
@@ -48,6 +49,10 @@ class Store:
         self.told: list[CarpusFault] = []
         """What was found when the store was opened."""
         self._database = self._opened(folder / STORE_FILE)
+        if self._database.was_unguarded:
+            self.told.append(LogUnguarded(folder / STORE_FILE))
+        if self._database.is_new and not url and not self.told and self._has_sessions():
+            self.told.append(RegisterMissing(folder / STORE_FILE))
         if not self.rows(select(PATIENT.c.id).where(PATIENT.c.id == PRACTICE)):
             self._make([new(PATIENT, PRACTICE, folded=f"\N{BULLET}{PRACTICE}", pseudonym=PRACTICE, side="right")], "")
         self._server: Server | None = None
@@ -60,9 +65,16 @@ class Store:
         try:
             return Database(path)
         except RegisterDamaged as fault:
-            aside = set_aside(path, datetime.now())
-            self.told.append(RegisterSetAside(aside, fault.detail))
-            return Database(path)
+            aside, database = set_aside(path, datetime.now()), Database(path)
+            rows = rescue(aside, database)
+            self.told.append(
+                RegisterSetAside(aside, phrase("{detail}; {count} rows read", detail=fault.detail, count=rows))
+            )
+            return database
+
+    def _has_sessions(self) -> bool:
+        files = (one.relative_to(self.sessions_folder) for one in self.sessions_folder.rglob("*.h5"))
+        return any(one.parts[0] != PRACTICE for one in files)
 
     def __enter__(self) -> Self:
         return self
@@ -76,11 +88,6 @@ class Store:
             self._server.close()
             self._server = None
         self._database.close()
-
-    @property
-    def is_new(self) -> bool:
-        """Whether there was none before."""
-        return self._database.is_new
 
     def rows(self, query: Select[Any]) -> Sequence[Row[Any]]:
         """What is stored."""

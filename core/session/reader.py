@@ -85,6 +85,11 @@ def finish_part(part: Path, when: str) -> Path | None:
     return cast("Path | None", _ask("recover", part, when))
 
 
+def give(path: Path, target: Path, subject_id: str) -> None:
+    """Write a session anew for another patient; as :func:`core.session.given.given`."""
+    _ask("give", path, target, subject_id)
+
+
 class ReadingProcess:
     """The one process that reads for this one; used from any thread, one question at a time."""
 

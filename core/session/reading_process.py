@@ -57,7 +57,7 @@ def run(link: Connection) -> None:
 
 
 def _questions() -> dict[str, Callable[..., Any]]:
-    from carpus.core.session import opened, recovery
+    from carpus.core.session import given, opened, recovery
 
     return {
         "session": opened.read_session,
@@ -69,6 +69,7 @@ def _questions() -> dict[str, Callable[..., Any]]:
         "raw_color": opened.read_raw_color,
         "recover": recovery.finish_part,
         "verify": opened.verify,
+        "give": given.given,
     }
 
 

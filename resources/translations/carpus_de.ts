@@ -3848,6 +3848,10 @@
         <translation>nicht lesbar</translation>
     </message>
     <message>
+        <source>its file is not there</source>
+        <translation>ihre Datei fehlt</translation>
+    </message>
+    <message>
         <source>cut short</source>
         <translation>abgebrochen</translation>
     </message>
@@ -4373,7 +4377,7 @@
     </message>
     <message>
         <source>All sessions are safe; names and notes are missing. The damaged list is kept as {subject}.</source>
-        <translation>Alle Sitzungen sind sicher; Namen und Notizen fehlen. Die beschädigte Liste ist aufbewahrt: {subject}.</translation>
+        <translation type="vanished">Alle Sitzungen sind sicher; Namen und Notizen fehlen. Die beschädigte Liste ist aufbewahrt: {subject}.</translation>
     </message>
     <message>
         <source>Another Carpus is using the patients of {subject}.</source>
@@ -4422,6 +4426,10 @@
     <message>
         <source>Carpus could not look back at the session: {subject} ({detail}).</source>
         <translation>Carpus konnte die Sitzung nicht nachrechnen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Carpus deletes no file behind a link; everything is as it was.</source>
+        <translation>Carpus löscht keine Datei hinter einem Link; alles ist, wie es war.</translation>
     </message>
     <message>
         <source>Carpus sees no camera ({detail}).</source>
@@ -4526,6 +4534,10 @@
     <message>
         <source>Close the other program, then try again.</source>
         <translation>Schließen Sie das andere Programm, und versuchen Sie es noch einmal.</translation>
+    </message>
+    <message>
+        <source>Compare the log with that of a backup.</source>
+        <translation>Vergleichen Sie das Protokoll mit dem einer Sicherung.</translation>
     </message>
     <message>
         <source>Connect the disk or the network again, or choose another folder.</source>
@@ -4720,6 +4732,10 @@
         <translation>Sehen Sie die Linien im Bild an, und geben Sie dem Marker seinen richtigen Namen.</translation>
     </message>
     <message>
+        <source>Look through the list; restore it from a backup, or enter again what is missing.</source>
+        <translation>Sehen Sie die Liste durch; stellen Sie sie aus einer Sicherung wieder her, oder tragen Sie ein, was fehlt.</translation>
+    </message>
+    <message>
         <source>Measure each person twice, discs put on anew, within 14 days; 10 people are the least.</source>
         <translation>Messen Sie jede Person zweimal, mit neu geklebten Punkten, innerhalb von 14 Tagen; 10 Personen sind das Mindeste.</translation>
     </message>
@@ -4784,6 +4800,10 @@
         <translation>Nichts sagt, ob sich Tiefe und Farbe decken: {subject}; Carpus nimmt es an.</translation>
     </message>
     <message>
+        <source>Nothing was erased: {subject} is a link that leads elsewhere.</source>
+        <translation>Nichts wurde gelöscht: {subject} ist ein Link, der anderswohin führt.</translation>
+    </message>
+    <message>
         <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
         <translation>Antwortet der Datenträger wieder, starten Sie Carpus neu: Es schließt die Aufnahme ab.</translation>
     </message>
@@ -4806,6 +4826,10 @@
     <message>
         <source>Packages</source>
         <translation>Pakete</translation>
+    </message>
+    <message>
+        <source>Patients and sessions are safe. Lines of the log may have been changed or taken out.</source>
+        <translation>Patienten und Sitzungen sind sicher. Zeilen des Protokolls können geändert oder entfernt worden sein.</translation>
     </message>
     <message>
         <source>Plug in the camera named in the settings, or change the settings.</source>
@@ -4846,6 +4870,10 @@
     <message>
         <source>Put the list in the order of time with each time once, or record again.</source>
         <translation>Ordnen Sie die Liste nach der Zeit, jede Zeit einmal, oder nehmen Sie neu auf.</translation>
+    </message>
+    <message>
+        <source>Put what it leads to in its place, then erase again.</source>
+        <translation>Legen Sie an seine Stelle, wohin er führt, und löschen Sie dann erneut.</translation>
     </message>
     <message>
         <source>Python</source>
@@ -4966,6 +4994,14 @@
     <message>
         <source>3. Lay it flat under the camera, about 60 cm away, and run the check for 30 seconds.</source>
         <translation>3. Flach unter die Kamera legen, etwa 60 cm entfernt, und 30 Sekunden lang prüfen.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe. If there was a list before, its names, notes and comments are gone.</source>
+        <translation>Alle Sitzungen sind sicher. Gab es vorher eine Liste, sind ihre Namen, Notizen und Kommentare verloren.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe; names, notes and comments may be missing. The damaged list is kept as {subject}.</source>
+        <translation>Alle Sitzungen sind sicher; Namen, Notizen und Kommentare können fehlen. Die beschädigte Liste liegt in {subject}.</translation>
     </message>
     <message>
         <source>As root, write into {file}: {rule}. Run: udevadm control --reload. Then plug the camera in again.</source>
@@ -5149,7 +5185,7 @@
     </message>
     <message>
         <source>The list of patients was damaged ({detail}), so Carpus has made a new one from the sessions.</source>
-        <translation>Die Liste der Patienten war beschädigt ({detail}); Carpus hat aus den Sitzungen eine neue erstellt.</translation>
+        <translation type="vanished">Die Liste der Patienten war beschädigt ({detail}); Carpus hat aus den Sitzungen eine neue erstellt.</translation>
     </message>
     <message>
         <source>The marker of the {markers} is {value} mm off its place (up to {limit} mm is good).</source>
@@ -5238,6 +5274,10 @@
     <message>
         <source>The {markers} does not lie on the line of its finger.</source>
         <translation>{markers}: nicht auf der Linie des Fingers.</translation>
+    </message>
+    <message>
+        <source>There are sessions, but no list of patients ({subject}); Carpus has made one from the sessions.</source>
+        <translation>Es gibt Sitzungen, aber keine Liste der Patienten ({subject}); Carpus hat eine aus den Sitzungen angelegt.</translation>
     </message>
     <message>
         <source>There is a file already at {subject}.</source>
@@ -5370,6 +5410,10 @@
     <message>
         <source>What counts as a change stays as it is.</source>
         <translation>Was als Änderung zählt, bleibt, wie es ist.</translation>
+    </message>
+    <message>
+        <source>What keeps the log of deeds from being changed had been taken out of {subject}; it is there again.</source>
+        <translation>Was das Protokoll vor Änderungen schützt, war aus {subject} entfernt; es ist wieder da.</translation>
     </message>
     <message>
         <source>What was recorded of it is there.</source>
@@ -6300,6 +6344,10 @@
         <translation>{detail} bei den Sitzungen nicht lesbar, darum abgesondert: {subject}.</translation>
     </message>
     <message>
+        <source>{detail}; {count} rows read</source>
+        <translation>{detail}; {count} Zeilen gelesen</translation>
+    </message>
+    <message>
         <source>{free} MB free, {least_free_bytes} MB are needed</source>
         <translation>{free} MB frei, {least_free_bytes} MB werden gebraucht</translation>
     </message>
@@ -6734,6 +6782,10 @@
     <message>
         <source>ASSH, sum of active bending in a fist</source>
         <translation>ASSH, Summe der aktiven Beugung in der Faust</translation>
+    </message>
+    <message>
+        <source>The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions.</source>
+        <translation>Die Liste der Patienten war beschädigt ({detail}); eine neue enthält, was lesbar war, und die Sitzungen.</translation>
     </message>
     <message>
         <source>Usual: {source}; {ages}, {sexes}; not for children or old age.</source>
@@ -9701,7 +9753,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation>Eingabe</translation>
+        <translation type="vanished">Eingabe</translation>
     </message>
     <message>
         <source>Cancel</source>

@@ -3848,6 +3848,10 @@
         <translation>non si può leggere</translation>
     </message>
     <message>
+        <source>its file is not there</source>
+        <translation>il suo file non c’è</translation>
+    </message>
+    <message>
         <source>cut short</source>
         <translation>interrotta</translation>
     </message>
@@ -4373,7 +4377,7 @@
     </message>
     <message>
         <source>All sessions are safe; names and notes are missing. The damaged list is kept as {subject}.</source>
-        <translation>Tutte le sedute sono al sicuro; mancano nomi e note. L’elenco danneggiato è conservato come {subject}.</translation>
+        <translation type="vanished">Tutte le sedute sono al sicuro; mancano nomi e note. L’elenco danneggiato è conservato come {subject}.</translation>
     </message>
     <message>
         <source>Another Carpus is using the patients of {subject}.</source>
@@ -4430,6 +4434,10 @@
     <message>
         <source>Carpus could not look back at the session: {subject} ({detail}).</source>
         <translation>Carpus non ha potuto ricalcolare la seduta a posteriori: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>Carpus deletes no file behind a link; everything is as it was.</source>
+        <translation>Carpus non elimina file dietro un collegamento; tutto è come prima.</translation>
     </message>
     <message>
         <source>Carpus sees no camera ({detail}).</source>
@@ -4534,6 +4542,10 @@
     <message>
         <source>Close the other program, then try again.</source>
         <translation>Chiudere l’altro programma, poi riprovare.</translation>
+    </message>
+    <message>
+        <source>Compare the log with that of a backup.</source>
+        <translation>Confronti il registro con quello di una copia di sicurezza.</translation>
     </message>
     <message>
         <source>Connect the disk or the network again, or choose another folder.</source>
@@ -4740,6 +4752,10 @@
         <translation>Guardare le linee nell’immagine, e dare al marcatore il nome giusto.</translation>
     </message>
     <message>
+        <source>Look through the list; restore it from a backup, or enter again what is missing.</source>
+        <translation>Controlli l’elenco; lo ripristini da una copia di sicurezza o inserisca di nuovo ciò che manca.</translation>
+    </message>
+    <message>
         <source>Measure each person twice, discs put on anew, within 14 days; 10 people are the least.</source>
         <translation>Misurare ogni persona due volte, rimettendo i dischetti, entro 14 giorni; servono almeno 10 persone.</translation>
     </message>
@@ -4804,6 +4820,10 @@
         <translation>Nulla dice se in {subject} la profondità combacia con il colore; Carpus lo suppone.</translation>
     </message>
     <message>
+        <source>Nothing was erased: {subject} is a link that leads elsewhere.</source>
+        <translation>Non è stato eliminato nulla: {subject} è un collegamento che porta altrove.</translation>
+    </message>
+    <message>
         <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
         <translation>Quando il disco risponde, riavviare Carpus: conclude la registrazione.</translation>
     </message>
@@ -4830,6 +4850,10 @@
     <message>
         <source>Packages</source>
         <translation>Pacchetti</translation>
+    </message>
+    <message>
+        <source>Patients and sessions are safe. Lines of the log may have been changed or taken out.</source>
+        <translation>Pazienti e sessioni sono al sicuro. Righe del registro possono essere state modificate o tolte.</translation>
     </message>
     <message>
         <source>Plug in the camera named in the settings, or change the settings.</source>
@@ -4878,6 +4902,10 @@
     <message>
         <source>Put the list in the order of time with each time once, or record again.</source>
         <translation>Mettere l’elenco in ordine di tempo, ogni tempo una volta sola, o registrare di nuovo.</translation>
+    </message>
+    <message>
+        <source>Put what it leads to in its place, then erase again.</source>
+        <translation>Metta al suo posto ciò a cui porta, poi elimini di nuovo.</translation>
     </message>
     <message>
         <source>Python</source>
@@ -5006,6 +5034,14 @@
     <message>
         <source>3. Lay it flat under the camera, about 60 cm away, and run the check for 30 seconds.</source>
         <translation>3. Metterlo piatto sotto la telecamera, a circa 60 cm, e avviare il controllo per 30 secondi.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe. If there was a list before, its names, notes and comments are gone.</source>
+        <translation>Tutte le sessioni sono al sicuro. Se prima c’era un elenco, i suoi nomi, note e commenti sono perduti.</translation>
+    </message>
+    <message>
+        <source>All sessions are safe; names, notes and comments may be missing. The damaged list is kept as {subject}.</source>
+        <translation>Tutte le sessioni sono al sicuro; nomi, note e commenti possono mancare. L’elenco danneggiato è conservato in {subject}.</translation>
     </message>
     <message>
         <source>Carpus camera board: {name}. Glue it flat on a stiff board. Squares: {square}.</source>
@@ -5149,7 +5185,7 @@
     </message>
     <message>
         <source>The list of patients was damaged ({detail}), so Carpus has made a new one from the sessions.</source>
-        <translation>L’elenco dei pazienti era danneggiato ({detail}), quindi Carpus ne ha creato uno nuovo dalle sedute.</translation>
+        <translation type="vanished">L’elenco dei pazienti era danneggiato ({detail}), quindi Carpus ne ha creato uno nuovo dalle sedute.</translation>
     </message>
     <message>
         <source>The marker of the {markers} is {value} mm off its place (up to {limit} mm is good).</source>
@@ -5238,6 +5274,10 @@
     <message>
         <source>The {markers} does not lie on the line of its finger.</source>
         <translation>Non è sulla linea del suo dito: {markers}.</translation>
+    </message>
+    <message>
+        <source>There are sessions, but no list of patients ({subject}); Carpus has made one from the sessions.</source>
+        <translation>Ci sono sessioni, ma nessun elenco dei pazienti ({subject}); Carpus ne ha creato uno dalle sessioni.</translation>
     </message>
     <message>
         <source>There is a file already at {subject}.</source>
@@ -5370,6 +5410,10 @@
     <message>
         <source>What counts as a change stays as it is.</source>
         <translation>Ciò che vale come cambiamento resta com’è.</translation>
+    </message>
+    <message>
+        <source>What keeps the log of deeds from being changed had been taken out of {subject}; it is there again.</source>
+        <translation>Ciò che protegge il registro dalle modifiche era stato tolto da {subject}; ora c’è di nuovo.</translation>
     </message>
     <message>
         <source>What was recorded of it is there.</source>
@@ -6300,6 +6344,10 @@
         <translation>Fra le sedute, file illeggibili messi da parte ({detail}): {subject}.</translation>
     </message>
     <message>
+        <source>{detail}; {count} rows read</source>
+        <translation>{detail}; {count} righe lette</translation>
+    </message>
+    <message>
         <source>{free} MB free, {least_free_bytes} MB are needed</source>
         <translation>{free} MB liberi, ne servono {least_free_bytes}</translation>
     </message>
@@ -6738,6 +6786,10 @@
     <message>
         <source>ASSH, sum of active bending in a fist</source>
         <translation>ASSH, somma della flessione attiva nel pugno</translation>
+    </message>
+    <message>
+        <source>The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions.</source>
+        <translation>L’elenco dei pazienti era danneggiato ({detail}); uno nuovo contiene ciò che si è potuto leggere e le sessioni.</translation>
     </message>
     <message>
         <source>Usual: {source}; {ages}, {sexes}; not for children or old age.</source>
@@ -9701,7 +9753,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Enter</source>
-        <translation>Invio</translation>
+        <translation type="vanished">Invio</translation>
     </message>
     <message>
         <source>Cancel</source>

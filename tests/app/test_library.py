@@ -27,6 +27,7 @@ from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.ui.ports import PatientEntry
+from carpus.ui.sessions.listing import remark
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 
@@ -190,6 +191,8 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
     assert library.session(one).header.exercise == "FOREARM_PS"
     assert read_session(path).header.exercise == "WRIST_RU", "the file is not changed"
     stored.move(one, heron)
+    path = library.entry(one).path
+    assert read_session(path).header.subject_id == "Heron 17"
     assert [line.session_id for line in stored.lines(linden)] == [two]
     assert [line.session_id for line in stored.lines(heron)] == [one]
     library.recover()
@@ -204,6 +207,10 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
     assert stored.lines(heron) == []
     assert list(path.parent.glob(f"{path.stem}.*")) == []
     assert len(library.session(two)) == 40
+    library.entry(two).path.unlink()
+    library.forget_figures(two)
+    (line,) = [stored.with_figures(line) for line in stored.lines(linden)]
+    assert remark(line) == "its file is not there"
     with pytest.raises(SessionUnreadable):
         records.plan_session(one)
 

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator
+from dataclasses import replace
 from datetime import date, timedelta
 from pathlib import Path
 
+import h5py
 import pytest
 from sqlalchemy import select, update
 
 from carpus.core.by_hand.values import HandValue
-from carpus.core.errors import ErasureUnfinished, OutputNotWritable
+from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished, OutputNotWritable, SessionChanged
 from carpus.core.library.corrections import Corrections
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import SetUp
@@ -21,7 +23,9 @@ from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records import erasure, of_clinic, of_patients, of_sessions
 from carpus.core.records.log import read_log
 from carpus.core.records.retention import due, kept_until
-from carpus.core.records.schema import SESSION
+from carpus.core.records.schema import PATIENT, SESSION
+from carpus.core.records.values import PatientEntry
+from carpus.core.session.reader import read_outline, read_session, verify
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record, traces
@@ -142,11 +146,44 @@ def test_new_results_that_wait_go_with_their_session(folder: Path) -> None:
     library.close()
 
 
-def test_a_session_moved_to_another_patient_stays_with_that_one(house: House) -> None:
+def test_a_move_that_fails_leaves_all_as_it_was(folder: Path, house: House, monkeypatch: pytest.MonkeyPatch) -> None:
+    linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+    session_id = measure(house, linden, T0)
+    files = {path for path in folder.rglob("*") if path.is_file()}
+    with monkeypatch.context() as broken:
+        broken.setattr(house.store, "do", lambda _: (_ for _ in ()).throw(OutputNotWritable(folder)))
+        with pytest.raises(OutputNotWritable):
+            house.index.move(session_id, heron)
+    assert {path for path in folder.rglob("*") if path.is_file()} == files
+    path = house.index.one(session_id).path
+    with h5py.File(path, "r+") as file:
+        file.attrs["exercise"] = "WRIST_RU"
+    with pytest.raises(SessionChanged):
+        house.index.move(session_id, heron)
+    assert house.index.one(session_id).path == path
+    path.unlink()
+    house.index.move(session_id, heron)
+    assert house.index.owner(session_id) == heron, "a session whose file is away is moved all the same"
+
+
+def test_a_session_moved_to_another_patient_stays_with_that_one(folder: Path, house: House) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     moved, own = measure(house, linden, T0), measure(house, linden, T0 + timedelta(days=1))
+    former = house.index.one(moved)
     house.index.move(moved, heron)
+    assert not [*former.path.parent.glob(f"{former.path.stem}*")]
+    header, now = read_outline(house.index.one(moved).path).header, house.index.one(moved)
+    assert (header.session_id, header.subject_id, now.path.parent.name) == (moved, "Heron 17", heron)
+    assert verify(now.path).sealed
+    row = house.store.row(select(SESSION).where(SESSION.c.id == moved))
+    assert row is not None
+    assert (row.seal, row.size) == (read_outline(now.path).seal, now.path.stat().st_size)
+    assert replace(now, path=former.path) == former
+    angles, others = (read_session(house.index.one(one).path).motion.angles_rad for one in (moved, own))
+    assert (angles == others).all()
+    now.path.with_suffix(".carpusraw").write_bytes(b"pictures of nobody")
     erase_patient(house, linden)
+    assert traces(folder, "Linden", "Erika Mustermann", linden) == []
     assert house.index.one(moved).path.exists()
     assert house.index.one(moved).path.with_suffix(".carpusraw").exists()
     with pytest.raises(KeyError):
@@ -178,13 +215,65 @@ def test_no_row_and_no_link_leads_out_of_the_folder(tmp_path: Path, folder: Path
     linden = house.patients.add(LINDEN)
     ids = [measure(house, linden, T0 + timedelta(days=day)) for day in range(3)]
     (folder / "sessions" / "link").symlink_to(mine)
+    shutil.rmtree(folder / "sessions" / linden)
     for session_id, path in zip(ids, (str(mine / "b.h5"), "../../mine/b.h5", "link/b.h5"), strict=True):
         house.store.own(update(SESSION).where(SESSION.c.id == session_id).values(path=path))
-    shutil.rmtree(folder / "sessions" / linden)
+    with pytest.raises(ErasureLeadsOut, match="link"):
+        erase_patient(house, linden)
+    house.store.own(update(SESSION).where(SESSION.c.id == ids[2]).values(path=str(mine / "c.h5")))
     (folder / "sessions" / linden).symlink_to(mine)
-    erase_patient(house, linden)
+    with pytest.raises(ErasureLeadsOut, match=linden):
+        erase_patient(house, linden)
+    assert len(house.index.of_patient(linden)) == 3, "nothing was begun"
+    house.store.own(update(SESSION).values(erasing=1), update(PATIENT).where(PATIENT.c.id == linden).values(erasing=1))
+    erasure.finish_erasing(house.store, house.log)
+    assert len(house.store.rows(select(SESSION))) == 3, "a link that came after the mark is waited for"
+    (folder / "sessions" / linden).unlink()
+    erasure.finish_erasing(house.store, house.log)
     assert sorted(path.name for path in mine.iterdir()) == ["a.h5", "b.h5"]
     assert house.store.rows(select(SESSION)) == []
+
+
+def test_what_was_copied_in_and_not_looked_at_brings_nobody_back(folder: Path, house: House) -> None:
+    linden = house.patients.add(LINDEN)
+    first = measure(house, linden, T0)
+    copy = record(folder / "sessions" / "copied in" / "a.h5", "linden 42", T0 + timedelta(days=1))
+    again = folder / "sessions" / "again.h5"
+    shutil.copy(house.index.one(first).path, again)
+    assert again in erasure.plan_session(house.store, first).files
+    plan = erasure.plan_patient(house.store, linden)
+    assert {copy, again} <= set(plan.files)
+    late = record(folder / "sessions" / "late.h5", "Linden 42", T0 + timedelta(days=2))
+    erasure.erase(house.store, plan, house.log)
+    assert not late.exists(), "also what came while a person read what goes"
+    assert house.files.take_in().sessions == 0
+    assert house.names() == []
+    assert traces(folder, *NAMES, linden) == []
+
+
+def test_damaged_files_that_name_the_patient_go_and_no_others(folder: Path, house: House) -> None:
+    for pseudonym in ("Linden 421", "Fir 11", "Fir-11"):
+        house.patients.add(PatientEntry(pseudonym, "left"))
+    sessions, linden = folder / "sessions", house.patients.add(LINDEN)
+    gone = (
+        "Linden-42_2026.h5",
+        "x.h5.12345678.part",
+        "Linden 42.h5.12345678.part",
+        "a/said.h5",
+        "Linden-42_2.markers.jpg",
+    )
+    stay = ("Linden-421_2026.h5", "said of another.h5", "Fir-11_2026.h5")
+    (sessions / "a").mkdir()
+    for name in (*gone, *stay):
+        said = b"\0Linden 421\0" if "another" in name else b"\0Linden 42\0" if name[0] in "xa" else b"damaged"
+        (sessions / name).write_bytes(said)
+    house.files.take_in()
+    erase_patient(house, linden)
+    assert [name for name in gone if (sessions / name).exists()] == []
+    assert [name for name in stay if (sessions / name).exists()] == list(stay)
+    erase_patient(house, house.patients.called("Fir 11"))
+    assert (sessions / "Fir-11_2026.h5").exists(), "it may be of Fir-11"
+    assert traces(folder, "Linden-42_", "Linden 42\0") == []
 
 
 @pytest.mark.parametrize("after", ["mark", "files"])

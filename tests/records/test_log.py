@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
+import sqlite3
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from sqlalchemy import delete, update
+from sqlalchemy import delete, insert, select, update
 from sqlalchemy.exc import DatabaseError
 
 from carpus.app.__main__ import main
-from carpus.core.errors import OutputNotWritable
+from carpus.core.errors import LogUnguarded, OutputNotWritable
+from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import Log, fingerprint, read_log
 from carpus.core.records.schema import DEED
 from carpus.core.records.store import Store
@@ -25,7 +28,9 @@ def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path) -> None:
         house.log.note("opened", "session", "0" * 32)
         house.log.note("erased", "patient", "1" * 32, files=3)
         before = read_log(house.store)
-        for change in (update(DEED).values(who="XY"), delete(DEED)):
+        mine = {"id": house.store.rows(select(DEED.c.id))[0].id, "at": "", "at_ns": 0, "facts": "{}"}
+        again = insert(DEED).prefix_with("OR REPLACE").values(mine)
+        for change in (update(DEED).values(who="XY"), delete(DEED), again):
             with pytest.raises(DatabaseError, match="only added to"):
                 house.store.own(change)
         assert read_log(house.store) == before
@@ -33,6 +38,22 @@ def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path) -> None:
             (1, "AB", "opened", {}), (2, "AB", "erased", {"files": 3}),
         ]  # fmt: skip
         assert before[0].subject == fingerprint("0" * 32)
+
+
+def test_a_trigger_that_was_taken_away_is_told_and_there_again(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        house.log.note("locked", "program")
+        assert house.store.told == []
+    with contextlib.closing(sqlite3.connect(tmp_path / STORE_FILE)) as database:
+        database.execute("DROP TRIGGER deed_is_kept")
+        database.execute("DELETE FROM deed")
+        database.commit()
+    for told in ([LogUnguarded], []):
+        with opened(tmp_path) as house:
+            assert [type(one) for one in house.store.told] == told
+            house.log.note("locked", "program")
+            with pytest.raises(DatabaseError, match="only added to"):
+                house.store.own(delete(DEED))
 
 
 def test_programs_write_at_the_same_time(tmp_path: Path) -> None:

@@ -3,6 +3,8 @@ twice, nothing overwritten in silence. Against a real server that the tests star
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import time
 import uuid
 from collections.abc import Callable
@@ -17,11 +19,11 @@ from sqlalchemy.pool import NullPool
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, PseudonymGiven, PseudonymTaken, ServerGone
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records import erasure, of_sessions
-from carpus.core.records.changes import PRACTICE, Change
+from carpus.core.records.changes import PRACTICE, Change, new
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import COMMENT, DEED, OUTBOX, PATIENT, SESSION
 from carpus.core.records.server import Server
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import PatientEntry, Rebuilt
 from tests.records.postgres import Cluster
 from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, traces
 from tests.torture.wire import Wire
@@ -77,6 +79,45 @@ def test_what_one_computer_enters_the_other_has(tmp_path: Path, there: str) -> N
         assert b.names() == []
         assert count(there, "patient") == count(there, "session") == count(there, "comment") == 0
     assert traces(tmp_path / "a", "Linden", linden, session_id) == []
+
+
+def test_the_practice_patient_s_sessions_are_of_no_server_wherever_they_lie(tmp_path: Path, there: str) -> None:
+    share = tmp_path / "share"
+    with opened(tmp_path / "a", there, sessions=share) as a, opened(tmp_path / "b", there, sessions=share) as b:
+        session_id = measure(a, PRACTICE, T0)
+        path = a.index.one(session_id).path
+        path.rename(share / "elsewhere.h5")
+        assert b.files.take_in() == Rebuilt(1, 0, ())
+        assert (b.index.owner(session_id), b.names()) == (PRACTICE, [])
+        theirs = {"path": "elsewhere.h5", "recording_id": session_id, "patient_id": None}
+        a.patients.add(LINDEN)
+        b.store._server._send("x", [new(SESSION, session_id, **theirs)])  # type: ignore[union-attr]
+        settled(b)
+        until(lambda: b.names() == ["Linden 42"])
+        assert a.index.owner(session_id) == b.index.owner(session_id) == PRACTICE, "whatever a server says of it"
+
+
+def test_closing_waits_for_no_server_that_is_frozen(tmp_path: Path, cluster: Cluster) -> None:
+    there = cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
+    wire = Wire(cluster.port)
+    with opened(tmp_path, there.replace(str(cluster.port), str(wire.port))) as house:
+        settled(house)
+        server = house.store._server
+        assert server is not None
+        wire.answers_come = False
+        house.patients.add(LINDEN)
+        house.store.close()
+        assert not server._thread.is_alive()
+    wire.close()
+
+
+def test_what_a_broken_line_makes_the_library_say_is_on_no_stderr() -> None:
+    code = (
+        "import logging, carpus.core.records.server\n"
+        "logging.getLogger('sqlalchemy.pool.impl.QueuePool').error('Error closing cursor')"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stderr == ""
 
 
 def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path, there: str) -> None:

@@ -23,6 +23,7 @@ from carpus.core.errors import (
     NameUnsuited,
     OutputNotWritable,
     PseudonymTaken,
+    RegisterMissing,
     RegisterSetAside,
     RegisterUnreadable,
     SessionUnreadable,
@@ -33,6 +34,7 @@ from carpus.core.records import of_clinic, of_sessions, schema
 from carpus.core.records.changes import PRACTICE, new
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import read_log
+from carpus.core.records.patients import columns
 from carpus.core.records.pseudonyms import WORDS, suggest_pseudonym
 from carpus.core.records.retention import due
 from carpus.core.records.store import Store
@@ -430,6 +432,47 @@ def test_a_damaged_store_is_set_aside_told_and_made_again(tmp_path: Path, conten
         (fault,) = store.told
         assert isinstance(fault, RegisterSetAside)
         assert Path(fault.subject).read_bytes() == content
+
+
+@pytest.mark.parametrize("how", ["deleted", "emptied"])
+def test_a_store_that_is_gone_while_sessions_are_there_is_told(tmp_path: Path, how: str) -> None:
+    with opened(tmp_path) as house:
+        measure(house, PRACTICE, T0)
+    for with_session in (False, True):
+        for path in tmp_path.glob(f"{STORE_FILE}*"):
+            path.unlink() if how == "deleted" else path.write_bytes(b"")
+        with opened(tmp_path) as house:
+            assert [type(one) for one in house.store.told] == [RegisterMissing] * with_session
+            measure(house, house.patients.add(LINDEN), T0)
+    with opened(tmp_path) as house:
+        assert house.store.told == []
+
+
+def test_what_can_be_read_of_a_damaged_store_is_kept(tmp_path: Path) -> None:
+    """One page of eight hundred patients is lost; all others stay, with what was written of them."""
+    with opened(tmp_path) as house:
+        people = [new(schema.PATIENT, f"{one:032x}", **columns(PatientEntry(f"Oak {one}", "left", note="x" * 300)))
+                  for one in range(800)]  # fmt: skip
+        house.store.do(people)
+        ends = [measure(house, people[place].id, T0) for place in (0, 400, -1)]
+        for session_id in ends:
+            of_sessions.add_comment(house.store, session_id, "Less swelling.", "AB")
+        house.log.note("locked", "program")
+    content = bytearray((tmp_path / STORE_FILE).read_bytes())
+    page = content.index(b"oak 400Oak 400") // 4096 * 4096
+    content[page : page + 4096] = bytes(4096)
+    (tmp_path / STORE_FILE).write_bytes(content)
+    with opened(tmp_path) as house:
+        (fault,) = house.store.told
+        assert isinstance(fault, RegisterSetAside)
+        house.files.take_in()
+        found = {row.id for row in house.store.rows(select(schema.PATIENT))}
+        assert 700 < len(found & {one.id for one in people}) < 800
+        for place, session_id in zip((0, -1), (ends[0], ends[-1]), strict=True):
+            assert house.index.owner(session_id) == people[place].id
+            assert [one.text for one in of_sessions.comments(house.store, session_id)] == ["Less swelling."]
+        assert house.patients.one(house.index.owner(ends[1])).entry.pseudonym == "Oak 400"
+        assert [one.did for one in read_log(house.store)] == ["locked"]
 
 
 def test_a_store_of_a_newer_carpus_is_told_and_left_as_it_is(tmp_path: Path) -> None:

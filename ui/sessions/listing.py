@@ -34,7 +34,7 @@ def remark(line: SessionLine) -> str:
     if line.set_aside:
         return tr("set aside: {reason}").format(reason=line.set_aside)
     if line.damaged:
-        return tr("cannot be read")
+        return tr("its file is not there") if line.away else tr("cannot be read")
     return "" if line.complete else tr("cut short")
 
 

@@ -28,4 +28,6 @@ CREATE TABLE made ( id TEXT NOT NULL, session_id TEXT NOT NULL, path TEXT DEFAUL
 CREATE INDEX ix_made_session_id ON made (session_id);
 
 CREATE TRIGGER deed_stays BEFORE UPDATE ON deed BEGIN SELECT RAISE(ABORT, 'the log is only added to'); END;
+CREATE TRIGGER deed_is_new BEFORE INSERT ON deed WHEN EXISTS (SELECT 1 FROM deed WHERE id = NEW.id OR rowid = NEW.rowid)
+BEGIN SELECT RAISE(ABORT, 'the log is only added to'); END;
 CREATE TRIGGER deed_is_kept BEFORE DELETE ON deed BEGIN SELECT RAISE(ABORT, 'the log is only added to'); END;
