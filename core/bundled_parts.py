@@ -10,6 +10,8 @@ from importlib.metadata import Distribution, PackageNotFoundError, distribution
 from importlib.resources import files
 from pathlib import Path
 
+from carpus.core.installing import is_packed
+
 _LICENCE_NAMES = ("LICEN", "COPYING", "NOTICE", "AUTHORS")
 _FOLDERS = ("licences", "fonts", "icons")
 """Of the resources: what was packed with the program, the typeface, the icons."""
@@ -50,7 +52,7 @@ def licence_texts() -> str:
     """All of it for reading: a list of the parts, then every text. A packed program has it ready, with the system's
     libraries that were packed too."""
     ready = Path(sys.executable).parent / PACKED_TEXTS
-    if getattr(sys, "frozen", False) and ready.is_file():
+    if is_packed() and ready.is_file():
         return ready.read_text(encoding="utf-8", errors="replace")
     parts = bundled_parts()
     lines = ["Carpus is made with these parts:", ""]

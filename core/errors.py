@@ -83,7 +83,7 @@ class OutputExists(CarpusFault):
 
 
 class ExtraMissing(CarpusFault):
-    """A part of Carpus that is installed only when asked for is not installed."""
+    """A Python package that is installed only when asked for is not installed; ``subject`` is its name."""
 
 
 class SchedulerUnreachable(CarpusFault):

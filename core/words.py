@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from carpus.core import errors
 from carpus.core.calibration.result import Finding
 from carpus.core.errors import CarpusFault
+from carpus.core.installing import how_to_install
 from carpus.core.phrase import Phrase, phrase
 
 Say = Callable[[str], str]
@@ -42,6 +43,7 @@ _NOTHING_YET = phrase("Nothing has been recorded, so nothing is lost.")
 _HAND = phrase("hand")
 _BINDING = " (for|at|to|in|für|auf|nach|unter|per|su|a) "
 """What binds a fact to its sentence, in all languages, and goes with it where there is none."""
+_INSTALL = phrase("Install it; “carpus doctor” says what and how.")
 _STORED = phrase("Everything recorded so far is stored on this computer.")
 
 FAULTS: dict[type[CarpusFault], Words] = {
@@ -121,9 +123,9 @@ FAULTS: dict[type[CarpusFault], Words] = {
         phrase("Choose another name."),
     ),
     errors.ExtraMissing: Words(
-        phrase("This needs the Python package {detail} (carpus[{subject}]), which is not installed."),
+        phrase("This needs the Python package {subject}, which is not installed."),
         _UNTOUCHED,
-        phrase("Install it with the pip of Carpus’s own environment; in a checkout that is “.venv/bin/pip”."),
+        _INSTALL,
     ),
     errors.SchedulerUnreachable: Words(
         phrase("The scheduler at {subject} does not answer ({detail})."),
@@ -398,7 +400,7 @@ FAULTS: dict[type[CarpusFault], Words] = {
     errors.DriverMissing: Words(
         phrase("The driver of the camera is not on this computer, or cannot be loaded ({detail})."),
         _UNTOUCHED,
-        phrase("Install it; “carpus doctor” says what and how."),
+        _INSTALL,
     ),
     errors.DriverFailed: Words(
         phrase("The driver of the camera has stopped: {subject} ({detail})."),
@@ -613,7 +615,10 @@ def words_of(fault: CarpusFault, *, marker_names: bool = False, say: Say = str) 
         spoken = markers_in_words(subject.split(", "), say)
         subject = f"{spoken}, {subject}" if marker_names and subject else spoken
     template, detail = FAULTS[type(fault)], say(fault.detail)
-    return Words(*(_filled(say(text), subject, detail) for text in (template.happened, template.safe, template.do)))
+    said = [_filled(say(text), subject, detail) for text in (template.happened, template.safe, template.do)]
+    if isinstance(fault, errors.ExtraMissing) and subject:
+        said[2] = say(how_to_install(subject))
+    return Words(*said)
 
 
 def one_sentence(fault: CarpusFault) -> str:

@@ -90,9 +90,10 @@ def test_with_or_without_facts_it_reads_as_a_sentence(kind: type[CarpusFault]) -
 
 @pytest.mark.parametrize("kind", FAULTS, ids=lambda kind: kind.__name__)
 def test_the_line_for_the_terminal_says_what_where_and_what_to_do(kind: type[CarpusFault]) -> None:
-    line = one_sentence(kind("/a/place", "line 7"))
+    fault = kind("/a/place", "line 7")
+    line = one_sentence(fault)
     assert "\n" not in line
-    assert words_of(kind()).do[1:] in line
+    assert words_of(fault).do[1:] in line
     if kind.__name__.startswith(("Recording", "Picture", "Output", "Clicks", "Session", "DiskFull", "CameraFile")):
         assert "/a/place" in line
 

@@ -41,7 +41,7 @@ def outcomes_on(address: str, tasks: Sequence[Task], limit_s: float = LIMIT_S) -
         from distributed import Client, Security, as_completed
         from distributed.comm.core import connect
     except ImportError as cause:
-        raise ExtraMissing("cluster", "distributed") from cause
+        raise ExtraMissing("distributed") from cause
 
     async def knock() -> None:
         await (await connect(address, timeout=PATIENCE_S, **Security().get_connection_args("client"))).close()

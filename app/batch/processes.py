@@ -20,6 +20,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import BinaryIO, NoReturn
 
 from carpus.app.batch.work import Outcome, Task, clear_leftovers, fault_of, work
+from carpus.core.installing import is_packed
 
 Work = Callable[[Task], Outcome]
 TRIES = 3
@@ -106,8 +107,7 @@ class _Child:
     """The owner's side of one process. It hears by the end of its input that its owner is gone."""
 
     def __init__(self) -> None:
-        frozen = getattr(sys, "frozen", False)
-        words = [sys.executable, FROZEN_WORD] if frozen else [sys.executable, "-m", __name__]
+        words = [sys.executable, FROZEN_WORD] if is_packed() else [sys.executable, "-m", __name__]
         self._process = subprocess.Popen(
             words,
             stdin=subprocess.PIPE,

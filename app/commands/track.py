@@ -95,7 +95,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=Path,
         metavar="TABLE.csv",
         help="of many recordings: the measures of all sessions also as this .csv or .parquet, written as they "
-        "come; only the table of an earlier run is replaced (Parquet needs carpus[tables])",
+        "come; only the table of an earlier run is replaced (Parquet needs pyarrow)",
     )
     parser.add_argument(
         "--time-limit",
@@ -107,7 +107,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--scheduler",
         metavar="ADDRESS",
         help="of many recordings: track them on the workers of this Dask scheduler, as tcp://host:8786, which see the "
-        "same folders (needs carpus[cluster])",
+        "same folders (needs the Python package distributed)",
     )
     parser.add_argument(
         "--filter",
@@ -168,7 +168,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--stream",
         action="store_true",
         help="play one recording in its own time and send what is tracked over Lab Streaming Layer, as in the window; "
-        "waits up to 20 s for a listener (needs carpus[stream])",
+        "waits up to 20 s for a listener (needs the Python package pylsl)",
     )
     parser.epilog = (
         "A session is tracked again with the settings it was tracked with, a recording with those of settings.toml,\n"

@@ -65,7 +65,6 @@ KIND = CameraKind(
     models=MODELS,
     open=open_astra,
     driver=driver_finding,
-    rights=phrase("Install the udev rules that come with Orbbec's OpenNI2 package, then plug the camera in again."),
     needed_mbit=480,
     port=phrase("It needs a USB 2 port."),
 )

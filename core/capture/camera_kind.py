@@ -38,18 +38,27 @@ class CameraKind:
     """``models`` are names by USB vendor and product (four hexadecimal digits each).
 
     ``driver`` says how its library is, None where nothing need be said: whether its version is asked (in a process
-    of its own, half a second), and whether a camera of the kind is wanted. ``rights`` is what to do where the system
-    has no rule that lets everybody open it; ``further`` what its settings, once opened, tell of firmware and port.
+    of its own, half a second), and whether a camera of the kind is wanted; ``further`` what its settings, once
+    opened, tell of firmware and port.
     """
 
     title: str
     models: Mapping[tuple[str, str], str]
     open: Opening
     driver: Callable[[bool, bool], Finding | None]
-    rights: str
     needed_mbit: int
     port: str
     further: Callable[[Mapping[str, str]], Sequence[Finding]] = no_findings
+
+    @property
+    def rules(self) -> str:
+        """For udev, a line for each vendor: whoever sits at the computer may open the camera."""
+        lines = []
+        for vendor in sorted({vendor for vendor, _ in self.models}):
+            products = "|".join(product for of, product in self.models if of == vendor)
+            which = f'ATTR{{idVendor}}=="{vendor}", ATTR{{idProduct}}=="{products}"'
+            lines.append(f'SUBSYSTEM=="usb", {which}, MODE="0660", TAG+="uaccess"')
+        return "\n".join(lines)
 
     def seen(self) -> list[UsbCamera]:
         """Those plugged in; empty where the system does not tell."""

@@ -47,6 +47,11 @@ def camera_kind(name: str) -> CameraKind:
     return kind
 
 
+def udev_rules() -> str:
+    """Of all kinds, as the Debian package brings them."""
+    return "".join(f"# {kind.title}\n{kind.rules}\n" for kind in map(camera_kind, CAMERAS))
+
+
 def seen_cameras() -> list[tuple[str, UsbCamera]]:
     """The cameras plugged in, of all kinds, with the names of their kinds; empty where the system does not tell."""
     return [(name, camera) for name in CAMERAS for camera in camera_kind(name).seen()]

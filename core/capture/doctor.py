@@ -36,6 +36,7 @@ from carpus.core.errors import (
     ExtraMissing,
     OtherCamera,
 )
+from carpus.core.installing import how_to_install, is_packed
 from carpus.core.phrase import phrase
 from carpus.core.types import Frame
 from carpus.core.words import words_of
@@ -45,6 +46,7 @@ WINDOW_LIBRARIES = ("GL", "EGL", "fontconfig", "dbus-1", "xkbcommon", "xcb-curso
 PACKED_WITHOUT = ("GL", "EGL")
 """Of these what a packed program does not bring: they belong to the graphics card."""
 RULES_FOLDERS = tuple(Path(root) / "udev/rules.d" for root in ("/etc", "/run", "/usr/lib", "/lib"))
+RULE_FILE = "/etc/udev/rules.d/60-carpus-cameras.rules"
 LOW_DISK_BYTES = 2_000_000_000
 SLOWEST_MBIT = 480
 CLOCK_SHARE, CLOCK_ROOM_S = 0.02, 0.3
@@ -118,9 +120,7 @@ def packages_finding(names: tuple[str, ...] = PACKAGES) -> Finding:
         except PackageNotFoundError:
             missing.append(name)
     if missing:
-        return Finding(
-            phrase("Packages"), "bad", "missing: " + ", ".join(missing), "Run: pip install " + " ".join(missing)
-        )
+        return Finding(phrase("Packages"), "bad", "missing: " + ", ".join(missing), how_to_install(*missing))
     return Finding(phrase("Packages"), "good", ", ".join(known))
 
 
@@ -134,19 +134,18 @@ def window_finding() -> Finding:
             phrase("Window"),
             "warning",
             phrase("missing: {name}", name=cause.name),
-            phrase("For the window, run: pip install {name}", name=cause.name),
+            how_to_install(cause.name),
         )
     if tuple(int(part) for part in qt.split(".")[:2]) >= (6, 12) and sys.version_info < (3, 12):
-        remedy = phrase('This version stops the program on Python 3.11. Run: pip install "PySide6-Essentials<6.12"')
-        return Finding(phrase("Window"), "bad", f"Qt {qt}", remedy)
+        found = phrase("Qt {qt}, which stops the program on Python 3.11", qt=qt)
+        return Finding(phrase("Window"), "bad", found, how_to_install('"PySide6-Essentials<6.12"'))
     if not sys.platform.startswith("linux"):
         return Finding(phrase("Window"), "good", f"Qt {qt}")
-    is_packed = getattr(sys, "frozen", False)
-    wanted = PACKED_WITHOUT if is_packed else WINDOW_LIBRARIES
+    wanted = PACKED_WITHOUT if is_packed() else WINDOW_LIBRARIES
     missing = [name for name in wanted if ctypes.util.find_library(name) is None]
     if missing:
         remedy = phrase("Install the packages that bring these libraries.")
-        if not is_packed:
+        if not is_packed():
             remedy = phrase("Run: installer/setup.sh run. Or: install the packages that bring these libraries.")
         return Finding(
             phrase("Window"), "warning", f"Qt {qt}; missing: " + ", ".join(f"lib{name}" for name in missing), remedy
@@ -240,7 +239,12 @@ def rules_finding(kind: CameraKind, folders: tuple[Path, ...]) -> Finding:
             of_all = "idproduct" not in text and ("idvendor" in text or "id_vendor_id" in text)
             if any(vendor in text and (of_all or product in text) for vendor, product in kind.models):
                 return Finding(name, "good", str(rules))
-    return Finding(name, "warning", phrase("no udev rules for the camera"), kind.rights)
+    remedy = phrase(
+        "As root, write into {file}: {rule}. Run: udevadm control --reload. Then plug the camera in again.",
+        file=RULE_FILE,
+        rule=kind.rules,
+    )
+    return Finding(name, "warning", phrase("no udev rules for the camera"), remedy)
 
 
 def camera_findings(plugged_in: list[tuple[CameraKind, UsbCamera]], named: str = "") -> list[Finding]:

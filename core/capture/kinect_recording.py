@@ -29,7 +29,7 @@ from carpus.core.types import Frame
 if TYPE_CHECKING:
     from av.container import InputContainer
 
-EXTRA, PACKAGE = "mkv", "av"
+PACKAGE = "av"
 WIDEST_PX = 1920
 """Larger colour pictures are halved: discs are large enough in those, and reading is four times as fast."""
 WAITING_PICTURES = 64
@@ -48,7 +48,7 @@ class KinectRecording:
 
     def __init__(self, path: Path, *, notice: Notice = ignore) -> None:
         if find_spec(PACKAGE) is None:
-            raise ExtraMissing(EXTRA, PACKAGE)
+            raise ExtraMissing(PACKAGE)
         self._path, self._notice = path, notice
         self._closing = threading.Event()
         with closing(self._open()) as container:

@@ -10,23 +10,19 @@ from importlib.metadata import PackageNotFoundError, version
 
 from carpus.core.capture.finding import Finding
 from carpus.core.errors import DriverMissing
+from carpus.core.installing import how_to_install
 from carpus.core.phrase import phrase
 
 
-def library_finding(
-    name: str, package: str, load: Callable[[], None], *, asks: bool, unwanted: str, how: str
-) -> Finding:
-    """The library by its package; loaded, in a process of its own, where ``asks``.
-
-    ``unwanted`` is said where it is missing and nothing needs it, empty where something does; ``how`` to install it.
-    """
+def library_finding(name: str, package: str, load: Callable[[], None], *, asks: bool, wanted: bool) -> Finding | None:
+    """The library by its package; loaded, in a process of its own, where ``asks`` and ``wanted``; None where it is
+    missing and nothing wants it."""
     try:
         found = f"{package} {version(package)}"
     except PackageNotFoundError:
-        if unwanted:
-            return Finding(name, "good", unwanted)
-        return Finding(name, "bad", phrase("missing: {package}", package=package), how)
-    trouble = _load_trouble(load) if asks else ""
+        found = phrase("missing: {package}", package=package)
+        return Finding(name, "bad", found, how_to_install(package)) if wanted else None
+    trouble = _load_trouble(load) if asks and wanted else ""
     if not trouble:
         return Finding(name, "good", found)
     return Finding(

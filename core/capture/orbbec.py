@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from importlib.util import find_spec
@@ -23,9 +22,6 @@ from carpus.core.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSen
 from carpus.core.errors import DriverMissing
 from carpus.core.phrase import phrase
 
-INSTALL = f"{sys.executable} -m pip install --no-deps {PACKAGE}"
-"""Its own requirements (an older NumPy, a second OpenCV, Open3D, a window library) are those of its examples. With them
-it would take the place of what Carpus runs on: for that reason there is no extra for it."""
 MODELS = {
     ("2bc5", "0635"): "Orbbec Femto",
     ("2bc5", "0638"): "Orbbec Femto W",
@@ -47,8 +43,6 @@ MODELS = {
 """Product numbers as in the udev rules that come with the library."""
 _WIDE = ("330L", "335L", "336L", "GEMINI 2")
 """Their eyes stand some 100 mm apart, those of the other Gemini cameras about 50 mm."""
-RULE = 'SUBSYSTEM=="usb", ATTR{idVendor}=="2bc5", MODE="0660", TAG+="uaccess"'
-RULE_FILE = "/etc/udev/rules.d/60-carpus-orbbec.rules"
 
 
 class OrbbecCamera(ProcessCamera):
@@ -98,20 +92,9 @@ def open_orbbec(*, uri: str | None, camera: Camera | None, patience_s: float, no
     return OrbbecCamera(uri=uri, camera=camera, patience_s=patience_s, notice=notice)
 
 
-def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding:
+def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding | None:
     """The maker's library, by its package; loaded, in a process of its own, only where a camera wants it."""
-    is_packed = getattr(sys, "frozen", False)
-    packed = phrase(
-        "The packed program has no driver for it: install Carpus with pip, then run: {command}", command=INSTALL
-    )
-    return library_finding(
-        phrase("Orbbec driver"),
-        PACKAGE,
-        load_library,
-        asks=asks_version and wanted,
-        unwanted="" if wanted else phrase("not installed; only an Orbbec Femto, Gemini or Astra 2 needs it"),
-        how=packed if is_packed else phrase("Run: {command}", command=INSTALL),
-    )
+    return library_finding(phrase("Orbbec driver"), PACKAGE, load_library, asks=asks_version, wanted=wanted)
 
 
 def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:
@@ -132,11 +115,6 @@ KIND = CameraKind(
     models=MODELS,
     open=open_orbbec,
     driver=driver_finding,
-    rights=phrase(
-        "As root, write into {file}: {rule}. Run: udevadm control --reload. Then plug the camera in again.",
-        file=RULE_FILE,
-        rule=RULE,
-    ),
     needed_mbit=5000,
     port=phrase("Plug it into a USB 3 port, with a USB 3 cable and without a hub."),
     further=further_findings,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from importlib.util import find_spec
@@ -23,7 +22,7 @@ from carpus.core.depth_sensor import ASSUMED, D415, D435, D455, DepthSensor
 from carpus.core.errors import ExtraMissing
 from carpus.core.phrase import phrase
 
-EXTRA, PACKAGE = "realsense", "pyrealsense2"
+PACKAGE = "pyrealsense2"
 MODELS = {
     ("8086", "0ad3"): "Intel RealSense D415",
     ("8086", "0b07"): "Intel RealSense D435",
@@ -34,12 +33,6 @@ MODELS = {
 }
 """The D421 has no colour camera: it is named, and opening it says so."""
 SENSORS = {"D415": D415, "D435": D435, "D455": D455, "D456": D455, "D457": D455}
-RULE = (
-    'SUBSYSTEM=="usb", ATTR{idVendor}=="8086", ATTR{idProduct}=="'
-    + "|".join(product for _, product in MODELS)
-    + '", MODE="0660", TAG+="uaccess"'
-)
-RULE_FILE = "/etc/udev/rules.d/60-carpus-realsense.rules"
 
 
 class RealSenseCamera(ProcessCamera):
@@ -74,7 +67,7 @@ class RealSenseCamera(ProcessCamera):
 def require_library() -> None:
     """Raises :class:`ExtraMissing` where the maker's library is not installed; loads nothing."""
     if find_spec(PACKAGE) is None:
-        raise ExtraMissing(EXTRA, PACKAGE)
+        raise ExtraMissing(PACKAGE)
 
 
 def sensor_named(settings: Mapping[str, str], color_focal_px: float = math.nan) -> DepthSensor:
@@ -92,21 +85,9 @@ def open_realsense(*, uri: str | None, camera: Camera | None, patience_s: float,
     return RealSenseCamera(uri=uri, camera=camera, patience_s=patience_s, notice=notice)
 
 
-def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding:
+def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding | None:
     """The maker's library, by its package; loaded, in a process of its own, only where a camera wants it."""
-    is_packed = getattr(sys, "frozen", False)
-    install = f"{sys.executable} -m pip install {PACKAGE}"
-    packed = phrase(
-        "The packed program has no driver for it: install Carpus with pip, then run: {command}", command=install
-    )
-    return library_finding(
-        phrase("RealSense driver"),
-        PACKAGE,
-        load_library,
-        asks=asks_version and wanted,
-        unwanted="" if wanted else phrase("not installed; only a RealSense and its recordings need it"),
-        how=packed if is_packed else phrase("Run: {command}", command=install),
-    )
+    return library_finding(phrase("RealSense driver"), PACKAGE, load_library, asks=asks_version, wanted=wanted)
 
 
 def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:
@@ -142,11 +123,6 @@ KIND = CameraKind(
     models=MODELS,
     open=open_realsense,
     driver=driver_finding,
-    rights=phrase(
-        "As root, write into {file}: {rule}. Run: udevadm control --reload. Then plug the camera in again.",
-        file=RULE_FILE,
-        rule=RULE,
-    ),
     needed_mbit=5000,
     port=phrase("Plug it into a USB 3 port, with a USB 3 cable and without a hub."),
     further=further_findings,

@@ -28,7 +28,6 @@ KIND = CameraKind(
     models=MODELS,
     open=open_xtion,
     driver=driver_finding,
-    rights=phrase("Run: sudo apt-get install libopenni2-0, which brings them. Then plug the camera in again."),
     needed_mbit=480,
     port=phrase("It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware."),
 )

@@ -43,7 +43,7 @@ def _parquet() -> tuple[Any, Any]:
         import pyarrow
         from pyarrow import parquet
     except ImportError as cause:
-        raise ExtraMissing("tables", "pyarrow") from cause
+        raise ExtraMissing("pyarrow") from cause
     return pyarrow, parquet
 
 

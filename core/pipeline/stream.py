@@ -138,5 +138,5 @@ def library() -> Any:
     try:
         import pylsl
     except (ImportError, RuntimeError, OSError) as cause:
-        raise ExtraMissing("stream", "pylsl") from cause
+        raise ExtraMissing("pylsl") from cause
     return pylsl

@@ -4633,7 +4633,7 @@
     </message>
     <message>
         <source>For the window, run: pip install {name}</source>
-        <translation>Für das Fenster: pip install {name}</translation>
+        <translation type="vanished">Für das Fenster: pip install {name}</translation>
     </message>
     <message>
         <source>Free some space, or choose another disk.</source>
@@ -4694,6 +4694,10 @@
     <message>
         <source>Install the camera rights named above and plug the camera in again.</source>
         <translation>Installieren Sie die oben genannten Kamerarechte, und schließen Sie die Kamera neu an.</translation>
+    </message>
+    <message>
+        <source>Install the package {package}, which comes beside that of Carpus.</source>
+        <translation>Installieren Sie das Paket {package}, das neben dem von Carpus liegt.</translation>
     </message>
     <message>
         <source>Install the packages that bring these libraries.</source>
@@ -4880,6 +4884,10 @@
         <translation>Python</translation>
     </message>
     <message>
+        <source>Qt {qt}, which stops the program on Python 3.11</source>
+        <translation>Qt {qt}, das das Programm mit Python 3.11 beendet</translation>
+    </message>
+    <message>
         <source>Qt {qt}; no screen</source>
         <translation>Qt {qt}; kein Bildschirm</translation>
     </message>
@@ -4906,6 +4914,10 @@
     <message>
         <source>Run “carpus track” on the session to look back at it.</source>
         <translation>Führen Sie „carpus track“ mit der Sitzung aus, um sie nachzurechnen.</translation>
+    </message>
+    <message>
+        <source>Run “{command}”.</source>
+        <translation>Führen Sie „{command}“ aus.</translation>
     </message>
     <message>
         <source>Run: installer/setup.sh run. Or: install the packages that bring these libraries.</source>
@@ -5025,7 +5037,7 @@
     </message>
     <message>
         <source>Install the udev rules that come with Orbbec&apos;s OpenNI2 package, then plug the camera in again.</source>
-        <translation>Installieren Sie die udev-Regeln aus Orbbecs OpenNI2-Paket, und schließen Sie die Kamera neu an.</translation>
+        <translation type="vanished">Installieren Sie die udev-Regeln aus Orbbecs OpenNI2-Paket, und schließen Sie die Kamera neu an.</translation>
     </message>
     <message>
         <source>It needs a USB 2 port.</source>
@@ -5053,11 +5065,11 @@
     </message>
     <message>
         <source>Run: sudo apt-get install libopenni2-0, which brings them. Then plug the camera in again.</source>
-        <translation>Ausführen: sudo apt-get install libopenni2-0, das bringt sie mit. Dann die Kamera neu anschließen.</translation>
+        <translation type="vanished">Ausführen: sudo apt-get install libopenni2-0, das bringt sie mit. Dann die Kamera neu anschließen.</translation>
     </message>
     <message>
         <source>Run: {command}</source>
-        <translation>Ausführen: {command}</translation>
+        <translation type="vanished">Ausführen: {command}</translation>
     </message>
     <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
@@ -5209,7 +5221,7 @@
     </message>
     <message>
         <source>The packed program has no driver for it: install Carpus with pip, then run: {command}</source>
-        <translation>Das fertige Paket hat keinen Treiber dafür: Installieren Sie Carpus mit pip, dann ausführen: {command}</translation>
+        <translation type="vanished">Das fertige Paket hat keinen Treiber dafür: Installieren Sie Carpus mit pip, dann ausführen: {command}</translation>
     </message>
     <message>
         <source>The pictures of the board are too few or too alike: {subject} ({detail}).</source>
@@ -5336,6 +5348,10 @@
         <translation>Das sieht nach der anderen Hand aus.</translation>
     </message>
     <message>
+        <source>This needs the Python package {subject}, which is not installed.</source>
+        <translation>Dafür wird das Python-Paket {subject} gebraucht, das nicht installiert ist.</translation>
+    </message>
+    <message>
         <source>This port is slow for it. {port}</source>
         <translation>Dieser Anschluss ist langsam für sie. {port}</translation>
     </message>
@@ -5357,7 +5373,7 @@
     </message>
     <message>
         <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
-        <translation>Diese Version beendet das Programm unter Python 3.11. Ausführen: pip install &quot;PySide6-Essentials&lt;6.12&quot;</translation>
+        <translation type="vanished">Diese Version beendet das Programm unter Python 3.11. Ausführen: pip install &quot;PySide6-Essentials&lt;6.12&quot;</translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
@@ -5933,7 +5949,7 @@
     </message>
     <message>
         <source>not installed; only a RealSense and its recordings need it</source>
-        <translation>nicht installiert; nur eine RealSense und ihre Aufnahmen brauchen ihn</translation>
+        <translation type="vanished">nicht installiert; nur eine RealSense und ihre Aufnahmen brauchen ihn</translation>
     </message>
     <message>
         <source>the form of the reports cannot be read</source>
@@ -6085,7 +6101,7 @@
     </message>
     <message>
         <source>not installed; only an Orbbec Femto, Gemini or Astra 2 needs it</source>
-        <translation>nicht installiert; nur eine Orbbec Femto, Gemini oder Astra 2 braucht ihn</translation>
+        <translation type="vanished">nicht installiert; nur eine Orbbec Femto, Gemini oder Astra 2 braucht ihn</translation>
     </message>
     <message>
         <source>not the part file of a session</source>
@@ -6725,7 +6741,7 @@
     </message>
     <message>
         <source>This needs the Python package {detail} (carpus[{subject}]), which is not installed.</source>
-        <translation>Dafür braucht es das Python-Paket {detail} (carpus[{subject}]); es ist nicht installiert.</translation>
+        <translation type="vanished">Dafür braucht es das Python-Paket {detail} (carpus[{subject}]); es ist nicht installiert.</translation>
     </message>
     <message>
         <source>Measure</source>
@@ -6786,6 +6802,8 @@
     <message>
         <source>The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions.</source>
         <translation>Die Liste der Patienten war beschädigt ({detail}); eine neue enthält, was lesbar war, und die Sitzungen.</translation>
+        <source>The packed program does without {packages}; Carpus from its source can have it.</source>
+        <translation>Das gepackte Programm kommt ohne {packages} aus; Carpus aus den Quellen kann es haben.</translation>
     </message>
     <message>
         <source>Usual: {source}; {ages}, {sexes}; not for children or old age.</source>
@@ -6973,7 +6991,7 @@
     </message>
     <message>
         <source>Install it with the pip of Carpus’s own environment; in a checkout that is “.venv/bin/pip”.</source>
-        <translation>Installieren Sie es mit dem pip der eigenen Umgebung von Carpus; in einem Checkout ist das „.venv/bin/pip“.</translation>
+        <translation type="vanished">Installieren Sie es mit dem pip der eigenen Umgebung von Carpus; in einem Checkout ist das „.venv/bin/pip“.</translation>
     </message>
 </context>
 <context>

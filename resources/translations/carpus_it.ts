@@ -4641,7 +4641,7 @@
     </message>
     <message>
         <source>For the window, run: pip install {name}</source>
-        <translation>Per la finestra, eseguire: pip install {name}</translation>
+        <translation type="vanished">Per la finestra, eseguire: pip install {name}</translation>
     </message>
     <message>
         <source>Free some space, or choose another disk.</source>
@@ -4709,7 +4709,7 @@
     </message>
     <message>
         <source>Install the udev rules that come with Orbbec&apos;s OpenNI2 package, then plug the camera in again.</source>
-        <translation>Installare le regole udev del pacchetto OpenNI2 di Orbbec, poi ricollegare la telecamera.</translation>
+        <translation type="vanished">Installare le regole udev del pacchetto OpenNI2 di Orbbec, poi ricollegare la telecamera.</translation>
     </message>
     <message>
         <source>It can still be read; its seal does not fit what it holds now.</source>
@@ -4912,6 +4912,10 @@
         <translation>Python</translation>
     </message>
     <message>
+        <source>Qt {qt}, which stops the program on Python 3.11</source>
+        <translation>Qt {qt}, che arresta il programma con Python 3.11</translation>
+    </message>
+    <message>
         <source>Qt {qt}; no screen</source>
         <translation>Qt {qt}; nessuno schermo</translation>
     </message>
@@ -4944,6 +4948,10 @@
         <translation>Eseguire “carpus track” sulla seduta per ricalcolarla.</translation>
     </message>
     <message>
+        <source>Run “{command}”.</source>
+        <translation>Eseguire «{command}».</translation>
+    </message>
+    <message>
         <source>Run: installer/setup.sh run. Or: install the packages that bring these libraries.</source>
         <translation>Eseguire: installer/setup.sh run. Oppure: installare i pacchetti che portano queste librerie.</translation>
     </message>
@@ -4953,7 +4961,7 @@
     </message>
     <message>
         <source>Run: sudo apt-get install libopenni2-0, which brings them. Then plug the camera in again.</source>
-        <translation>Eseguire: sudo apt-get install libopenni2-0, che li porta. Poi ricollegare la telecamera.</translation>
+        <translation type="vanished">Eseguire: sudo apt-get install libopenni2-0, che li porta. Poi ricollegare la telecamera.</translation>
     </message>
     <message>
         <source>Set colour and depth to one size next time.</source>
@@ -5056,8 +5064,12 @@
         <translation>tavola ChArUco {columns} x {rows}, quadrati di {size} mm</translation>
     </message>
     <message>
+        <source>Install the package {package}, which comes beside that of Carpus.</source>
+        <translation>Installare il pacchetto {package}, che si trova accanto a quello di Carpus.</translation>
+    </message>
+    <message>
         <source>Run: {command}</source>
-        <translation>Eseguire: {command}</translation>
+        <translation type="vanished">Eseguire: {command}</translation>
     </message>
     <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
@@ -5209,7 +5221,7 @@
     </message>
     <message>
         <source>The packed program has no driver for it: install Carpus with pip, then run: {command}</source>
-        <translation>Il programma pronto non ha un driver per questa: installare Carpus con pip, poi eseguire: {command}</translation>
+        <translation type="vanished">Il programma pronto non ha un driver per questa: installare Carpus con pip, poi eseguire: {command}</translation>
     </message>
     <message>
         <source>The pictures of the board are too few or too alike: {subject} ({detail}).</source>
@@ -5336,6 +5348,10 @@
         <translation>Questa sembra l’altra mano.</translation>
     </message>
     <message>
+        <source>This needs the Python package {subject}, which is not installed.</source>
+        <translation>Serve il pacchetto Python {subject}, che non è installato.</translation>
+    </message>
+    <message>
         <source>This port is slow for it. {port}</source>
         <translation>Questa porta è lenta per lei. {port}</translation>
     </message>
@@ -5357,7 +5373,7 @@
     </message>
     <message>
         <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
-        <translation>Questa versione ferma il programma con Python 3.11. Eseguire: pip install &quot;PySide6-Essentials&lt;6.12&quot;</translation>
+        <translation type="vanished">Questa versione ferma il programma con Python 3.11. Eseguire: pip install &quot;PySide6-Essentials&lt;6.12&quot;</translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
@@ -5933,7 +5949,7 @@
     </message>
     <message>
         <source>not installed; only a RealSense and its recordings need it</source>
-        <translation>non installato; serve solo a una RealSense e alle sue registrazioni</translation>
+        <translation type="vanished">non installato; serve solo a una RealSense e alle sue registrazioni</translation>
     </message>
     <message>
         <source>the form of the reports cannot be read</source>
@@ -6085,7 +6101,7 @@
     </message>
     <message>
         <source>not installed; only an Orbbec Femto, Gemini or Astra 2 needs it</source>
-        <translation>non installato; serve solo a una Orbbec Femto, Gemini o Astra 2</translation>
+        <translation type="vanished">non installato; serve solo a una Orbbec Femto, Gemini o Astra 2</translation>
     </message>
     <message>
         <source>not the part file of a session</source>
@@ -6725,11 +6741,11 @@
     </message>
     <message>
         <source>Install it with the pip of Carpus’s own environment; in a checkout that is “.venv/bin/pip”.</source>
-        <translation>Installarlo con il pip dell’ambiente proprio di Carpus; in un checkout è “.venv/bin/pip”.</translation>
+        <translation type="vanished">Installarlo con il pip dell’ambiente proprio di Carpus; in un checkout è “.venv/bin/pip”.</translation>
     </message>
     <message>
         <source>This needs the Python package {detail} (carpus[{subject}]), which is not installed.</source>
-        <translation>Serve il pacchetto Python {detail} (carpus[{subject}]), che non è installato.</translation>
+        <translation type="vanished">Serve il pacchetto Python {detail} (carpus[{subject}]), che non è installato.</translation>
     </message>
     <message>
         <source>Measure</source>
@@ -6790,6 +6806,8 @@
     <message>
         <source>The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions.</source>
         <translation>L’elenco dei pazienti era danneggiato ({detail}); uno nuovo contiene ciò che si è potuto leggere e le sessioni.</translation>
+        <source>The packed program does without {packages}; Carpus from its source can have it.</source>
+        <translation>Il programma impacchettato fa a meno di {packages}; Carpus dai sorgenti può averlo.</translation>
     </message>
     <message>
         <source>Usual: {source}; {ages}, {sexes}; not for children or old age.</source>

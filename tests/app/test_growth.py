@@ -118,7 +118,7 @@ def test_every_registered_line_leads_to_its_file() -> None:
         kind = camera_kind(name)
         assert {"uri", "camera", "patience_s", "notice"} == set(signature(kind.open).parameters), name
         assert all(len(vendor) == len(product) == 4 for vendor, product in kind.models), name
-        assert all((kind.title, kind.rights, kind.port)), name
+        assert all((kind.title, kind.rules, kind.port)), name
         assert kind_of(f"{name}:1") == name
     assert kind_of("") == kind_of("1d27/0601@1/2") == next(iter(CAMERAS)), "what an older settings file says"
     assert len(set(protocol_names())) == len(PROTOCOLS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -67,7 +68,10 @@ def test_old_python() -> None:
 def test_missing_packages() -> None:
     finding = doctor.packages_finding(("numpy", "a-package-nobody-has"))
     assert finding == Finding(
-        "Packages", "bad", "missing: a-package-nobody-has", "Run: pip install a-package-nobody-has"
+        "Packages",
+        "bad",
+        "missing: a-package-nobody-has",
+        f"Run “{sys.executable} -m pip install a-package-nobody-has”.",
     )
 
 

@@ -20,6 +20,7 @@ from carpus.core.capture.cameras import open_camera
 from carpus.core.capture.capture_process import GaveUp
 from carpus.core.capture.color_lock import ColorLock
 from carpus.core.capture.doctor import opened_findings, rules_finding
+from carpus.core.capture.finding import Finding
 from carpus.core.capture.orbbec import OrbbecCamera, driver_finding, sensor_named
 from carpus.core.capture.orbbec_opening import choose_streams, find_camera, library
 from carpus.core.capture.orbbec_process import _Controls
@@ -123,18 +124,24 @@ def test_the_doctor_opens_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     assert (findings["Firmware"].state, findings["USB"].state) == ("good", "good")
 
 
+def found_driver() -> Finding:
+    found = driver_finding()
+    assert found is not None
+    return found
+
+
 def test_what_the_doctor_says_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert driver_finding().state == "good"
+    assert found_driver().state == "good"
     assert orbbec.further_findings({"usb": "2.1"})[0].state == "warning"
-    (tmp_path / "60-carpus-orbbec.rules").write_text(orbbec.RULE + "\n")
+    (tmp_path / "60-carpus-cameras.rules").write_text(orbbec.KIND.rules)
     assert rules_finding(orbbec.KIND, (tmp_path,)).state == "good"
 
     def missing(name: str) -> str:
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr(maker_library, "version", missing)
-    assert driver_finding(wanted=False).state == "good"
-    assert driver_finding().remedy == f"Run: {sys.executable} -m pip install --no-deps pyorbbecsdk2"
+    assert driver_finding(wanted=False) is None
+    assert found_driver().remedy == f"Run “{sys.executable} -m pip install --no-deps pyorbbecsdk2”."
     monkeypatch.setattr(orbbec, "find_spec", lambda _: None)
     with pytest.raises(DriverMissing) as told:
         open_camera(f"orbbec:{SERIAL}")

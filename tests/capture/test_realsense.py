@@ -169,7 +169,9 @@ def test_another_camera_of_the_kind_is_told_and_ours_waited_for(
             (tmp_path / "other").unlink()
 
     camera._notice = put_back
-    next(frames)
+    for _ in frames:  # the crash takes a moment; pictures of before may still come
+        if told and isinstance(told[-1], CameraReturned):
+            break
     assert [type(fault) for fault in told] == [CameraLost, OtherCamera, CameraReturned]
     assert one_sentence(told[1]).startswith(
         "Carpus waits for its camera: Intel RealSense D435 815412070123. "
@@ -212,7 +214,7 @@ def test_a_camera_that_is_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(realsense, "find_spec", lambda _: None)
     with pytest.raises(ExtraMissing) as told:
         open_camera("realsense:815412070123")
-    assert "carpus[realsense]" in one_sentence(told.value)
+    assert one_sentence(told.value).endswith("-m pip install pyrealsense2”.")
 
 
 @pytest.mark.parametrize("slope", [1.0 / 8000.0, -1.0 / 3000.0])
@@ -243,7 +245,9 @@ def test_the_doctor_opens_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_what_the_doctor_says_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert driver_finding().state == "good"
+    found = driver_finding()
+    assert found is not None
+    assert found.state == "good"
     states = {
         each.name: each.state
         for each in further_findings({"firmware": "5.12.1.0", "firmware_wanted": "5.16.0.1", "usb": "2.1"})
@@ -255,5 +259,7 @@ def test_what_the_doctor_says_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
         raise PackageNotFoundError(name)
 
     monkeypatch.setattr(maker_library, "version", missing)
-    assert (driver_finding(wanted=False).state, driver_finding(wanted=True).state) == ("good", "bad")
-    assert driver_finding(wanted=True).remedy == f"Run: {sys.executable} -m pip install pyrealsense2"
+    assert driver_finding(wanted=False) is None, "no obstacle, and nothing to tick"
+    told = driver_finding(wanted=True)
+    assert told is not None
+    assert (told.state, told.remedy) == ("bad", f"Run “{sys.executable} -m pip install pyrealsense2”.")

@@ -1,0 +1,31 @@
+"""The one place that says how what is missing is installed, from source and in the packed program, which has no pip."""
+
+from __future__ import annotations
+
+import sys
+
+from carpus.core.phrase import Phrase, phrase
+
+CAMERAS_EXTRA = "carpus-cameras-extra"
+"""The second Debian package."""
+IN_CAMERAS_EXTRA = ("av", "pyorbbecsdk2")
+ALONE = ("pyorbbecsdk2",)
+"""Its own requirements (an older NumPy, a second OpenCV, Open3D, a window library) are those of its examples. With them
+it would take the place of what Carpus runs on: for that reason there is no extra for it."""
+
+
+def is_packed() -> bool:
+    """Whether this is the program with its own Python, in which nothing can be installed."""
+    return getattr(sys, "frozen", False)
+
+
+def how_to_install(*packages: str) -> Phrase:
+    """What to do for Python packages that are missing."""
+    if not is_packed():
+        alone = "--no-deps " if set(packages) <= set(ALONE) else ""
+        return phrase("Run “{command}”.", command=f"{sys.executable} -m pip install {alone}{' '.join(packages)}")
+    if sys.platform.startswith("linux") and set(packages) <= set(IN_CAMERAS_EXTRA):
+        return phrase("Install the package {package}, which comes beside that of Carpus.", package=CAMERAS_EXTRA)
+    return phrase(
+        "The packed program does without {packages}; Carpus from its source can have it.", packages=", ".join(packages)
+    )

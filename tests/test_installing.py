@@ -1,0 +1,60 @@
+"""What is missing is told with what to do, from source by pip and in the packed program never by it."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from importlib.metadata import PackageNotFoundError
+from pathlib import Path
+
+import pytest
+
+from carpus.core.capture import doctor, maker_library, orbbec, realsense
+from carpus.core.capture.cameras import CAMERAS, camera_kind, udev_rules
+from carpus.core.errors import ExtraMissing
+from carpus.core.installing import CAMERAS_EXTRA, how_to_install
+from carpus.core.words import one_sentence
+
+ROOT = Path(__file__).parents[1]
+
+
+def missing(name: str) -> str:
+    raise PackageNotFoundError(name)
+
+
+def test_from_source_the_line_can_be_pasted() -> None:
+    line = how_to_install("av").removeprefix("Run “").removesuffix("”.")
+    assert shlex.split(line) == [sys.executable, "-m", "pip", "install", "av"]
+    assert "--no-deps" in how_to_install("pyorbbecsdk2"), "its own needs would break what Carpus runs on"
+
+
+def test_the_packed_program_never_says_pip(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "frozen", True, raising=False)
+    for module in (maker_library, doctor):
+        monkeypatch.setattr(module, "version", missing)
+    said = [one_sentence(ExtraMissing(name)) for name in ("av", "pyarrow", "pylsl", "distributed")]
+    findings = [kind.driver(False, True) for kind in (realsense.KIND, orbbec.KIND)]
+    findings += [doctor.packages_finding(), doctor.window_finding()]
+    said += [finding.remedy for finding in findings if finding is not None]
+    assert all(said)
+    assert not [text for text in said if "pip" in text.split()]
+    if sys.platform.startswith("linux"):
+        assert CAMERAS_EXTRA in said[0]
+
+
+def test_only_one_module_speaks_of_pip() -> None:
+    speaking = {
+        path.relative_to(ROOT).as_posix()
+        for part in ("app", "core", "ui")
+        for path in (ROOT / part).rglob("*.py")
+        if "pip install" in path.read_text(encoding="utf-8")
+    }
+    assert speaking == {"core/installing.py"}
+
+
+def test_the_udev_rules_let_every_kind_be_opened(tmp_path: Path) -> None:
+    (tmp_path / "60-carpus-cameras.rules").write_text(udev_rules(), encoding="utf-8")
+    kinds = [camera_kind(name) for name in CAMERAS]
+    assert [doctor.rules_finding(kind, (tmp_path,)).state for kind in kinds] == ["good"] * len(kinds)
+    for kind in kinds:
+        assert all(product in kind.rules for _, product in kind.models)
