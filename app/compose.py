@@ -18,6 +18,7 @@ from types import TracebackType
 
 import platformdirs
 from PySide6.QtCore import QEvent, QMetaObject, QObject, Qt, QTimer
+from PySide6.QtGui import QPixmap
 from PySide6.QtWidgets import QApplication
 
 from carpus import __version__
@@ -55,6 +56,7 @@ from carpus.core.private import make_private
 from carpus.ui import language
 from carpus.ui.check_card.standing_words import card_words
 from carpus.ui.fonts import load_fonts
+from carpus.ui.icons import program_icon
 from carpus.ui.keys import Keys
 from carpus.ui.ports import Words
 from carpus.ui.settings.camera_card import CameraCard
@@ -208,6 +210,7 @@ def application(arguments: list[str]) -> QApplication:
     qt.setApplicationName("Carpus")
     qt.setDesktopFileName("carpus")
     qt.setApplicationVersion(__version__)
+    qt.setWindowIcon(QPixmap.fromImage(program_icon(256)))
     qt.setStyle("Fusion")
     load_fonts()
     return qt

@@ -141,6 +141,13 @@ class PatientSettings:
 
 
 @dataclass(frozen=True, slots=True)
+class UpdatesSettings:
+    """``folder`` in which the clinic lays packages of Carpus, as ``make release`` makes it; empty: nobody looks."""
+
+    folder: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class FirstStartSettings:
     """``answered``: what the first start offers was taken up or declined, and is not offered again."""
 
@@ -160,6 +167,7 @@ class Settings:
     lock: LockSettings = field(default_factory=LockSettings)
     stream: StreamSettings = field(default_factory=StreamSettings)
     patient: PatientSettings = field(default_factory=PatientSettings)
+    updates: UpdatesSettings = field(default_factory=UpdatesSettings)
     first_start: FirstStartSettings = field(default_factory=FirstStartSettings)
     live: LiveSettings = field(default_factory=LiveSettings)
     detection: DetectionSettings = field(default_factory=DetectionSettings)

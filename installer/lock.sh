@@ -21,4 +21,4 @@ if [ "${1:-}" != hashes ]; then
     pin --group test --group dev --constraint requirements.lock --output-file requirements-dev.lock
 fi
 with_hashes requirements-dev.lock requirements-alone.lock requirements-build.lock installer/hashes.lock
-with_hashes requirements.lock installer/package/tools.lock installer/package/hashes.lock
+with_hashes requirements.lock installer/package/tools.lock installer/package/cameras.lock installer/package/hashes.lock

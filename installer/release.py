@@ -4,12 +4,14 @@ usage: python3 installer/release.py [--key KEY] [--without-tests]
 
 Refuses what is uncommitted, a changelog that says nothing of this version, a version that was released already, and
 failing tests. Then: wheel, source archive (both installed into an empty environment and started), the packages of
-``make package``, SHA256SUMS, and with ``--key`` (or RELEASE_KEY) its signature by gpg. It uploads nothing.
+``make package``, ``apt/`` (their repository, for any web server or shared folder), SHA256SUMS, and with ``--key`` (or
+RELEASE_KEY) the signatures of both by gpg. It uploads nothing.
 """
 
 from __future__ import annotations
 
 import argparse
+import gzip
 import hashlib
 import os
 import re
@@ -73,9 +75,9 @@ def run(*command: str | Path) -> None:
         raise NotReleasableError(f"“{' '.join(map(str, command))}” failed")
 
 
-def asked(*command: str) -> str:
-    """What a command prints."""
-    return subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+def asked(*command: str, folder: Path = ROOT) -> str:
+    """What a command prints that runs in ``folder``."""
+    return subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
 
 
 def try_installed(path: Path) -> None:
@@ -87,6 +89,25 @@ def try_installed(path: Path) -> None:
         done = subprocess.run([python.with_name("carpus"), "--version"], cwd=folder, capture_output=True, text=True)
         if done.returncode or not done.stdout.startswith("carpus "):
             raise NotReleasableError(f"{path.name} does not start: {done.stderr.strip()}")
+
+
+def write_apt(folder: Path, packages: list[Path], key: str) -> None:
+    """A flat apt repository of Debian packages; with a key signed, the public half beside it as ``carpus.gpg``."""
+    if shutil.which("apt-ftparchive") is None:
+        raise NotReleasableError("apt-ftparchive is missing: apt-get install apt-utils")
+    folder.mkdir(parents=True)
+    for path in packages:
+        shutil.copy2(path, folder)
+    listed = asked("apt-ftparchive", "packages", ".", folder=folder)
+    (folder / "Packages").write_text(listed, encoding="utf-8")
+    (folder / "Packages.gz").write_bytes(gzip.compress(listed.encode(), mtime=0))
+    says = [f"APT::FTPArchive::Release::{name}=Carpus" for name in ("Origin", "Label")]
+    release = asked("apt-ftparchive", *(word for one in says for word in ("-o", one)), "release", ".", folder=folder)
+    (folder / "Release").write_text(release, encoding="utf-8")
+    if key:
+        sign = ("gpg", "--batch", "--yes", "--local-user", key)
+        run(*sign, "--clearsign", "--output", folder / "InRelease", folder / "Release")
+        run("gpg", "--batch", "--yes", "--output", folder / "carpus.gpg", "--export", key)
 
 
 def release(key: str, *, with_tests: bool) -> list[Path]:
@@ -104,6 +125,7 @@ def release(key: str, *, with_tests: bool) -> list[Path]:
         try_installed(path)
     run("make", "package")
     check_tree(asked("git", "status", "--porcelain"), "", version)
+    write_apt(DIST / "apt", list(DIST.glob("*.deb")), key)
     files = [path for path in DIST.iterdir() if path.is_file()]
     sums = DIST / "SHA256SUMS"
     sums.write_text(checksums(files), encoding="utf-8")

@@ -68,6 +68,8 @@ xdotool xdotool
 age age
 desktop-file-validate desktop-file-utils
 update-mime-database shared-mime-info
+apt-ftparchive apt-utils
+appstreamcli appstream
 "
 
 missing_packages() {

@@ -7,7 +7,7 @@ from importlib.resources import files
 from typing import Literal
 
 from PySide6.QtCore import QByteArray, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPolygonF
+from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath, QPen, QPolygonF
 from PySide6.QtSvg import QSvgRenderer
 
 State = Literal["good", "warn", "bad", "open", "partly", "predicted", "none"]
@@ -23,6 +23,16 @@ def _renderer(name: str, color: str) -> QSvgRenderer:
     if name in FILLED:
         text = text.replace('fill="none"', f'fill="{color}"')
     return QSvgRenderer(QByteArray(text.encode()))
+
+
+def program_icon(size_px: int) -> QImage:
+    """Carpus's own, square: of its windows, and of what the installers bring."""
+    picture = QImage(size_px, size_px, QImage.Format.Format_ARGB32)
+    picture.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(picture)
+    QSvgRenderer(QByteArray(files("carpus.resources").joinpath("carpus.svg").read_bytes())).render(painter)
+    painter.end()
+    return picture
 
 
 def paint_icon(painter: QPainter, name: str, box: QRectF, color: QColor) -> None:

@@ -25,6 +25,8 @@ from carpus.app.settings import (
 from carpus.core.bundled_parts import licence_texts
 from carpus.core.errors import CarpusFault
 from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits
+from carpus.core.newer_version import newest_version
+from carpus.ui.background import Background
 from carpus.ui.ports import Preferences
 from carpus.ui.settings.licences import LicencesWindow
 from carpus.ui.settings.screen import SettingsScreen
@@ -70,6 +72,19 @@ class PreferenceKeeper(QObject):
         self.screen.licences.clicked.connect(lambda: LicencesWindow(self.screen, theme, licence_texts()).exec())
         journey.put_settings(self.screen)
         journey.settings_wanted.connect(lambda: journey.way.aside("settings"))
+        self._background = Background()
+        journey.settings_wanted.connect(self.look_for_newer)
+
+    def look_for_newer(self) -> None:
+        """Where the clinic named a folder of packages, and nowhere else."""
+        folder, screen = self._settings.updates.folder, self.screen
+        if folder:
+            self._background.run(
+                lambda: newest_version(Path(folder).expanduser()),
+                lambda newest: screen.show_newest(folder, newest),
+                lambda _: screen.show_newest(folder, None),
+                screen,
+            )
 
     def take(self, chosen: Preferences) -> None:
         """Something was changed."""

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+import gzip
+from collections.abc import Mapping
+from datetime import datetime
+from email.utils import format_datetime
 from pathlib import Path
+
+CAMERAS_EXTRA = "carpus-cameras-extra"
+MAINTAINER = "The Carpus developers <carpus@localhost>"
 
 # On Debian 12 and Ubuntu 24.04 by these names (Ubuntu's t64 packages provide them). The packed folder brings all else.
 NEEDS = (
@@ -12,12 +19,14 @@ NEEDS = (
 ALSO = ("libopenni2-0",)
 """Needed for a camera and its recordings; brings the udev rules, so that a camera opens without being root."""
 PROGRAM_FOLDER = "opt/carpus"
+ICONS_PX = (16, 32, 48, 64, 128, 256)
 
 POSTINST = """#!/bin/sh
 set -e
 if [ "$1" = configure ]; then
     update-mime-database /usr/share/mime || true
     update-desktop-database -q /usr/share/applications || true
+    udevadm control --reload 2>/dev/null && udevadm trigger --subsystem-match=usb || true
 fi
 """
 POSTRM = """#!/bin/sh
@@ -41,41 +50,58 @@ def debian_version(version: str) -> str:
 
 def control(version: str, installed_bytes: int, architecture: str) -> str:
     """The control file. ``installed_bytes`` of all files."""
-    return f"""Package: carpus
-Version: {debian_version(version)}
-Section: science
-Priority: optional
-Architecture: {architecture}
-Installed-Size: {-(-installed_bytes // 1024)}
-Maintainer: The Carpus developers <carpus@localhost>
-Depends: {", ".join(NEEDS + ALSO)}
-Description: Measures how a wrist and a hand move, for hand rehabilitation
- A depth camera looks down on a hand with blue paper discs on it. Carpus follows
- them and reports the angles of wrist and fingers with their standard
- deviations, live, in session files, as progress and as PDF reports.
- .
- For research and education. Not a medical device.
-"""
+    return _control("carpus", version, installed_bytes, architecture, ", ".join(NEEDS + ALSO)) + (
+        "Description: Measures how a wrist and a hand move, for hand rehabilitation\n"
+        " A depth camera looks down on a hand with blue paper discs on it. Carpus follows\n"
+        " them and reports the angles of wrist and fingers with their standard\n"
+        " deviations, live, in session files, as progress and as PDF reports.\n"
+        " .\n"
+        " For research and education. Not a medical device.\n"
+    )
 
 
-def lay_out(root: Path, page: str, here: Path, metainfo: str, copyright_text: str) -> None:
-    """Everything of the package but the program's own folder."""
+def extra_control(version: str, installed_bytes: int, architecture: str) -> str:
+    """That of the second package; its libraries fit the Python of one version of the first."""
+    needs = f"carpus (= {debian_version(version)})"
+    return _control(CAMERAS_EXTRA, version, installed_bytes, architecture, needs) + (
+        "Description: Orbbec cameras and .mkv recordings for Carpus\n"
+        " The makers' libraries for Orbbec's Femto, Gemini and Astra 2 cameras, and those\n"
+        " for reading recordings of the Azure Kinect and the Femto.\n"
+    )
 
-    def put(place: str, content: str | bytes, mode: int = 0o644) -> None:
+
+def _control(name: str, version: str, installed_bytes: int, architecture: str, needs: str) -> str:
+    return (
+        f"Package: {name}\nVersion: {debian_version(version)}\nSection: science\nPriority: optional\n"
+        f"Architecture: {architecture}\nInstalled-Size: {-(-installed_bytes // 1024)}\n"
+        f"Maintainer: {MAINTAINER}\nDepends: {needs}\n"
+    )
+
+
+def changelog(version: str, date: datetime) -> str:
+    """As Debian wants it; what changed stands in the program's own, which is packed beside it."""
+    return (
+        f"carpus ({debian_version(version)}) unstable; urgency=medium\n\n  * Carpus {version}; see changelog.gz.\n\n"
+        f" -- {MAINTAINER}  {format_datetime(date)}\n"
+    )
+
+
+def lay_out(root: Path, texts: Mapping[str, str], here: Path, resources: Path) -> None:
+    """Everything of the package but the program's own folder and its icons as pixels; ``texts`` by place."""
+
+    def put(place: str, content: bytes, mode: int = 0o644) -> None:
         path = root / place
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content if isinstance(content, bytes) else content.encode("utf-8"))
+        path.write_bytes(gzip.compress(content, 9, mtime=0) if place.endswith(".gz") else content)
         path.chmod(mode)
 
-    linux = here / "linux"
-    put("usr/share/applications/carpus.desktop", (linux / "carpus.desktop").read_bytes())
-    put("usr/share/mime/packages/carpus.xml", (linux / "carpus.xml").read_bytes())
-    put("usr/share/icons/hicolor/scalable/apps/carpus.svg", (linux / "carpus.svg").read_bytes())
-    put("usr/share/metainfo/carpus.metainfo.xml", metainfo)
-    put("usr/share/doc/carpus/copyright", copyright_text)
-    put("usr/share/man/man1/carpus.1", page)
-    put("DEBIAN/postinst", POSTINST, 0o755)
-    put("DEBIAN/postrm", POSTRM, 0o755)
+    put("usr/share/applications/carpus.desktop", (here / "linux" / "carpus.desktop").read_bytes())
+    put("usr/share/mime/packages/carpus.xml", (here / "linux" / "carpus.xml").read_bytes())
+    put("usr/share/icons/hicolor/scalable/apps/carpus.svg", (resources / "carpus.svg").read_bytes())
+    for place, text in texts.items():
+        put(place, text.encode("utf-8"))
+    put("DEBIAN/postinst", POSTINST.encode(), 0o755)
+    put("DEBIAN/postrm", POSTRM.encode(), 0o755)
     (root / "usr/bin").mkdir(parents=True, exist_ok=True)
     (root / "usr/bin/carpus").symlink_to("../../opt/carpus/carpus")
 

@@ -11579,6 +11579,18 @@ Umschalt+F8 von der Seite</translation>
         <translation>Einstellungen</translation>
     </message>
     <message>
+        <source>The folder of the clinic’s packages cannot be read: {folder}.</source>
+        <translation>Der Ordner mit den Paketen der Klinik ist nicht lesbar: {folder}.</translation>
+    </message>
+    <message>
+        <source>Version {newest} is ready to be installed, in {folder}. Install it over this one: patients, sessions and settings stay. Make a back-up before.</source>
+        <translation>Version {newest} liegt zum Installieren bereit, in {folder}. Installieren Sie sie über diese: Patienten, Sitzungen und Einstellungen bleiben. Machen Sie vorher eine Sicherung.</translation>
+    </message>
+    <message>
+        <source>The clinic’s packages in {folder} are not newer than this version.</source>
+        <translation>Die Pakete der Klinik in {folder} sind nicht neuer als diese Version.</translation>
+    </message>
+    <message>
         <source>Data folder</source>
         <translation>Datenordner</translation>
     </message>

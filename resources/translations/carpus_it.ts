@@ -11579,6 +11579,18 @@ Maiusc+F8 di lato</translation>
         <translation>Impostazioni</translation>
     </message>
     <message>
+        <source>The folder of the clinic’s packages cannot be read: {folder}.</source>
+        <translation>La cartella dei pacchetti della clinica non è leggibile: {folder}.</translation>
+    </message>
+    <message>
+        <source>Version {newest} is ready to be installed, in {folder}. Install it over this one: patients, sessions and settings stay. Make a back-up before.</source>
+        <translation>La versione {newest} è pronta da installare, in {folder}. La installi sopra questa: pazienti, sedute e impostazioni restano. Faccia prima una copia di sicurezza.</translation>
+    </message>
+    <message>
+        <source>The clinic’s packages in {folder} are not newer than this version.</source>
+        <translation>I pacchetti della clinica in {folder} non sono più recenti di questa versione.</translation>
+    </message>
+    <message>
         <source>Data folder</source>
         <translation>Cartella dei dati</translation>
     </message>

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import configparser
+import gzip
 import importlib.util
 import json
 import lzma
@@ -10,6 +11,7 @@ import re
 import shutil
 import subprocess
 import sys
+from datetime import UTC, datetime
 from itertools import pairwise
 from pathlib import Path
 from types import ModuleType
@@ -22,6 +24,8 @@ import pytest
 from carpus import __version__
 from carpus.app.commands import COMMANDS
 from carpus.core.bundled_parts import bundled_parts, licence_texts
+from carpus.core.installing import CAMERAS_EXTRA
+from carpus.ui.icons import program_icon
 
 ROOT = Path(__file__).parents[2]
 HERE = ROOT / "installer" / "package"
@@ -77,7 +81,10 @@ def test_the_control_file_says_what_apt_needs(monkeypatch: pytest.MonkeyPatch) -
 def test_the_package_lies_where_the_system_looks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     debian = script(HERE / "debian.py", monkeypatch)
     date = "2026-11-22"
-    debian.lay_out(tmp_path, "page", HERE, debian.metainfo(HERE, "1.0", date), "MIT")
+    place = "usr/share/metainfo/carpus.metainfo.xml"
+    texts = {place: debian.metainfo(HERE, "1.0", date), "usr/share/man/man1/carpus.1.gz": "page"}
+    debian.lay_out(tmp_path, texts, HERE, ROOT / "resources")
+    assert gzip.decompress((tmp_path / "usr/share/man/man1/carpus.1.gz").read_bytes()) == b"page"
     assert (tmp_path / "usr/bin/carpus").readlink() == Path("../../opt/carpus/carpus")
     assert (tmp_path / "DEBIAN/postinst").stat().st_mode & 0o111
     for name in ("postinst", "postrm"):
@@ -86,6 +93,23 @@ def test_the_package_lies_where_the_system_looks(tmp_path: Path, monkeypatch: py
     released = ElementTree.parse(tmp_path / "usr/share/metainfo/carpus.metainfo.xml").find("releases/release")
     assert released is not None
     assert released.attrib == {"version": "1.0", "date": date}
+    not_ours = "--override=cid-desktopapp-is-not-rdns=info"  # no domain belongs to the project
+    told = [tool("appstreamcli"), "validate", "--no-net", "--pedantic", not_ours, str(tmp_path / place)]
+    done = subprocess.run(told, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout
+
+
+def test_the_second_package_fits_one_version_and_debian_reads_the_changelog(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    debian = script(HERE / "debian.py", monkeypatch)
+    assert debian.CAMERAS_EXTRA == CAMERAS_EXTRA
+    assert "Depends: carpus (= 1.2.3~rc4)\n" in debian.extra_control("1.2.3rc4", 1000, "amd64")
+    (tmp_path / "changelog").write_text(debian.changelog("1.2.3rc4", datetime(2026, 11, 22, tzinfo=UTC)))
+    asked = [tool("dpkg-parsechangelog"), "-l", str(tmp_path / "changelog"), "-S"]
+    for field, value in (("Version", "1.2.3~rc4"), ("Date", "Sun, 22 Nov 2026 00:00:00 +0000")):
+        told = subprocess.run([*asked, field], capture_output=True, text=True, check=True)
+        assert (told.stdout.strip(), told.stderr) == (value, "")
 
 
 def test_the_desktop_entry_is_valid_and_opens_sessions() -> None:
@@ -164,16 +188,14 @@ def test_every_need_is_among_the_parts_with_its_licence(monkeypatch: pytest.Monk
     assert {(one["name"], one["version"]) for one in bill["components"]} >= {("numpy", np.__version__)}
 
 
-def test_windows_is_told_version_and_icon(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_windows_is_told_version_and_icon(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     resources = script(HERE / "windows" / "resources.py", monkeypatch)
     assert resources.four_numbers("0.1.0") == (0, 1, 0, 0)
     assert resources.four_numbers("1.12.3rc4") == (1, 12, 3, 4)
     assert "filevers=(1, 2, 0, 0)" in resources.version_resource("1.2")
-    picture = resources.icon()
-    assert picture[:6] == b"\x00\x00\x01\x00\x01\x00"
-    length, offset = (int.from_bytes(picture[place : place + 4], "little") for place in (14, 18))
-    assert picture[offset:].startswith(b"\x89PNG")
-    assert len(picture) == offset + length
+    assert program_icon(256).save(str(tmp_path / "carpus.ico"))
+    assert (tmp_path / "carpus.ico").read_bytes()[:6] == b"\x00\x00\x01\x00\x01\x00"
+    assert program_icon(64).pixelColor(32, 53).blue() > 180, "a disc"
 
 
 def test_a_payload_with_a_path_too_long_for_windows_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -191,7 +213,7 @@ def test_what_is_packed_is_what_is_pinned_and_every_file_of_it_has_its_hash() ->
         return set(re.findall(r"^[\w.-]+==[\w.]+", text, re.MULTILINE))
 
     hashes = (HERE / "hashes.lock").read_text()
-    locks = (ROOT / "requirements.lock", HERE / "tools.lock")
+    locks = (ROOT / "requirements.lock", HERE / "tools.lock", HERE / "cameras.lock")
     assert pins(hashes) == set().union(*(pins(lock.read_text()) for lock in locks))
     parts = re.split(r"^(?=[\w.-]+==)", hashes, flags=re.MULTILINE)[1:]
     assert all(re.search(r"--hash=sha256:[0-9a-f]{64}", part) for part in parts)

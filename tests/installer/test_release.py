@@ -13,6 +13,7 @@ from types import ModuleType
 import pytest
 
 from carpus import __version__
+from carpus.core.newer_version import is_newer, newest_version
 
 ROOT = Path(__file__).parents[2]
 GOOD = "# Changelog\n\n## [Unreleased]\n\n## [1.2.0] - 2026-11-22\n\n### Added\n- Something.\n\n"
@@ -107,3 +108,30 @@ def test_the_hosted_checks_call_targets_that_there_are() -> None:
         called = re.findall(r"- run: make ([a-z -]+)$", path.read_text(encoding="utf-8"), re.MULTILINE)
         assert called
         assert {name for line in called for name in line.split()} <= targets
+
+
+def test_the_folder_of_packages_is_what_apt_and_the_program_read(release: ModuleType, tmp_path: Path) -> None:
+    packages = []
+    for version in ("1.2.0", "1.10.0~rc1"):
+        root = tmp_path / version
+        (root / "DEBIAN").mkdir(parents=True)
+        control = f"Package: carpus\nVersion: {version}\nArchitecture: all\nMaintainer: A <a@b>\nDescription: it\n"
+        (root / "DEBIAN" / "control").write_text(control)
+        packages.append(tmp_path / f"carpus_{version}_all.deb")
+        subprocess.run(["dpkg-deb", "--build", str(root), str(packages[-1])], check=True, capture_output=True)
+    folder = tmp_path / "apt"
+    release.write_apt(folder, packages, "")
+    listed = (folder / "Packages").read_bytes()
+    assert hashlib.sha256(listed).hexdigest() in (folder / "Release").read_text()
+    for path in packages:
+        assert hashlib.sha256(path.read_bytes()).hexdigest().encode() in listed
+    assert newest_version(folder) == "1.10.0rc1"
+    assert is_newer("1.10.0rc1", "1.9.3")
+    assert not is_newer("1.10.0rc1", "1.10.0")
+    assert newest_version(write(tmp_path / "empty")) == ""
+
+
+def write(folder: Path) -> Path:
+    folder.mkdir()
+    (folder / "Packages").write_text("Package: another\nVersion: 9\n")
+    return folder

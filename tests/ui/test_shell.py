@@ -164,6 +164,20 @@ def test_settings_act_at_once_and_tell_what_was_chosen(qtbot: QtBot, theme: Them
     )
 
 
+def test_about_tells_what_lies_in_the_clinics_folder(qtbot: QtBot, theme: Theme) -> None:
+    screen = SettingsScreen(theme, Preferences(), "0.9.1")
+    qtbot.addWidget(screen)
+    assert "asks nobody" in screen.newer.text()
+    told = []
+    for newest in ("0.10.0", "0.9.1", "", None):
+        screen.show_newest("/srv/apt", newest)
+        told.append(screen.newer.text())
+    assert "0.10.0 is ready" in told[0]
+    assert told[1] == told[2]
+    assert "not newer" in told[1]
+    assert "cannot be read" in told[3]
+
+
 def test_a_key_can_be_given_to_one_action_only(qtbot: QtBot, theme: Theme) -> None:
     screen = SettingsScreen(theme, Preferences(), "1.0.0")
     qtbot.addWidget(screen)

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits
+from carpus.core.newer_version import is_newer
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
@@ -173,7 +174,8 @@ class SettingsScreen(QWidget):
             "version with the newest one where you got Carpus from; its list of changes says what is new. Install it "
             "over this one: patients, sessions and settings stay. Make a back-up before."
         )
-        about.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.newer = Text(theme, words, 14, REGULAR, "text2", wrap=True)
+        about.body.addWidget(self.newer)
         self.licences = Button(theme, self.tr("Parts and their licences"), height_px=40)
         about.body.addWidget(self.licences, 0, Qt.AlignmentFlag.AlignLeft)
         self.retest = Button(theme, self.tr("Measure the clinic’s own limits…"), height_px=40)
@@ -244,6 +246,20 @@ class SettingsScreen(QWidget):
         self.reset.clicked.connect(self._reset_keys)
         self.retest.clicked.connect(self.retest_wanted)
         self.back.clicked.connect(self.done)
+
+    def show_newest(self, folder: str, newest: str | None) -> None:
+        """What lies in the folder of packages that the clinic named: a version, empty for none, None where it cannot be
+        read."""
+        if newest is None:
+            words = self.tr("The folder of the clinic’s packages cannot be read: {folder}.")
+        elif is_newer(newest, self._version):
+            words = self.tr(
+                "Version {newest} is ready to be installed, in {folder}. Install it over this one: patients, sessions "
+                "and settings stay. Make a back-up before."
+            )
+        else:
+            words = self.tr("The clinic’s packages in {folder} are not newer than this version.")
+        self.newer.setText(words.format(folder=folder, newest=newest))
 
     @property
     def preferences(self) -> Preferences:

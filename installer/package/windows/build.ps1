@@ -6,10 +6,6 @@ Set-Location $root
 $makensis = (Get-Command makensis -ErrorAction SilentlyContinue).Source
 if (-not $makensis) { $makensis = "${env:ProgramFiles(x86)}\NSIS\makensis.exe" }
 if (-not (Test-Path $makensis)) { throw "NSIS 3 is missing." }
-py -3 installer\package\windows\resources.py build\package\windows
-if ($LASTEXITCODE) { throw "The version resources failed." }
-$env:CARPUS_ICON = "$root\build\package\windows\carpus.ico"
-$env:CARPUS_VERSION_RESOURCE = "$root\build\package\windows\version.txt"
 py -3 installer\package\build.py --keep-folder
 if ($LASTEXITCODE) { throw "The packing failed." }
 py -3 installer\package\windows\setup_program.py build\package\carpus --makensis $makensis
