@@ -13,7 +13,8 @@ fail() { printf 'package-test: %s\n' "$@" >&2; exit 1; }
 [ "$(id -u)" = 0 ] || fail "a clean root is entered by chroot, which only root may: sudo make package-test"
 command -v mmdebstrap >/dev/null || fail "mmdebstrap is missing: apt-get install mmdebstrap"
 deb=$(ls -t dist/carpus_*.deb 2>/dev/null | head -n 1 || true)
-[ -n "$deb" ] || fail "there is no package yet: make package"
+extra=$(ls -t dist/carpus-cameras-extra_*.deb 2>/dev/null | head -n 1 || true)
+[ -n "$deb" ] && [ -n "$extra" ] || fail "there is no package yet: make package"
 
 here=$PWD/installer/package
 out=$PWD/build/package-test
@@ -66,6 +67,7 @@ try() {
     ! chroot "$root" sh -c 'command -v python3' || fail "there is a Python in the root"
     cp /etc/hosts "$root/etc/hosts"
     cp "$deb" "$root/srv/carpus.deb"
+    cp "$extra" "$root/srv/extra.deb"
     cp "$here/in_the_root.sh" "$here/discs_on_screen.sh" "$root/srv/"
     older "$root"
     rm -rf "$out/$suite"

@@ -21,6 +21,17 @@ cd /home/clinician
 as_clinician carpus --version
 as_clinician carpus doctor | tee "$out/doctor.txt" || true
 
+# --- the cameras: RealSense's library at once, Orbbec's by the second package; pip is never named --------------------
+doctor() { as_clinician carpus doctor --camera "$1" | tee "$out/doctor-$1.txt" || true; ! grep -w pip "$out/doctor-$1.txt" || fail "it says pip"; }
+doctor realsense; grep -q '^ok  *RealSense driver' "$out/doctor-realsense.txt" || fail "no RealSense driver"
+grep -q '^ok  *Camera rights' "$out/doctor-realsense.txt" || fail "no rights for RealSense"
+doctor orbbec; grep -q 'carpus-cameras-extra' "$out/doctor-orbbec.txt" || fail "the second package is not named"
+apt-get install -y -qq --no-install-recommends /srv/extra.deb >/dev/null
+doctor orbbec; grep -q '^ok  *Orbbec driver' "$out/doctor-orbbec.txt" || fail "no Orbbec driver"
+grep -q '^ok  *Camera rights' "$out/doctor-orbbec.txt" || fail "no rights for Orbbec"
+as_clinician carpus track /home/clinician/no.mkv --calibration no.json --output no.h5 2>&1 | grep -q 'Python package av' && fail "no .mkv"
+say "RealSense and, by the second package ($(dpkg-query --show --showformat='${Installed-Size}' carpus-cameras-extra) kB), Orbbec are there"
+
 # --- what the system knows of it --------------------------------------------------------------------------------
 grep -q 'application/x-carpus-session=carpus.desktop' /usr/share/applications/mimeinfo.cache || fail "the desktop does not know the file type"
 grep -q '^.*:application/x-carpus-session:\*.h5' /usr/share/mime/globs2 || fail "the file type has no ending"
@@ -107,7 +118,7 @@ say "an .oni file was played and tracked"
 
 # --- removed: nothing of the program is left, everything of the patients is ----------------------------------------------------
 before=$(find /home/clinician -name '*.h5' | sort | xargs -d '\n' sha256sum | sha256sum)
-apt-get purge -y -qq carpus >/dev/null
+apt-get purge -y -qq carpus carpus-cameras-extra >/dev/null
 left=$(find / -xdev \( -path /proc -o -path /home -o -path /srv -o -path /var/log -o -path /var/cache -o -path /var/lib/apt \) -prune -o -iname '*carpus*' -print)
 [ -z "$left" ] || fail "left behind: $left"
 [ ! -e /opt/carpus ] || fail "/opt/carpus stayed"
