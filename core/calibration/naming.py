@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.assignment import linear_sum_assignment
-from carpus.core.calibration.palm_names import PalmNameSettings, names_fit
+from carpus.core.calibration.palm_names import PalmNameSettings, average_palm, misfit, names_fit
 from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
@@ -34,7 +34,10 @@ class NamingSettings:
     The average hand of ``reference_m`` length is laid over the blobs by a scale of ``least_scale`` to ``most_scale``:
     hands 112 to 225 mm long. ``gate_m`` of the first, rough laying-over, for a hand of that length; ``tried`` of the
     best are refined. A disc farther than ``close_m`` from where the fitted hand has it is not given its name;
-    ``sure_m``: by so much another disc must be farther away than the named one. ``usual_depth_m`` where no depth is.
+    ``sure_m``: by so much another disc must be farther away than the named one. ``no_palm``: misfit of the palm's
+    discs, as a share of their size, from which one of them is something else: simulated hands leave up to 0.05, discs
+    stuck 4 mm off up to 0.12; one farther than ``off_the_hand_m`` from the depth of the others lies on something else.
+    ``usual_depth_m`` where no depth is.
     """
 
     reference_m: float = 0.180
@@ -44,6 +47,8 @@ class NamingSettings:
     tried: int = 24
     close_m: float = 0.011
     sure_m: float = 0.006
+    no_palm: float = 0.12
+    off_the_hand_m: float = 0.030
     usual_depth_m: float = 0.7
 
 
@@ -97,7 +102,40 @@ def propose_names(
         plan = np.stack((place[best.blob].real, place[best.blob].imag), axis=1)
         sure &= names_fit(side, plan, PalmNameSettings())
     sure[list(fixed)] = True
-    return NameProposal(best.blob, sure & (best.blob >= 0), best.misfit_m)
+    blob = _of_one_palm(best.blob, place, blobs.depth_m, fixed, side, protocol, settings)
+    return NameProposal(blob, sure & (blob >= 0), np.where(blob >= 0, best.misfit_m, np.nan))
+
+
+def _of_one_palm(
+    blob: IntArray,
+    place: FloatArray,
+    depth_m: FloatArray,
+    fixed: Mapping[int, int],
+    side: Side,
+    protocol: MarkerProtocol,
+    settings: NamingSettings,
+) -> IntArray:
+    """Names (M,) without those on spots that lie where no palm has the disc, which is not in the picture; a person's
+    own names stay. Four discs fit too many things to say which of them is odd."""
+    out, rows = blob.copy(), np.array(protocol.palm)
+    free = np.array([row not in fixed for row in rows])
+    while np.count_nonzero(out[rows] >= 0) > 4:
+        named = out[rows] >= 0
+        spots = out[rows[named]]
+        off_m = np.abs(depth_m[spots] - np.median(depth_m[spots]))
+        if (off_m > settings.off_the_hand_m).any():
+            badness = off_m
+        else:
+            average, plan = average_palm(side)[named], np.stack((place[spots].real, place[spots].imag), axis=1)
+            if misfit(average, plan) < settings.no_palm:
+                break
+            left = [misfit(np.delete(average, k, axis=0), np.delete(plan, k, axis=0)) for k in range(len(plan))]
+            badness = 1.0 - np.array(left)
+        badness = np.where(free[named], badness, -1.0)
+        if badness.max() < 0.0:
+            break
+        out[rows[named][int(badness.argmax())]] = -1
+    return out
 
 
 def _only(fixed: Mapping[int, int], count: int) -> NameProposal:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.calibration.palm_names import average_palm
+from carpus.core.calibration.palm_names import average_palm, misfit
 from carpus.core.types import FloatArray, Side
 
 
@@ -49,17 +49,17 @@ class OddDisc:
 def odd_disc(side: Side, palm_plan: FloatArray, spots_plan: FloatArray, settings: OddDiscSettings) -> OddDisc | None:
     """What is odd about a palm (6, 2), seen from the camera with y up, among the spots (S, 2) that have no name."""
     average = average_palm(side)
-    misfit = _misfit(average, palm_plan)
-    best = (misfit, -1, -1)
-    if misfit >= settings.questioned:
+    own = misfit(average, palm_plan)
+    best = (own, -1, -1)
+    if own >= settings.questioned:
         for marker in range(len(palm_plan)):
             for spot in range(len(spots_plan)):
                 other = palm_plan.copy()
                 other[marker] = spots_plan[spot]
-                best = min(best, (_misfit(average, other), marker, spot))
-    if best[0] < settings.clearly * misfit:
+                best = min(best, (misfit(average, other), marker, spot))
+    if best[0] < settings.clearly * own:
         return OddDisc(best[1], best[2], fits=True)
-    if misfit >= settings.no_palm:
+    if own >= settings.no_palm:
         return OddDisc(_worst(average, palm_plan), -1, fits=False)
     spare = _beside(palm_plan, spots_plan, settings)
     if 0 < len(spare) <= settings.most_spare:
@@ -85,13 +85,5 @@ def _is_inside(spot: FloatArray, corners: FloatArray) -> bool:
 
 def _worst(average: FloatArray, palm_plan: FloatArray) -> int:
     """The disc without which the five others make the best palm."""
-    left = [_misfit(np.delete(average, k, axis=0), np.delete(palm_plan, k, axis=0)) for k in range(len(palm_plan))]
+    left = [misfit(np.delete(average, k, axis=0), np.delete(palm_plan, k, axis=0)) for k in range(len(palm_plan))]
     return int(np.argmin(left))
-
-
-def _misfit(average: FloatArray, plan: FloatArray) -> float:
-    """Residual share of the best similarity (turn, scale, shift; no mirror) of plans (M, 2)."""
-    axes = np.array([1.0, 1j])
-    mine, theirs = (average - average.mean(axis=0)) @ axes, (plan - plan.mean(axis=0)) @ axes
-    factor = np.vdot(mine, theirs) / np.vdot(mine, mine)
-    return float(np.linalg.norm(theirs - factor * mine) / max(float(np.linalg.norm(theirs)), 1e-12))

@@ -37,11 +37,11 @@ def shifted_names(side: Side, palm_plan: FloatArray, settings: PalmNameSettings)
     was given a wrong name comes first, and after each name the one that its disc should have: WRIST, MCP5 say that
     the disc clicked as wrist is the little knuckle. Two names only are two that were exchanged.
     """
-    misfit = _misfits(average_palm(side), palm_plan)
-    best = int(misfit.argmin())
-    if misfit[0] < settings.good_misfit or misfit[best] > settings.clearly * misfit[0]:
+    misfits = _misfits(average_palm(side), palm_plan)
+    best = int(misfits.argmin())
+    if misfits[0] < settings.good_misfit or misfits[best] > settings.clearly * misfits[0]:
         return ()
-    if misfit[best] > _misfits(average_palm("left" if side == "right" else "right"), palm_plan)[0]:
+    if misfits[best] > _misfits(average_palm("left" if side == "right" else "right"), palm_plan)[0]:
         return ()  # the names are in order, but on the other hand
     right_name = np.argsort(_ORDERS[best])  # of the disc clicked under each name
     return tuple(PALM_MARKERS[i] for i in _ring_by_ring(right_name))
@@ -50,15 +50,23 @@ def shifted_names(side: Side, palm_plan: FloatArray, settings: PalmNameSettings)
 def names_fit(side: Side, palm_plan: FloatArray, settings: PalmNameSettings) -> bool:
     """Whether six names, given by nobody yet, lie where a palm of this hand has them, and not better on the other
     hand. ``palm_plan`` as in :func:`shifted_names`."""
-    misfit = _misfits(average_palm(side), palm_plan)
+    misfits = _misfits(average_palm(side), palm_plan)
     other = _misfits(average_palm("left" if side == "right" else "right"), palm_plan)
-    return bool(misfit[0] < settings.good_misfit and misfit[0] == misfit.min() < other.min())
+    return bool(misfits[0] < settings.good_misfit and misfits[0] == misfits.min() < other.min())
 
 
 @lru_cache(maxsize=2)
 def average_palm(side: Side) -> FloatArray:
     """The discs (6, 2) of the average palm in the order of ``PALM_MARKERS``, seen from the camera, y up, in metres."""
     return anatomy_from_size(REFERENCE_LENGTH_M).palm_disc_m[:, :2] * (1.0, 1.0 if side == "right" else -1.0)
+
+
+def misfit(average: FloatArray, plan: FloatArray) -> float:
+    """Residual share of the best similarity (turn, scale, shift; no mirror) of discs (M, 2) as they were named."""
+    axes = np.array([1.0, 1j])
+    mine, theirs = (average - average.mean(axis=0)) @ axes, (plan - plan.mean(axis=0)) @ axes
+    factor = np.vdot(mine, theirs) / np.vdot(mine, mine)
+    return float(np.linalg.norm(theirs - factor * mine) / max(float(np.linalg.norm(theirs)), 1e-12))
 
 
 def _misfits(average: FloatArray, plan: FloatArray) -> FloatArray:

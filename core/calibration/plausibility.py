@@ -8,6 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
+from carpus.core.calibration.palm_names import misfit
 from carpus.core.hand.anatomy import REFERENCE_LENGTH_M, anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
 from carpus.core.hand.marker_protocol import MarkerProtocol
@@ -32,14 +33,6 @@ def _average_plan(protocol: MarkerProtocol, side: Side) -> FloatArray:
     return plan
 
 
-def _misfit(plan: FloatArray, seen: FloatArray) -> float:
-    """Residual share of the best similarity (turn, scale, shift; no mirror) of plans (M, 2)."""
-    a = (plan - plan.mean(axis=0)) @ np.array([1.0, 1j])
-    b = (seen - seen.mean(axis=0)) @ np.array([1.0, 1j])
-    factor = np.vdot(a, b) / np.vdot(a, a)
-    return float(np.linalg.norm(b - factor * a) / np.linalg.norm(b))
-
-
 def plan_view(point_cam_m: FloatArray) -> FloatArray:
     """Points (M, 3) of the camera as a drawing (M, 2) seen from the camera, y up."""
     return np.stack((point_cam_m[:, 0], -point_cam_m[:, 1]), axis=1)
@@ -51,7 +44,7 @@ def _best_swap(average: FloatArray, plan: FloatArray) -> float:
     for i, j in combinations(range(len(plan)), 2):
         other = plan.copy()
         other[[i, j]] = other[[j, i]]
-        best = min(best, _misfit(average, other))
+        best = min(best, misfit(average, other))
     return best
 
 
@@ -59,6 +52,6 @@ def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray
     """Whether the constellation is clearly the other hand's, and not this one's with two names swapped."""
     other: Side = "left" if side == "right" else "right"
     average = _average_plan(protocol, side)
-    own = _misfit(average, plan)
-    mirrored = _misfit(_average_plan(protocol, other), plan)
+    own = misfit(average, plan)
+    mirrored = misfit(_average_plan(protocol, other), plan)
     return own >= settings.good_misfit and mirrored < settings.clearly * own and mirrored < _best_swap(average, plan)

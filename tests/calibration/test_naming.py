@@ -42,8 +42,7 @@ def blob_of(marker: IntArray, count: int) -> IntArray:
 
 
 def without(blobs: Detections, gone: IntArray) -> Detections:
-    kept = np.setdiff1d(np.arange(len(blobs)), gone)
-    return blobs.only(kept)
+    return blobs.only(~np.isin(np.arange(len(blobs)), gone))
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -75,6 +74,15 @@ def test_the_six_discs_of_the_palm(seed: int) -> None:
     assert proposal.is_sure.all(), "six right names are confirmed at once"
     other = propose_names(blobs, DEFAULT_CAMERA, "right", WRIST6, SETTINGS)
     assert not (other.is_complete and other.is_sure.any()), "the other hand's names are looked at one by one"
+
+
+@pytest.mark.parametrize(("seed", "gone"), [(1076, "CMC1"), (1101, "CMC1"), (1163, "MCP4"), (1046, "MCP4")])
+def test_with_one_of_the_six_away_no_other_spot_takes_its_name(seed: int, gone: str) -> None:
+    side: Side = "left" if seed % 2 else "right"
+    blobs, marker = hand(seed, side, "wrist6", false_blobs=4.0)
+    there = np.arange(len(blobs)) != blob_of(marker, 6)[WRIST6.markers.index(gone)]
+    assert propose_names(blobs, DEFAULT_CAMERA, side, WRIST6, SETTINGS).is_complete
+    assert not propose_names(blobs.only(there), DEFAULT_CAMERA, side, WRIST6, SETTINGS).is_complete
 
 
 def test_the_other_side_does_not_fit() -> None:
