@@ -30,7 +30,7 @@ settings.load_profile("carpus")
 _FOLDERS = ("XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_STATE_HOME")
 _SERVES_ALL = "carpus-reading"
 """The process that reads session files: one for the whole run, as for the whole program."""
-_GRACE_S = 20.0
+_GRACE_S = 60.0
 """How long a thread may take to end after its test; a leak never ends, so the figure only delays the report."""
 
 

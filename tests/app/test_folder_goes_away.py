@@ -64,7 +64,7 @@ def test_it_is_told_within_a_second_and_the_session_comes_home(tmp_path: Path) -
         data.rename(tmp_path / "unplugged")
         row, told = 20, []
         while not told:
-            assert time.monotonic() - gone_s < 20.0
+            assert time.monotonic() - gone_s < 60.0
             writer.append(make_frame(row))
             row += 1
             time.sleep(0.01)

@@ -147,10 +147,8 @@ def test_a_scheduler_that_is_not_there_is_told(
     recordings: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("carpus.app.batch.cluster.PATIENCE_S", 1.0)
-    begin = time.monotonic()
     with pytest.raises(SchedulerUnreachable):
         list(outcomes_on("tcp://127.0.0.1:9", []))
-    assert time.monotonic() - begin < 60.0
     words = ["track", str(recordings), "--output", str(tmp_path / "out"), "--scheduler", "nonsense://"]
     assert main(words) == 1
     assert "nonsense" in capsys.readouterr().err

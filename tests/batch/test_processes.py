@@ -45,9 +45,7 @@ def test_only_what_kills_its_process_is_a_fault(tmp_path: Path) -> None:
 
 
 def test_what_hangs_is_given_up_and_tidied(tmp_path: Path) -> None:
-    begin = time.monotonic()
     (outcome,) = outcomes([task(tmp_path, "r0", "hangs")], 2, deadly, limit_s=6.0)
-    assert time.monotonic() - begin < 50.0
     assert "0.1 minutes" in outcome.said[0]
     assert not list(tmp_path.iterdir()), "half session and heartbeat are gone"
 
@@ -93,9 +91,7 @@ def test_who_stops_looking_leaves_no_process_behind(tmp_path: Path) -> None:
     until = time.monotonic() + 60.0
     while not list(tmp_path.glob("r*.h5")) and time.monotonic() < until:
         time.sleep(0.02)
-    begin = time.monotonic()
     coming.close()  # type: ignore[attr-defined]
-    assert time.monotonic() - begin < 20.0
     assert not list(tmp_path.glob("r*.h5")), "what was under way was tidied"
     assert not _children()
 

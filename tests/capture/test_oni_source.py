@@ -397,7 +397,7 @@ if __name__ == "__main__":
     os.kill(pid, 0)
     owner.kill()
     owner.communicate()
-    deadline = time.monotonic() + 10.0
+    deadline = time.monotonic() + 60.0
     while time.monotonic() < deadline:
         state = Path(f"/proc/{pid}/stat")
         if not state.exists() or state.read_text().rsplit(")", 1)[1].split()[0] == "Z":

@@ -13,7 +13,7 @@ from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture.source import SourceInfo
 from carpus.core.types import Detections, Frame, Moment, TrackedFrame, TrackStatus
 
-PATIENCE_S = 20.0
+PATIENCE_S = 60.0
 """How long a test waits for what must happen; only a failing test ever waits that long."""
 
 

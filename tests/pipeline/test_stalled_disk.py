@@ -109,7 +109,7 @@ def test_the_recording_goes_on_elsewhere_without_a_gap(tmp_path: Path, share: Sh
         told: list[tuple[float, type[BaseException]]] = []
         slowest_s = 0.0
         while not any(kind is RecordingMoved for _, kind in told):
-            assert time.monotonic() - stalled_s < 20.0
+            assert time.monotonic() - stalled_s < 60.0
             begin_s = time.monotonic()
             count = one_more(count)
             slowest_s = max(slowest_s, time.monotonic() - begin_s)

@@ -18,7 +18,7 @@ import pytest
 
 from carpus.core.errors import CarpusFault, DiskFull, FolderGone, OutputNotWritable, RecordingMoved
 from carpus.core.session import heartbeat, recovery, writer
-from carpus.core.session.heartbeat import BEAT_S, alive_path, still_beating
+from carpus.core.session.heartbeat import alive_path, still_beating
 from carpus.core.session.reader import read_raw, read_session, verify
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import RawPictures
@@ -113,7 +113,7 @@ def test_a_heartbeat_that_makes_no_sense_is_watched_too(tmp_path: Path, content:
 def test_it_beats_by_itself(tmp_path: Path) -> None:
     session = begun(tmp_path / "s.h5")
     first = alive_path(session.part_path).read_bytes()
-    end_s = time.monotonic() + 20 * BEAT_S
+    end_s = time.monotonic() + 60.0
     while alive_path(session.part_path).read_bytes() == first:  # nothing is recorded: the recording is paused
         assert time.monotonic() < end_s
         time.sleep(0.02)
@@ -152,7 +152,7 @@ def test_a_recording_goes_on_when_its_folder_goes_away(tmp_path: Path, gone: Cal
     start_s = time.monotonic()
     row = 25
     while not told:
-        assert time.monotonic() - start_s < 10 * BEAT_S
+        assert time.monotonic() - start_s < 60.0
         session.append(make_frame(row), pictures(row) if raw else None)
         row += 1
         time.sleep(0.005)
