@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
+from sqlalchemy import select
+
 from carpus.core.errors import CarpusFault
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.records.log import Log
 from carpus.core.records.patients import Patients
+from carpus.core.records.schema import OUTBOX
 from carpus.core.records.session_list import FilesOfSessions, SessionList
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
@@ -19,6 +23,7 @@ from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
+LONG_S = 120.0
 T0 = datetime(2026, 10, 9, 9, 51, tzinfo=UTC)
 LINDEN = PatientEntry("Linden 42", "right", "left", "40-49", "flexor tendon", "Erika Mustermann")
 HERON = PatientEntry("Heron 17", "left", name="Otto Normal")
@@ -46,6 +51,24 @@ def opened(
     """The store of a folder, open."""
     with Store(folder, sessions, url, tell) as store:
         yield House(store, Patients(store), SessionList(store), FilesOfSessions(store), Log(store, "window"))
+
+
+def until(what: Callable[[], bool]) -> None:
+    """Wait for it."""
+    end = time.monotonic() + LONG_S
+    while not what():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+def settled(house: House) -> None:
+    """Everything of a computer has arrived."""
+    until(lambda: not house.store.is_behind and not waiting(house))
+
+
+def waiting(house: House) -> int:
+    """How many changes of a computer have not."""
+    return len(house.store.rows(select(OUTBOX).where(OUTBOX.c.refused == "")))
 
 
 def record(

@@ -22,8 +22,8 @@ from carpus.core.records.store import Store
 from tests.records.samples import opened, traces
 
 
-def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
+def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path, url: str) -> None:
+    with opened(tmp_path, url) as house:
         house.log.who = lambda: "AB"
         house.log.note("opened", "session", "0" * 32)
         house.log.note("erased", "patient", "1" * 32, files=3)
@@ -78,9 +78,9 @@ def test_a_name_is_refused(tmp_path: Path, facts: dict[str, str]) -> None:
         assert read_log(house.store) == ()
 
 
-def test_no_identity_stands_in_it_whatever_a_damaged_file_says_it_is(tmp_path: Path) -> None:
+def test_no_identity_stands_in_it_whatever_a_damaged_file_says_it_is(tmp_path: Path, url: str) -> None:
     said = (" ", "Linden 42", "wr\udc80st", "x" * 65)
-    with opened(tmp_path) as house:
+    with opened(tmp_path, url) as house:
         for identity in said:
             house.log.note("recovered", "session", identity)
         assert len({one.subject for one in read_log(house.store)}) == len(said)

@@ -7,7 +7,6 @@ import subprocess
 import sys
 import time
 import uuid
-from collections.abc import Callable
 from datetime import timedelta
 from pathlib import Path
 
@@ -25,32 +24,14 @@ from carpus.core.records.schema import COMMENT, DEED, OUTBOX, PATIENT, SESSION
 from carpus.core.records.server import Server
 from carpus.core.records.values import PatientEntry, Rebuilt
 from tests.records.postgres import Cluster
-from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, traces
+from tests.records.samples import HERON, LINDEN, T0, measure, opened, settled, traces, until, waiting
 from tests.torture.wire import Wire
-
-LONG_S = 120.0
 
 
 @pytest.fixture
 def there(cluster: Cluster) -> str:
     """The url of an empty database."""
     return cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
-
-
-def until(what: Callable[[], bool]) -> None:
-    end = time.monotonic() + LONG_S
-    while not what():
-        assert time.monotonic() < end
-        time.sleep(0.02)
-
-
-def settled(house: House) -> None:
-    """Everything of a computer has arrived."""
-    until(lambda: not house.store.is_behind and not waiting(house))
-
-
-def waiting(house: House) -> int:
-    return len(house.store.rows(select(OUTBOX).where(OUTBOX.c.refused == "")))
 
 
 def count(url: str, table: str) -> int:
