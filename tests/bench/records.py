@@ -1,26 +1,37 @@
-"""How long lists, search and progress of a large store take: 100,000 patients and a million sessions, generated."""
+"""How long lists, search and progress of a large store take: 100,000 patients and a million sessions, generated.
+
+``python -m tests.bench.records PATIENTS --server`` says what so many cost with a PostgreSQL behind them: sizes, the
+first copy of a further computer, and what each computer that is on asks of the server.
+"""
 
 from __future__ import annotations
 
+import os
 import random
+import shutil
 import statistics
 import sys
 import tempfile
 import time
 from collections.abc import Callable
+from contextlib import ExitStack
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
-from sqlalchemy import insert
+import psycopg
+from sqlalchemy import insert, select
 
 from carpus.core.names import folded
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.of_sessions import comments
 from carpus.core.records.patients import Patients
 from carpus.core.records.pseudonyms import WORDS
-from carpus.core.records.schema import COMMENT, PATIENT, SESSION
+from carpus.core.records.schema import COMMENT, OUTBOX, PATIENT, SESSION
 from carpus.core.records.session_list import SessionList
 from carpus.core.records.store import Store
+from carpus.core.records.values import PatientEntry
+from tests.records.postgres import Cluster
+from tests.records.samples import opened, settled
 
 PATIENTS, SESSIONS_EACH, AT_ONCE = 100_000, 10, 2_000
 FIRST = datetime(2016, 1, 1, 8, tzinfo=UTC)
@@ -71,8 +82,67 @@ def timed(what: Callable[[], object]) -> str:
     return f"{statistics.median(took) * 1e3:7.1f} ms, worst {max(took) * 1e3:7.1f} ms, processor {busy * 1e3:7.1f} ms"
 
 
+COMPUTERS, WATCHED_S = 10, 30.0
+
+
+def of_server(patients: int, folder: Path) -> None:
+    """Sizes and costs with a server; all on one computer."""
+    cluster = Cluster()
+    try:
+        url = cluster.new_database("bench")
+        with opened(folder / "0") as house:
+            fill(house.store, patients)
+        for number, what in ((0, "the first computer brings all of it"), (1, "a further one copies it")):
+            begin = time.perf_counter()
+            with opened(folder / f"{number}", url) as house:
+                while house.store.is_behind or house.store.row(select(OUTBOX.c.id)):
+                    time.sleep(0.1)
+            print(f"{what}: {time.perf_counter() - begin:.0f} s")
+        size = (folder / "1" / STORE_FILE).stat().st_size
+        with psycopg.connect(url) as line:
+            there = line.execute("SELECT pg_database_size('bench')").fetchone()
+        print(f"size of a copy {size / 1e6:.0f} MB, on the server {there[0] / 1e6 if there else 0:.0f} MB")
+        with ExitStack() as on:
+            begin = time.perf_counter()
+            for number in range(COMPUTERS):
+                shutil.copytree(folder / "1", folder / f"copy {number}")
+                settled(on.enter_context(opened(folder / f"copy {number}", url)))
+            before = {one: _busy_s(one) for one in cluster.processes("carpus")}
+            time.sleep(WATCHED_S)
+            after = {one: _busy_s(one) for one in cluster.processes("carpus")}
+            each = [(after[one] - before[one]) / WATCHED_S for one in before.keys() & after.keys()]
+            memory = [_own_mb(one) for one in after]
+            print(
+                f"{COMPUTERS} computers on, nobody types: {len(after)} lines, each {statistics.mean(each) * 1e3:.2f} "
+                f"ms of the server's processor a second and {statistics.mean(memory):.1f} MB of its memory"
+            )
+            first = on.enter_context(opened(folder / "0", url))
+            took = []
+            for number in range(20):
+                begin = time.perf_counter()
+                first.patients.add(PatientEntry(f"New {number}", "left"))
+                took.append(time.perf_counter() - begin)
+            print(f"a patient entered and confirmed by the server: {statistics.median(took) * 1e3:.0f} ms")
+    finally:
+        cluster.end()
+
+
+def _busy_s(process: int) -> float:
+    fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def _own_mb(process: int) -> float:
+    lines = Path(f"/proc/{process}/smaps_rollup").read_text().splitlines()
+    return sum(int(line.split()[1]) for line in lines if line.startswith("Private")) / 1e3
+
+
 def main() -> None:
     patients = int(sys.argv[1]) if len(sys.argv) > 1 else PATIENTS
+    if "--server" in sys.argv:
+        with tempfile.TemporaryDirectory() as folder:
+            of_server(patients, Path(folder))
+        return
     with tempfile.TemporaryDirectory() as folder:
         begin = time.perf_counter()
         store = Store(Path(folder))

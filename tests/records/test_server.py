@@ -24,7 +24,7 @@ from carpus.core.records.schema import COMMENT, DEED, OUTBOX, PATIENT, SESSION
 from carpus.core.records.server import Server
 from carpus.core.records.values import PatientEntry, Rebuilt
 from tests.records.postgres import Cluster
-from tests.records.samples import HERON, LINDEN, T0, measure, opened, settled, traces, until, waiting
+from tests.records.samples import HERON, LINDEN, LONG_S, T0, measure, opened, settled, traces, until, waiting
 from tests.torture.wire import Wire
 
 
