@@ -209,14 +209,17 @@ def repetition_lines(session: Session, choices: RepetitionChoices | None = None)
     for number, one in enumerate(session_figures(session, choices).repetitions, 1):
         if (row := one.row) is None:
             continue
-        parts = [f"{row.start_s:.2f} to {row.end_s:.2f} s, arc {math.degrees(row.arc_rad):.1f} deg"]
+        least = "at least " if row.at_least else ""
+        parts = [f"{row.start_s:.2f} to {row.end_s:.2f} s"]
+        if math.isfinite(row.arc_rad):
+            parts.append(f"arc {least}{math.degrees(row.arc_rad):.1f} deg")
         if math.isfinite(row.peak_speed_rad_s):
             parts.append(f"peak {math.degrees(row.peak_speed_rad_s):.0f} deg/s")
         if math.isfinite(row.sparc):
             parts.append(f"SPARC {row.sparc:.2f}")
         if row.pauses > 0:
             parts.append(f"{row.pauses:.0f} stops of {row.pause_s:.1f} s in all")
-        parts += [] if row.counted else [f"not counted: {row.reason}"]
+        parts += [] if row.counted else [f"not counted: {row.reason.replace('_', ' ')}"]
         lines.append(_line("Repetition" if number == 1 else "", f"{number}: {', '.join(parts)}"))
     return lines
 

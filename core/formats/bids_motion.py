@@ -83,7 +83,7 @@ def write(take: Take, folder: Path) -> list[Path]:
     events = [(e.time_s - start_s, math.nan, e.kind, e.text, math.nan, math.nan, MISSING) for e in session.events]
     events += [
         (row.start_s, row.end_s - row.start_s, "repetition", str(n), row.peak_s, math.degrees(row.arc_rad),
-         "yes" if row.counted else f"no: {row.reason}")
+         "yes" if row.counted else f"no: {row.reason.replace('_', ' ')}")
         for n, row in enumerate((one.row for one in take.figures.repetitions), 1) if row is not None
     ]  # fmt: skip
     lines = ([_event_cell(value) for value in event] for event in sorted(events, key=lambda event: event[0]))

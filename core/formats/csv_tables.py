@@ -88,14 +88,16 @@ REPETITION_COLUMNS = {
     "arc_sd_deg": "standard deviation of the arc by the tracker",
     "peak_speed_deg_s": "of its quickest stroke",
     "peak_speed_sd_deg_s": "what noise leaves in it",
-    "movement_time_s": "of its strokes, pauses included, holds in the turning places not; empty where one of its "
-    "two is not known",
+    "movement_time_s": "on its way, pauses included, holds in the turning places not; empty where that of one stroke "
+    "is not known",
     "sparc": "smoothness, mean of its strokes, pauses included; nearer to 0 is smoother",
     "movement_units": "peaks of speed of all its strokes",
     "pauses": "how often it stood still within a stroke",
     "pause_time_s": "for how long in all",
+    "at_least": "1 where the arc is a lower bound: the angle was hidden where it may have gone further, else 0",
     "counted": "1 where it counts, else 0",
-    "reason": "why it does not: hidden, not seen well enough, or what a person wrote",
+    "reason": "why it does not: hidden, not seen well enough; cut_by_start, cut_by_gap, cut_by_end, when the recording "
+    "began or ended in it or the hand was gone; or what a person wrote",
 }
 EVENT_COLUMNS = {
     "timestamp_s": "on the clock of the pictures",
@@ -194,8 +196,8 @@ def repetition_table(session: Session, figures: SessionFigures) -> Table:
         values = [getattr(row, field.name) for row in rows]
         if field.name in turned:
             out[turned[field.name]] = np.degrees(np.array(values, dtype=np.float64))
-        elif field.name == "counted":
-            out["counted"] = np.array(values, dtype=np.int64)
+        elif field.name in ("at_least", "counted"):
+            out[field.name] = np.array(values, dtype=np.int64)
         else:
             name = "pause_time_s" if field.name == "pause_s" else field.name
             out[name] = np.array(values, dtype=np.str_ if field.name == "reason" else np.float64)

@@ -69,7 +69,7 @@ def repetition_events(take: Take) -> list[Event]:
     start_s, out = float(take.session.timestamp_s[0]), []
     for number, one in enumerate(take.figures.repetitions, 1):
         if one.row is not None:
-            said = f"{number}" if one.row.counted else f"{number}, not counted: {one.row.reason}"
+            said = f"{number}" if one.row.counted else f"{number}, not counted: {one.row.reason.replace('_', ' ')}"
             row = on_clock(one.row, start_s)
             for kind, time_s in (("start", row.start_s), ("peak", row.peak_s), ("end", row.end_s)):
                 out.append(Event(time_s, f"repetition_{kind}", said))

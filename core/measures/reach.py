@@ -66,7 +66,7 @@ def find_reaches(
         away_m = (smooth.value - home) @ (line if float(line @ towards) >= 0.0 else -line)
     # Counted as an angle is, whose least range stands for the least reach.
     strokes = find_repetitions(replace(position, value=away_m * (LEAST_RANGE_RAD / LEAST_REACH_M))).strokes
-    found = (_reach(position, smooth, stroke, noise, unseen) for stroke in strokes)
+    found = (_reach(position, smooth, stroke, noise, unseen) for stroke in strokes if not stroke.half)
     return tuple(reach for reach in found if reach is not None)
 
 

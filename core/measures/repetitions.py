@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal
 
@@ -24,24 +25,36 @@ _HYSTERESIS_SHARE = 0.15
 _NOISE_RANGE = 4.5
 """Range of what is left of white noise after the low-pass, in standard deviations of what the low-pass took away."""
 _LEAST_HYSTERESIS_RAD = math.radians(2.5)
+_STILL_S, _STILL_SHARE = 0.3, 0.03
+"""Who moves by no more of the usual swing for so long stands."""
+
+Cut = Literal["", "cut_by_start", "cut_by_gap", "cut_by_end"]
+"""What hid the rest of a repetition: the recording began or ended in it, or the hand was out of sight."""
 
 
 @dataclass(frozen=True, slots=True)
 class Repetition:
-    """One repetition, there and back, from ``start_s`` to ``end_s``; ``valid_share`` of its samples are no gap."""
+    """One repetition, there and back, from ``start_s`` to ``end_s``; ``valid_share`` of its samples are no gap.
+
+    One that is ``cut``, at ``cut_s``, is the piece that was seen of it.
+    """
 
     start_s: float
     end_s: float
     valid_share: float
+    cut: Cut = ""
+    cut_s: float = math.nan
 
 
 @dataclass(frozen=True, slots=True)
 class Stroke:
-    """One movement in one direction between two neighbouring turning points."""
+    """One movement in one direction between two neighbouring turning points; ``half``: of motion to both sides the way
+    from the rest in the middle, or back to it."""
 
     start_s: float
     end_s: float
     rising: bool
+    half: bool = False
 
     @property
     def toward(self) -> float:
@@ -51,21 +64,30 @@ class Stroke:
 
 @dataclass(frozen=True, slots=True)
 class Exercise:
-    """What was found in one angle; both empty where nothing was repeated. ``unseen_s`` from when to when nothing was
-    seen for so long that nothing is counted across it."""
+    """What was found in one angle; all empty where nothing was repeated. ``cut`` are repetitions of which a piece was
+    seen, which count nowhere; ``unseen_s`` from when to when nothing was seen for so long that nothing is counted
+    across it."""
 
     repetitions: tuple[Repetition, ...]
     strokes: tuple[Stroke, ...]
+    cut: tuple[Repetition, ...] = ()
     unseen_s: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class _Turn:
-    """A turning point: the sample ``turn`` of an extreme."""
+    """A turning point: the sample ``turn`` of an extreme. ``seen``: the angle came and went; else what was seen begins
+    or ends there, ``still`` or moving."""
 
     high: bool
     turn: int
     value: float
+    seen: bool = True
+    still: bool = True
+
+    def outwards(self, level: float) -> float:
+        """How far it lies beyond a level, to its side."""
+        return self.value - level if self.high else level - self.value
 
 
 NOTHING = Exercise((), ())
@@ -76,38 +98,64 @@ def find_repetitions(angle: Signal) -> Exercise:
 
     A turning point is where the angle turns back over max(10 degrees, 0.3 R) or more, R being the usual swing: the
     median of the swings of 10 degrees or more, weighed by how long they take, so that neither a rest nor a hand taken
-    away changes it. A repetition goes there and back and takes 0.4 s or longer. Motion that starts and ends on the same
-    side is cut at the extremes of that side; motion to both sides from the middle where it passes the middle.
+    away changes it. A repetition goes there and back and takes 0.4 s or longer: from one extreme to the next of the
+    side on which the hand began, or ended; of motion to both sides from passing the middle to passing it that way
+    again.
 
     What is missing makes nothing else vanish: a repetition in which something is missing has its ``valid_share``; what
-    lies before and after a longer gap is counted by itself; :func:`what_was_not_counted` says why there is none.
+    lies before and after a longer gap is counted by itself, what such a gap or an end of the recording left of a
+    repetition is ``cut``; :func:`what_was_not_counted` says why there is none.
     """
     known = np.flatnonzero(np.isfinite(angle.value))
     if len(known) < 2 or angle.time_s[-1] - angle.time_s[0] < SHORTEST_RECORDING_S:
         return NOTHING
     smooth = low_pass(angle, COUNTING_CUTOFF_HZ).value
-    least = max(LEAST_RANGE_RAD, _NOISE_RANGE * _left_over(angle.value, smooth))
+    noise = _NOISE_RANGE * _left_over(angle.value, smooth)
+    least = max(LEAST_RANGE_RAD, noise)
     parts = _parts(angle)
     extent = _usual_swing([_turning_points(smooth, least, part) for part in parts])
     unseen = tuple((float(start), float(end)) for start, end in angle.gaps_s if end - start > LONGEST_HIDDEN_S)
     if math.isnan(extent):
-        return Exercise((), (), unseen)
+        return Exercise((), (), unseen_s=unseen)
     least = max(least, _LEAST_AMPLITUDE_SHARE * extent)
-    turns_of_parts = [_turning_points(smooth, least, part) for part in parts]
-    hysteresis = max(_HYSTERESIS_SHARE * extent, _LEAST_HYSTERESIS_RAD)
-    middle = _middle([turn for turns in turns_of_parts for turn in turns])
-    turns_of_parts = [_without_rest(turns, middle, hysteresis) for turns in turns_of_parts]
+    turned = [(part, _turning_points(smooth, least, part)) for part in parts]
+    near = max(_HYSTERESIS_SHARE * extent, _LEAST_HYSTERESIS_RAD)
+    still_rad = max(_STILL_SHARE * extent, noise)
+    runs = [_Run.of(smooth, part, turns, near, still_rad, angle.rate_hz) for part, turns in turned if turns]
+    home = _Home.of(runs, near)
     time = angle.time_s
-    strokes = tuple(
-        Stroke(float(time[a.turn]), float(time[b.turn]), b.high) for turns in turns_of_parts for a, b in pairwise(turns)
-    )
-    repetitions = tuple(
-        Repetition(float(time[start]), float(time[end]), float(np.isfinite(angle.value[start : end + 1]).mean()))
-        for part, turns in zip(parts, turns_of_parts, strict=True)
-        for start, end in _bounds(turns, smooth[: part.stop], middle, hysteresis, part.start)
-        if time[end] - time[start] >= LEAST_DURATION_S
-    )
-    return Exercise(repetitions, strokes, unseen)
+    strokes: list[Stroke] = []
+    whole: list[Repetition] = []
+    cut: list[Repetition] = []
+
+    def between(start: int, end: int, cut_at: int | None = None) -> Repetition:
+        valid_share = float(np.isfinite(angle.value[start : end + 1]).mean())
+        one = Repetition(float(time[start]), float(time[end]), valid_share)
+        if cut_at is None:
+            return one
+        by_gap = angle.beside_gap(float(time[cut_at]), _STILL_S)
+        by: Cut = "cut_by_gap" if by_gap else "cut_by_start" if cut_at == start else "cut_by_end"
+        return replace(one, cut=by, cut_s=float(time[cut_at]))
+
+    for run in runs:
+        strokes += [
+            Stroke(
+                float(time[a.turn]),
+                float(time[b.turn]),
+                b.high,
+                home.side is None and "middle" in map(home.place, (a, b)),
+            )
+            for a, b in pairwise(run.turns)
+            if abs(b.value - a.value) >= least
+        ]
+        marks = home.marks(run, runs)
+        whole += [between(a, b) for a, b in pairwise(marks) if time[b] - time[a] >= LEAST_DURATION_S]
+        first, last = run.turns[0], run.turns[-1]
+        if not home.rests(first) and first.turn not in marks:
+            cut.append(between(first.turn, marks[0] if marks else last.turn, first.turn))
+        if not home.rests(last) and marks and marks[-1] < last.turn:
+            cut.append(between(marks[-1], last.turn, last.turn))
+    return Exercise(tuple(whole), tuple(strokes), tuple(cut), unseen)
 
 
 Uncounted = Literal["too_short", "nothing_seen", "small_range", "no_return", "too_quick"]
@@ -195,46 +243,121 @@ def _usual_swing(turns_of_parts: list[list[_Turn]]) -> float:
     return math.nan
 
 
-def _middle(turns: list[_Turn]) -> float:
-    """Half way between the usual high and the usual low."""
-    sides = [[turn.value for turn in turns if turn.high is high] for high in (True, False)]
-    return 0.5 * sum(float(np.median(side)) for side in sides if side) if all(sides) else 0.0
+@dataclass(frozen=True, slots=True)
+class _Run:
+    """What was seen without a long gap: the whole curve (n,), the run's part of it, and where that turns."""
+
+    curve: FloatArray
+    part: slice
+    turns: list[_Turn]
+
+    @classmethod
+    def of(
+        cls, curve: FloatArray, part: slice, turns: list[_Turn], near: float, still_rad: float, rate_hz: float
+    ) -> _Run:
+        """With the ends of what was seen, and whether the hand stood there: an end turn from which the angle came back,
+        though by too little for another turn, was seen."""
+        known = part.start + np.flatnonzero(np.isfinite(curve[part]))
+        count = 1 + round(_STILL_S * rate_hz)
+        for at, samples in ((0, known[:count]), (-1, known[: -count - 1 : -1])):
+            end, edge = turns[at], int(samples[0])
+            still = bool(np.ptp(curve[samples]) <= still_rad)
+            if abs(float(curve[edge]) - end.value) <= near:
+                turns[at] = replace(end, seen=False, still=still)
+            else:
+                one = _Turn(not end.high, edge, float(curve[edge]), seen=False, still=still)
+                turns = [one, *turns] if at == 0 else [*turns, one]
+        return cls(curve, part, turns)
+
+    def passed(self, level: float, turn: _Turn, *, before: bool) -> int | None:
+        """The sample nearest to a turn, before or after it, that is not beyond a level; None without one."""
+        side = slice(self.part.start, turn.turn) if before else slice(turn.turn, self.part.stop)
+        off = (self.curve[side] - level) * (1.0 if turn.high else -1.0)
+        found = side.start + np.flatnonzero(off <= 0.0)
+        return int(found[-1 if before else 0]) if len(found) else None
 
 
-def _without_rest(turns: list[_Turn], middle: float, hysteresis: float) -> list[_Turn]:
-    """Without a first and a last turning point at which the hand only rested in the middle."""
-    begin = 1 if turns and abs(turns[0].value - middle) < hysteresis else 0
-    end = len(turns) - 1 if len(turns) > begin and abs(turns[-1].value - middle) < hysteresis else len(turns)
-    return turns[begin:end]
+_Place = Literal["low", "high", "middle", "elsewhere"]
 
 
-def _bounds(
-    turns: list[_Turn], value: FloatArray, middle: float, hysteresis: float, begin: int
-) -> list[tuple[int, int]]:
-    """First and last sample of each repetition; a last swing that never comes back is none."""
-    came_back = _return_to_middle(value, middle, hysteresis, turns[-1]) if turns else None
-    if len(turns) % 2 == 0 and came_back is None:
-        turns = turns[:-1]
-    if len(turns) % 2 == 1 or came_back is None:
-        return [(a.turn, b.turn) for a, b in zip(turns[0:-2:2], turns[2::2], strict=True)]
-    # The turn before began on the other side: nothing earlier needs to be looked at.
-    since = [begin, *(turn.turn for turn in turns[1::2])]
-    firsts = [_last_on_other_side(value, middle, turn, k) for turn, k in zip(turns[::2], since, strict=False)]
-    return list(zip(firsts, [*firsts[1:], came_back], strict=True))
+@dataclass(frozen=True, slots=True)
+class _Home:
+    """Where a motion turns, about ``low`` and ``high``, each ``near`` by so much, and from where it goes there and
+    back: from its high or its low ``side``, or, to both sides, from the middle (None)."""
+
+    low: float
+    high: float
+    near: float
+    side: bool | None = None
+
+    @classmethod
+    def of(cls, runs: Sequence[_Run], near: float) -> _Home:
+        """By where the hand stood at the beginning, or at the end; else by where it was."""
+        usual = [_usual([turn for run in runs for turn in run.turns if turn.high is high]) for high in (False, True)]
+        home = cls(usual[0], usual[1], near)
+        ends = (runs[0].turns[0], runs[-1].turns[-1])
+        for end in (*(end for end in ends if end.still), *ends):
+            if home.place(end) != "elsewhere":
+                return home if home.place(end) == "middle" else replace(home, side=end.high)
+        return replace(home, side=ends[0].high)
+
+    @property
+    def middle(self) -> float:
+        """Half way between the usual high and the usual low."""
+        return 0.5 * (self.low + self.high)
+
+    def place(self, turn: _Turn) -> _Place:
+        """Where a turning point lies; one at which what was seen begins or ends may lie anywhere."""
+        beyond_middle = turn.outwards(self.middle)
+        if not turn.seen and abs(beyond_middle) < self.near:
+            return "middle"
+        there = turn.seen or turn.outwards(self.high if turn.high else self.low) > -self.near
+        if there or (turn.still and beyond_middle > 0.0):
+            return "high" if turn.high else "low"
+        return "elsewhere"
+
+    def rests(self, turn: _Turn) -> bool:
+        """Whether no repetition is under way where what was seen begins or ends."""
+        place = self.place(turn)
+        if place in ("middle", "elsewhere"):
+            return turn.still or (self.side is None and place == "middle")
+        return turn.high is self.side
+
+    def marks(self, run: _Run, runs: Sequence[_Run]) -> list[int]:
+        """The samples at which a repetition begins or ends."""
+        if self.side is not None:
+            at_home = "high" if self.side else "low"
+            return [turn.turn for turn in run.turns if self.place(turn) == at_home]
+        outs = [turn for turn in run.turns if turn.seen or turn.outwards(self.middle) >= self.near]
+        first_high = self._first_high([run, *runs])
+        found: list[int] = []
+        for k, turn in enumerate(outs):
+            if turn.high is first_high:
+                passed = run.passed(self.middle, turn, before=True)
+                if k and passed is not None:
+                    found.append(max(passed, outs[k - 1].turn))
+                elif self.place(run.turns[0]) == "middle":
+                    found.append(run.turns[0].turn if passed is None else passed)
+        if outs and outs[-1].high is not first_high:
+            passed = run.passed(self.middle, outs[-1], before=False)
+            if passed is not None or self.place(run.turns[-1]) == "middle":
+                found.append(run.turns[-1].turn if passed is None else passed)
+        return found
+
+    def _first_high(self, runs: Sequence[_Run]) -> bool:
+        """To which side a repetition from the middle goes first; of several runs the first that shows it."""
+        for run in runs:
+            if self.place(run.turns[0]) == "middle":
+                return run.turns[1].high
+        for run in runs:
+            if self.place(run.turns[-1]) == "middle":
+                return not run.turns[-2].high
+        return runs[0].turns[0].high
 
 
-def _last_on_other_side(value: FloatArray, middle: float, turn: _Turn, since: int) -> int:
-    """The sample before a turn at which the middle was passed, not before ``since``; the first known one where it
-    never was."""
-    before = since + np.flatnonzero(np.isfinite(value[since : turn.turn + 1]))
-    other = before[(value[before] - middle > 0.0) != turn.high]
-    return int(other[-1]) if len(other) else int(before[0])
-
-
-def _return_to_middle(value: FloatArray, middle: float, hysteresis: float, turn: _Turn) -> int | None:
-    """The sample after a turn's extreme that is back at the middle, or the last one if that is near it."""
-    after = turn.turn + np.flatnonzero(np.isfinite(value[turn.turn :]))
-    other = after[(value[after] - middle > 0.0) != turn.high]
-    if len(other):
-        return int(other[0])
-    return int(after[-1]) if abs(value[after[-1]] - middle) < hysteresis else None
+def _usual(turns: Sequence[_Turn]) -> float:
+    """The median of the turning points of one side: of those that were seen, else at which the hand stood."""
+    chosen = [turn for turn in turns if turn.seen] or [turn for turn in turns if turn.still]
+    if chosen:
+        return float(np.median([turn.value for turn in chosen]))
+    return max(turns, key=lambda turn: turn.outwards(0.0)).value

@@ -158,8 +158,11 @@ def usual_duration_s(way: FloatArray, rate_hz: float) -> float:
 
 
 def _cut_short(angle: Signal, stroke: Stroke) -> bool:
-    """Whether a gap, and no turning point, ends the stroke: it may have been faster where it was not seen."""
-    return any(angle.beside_gap(at, 1.5 / angle.rate_hz) for at in (stroke.start_s, stroke.end_s))
+    """Whether a gap or the recording's end, and no turning point, ends the stroke: it may have been faster where it was
+    not seen."""
+    near_s = 1.5 / angle.rate_hz
+    at_end = stroke.start_s - angle.time_s[0] < near_s or angle.time_s[-1] - stroke.end_s < near_s
+    return bool(at_end) or any(angle.beside_gap(at, near_s) for at in (stroke.start_s, stroke.end_s))
 
 
 def _noise(angle: Signal, stroke: Stroke, sd: Signal | None, duration_s: float, *, smoothed: bool) -> Noise:

@@ -126,10 +126,10 @@ class _Knots:
 
 
 def _edges(repetitions: Sequence[ShownRepetition], duration_s: float) -> list[tuple[float, float]]:
-    """Start and end of each, in order and inside the recording, whatever a person moved them to."""
+    """Start and end of each whole one, in order and inside the recording, whatever a person moved them to."""
     out: list[tuple[float, float]] = []
     last = 0.0
-    for repetition in repetitions:
+    for repetition in (one for one in repetitions if one.is_whole):
         start = min(max(repetition.start_s, last), duration_s)
         last = min(max(repetition.end_s, start), duration_s)
         out.append((start, last))

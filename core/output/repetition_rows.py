@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.fingers import JointTrack, joint_range
 from carpus.core.measures.motion_range import LEAST_VALID_SHARE, MotionRange, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
-from carpus.core.measures.repetitions import COUNTING_CUTOFF_HZ, Repetition, find_repetitions
+from carpus.core.measures.repetitions import COUNTING_CUTOFF_HZ, Cut, Repetition, find_repetitions
 from carpus.core.measures.repetitions import Exercise as Found
 from carpus.core.measures.signals import BoolArray, Signal, even_signal, low_pass, stretches
 from carpus.core.measures.speed import StrokeMeasures, measure_stroke
@@ -25,7 +26,8 @@ from carpus.core.session.values import RepetitionRow, Repetitions, Session
 
 HELD_SHARE = 0.98
 """Of the way out: who stays beyond it holds the peak, and which moment of a hold is the highest only noise says."""
-HIDDEN = "hidden"
+Unmeasured = Literal["", "hidden"] | Cut
+HIDDEN: Unmeasured = "hidden"
 """Why a repetition does not count that was not seen well enough to be measured."""
 
 
@@ -60,9 +62,10 @@ class Trained:
 @dataclass(frozen=True, slots=True)
 class Measured:
     """One repetition: ``window`` over which its range is measured, holds included, its strokes, and its row with times
-    after the first frame."""
+    after the first frame; ``unmeasured`` why it cannot count."""
 
     window: Repetition
+    unmeasured: Unmeasured
     strokes: tuple[StrokeMeasures, ...]
     row: RepetitionRow
 
@@ -138,9 +141,10 @@ def measured_repetitions(trained: Trained, choices: RepetitionChoices) -> tuple[
         measure_stroke(trained.seen, stroke, trained.seen_sd, smoothed=trained.looked_back)
         for stroke in trained.found.strokes
     ]
+    every = sorted((*trained.found.repetitions, *trained.found.cut), key=lambda rep: rep.start_s)
     return tuple(
         _measured(trained, rep, strokes, choices.edges_s.get(number), choices.left_out.get(number, ""))
-        for number, rep in enumerate(trained.found.repetitions)
+        for number, rep in enumerate(every)
     )
 
 
@@ -151,19 +155,23 @@ def _measured(
     edges_s: tuple[float, float] | None,
     left_out: str,
 ) -> Measured:
-    window = rep if edges_s is None else Repetition(*edges_s, rep.valid_share)
+    window = rep if edges_s is None else _moved(trained, rep, *edges_s)
     # Motion cut in the middle is cut within strokes: each belongs where it ends, unless a person cut there.
     belongs_s = _end_s if edges_s is None else _middle_s
     own = tuple(one for one in strokes if window.start_s < belongs_s(one) <= window.end_s)
     start_s, end_s = edges_s or _left_and_reached(rep, own)
-    hidden = rep.valid_share < LEAST_VALID_SHARE
-    peak_s, is_high = _furthest(trained.tracked, window, None if edges_s is not None else _turns_high(rep, own))
-    both_ways = own if edges_s is not None or len(own) > 1 else ()
+    turns_high = own[0].stroke.rising if own and edges_s is None else None
+    peak_s, is_high = _furthest(trained.tracked, window, turns_high)
     measured = trained.range_of((window,))
-    known = measured.repetitions == 1 and len(measured.arc.values) == 1
+    known = measured.repetitions == 1 and len(measured.arc.values) == 1 and not window.cut
+    whole = () if window.cut else own
+    # Half a way from rest is slower, and small beside its noise: it says nothing of how quick or smooth the hand is.
+    full = [one for one in whole if not one.stroke.half]
+    why: Unmeasured = window.cut or (HIDDEN if window.valid_share < LEAST_VALID_SHARE else "")
     turned = measured.maximum if is_high else measured.minimum
     return Measured(
         window,
+        why,
         own,
         RepetitionRow(
             start_s=start_s,
@@ -172,17 +180,32 @@ def _measured(
             angle_rad=float(turned.values[0]) if known else math.nan,
             arc_rad=float(measured.arc.values[0]) if known else math.nan,
             arc_sd_rad=measured.arc.measurement_sd if known else math.nan,
-            peak_speed_rad_s=_over(own, "peak_speed_rad_s", max),
-            peak_speed_sd_rad_s=_over(own, "peak_speed_sd_rad_s", max),
-            movement_time_s=_over(both_ways, "movement_time_s", math.fsum),
-            sparc=_over(own, "sparc", _mean),
-            movement_units=_over(both_ways, "peaks", math.fsum),
-            pauses=_over(both_ways, "pauses", math.fsum),
-            pause_s=_over(both_ways, "pause_s", math.fsum),
-            counted=not left_out and not hidden,
-            reason=left_out or (HIDDEN if hidden else ""),
+            peak_speed_rad_s=_over(full, "peak_speed_rad_s", max),
+            peak_speed_sd_rad_s=_over(full, "peak_speed_sd_rad_s", max),
+            movement_time_s=_moving_s(window, strokes) if whole else math.nan,
+            sparc=_over(full, "sparc", _mean),
+            movement_units=_over(whole, "peaks", math.fsum),
+            pauses=_over(whole, "pauses", math.fsum),
+            pause_s=_over(whole, "pause_s", math.fsum),
+            at_least=known and (measured.top_limited or measured.bottom_limited),
+            counted=not left_out and not why,
+            reason=left_out or why,
         ),
     )
+
+
+def _moved(trained: Trained, rep: Repetition, start_s: float, end_s: float) -> Repetition:
+    """With edges that a person chose: seen as well as what is between them, and whole where that leaves out the cut."""
+    part = trained.tracked.between(start_s, end_s).finite
+    one = Repetition(start_s, end_s, float(part.mean()) if len(part) else 0.0)
+    return replace(one, cut=rep.cut, cut_s=rep.cut_s) if start_s <= rep.cut_s <= end_s else one
+
+
+def _moving_s(window: Repetition, strokes: Sequence[StrokeMeasures]) -> float:
+    """How long the hand was on its way within a repetition, pauses included; NaN where that of one way is not known."""
+    within = [one for one in strokes if one.stroke.start_s < window.end_s and window.start_s < one.stroke.end_s]
+    on_way_s = [min(one.offset_s, window.end_s) - max(one.onset_s, window.start_s) for one in within]
+    return math.fsum(max(0.0, time_s) for time_s in on_way_s) if all(map(math.isfinite, on_way_s)) else math.nan
 
 
 def _end_s(stroke: StrokeMeasures) -> float:
@@ -202,14 +225,6 @@ def _left_and_reached(rep: Repetition, strokes: Sequence[StrokeMeasures]) -> tup
     if strokes and abs(strokes[-1].stroke.end_s - end_s) <= 1e-6 and strokes[-1].offset_s <= end_s:
         end_s = strokes[-1].offset_s
     return start_s, end_s
-
-
-def _turns_high(rep: Repetition, strokes: Sequence[StrokeMeasures]) -> bool | None:
-    """Whether the first turn within a repetition is a high one: its first stroke leads there, or begins there."""
-    if not strokes:
-        return None
-    first = strokes[0].stroke
-    return first.rising == (first.start_s <= rep.start_s + 1e-6)
 
 
 def _furthest(tracked: Signal, window: Repetition, turns_high: bool | None) -> tuple[float, bool]:

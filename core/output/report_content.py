@@ -21,7 +21,7 @@ from carpus.core.measures.change import ARC_LIMIT_FACTOR, TOTAL_ACTIVE_MOTION, M
 from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
 from carpus.core.measures.fingers import JointTrack
 from carpus.core.measures.forearm import WristCentre, rotation_in_place, wrist_centre
-from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD, LEAST_VALID_SHARE, MotionRange, motion_range
+from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD, MotionRange, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
 from carpus.core.measures.repetitions import Exercise as FoundExercise
 from carpus.core.measures.repetitions import Repetition, Uncounted, what_was_not_counted
@@ -39,7 +39,9 @@ from carpus.core.output.further_measures import (
 from carpus.core.output.joint_content import joint_rows, joint_tracks
 from carpus.core.output.range_rows import RangeRow, RowKey, best_motion, is_total, range_row
 from carpus.core.output.repetition_rows import (
+    HIDDEN,
     Measured,
+    Unmeasured,
     measured_repetitions,
     seen_well,
     trained_angle,
@@ -82,19 +84,24 @@ class ShownRepetition:
     """One repetition, seconds after the first frame. ``reason`` says why it is left out, empty when it counts.
 
     From where it left one turning place to where it reached the last, as its ``row`` with all its measures says.
-    ``too_hidden`` when too little of it was seen to be measured, whoever wants it counted.
+    ``unmeasured`` why it cannot count, whoever wants it: too little of it was seen, or a piece alone.
     """
 
     start_s: float
     end_s: float
     reason: str
-    too_hidden: bool
+    unmeasured: Unmeasured = ""
     row: RepetitionRow | None = None
 
     @property
     def counts(self) -> bool:
         """Whether the figures include it."""
-        return not self.reason and not self.too_hidden
+        return not self.reason and not self.unmeasured
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether the recording has all of it, seen or not."""
+        return self.unmeasured in ("", HIDDEN)
 
 
 @dataclass(frozen=True, slots=True)
@@ -366,13 +373,14 @@ def session_figures(
     repetitions = _shown(measured, choices)
     counted = tuple(one.window for one in measured if one.row.counted)
     angles: tuple[int, ...] = FREE_ORDER if exercise.angle is None else (exercise.angle,)
-    if repetitions and not counted:
+    all_left_out = not counted and any(one.is_whole for one in repetitions)
+    if all_left_out:
         angles = ()  # all were left out: nothing is measured, least of all the whole recording
     rows = [row for k in angles for row in _rows(k, signals[k], counted, looked_back)]
-    shown_joints = () if repetitions and not counted else joint_rows(tracks, counted, exercise)
+    shown_joints = () if all_left_out else joint_rows(tracks, counted, exercise)
     shaken = held_tremor(session, 1 if exercise.angle is None else exercise.angle, TREMOR_NOISE_RAD)
     further = (*further_measures(session, exercise, tracks, view), *([shaken] if shaken is not None else []))
-    strokes = [stroke for one in measured if one.row.counted for stroke in one.strokes]
+    strokes = [stroke for one in measured if one.row.counted for stroke in one.strokes if not stroke.stroke.half]
     uncounted = what_was_not_counted(trained.seen, found) if trained is not None else None
     verdict = session.calibration.verdict
     pains = [event for event in session.events if event.kind == "pain" and event.text.isdigit()]
@@ -588,7 +596,7 @@ def _shown(measured: Sequence[Measured], choices: RepetitionChoices) -> tuple[Sh
             one.row.start_s,
             one.row.end_s,
             choices.left_out.get(number, ""),
-            one.window.valid_share < LEAST_VALID_SHARE,
+            one.unmeasured,
             one.row,
         )
         for number, one in enumerate(measured)

@@ -224,15 +224,20 @@ class _Source:
         if path not in self._file:
             return None
         table = self._file[path]
-        if table.dtype != schema.REPETITION_DTYPE or table.ndim != 1:
+        missing = {column.name for column in schema.REPETITION_COLUMNS} - set(table.dtype.names or ())
+        columns = [column for column in schema.REPETITION_COLUMNS if column.name not in missing]
+        dtype = np.dtype([(column.name, column.dtype) for column in columns])
+        if table.dtype != dtype or table.ndim != 1 or not missing <= {"at_least"}:  # which is from later
             raise SessionUnreadable(self._path, phrase("damaged: {value}", value=path))
-        names = [column.attribute for column in schema.REPETITION_COLUMNS]
-        rows = (dict(zip(names, row, strict=True)) for row in table[()].tolist())
+        names = [column.attribute for column in columns]
+        rows = ({"at_least": False} | dict(zip(names, row, strict=True)) for row in table[()].tolist())
         return Repetitions(
             str(table.attrs[schema.REPETITION_ANGLE]),
             tuple(
                 RepetitionRow(
-                    **row | {"counted": bool(row["counted"]), "reason": row["reason"].decode("utf-8", "replace")}
+                    **row
+                    | {name: bool(row[name]) for name in ("at_least", "counted")}
+                    | {"reason": row["reason"].decode("utf-8", "replace")}
                 )
                 for row in rows
             ),

@@ -290,14 +290,18 @@ REPETITION_COLUMNS = (
     Column("arc_sd", "arc_sd_rad", "f8", "rad", "standard deviation of the arc by the tracker"),
     Column("peak_speed", "peak_speed_rad_s", "f8", "rad/s", "of its quickest stroke"),
     Column("peak_speed_sd", "peak_speed_sd_rad_s", "f8", "rad/s", "what noise leaves in the peak speed"),
-    Column("movement_time", "movement_time_s", "f8", "s", "of its strokes, each from 5 % to 5 % of its peak speed, "
-           "pauses included, holds in the turning places not; not known where one of its two is not"),
-    Column("sparc", "sparc", "f8", "1", "smoothness, mean of its strokes, pauses included"),
+    Column("movement_time", "movement_time_s", "f8", "s", "on its way, each stroke from 5 % to 5 % of its peak speed, "
+           "pauses included, holds in the turning places not; not known where that of one stroke is not"),
+    Column("sparc", "sparc", "f8", "1", "smoothness, mean of its strokes, pauses included; "
+           "not of half a one from rest"),
     Column("movement_units", "movement_units", "f8", "1", "peaks of speed of all its strokes"),
     Column("pauses", "pauses", "f8", "1", "how often it stood still within a stroke"),
     Column("pause_time", "pause_s", "f8", "s", "for how long in all"),
+    Column("at_least", "at_least", "u1", "1", "1 where the arc is a lower bound: the angle may have gone further while "
+           "it was hidden; else 0"),
     Column("counted", "counted", "u1", "1", "1 where it counts, else 0"),
-    Column("reason", "reason", "S64", "", "why it does not count: hidden, not seen well enough; empty where it does"),
+    Column("reason", "reason", "S64", "", "why it does not count: hidden, not seen well enough; cut_by_start, "
+           "cut_by_gap, cut_by_end, when the recording began or ended in it or the hand was gone; empty where it does"),
 )
 REPETITIONS = Field("/repetitions", "repetitions", "rows", ("P",), "of each column",
                     "repetitions of the trained angle as counted when the session was finished", optional=True)

@@ -186,8 +186,9 @@ class RepetitionRow:
 
     From where it left one turning place to where it reached the last, pauses included, or from middle to middle of a
     motion to both sides; ``peak_s`` when it was furthest on its way there, at ``angle_rad``. Its strokes are those that
-    end in it: ``peak_speed_rad_s`` of the quickest, ``sparc`` their mean, ``movement_units``, ``pauses``, ``pause_s``
-    and ``movement_time_s`` of both of them. ``reason`` why it does not count, empty where it does.
+    end in it: ``peak_speed_rad_s`` of the quickest, ``sparc`` their mean, ``movement_units``, ``pauses`` and
+    ``pause_s``; ``movement_time_s`` how long it was on its way. ``at_least``: the angle may have gone further, and so
+    the arc, while it was hidden. ``reason`` why it does not count, empty where it does.
     """
 
     start_s: float
@@ -203,6 +204,7 @@ class RepetitionRow:
     movement_units: float
     pauses: float
     pause_s: float
+    at_least: bool
     counted: bool
     reason: str
 

@@ -3476,12 +3476,28 @@
         <translation>Mittel aus {count} Wiederholungen</translation>
     </message>
     <message>
+        <source>not seen well enough</source>
+        <translation>nicht gut genug gesehen</translation>
+    </message>
+    <message>
+        <source>the recording began in it</source>
+        <translation>die Aufnahme begann mitten darin</translation>
+    </message>
+    <message>
+        <source>the hand went out of sight in it</source>
+        <translation>die Hand war mittendrin nicht zu sehen</translation>
+    </message>
+    <message>
+        <source>the recording ended in it</source>
+        <translation>die Aufnahme endete mitten darin</translation>
+    </message>
+    <message>
         <source>number {number} left out: {reason}</source>
         <translation>Nummer {number} ausgelassen: {reason}</translation>
     </message>
     <message>
         <source>number {number} left out: not seen well enough</source>
-        <translation>Nummer {number} ausgelassen: nicht gut genug gesehen</translation>
+        <translation type="vanished">Nummer {number} ausgelassen: nicht gut genug gesehen</translation>
     </message>
     <message>
         <source>one range over the whole recording; no repetitions</source>

@@ -3476,12 +3476,28 @@
         <translation>media di {count} ripetizioni</translation>
     </message>
     <message>
+        <source>not seen well enough</source>
+        <translation>non vista abbastanza bene</translation>
+    </message>
+    <message>
+        <source>the recording began in it</source>
+        <translation>la registrazione è iniziata a metà</translation>
+    </message>
+    <message>
+        <source>the hand went out of sight in it</source>
+        <translation>la mano è uscita dalla vista a metà</translation>
+    </message>
+    <message>
+        <source>the recording ended in it</source>
+        <translation>la registrazione è finita a metà</translation>
+    </message>
+    <message>
         <source>number {number} left out: {reason}</source>
         <translation>numero {number} esclusa: {reason}</translation>
     </message>
     <message>
         <source>number {number} left out: not seen well enough</source>
-        <translation>numero {number} esclusa: non vista abbastanza bene</translation>
+        <translation type="vanished">numero {number} esclusa: non vista abbastanza bene</translation>
     </message>
     <message>
         <source>one range over the whole recording; no repetitions</source>

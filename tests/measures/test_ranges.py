@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 
 from carpus.core.hand.clinical_angles import rotation_from_angles
-from carpus.core.measures.motion_range import Figure
-from carpus.core.measures.summary import AngleSummary, summarise_angle
+from carpus.core.measures.motion_range import Figure, MotionRange, motion_range
+from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
+from carpus.core.measures.repetitions import find_repetitions
+from carpus.core.measures.signals import even_signal, low_pass
+from carpus.core.measures.speed import StrokeMeasures, measure_stroke
 from carpus.core.measures.validity import settled, valid_angle, valid_view, valid_wrist_angles, view_tilt_rad
 from carpus.core.types import FloatArray
 
@@ -34,10 +38,24 @@ def exercise_deg(tops: list[float], move_s: float = 1.0, hold_s: float = 1.0) ->
     return np.concatenate(parts)
 
 
-def summary_of(value_deg: FloatArray, sd_deg: float = 1.0, valid: FloatArray | None = None) -> AngleSummary:
-    keep = np.ones(len(value_deg), dtype=bool) if valid is None else valid
+@dataclass(frozen=True)
+class Measured:
+    """Range and strokes of an angle without noise."""
+
+    valid_share: float
+    range: MotionRange
+    strokes: list[StrokeMeasures]
+
+    def stroke_mean(self, quantity: str, *, rising: bool | None = None) -> float:
+        return float(np.nanmean([getattr(m, quantity) for m in self.strokes if rising in (None, m.stroke.rising)]))
+
+
+def summary_of(value_deg: FloatArray, sd_deg: float = 1.0, valid: FloatArray | None = None) -> Measured:
     t = 5.0 + np.arange(len(value_deg)) / RATE
-    return summarise_angle(t, np.radians(value_deg), np.full(len(t), math.radians(sd_deg)), keep)
+    both = even_signal(t, np.radians(np.column_stack((value_deg, np.full(len(t), sd_deg)))), valid)
+    angle, found = both.column(0), find_repetitions(both.column(0))
+    measured = motion_range(low_pass(angle, HIGHEST_CUTOFF_HZ), both.column(1), found.repetitions)
+    return Measured(angle.valid_share, measured, [measure_stroke(angle, stroke) for stroke in found.strokes])
 
 
 def test_tilt_of_known_poses() -> None:

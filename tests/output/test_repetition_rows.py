@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import shutil
 from dataclasses import astuple, replace
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
+from numpy.lib.recfunctions import repack_fields
 
 from carpus.core.measures.motion_range import motion_range
 from carpus.core.measures.repetitions import Exercise as Found
@@ -147,9 +149,80 @@ def test_motion_to_both_sides_lies_within_its_repetitions() -> None:
         assert low_s + 0.3 < row.end_s
         assert row.peak_s == pytest.approx(high_s, abs=0.3), "its first turn, and not on either side by chance"
         assert math.degrees(row.angle_rad) == pytest.approx(40.0, abs=1.0)
-    # The first way from rest is no stroke: one of two is not all of it.
-    assert math.isnan(rows[0].movement_time_s)
-    assert [round(row.movement_time_s / 0.8) for row in rows[1:]] == [2, 2]
+    # From rest and back to it are ways, too: of 0.8 s each, whose corners a low-pass rounds.
+    assert [row.movement_time_s for row in rows] == pytest.approx([2.0, 1.6, 2.0], abs=0.45)
+
+
+def test_an_arc_that_may_have_been_larger_is_a_lower_bound() -> None:
+    knots_deg = [0.0, 0.0, 50.0, 50.0, 0.0, 0.0, 50.0, 50.0, 0.0, 0.0]
+    trained = trained_in([0.0, 1.0, 2.0, 2.5, 3.5, 4.0, 5.0, 5.5, 6.5, 8.0], knots_deg)
+    hidden = (trained.seen.time_s > 2.05) & (trained.seen.time_s < 2.45)
+    seen = even_signal(trained.seen.time_s, trained.seen.value, ~hidden)
+    trained = replace(trained, seen=seen, range_of=lambda some: motion_range(seen, trained.seen_sd, some))
+    rows = [one.row for one in measured_repetitions(trained, RepetitionChoices())]
+    assert [row.at_least for row in rows] == [True, False]
+    assert all(row.counted for row in rows)
+
+
+def test_a_table_from_before_there_were_lower_bounds_is_read(path: Path, session: Session, tmp_path: Path) -> None:
+    old = tmp_path / "old.h5"
+    shutil.copy(path, old)
+    with h5py.File(old, "r+") as file:
+        table = file["/repetitions"]
+        names = [name for name in table.dtype.names if name != "at_least"]
+        rows, attributes = table[()][names], dict(table.attrs)
+        del file["/repetitions"]
+        made = file.create_dataset("/repetitions", data=repack_fields(rows))
+        made.attrs.update(attributes)
+    assert read_session(old).repetitions == session.repetitions
+
+
+@pytest.mark.parametrize("ends", ["way out", "way back", "at the middle", "nearly back"])
+@pytest.mark.parametrize("by", ["gap", "end", "start"])
+def test_half_a_repetition_is_listed_and_never_counted(by: str, ends: str) -> None:
+    one = np.radians(60.0) * (0.5 - 0.5 * np.cos(2 * np.pi * np.arange(0.0, 1.0, 1 / 120)))  # there and back in 4 s
+    still = np.zeros(30)
+    piece = one[: {"way out": 40, "way back": 80, "at the middle": 90, "nearly back": 96}[ends]]
+    after = np.concatenate((np.tile(one, 3), still))
+    value = np.concatenate((still, np.tile(one, 3), piece, np.full(60, np.nan) if by == "gap" else [], after))
+    if by == "end":
+        value = value[: -len(after)]
+    if by == "start":
+        value = np.concatenate((piece[::-1], still, np.tile(one, 3), still))
+    time_s = np.arange(len(value)) / 30.0
+    angle, sd = even_signal(time_s, value), even_signal(time_s, np.full(len(value), 0.01))
+    found = find_repetitions(angle)
+    trained = Trained("flexion", found, angle, sd, angle, False, lambda some: motion_range(angle, sd, some))
+    rows = [each.row for each in measured_repetitions(trained, RepetitionChoices())]
+    whole = [row for row in rows if row.counted]
+    (cut,) = [row for row in rows if not row.counted]
+    assert cut.reason == f"cut_by_{by}"
+    assert math.isnan(cut.arc_rad)
+    assert math.isnan(cut.peak_speed_rad_s)
+    assert len(whole) == {"gap": 6, "end": 3, "start": 3}[by]
+    for row in whole:
+        assert row.end_s - row.start_s == pytest.approx(4.0, abs=0.6)
+        assert math.degrees(row.arc_rad) == pytest.approx(60.0, abs=0.5)
+        assert row.movement_time_s == pytest.approx(4.0, rel=0.15)
+    # Its quickest moment may be in what was not seen.
+    short = [stroke for each in measured_repetitions(trained, RepetitionChoices()) for stroke in each.strokes]
+    assert all(math.isnan(each.peak_speed_rad_s) or each.arc_rad > math.radians(59.0) for each in short)
+
+
+def test_edges_that_a_person_moved_have_their_own_share_and_leave_out_the_cut() -> None:
+    trained = trained_in([0.0, 1.0, 3.0, 5.0, 7.0, 9.0, 10.0], [0.0, 0.0, 50.0, 0.0, 50.0, 0.0, 0.0])
+    tracked = replace(trained.tracked, value=np.where(np.abs(trained.tracked.time_s - 8.0) < 0.45, np.nan, 0.3))
+    whole = Repetition(5.0, 9.0, 0.55)
+    piece = Repetition(1.0, 5.0, 1.0, "cut_by_gap", 5.0)
+    trained = replace(trained, tracked=tracked, found=Found((whole,), (), (piece,)))
+
+    def reasons(edges_s: dict[int, tuple[float, float]]) -> list[str]:
+        return [each.row.reason for each in measured_repetitions(trained, RepetitionChoices({}, edges_s))]
+
+    assert reasons({}) == ["cut_by_gap", HIDDEN]
+    assert reasons({1: (5.0, 7.4)}) == ["cut_by_gap", ""], "what is left was seen"
+    assert reasons({0: (1.2, 4.8), 1: (7.0, 9.0)}) == ["", HIDDEN]
+    assert reasons({0: (1.2, 5.0)}) == ["cut_by_gap", HIDDEN]
 
 
 def test_who_comes_back_too_far_has_the_peak_at_the_turn() -> None:

@@ -29,7 +29,7 @@ def repetitions(parts: list[tuple[float, float]], rest_s: float = 1.5) -> tuple[
     """Repetitions with pauses before them, and how long the recording is."""
     at, out = 0.0, []
     for pause_s, length_s in parts:
-        out.append(ShownRepetition(at + pause_s, at + pause_s + length_s, "", False))
+        out.append(ShownRepetition(at + pause_s, at + pause_s + length_s, ""))
         at += pause_s + length_s
     return out, at + rest_s
 
@@ -87,7 +87,7 @@ def test_by_start_both_run_at_their_own_speed_and_wait_for_the_next_start() -> N
 
 @pytest.mark.parametrize("step", ["part", "start", "time"])
 def test_edges_that_a_person_moved_over_each_other_and_an_empty_recording_can_be_played(step: Step) -> None:
-    crossed = [ShownRepetition(1.0, 4.0, "", False), ShownRepetition(3.0, 5.0, "", False)]
+    crossed = [ShownRepetition(1.0, 4.0, ""), ShownRepetition(3.0, 5.0, "")]
     plain, plain_s = repetitions([(1.0, 2.0), (0.0, 2.0)])
     together = in_step(crossed, plain, (6.0, plain_s), step)
     assert (np.diff(together.first_s) >= 0.0).all()
@@ -99,7 +99,7 @@ def test_edges_that_a_person_moved_over_each_other_and_an_empty_recording_can_be
 # --- mean repetition ------------------------------------------------------------------------------------------
 def swings(count: int = 6, period_s: float = 4.0) -> tuple[np.ndarray, np.ndarray, list[ShownRepetition]]:
     time_s = np.arange(0.0, count * period_s + 0.5 / RATE_HZ, 1.0 / RATE_HZ)
-    found = [ShownRepetition(k * period_s, (k + 1) * period_s, "", False) for k in range(count)]
+    found = [ShownRepetition(k * period_s, (k + 1) * period_s, "") for k in range(count)]
     return time_s, 40.0 * np.sin(2 * math.pi * time_s / period_s), found
 
 
@@ -109,7 +109,7 @@ def test_repetitions_of_any_speed_have_one_mean(periods_s: list[float]) -> None:
     edges = np.concatenate(([0.0], np.cumsum(periods_s)))
     time_s = np.arange(0.0, edges[-1] + 0.005, 0.01)
     part = np.interp(time_s, edges, np.arange(len(edges), dtype=float))
-    found = [ShownRepetition(float(a), float(b), "", False) for a, b in pairwise(edges)]
+    found = [ShownRepetition(float(a), float(b), "") for a, b in pairwise(edges)]
     mean = mean_repetition(time_s, 40.0 * np.sin(2 * math.pi * part), found)
     assert mean.mean_deg == pytest.approx(40.0 * np.sin(2 * math.pi * mean.share), abs=1.5)
     assert mean.sd_deg[2:-2].max() < 0.2, "but for the joins, where the sampled curve turns a corner"
@@ -125,7 +125,7 @@ def test_what_is_left_out_is_not_in_the_mean() -> None:
     assert without.count == 5
     middle = slice(2, -2)  # the edges are shared with the neighbours
     assert without.mean_deg[middle] == pytest.approx(mean_repetition(time_s, value, found).mean_deg[middle], abs=0.1)
-    hidden = [*found[:2], replace(found[2], too_hidden=True), *found[3:]]
+    hidden = [*found[:2], replace(found[2], unmeasured="hidden"), *found[3:]]
     np.testing.assert_array_equal(mean_repetition(time_s, wild, hidden).mean_deg, without.mean_deg)
 
 

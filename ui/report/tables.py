@@ -71,19 +71,25 @@ def too_slow(figures: SessionFigures) -> bool:
 
 def repetition_words(figures: SessionFigures) -> str:
     """``mean of 9 repetitions; number 7 left out: pain``: always n and what is left out."""
-    if not figures.repetitions:
+    if not any(repetition.is_whole for repetition in figures.repetitions):
         ways = [len(item.values) for item in figures.further if item.name == "movement time"]
         if ways:
             return tr("{count} ways out and back; ranges over the whole recording").format(count=sum(ways))
-        return _with_unseen([_why_none(figures)], figures)
-    counted = figures.counted
-    words = tr("1 repetition") if counted == 1 else tr("mean of {count} repetitions").format(count=counted)
+        words = _why_none(figures)
+    else:
+        counted = figures.counted
+        words = tr("1 repetition") if counted == 1 else tr("mean of {count} repetitions").format(count=counted)
     parts = [words]
+    unmeasured = {
+        "hidden": tr("not seen well enough"),
+        "cut_by_start": tr("the recording began in it"),
+        "cut_by_gap": tr("the hand went out of sight in it"),
+        "cut_by_end": tr("the recording ended in it"),
+    }
     for number, repetition in enumerate(figures.repetitions, 1):
-        if repetition.reason:
-            parts.append(tr("number {number} left out: {reason}").format(number=number, reason=repetition.reason))
-        elif repetition.too_hidden:
-            parts.append(tr("number {number} left out: not seen well enough").format(number=number))
+        if not repetition.counts:
+            reason = repetition.reason or unmeasured[repetition.unmeasured]
+            parts.append(tr("number {number} left out: {reason}").format(number=number, reason=reason))
     return _with_unseen(parts, figures)
 
 
