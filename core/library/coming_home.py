@@ -12,7 +12,7 @@ import platformdirs
 from carpus.core.capture.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.durable import sync_folder
 from carpus.core.errors import CarpusFault, OutputNotWritable, RecordingReturned
-from carpus.core.library.beside import MARKERS_SUFFIX
+from carpus.core.library.set_up import MARKERS_SUFFIX
 from carpus.core.private import make_private
 from carpus.core.session.disk import free_name
 from carpus.core.session.reader import read_outline

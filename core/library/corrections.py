@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.errors import OutputNotWritable, SessionUnreadable
-from carpus.core.library.beside import MARKERS_SUFFIX
 from carpus.core.library.library import Library
+from carpus.core.library.set_up import MARKERS_SUFFIX
 from carpus.core.output.range_rows import best_motion
 from carpus.core.private import make_private
 from carpus.core.records.session_list import TRIALS_FOLDER

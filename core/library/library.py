@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import glob
 import threading
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
@@ -23,9 +22,8 @@ from carpus.core.capture.raw_pictures import decode_color
 from carpus.core.check_card.trust import camera_of, with_trust
 from carpus.core.errors import CarpusFault, FilesSetApart, SessionUnreadable
 from carpus.core.formats.export import Wanted, export_sessions
-from carpus.core.library.beside import MARKERS_SUFFIX
 from carpus.core.library.coming_home import bring_home, fallback_place
-from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.library.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
 from carpus.core.library.set_ups import keep_set_up, last_set_up
 from carpus.core.measures.error_limits import DEFAULT_LIMITS
 from carpus.core.output.angle_order import in_order
@@ -290,11 +288,6 @@ class Library:
     def _stored(self, session_id: str) -> Session:
         entry = self.entry(session_id)
         return _as_listed(read_session(entry.path), entry)
-
-    def files_of(self, session_id: str) -> Sequence[Path]:
-        """The session's file and all that lies beside it under its name."""
-        path = self.entry(session_id).path
-        return sorted(one for one in path.parent.glob(f"{glob.escape(path.stem)}.*") if one.is_file())
 
     def forget_figures(self, session_id: str) -> None:
         """What was worked out of a session is worked out anew."""

@@ -10,6 +10,8 @@ from carpus.core.hand.protocols import protocol_named, protocol_names
 from carpus.core.output.exercises import Exercise
 from carpus.core.types import Side
 
+MARKERS_SUFFIX = ".markers.jpg"
+"""Ends, in place of ``.h5``, the picture of the discs as they were stuck: the hand and nothing of the room."""
 PRACTICE_PATIENT = "practice"
 """Identity of the practice patient: always the last row, simulated camera, nothing counts."""
 
@@ -22,11 +24,6 @@ class CoursePart:
     repetitions: int = 10
     seconds: int = 0
     rest_s: int = 30
-
-    @property
-    def has_end(self) -> bool:
-        """Whether it ends by itself."""
-        return self.seconds > 0 or (self.repetitions > 0 and self.exercise.counts)
 
 
 @dataclass(frozen=True, slots=True)

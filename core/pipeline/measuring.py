@@ -24,8 +24,7 @@ from carpus.core.capture.raw import RawWriter
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.dates import iso
 from carpus.core.errors import DiskFull, EndStalled, ExtraMissing, NotLookedBack, RecordingEmpty
-from carpus.core.library.beside import MARKERS_SUFFIX
-from carpus.core.library.set_up import SetUp
+from carpus.core.library.set_up import MARKERS_SUFFIX, SetUp
 from carpus.core.output.repetition_rows import repetitions_of
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.around_hand import AroundHand, HandArea

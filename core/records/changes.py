@@ -18,7 +18,7 @@ from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.exc import IntegrityError
 
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, PseudonymTaken
-from carpus.core.records.schema import PATIENT, SESSION, SHARED
+from carpus.core.records.schema import PATIENT, SESSION, SHARED, TOMBSTONE
 
 PRACTICE = "practice"
 """Identity of the practice patient, of whom simulated sessions count, and who is on no server."""
@@ -30,8 +30,8 @@ Way = Literal["new", "change", "keep", "drop", "join"]
 @dataclass(frozen=True, slots=True)
 class Row:
     """What becomes of one row. ``new`` must not be there; ``change`` must be, in ``version`` unless that is 0; ``keep``
-    makes it or changes it, whatever is there; ``drop`` takes it away with all that belongs to it; ``join`` makes it
-    unless it is there.
+    makes it or changes it, whatever is there; ``drop`` takes it away with all that belongs to it; ``join`` makes it on
+    a server, unless it is or was there.
 
     ``mark`` is the change's own by chance, and a version tells the changes that a row has seen: two rows that were
     changed equally often, but otherwise, are never taken for the same."""
@@ -142,8 +142,10 @@ def _kept(connection: Connection, table: Table, row: Row) -> None:
 
 
 def _joined(connection: Connection, table: Table, row: Row) -> None:
-    kind = sqlite if connection.dialect.name == "sqlite" else postgresql
-    made = kind.insert(table).values(id=row.id, **row.values)
+    of = [row.id, *(row.values[name] for name in ("patient_id", "session_id") if row.values.get(name))]
+    if connection.execute(select(TOMBSTONE.c.id).where(TOMBSTONE.c.id.in_(of))).first() is not None:
+        return  # erased, and not to be brought back by a copy that is older
+    made = postgresql.insert(table).values(id=row.id, **row.values)
     connection.execute(made.on_conflict_do_nothing(index_elements=["id"]))
 
 

@@ -14,7 +14,7 @@ from typing import Literal
 from sqlalchemy import select
 
 from carpus.core.output.report_content import RepetitionChoices
-from carpus.core.records.changes import Row, changed, dropped, new
+from carpus.core.records.changes import changed, new
 from carpus.core.records.schema import COMMENT, CORRECTION, MADE
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import moment
@@ -108,12 +108,6 @@ def made_from(store: Store, session_ids: Iterable[str]) -> list[MadeFile]:
         state: State = "not_found" if not now else "as_made" if now == row.content else "changed"
         found[row.path] = MadeFile(path, row.kind, state, path.stat().st_size if now else 0)
     return [found[path] for path in sorted(found)]
-
-
-def forget_made(store: Store, paths: Iterable[Path]) -> list[Row]:
-    """The change that forgets files which are gone, or nobody's business any more."""
-    these = select(MADE.c.id).where(MADE.c.path.in_([str(path) for path in paths]))
-    return [dropped(MADE, row.id) for row in store.rows(these)]
 
 
 def content_of(path: Path) -> str:

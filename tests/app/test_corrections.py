@@ -17,10 +17,10 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop import correcting
 from carpus.app.desktop.shelf import StoredSessions
-from carpus.core.library.beside import MARKERS_SUFFIX
 from carpus.core.library.corrections import Corrections, Waiting, difference
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
+from carpus.core.library.set_up import MARKERS_SUFFIX
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.pipeline.correction import Task, correct, task_of
 from carpus.core.records.values import PatientEntry

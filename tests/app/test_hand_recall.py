@@ -10,8 +10,8 @@ import numpy as np
 
 from carpus.app.desktop.patients import PatientShelf, _results
 from carpus.app.desktop.unattended import lines_of
-from carpus.core.library.beside import MARKERS_SUFFIX
 from carpus.core.library.library import Library
+from carpus.core.library.set_up import MARKERS_SUFFIX
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import session_figures
 from carpus.ui.ports import PatientEntry

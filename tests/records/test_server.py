@@ -3,6 +3,7 @@ twice, nothing overwritten in silence. Against a real server that the tests star
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
 import time
@@ -11,7 +12,7 @@ from datetime import timedelta
 from pathlib import Path
 
 import pytest
-from sqlalchemy import create_engine, func, select, text, update
+from sqlalchemy import create_engine, delete, func, select, text, update
 from sqlalchemy.exc import DBAPIError
 from sqlalchemy.pool import NullPool
 
@@ -20,7 +21,7 @@ from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records import erasure, of_sessions
 from carpus.core.records.changes import PRACTICE, Change, new
 from carpus.core.records.log import read_log
-from carpus.core.records.schema import COMMENT, DEED, OUTBOX, PATIENT, SESSION
+from carpus.core.records.schema import COMMENT, DEED, OUTBOX, OWN, PATIENT, SESSION
 from carpus.core.records.server import Server
 from carpus.core.records.values import PatientEntry, Rebuilt
 from tests.records.postgres import Cluster
@@ -285,6 +286,25 @@ def test_a_computer_that_joins_brings_what_it_has(tmp_path: Path, there: str) ->
         settled(a)
         assert count(there, "deed") == 1
         assert b.patients.one(linden).session_count == 1
+
+
+def test_a_copy_that_joins_again_brings_back_nobody_who_was_erased(tmp_path: Path, there: str) -> None:
+    with opened(tmp_path / "a", there) as a:
+        linden = a.patients.add(LINDEN)
+        of_sessions.add_comment(a.store, measure(a, linden, T0), "before", "AB")
+        settled(a)
+        a.store.close()
+    shutil.copytree(tmp_path / "a", tmp_path / "old")
+    with opened(tmp_path / "old") as old:
+        old.store.own(delete(OWN))
+    with opened(tmp_path / "a", there) as a:
+        erasure.erase(a.store, erasure.plan_patient(a.store, linden), a.log)
+        settled(a)
+    with opened(tmp_path / "old", there) as old:
+        old.patients.add(HERON)
+        until(lambda: old.names() == ["Heron 17"])
+        settled(old)
+    assert (count(there, "patient"), count(there, "session"), count(there, "comment")) == (1, 0, 0)
 
 
 def test_the_log_of_the_server_is_only_added_to_as_well(tmp_path: Path, there: str) -> None:

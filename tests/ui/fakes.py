@@ -653,9 +653,6 @@ class FakeShelf:
     def archived(self, patient_id: str) -> int:
         return 0
 
-    def files_of(self, session_id: str) -> list[tuple[str, int]]:
-        return [("a.h5", 2_000_000), ("a.choices.json", 300)]
-
     def _change(self, session_id: str, **values: object) -> None:
         self.all = [replace(one, **values) if one.session_id == session_id else one for one in self.all]  # type: ignore[arg-type]
 
