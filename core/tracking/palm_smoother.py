@@ -1,18 +1,20 @@
 """Looking back at the palm, on the tangent space of the filter's state.
 
 Which mode the hand was in at each step is told by what came after as well (Kim 1994); the step back is then one of all
-modes together. What the tissue has done stays in it: it is not taken to relax.
+modes together. What the tissue has done stays in it: it is not taken to relax. Where tissue rests, its displacement and
+what the depths have wrong of it come again in picture after picture: what is averaged over more of them is stated less
+surely than if they were new, though never less surely than live.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from carpus.core.tracking.motion import PalmMotion, palm_step
-from carpus.core.tracking.palm_state import MOVING, SIZE, SOFT, PalmBelief
+from carpus.core.tracking.palm_state import MOVING, SIZE, SOFT, TURN, PalmBelief
 from carpus.core.tracking.smoother import Passage, Smoother
 from carpus.core.types import FloatArray
 
@@ -83,4 +85,13 @@ class PalmWalk:
 
 def smoothed_palm(steps: Sequence[FilterStep], motion: PalmMotion) -> list[PalmBelief | None]:
     """Smoothed belief of every step; None where the hand was lost."""
-    return [belief for _, belief in Smoother(PalmWalk(steps, motion)).backwards()][::-1]
+    smoothed = [belief for _, belief in Smoother(PalmWalk(steps, motion)).backwards()][::-1]
+    return [_stated(step.belief, belief, motion.tissue.widens) for step, belief in zip(steps, smoothed, strict=True)]
+
+
+def _stated(live: PalmBelief | None, smoothed: PalmBelief | None, widens: float) -> PalmBelief | None:
+    """The smoothed belief ``widens`` times as unsure, as long as its turn stays surer than the live one's."""
+    if live is None or smoothed is None or smoothed is live:
+        return smoothed
+    gained = float(np.trace(live.covariance[TURN, TURN]) / np.trace(smoothed.covariance[TURN, TURN]))
+    return replace(smoothed, covariance=min(widens, max(gained, 1.0)) * smoothed.covariance)

@@ -42,6 +42,8 @@ class SoftTissue:
     ``cups_together``; besides, these glide by ``loose_along_m`` and ``loose_across_m``. ``lasts_s``: how long a
     displacement lasts while tissue moves, ``rests_s`` while it rests, looking back
     ``creeps_s``, since what the filter took for rest may have been a slow motion; home it is within ``home_m``.
+    ``looked_back``: factor on the variance that is stated of it, at most the live one, since what displaced tissue and
+    depth have wrong comes again in picture after picture, and is not averaged away.
 
     Per second: resting tissue begins to move at ``leaving_per_s``, the wrist's the more the faster the hand turns, by
     ``turning_rad_s``; a motion ends after ``dwell_s``, with the chance ``homing_share`` at home; what is displaced goes
@@ -66,7 +68,8 @@ class SoftTissue:
     cups_together: float = 0.9
     lasts_s: float = 1.5
     rests_s: float = 1e4
-    creeps_s: float = 300.0
+    creeps_s: float = 7.0
+    looked_back: float = 1.35
     home_m: float = 1e-5
     leaving_per_s: float = 0.05
     turning_rad_s: float = 0.5
@@ -87,7 +90,8 @@ class TissueModes:
     """What skin and relief (r numbers) may be doing, J modes, the first ``resting`` of them at rest: they settle at
     ``settled`` (J, r, r), each number over ``lasts_s`` (J, r); ``rates`` (J, J) per second of going over from row to
     column, that to the wrist's by how fast the hand turns, in ``turning_rad_s``; looking back, resting skin is pushed
-    ``creep`` times as much; ``elsewhere`` is the chance of each mode but home of tissue just calibrated."""
+    ``creep`` times as much, and all is ``widens`` times as unsure; ``elsewhere`` is the chance of each mode but home of
+    tissue just calibrated."""
 
     settled: FloatArray
     lasts_s: FloatArray
@@ -95,6 +99,7 @@ class TissueModes:
     resting: int
     turning_rad_s: float
     creep: float = 1.0
+    widens: float = 1.0
     elsewhere: float = 0.0
 
     @property
@@ -163,7 +168,9 @@ def resting_or_moving(tissue: SoftTissue) -> TissueModes:
     rates[_MOVING, STILL] = (1.0 - tissue.homing_share) / tissue.dwell_s
     rates[_MOVING, HOME] = tissue.homing_share / tissue.dwell_s
     creep = tissue.rests_s / tissue.creeps_s
-    return TissueModes(settled, lasts_s, rates, 2, tissue.turning_rad_s, creep, tissue.elsewhere_at_start)
+    return TissueModes(
+        settled, lasts_s, rates, 2, tissue.turning_rad_s, creep, tissue.looked_back, tissue.elsewhere_at_start
+    )
 
 
 @lru_cache(maxsize=8)

@@ -274,6 +274,24 @@ def test_looking_back_does_not_reach_over_a_new_beginning() -> None:
     assert found[3] is steps[3].belief
 
 
+def test_resting_tissue_is_averaged_away_by_no_number_of_pictures() -> None:
+    """What displaced tissue has wrong comes again in every picture: looking back states more than if all were new, in
+    the same proportion everywhere, never more than live, and reads the same angles."""
+    steps = [FilterStep(k / 30.0, moving(1), RESTING.at_rest, k > 0) for k in range(30)]
+    as_new = replace(RESTING, tissue=replace(RESTING.tissue, widens=1.0))
+    live = float(np.trace(moving(1).covariance[TURN, TURN]))
+    for found, bold in zip(smoothed_palm(steps, RESTING)[:-1], smoothed_palm(steps, as_new)[:-1], strict=True):
+        assert found is not None
+        assert bold is not None
+        assert np.array_equal(found.value, bold.value)
+        assert np.array_equal(found.rotation_w2_w0, bold.rotation_w2_w0)
+        own, new = (float(np.trace(one.covariance[TURN, TURN])) for one in (found, bold))
+        assert own == pytest.approx(max(new, min(RESTING.tissue.widens * new, live)))
+        assert own > 1.1 * new or own == pytest.approx(live)
+        assert np.allclose(found.covariance / own, bold.covariance / new)
+    assert smoothed_palm(steps, RESTING)[-1] is steps[-1].belief
+
+
 def test_looking_back_goes_by_the_step_that_was_made() -> None:
     """Its noise, the turns that nothing showed, the rate that it began with."""
     now, unseen = moving(1), np.diag([1.0, 0.0, 0.0])
