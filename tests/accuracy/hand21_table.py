@@ -80,9 +80,12 @@ def hand_job_done(job: HandJob) -> HandRun:
 
 
 def hand_jobs(rows: Sequence[HandScenario], seeds: int, pictures: int, first_seed: int = REPORT_SEEDS) -> list[HandJob]:
-    """The rendered recordings first: they take longest."""
+    """As :func:`tests.accuracy.jobs.jobs_for`: pictures where a row wants them, else simulated measurements."""
     out = [HandJob(row, i, "pictures", first_seed) for row in rows if row.pictures for i in range(pictures)]
-    return out + [HandJob(row, i, "blobs", first_seed) for row in rows for i in range(max(1, seeds * row.weight // 2))]
+    by_blobs = [row for row in rows if not (row.pictures and pictures)]
+    return out + [
+        HandJob(row, i, "blobs", first_seed) for row in by_blobs for i in range(max(1, seeds * row.weight // 2))
+    ]
 
 
 def all_hand_runs(jobs: Sequence[HandJob], processes: int) -> list[HandRun]:

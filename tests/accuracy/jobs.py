@@ -50,15 +50,16 @@ def done(job: Job) -> list[Run]:
 
 
 def jobs_for(scenarios: Sequence[Scenario], seeds: int, pictures: int, first: int = REPORT_SEEDS) -> list[Job]:
-    """``seeds`` recordings of every row, seeds from ``first`` on, and ``pictures`` rendered ones where it wants them,
-    these first: they take longest."""
+    """``pictures`` rendered recordings of every row that wants them, these first: they take longest; of every other,
+    and where no pictures are asked for of all, ``seeds`` simulated measurements. Seeds of a row from ``first`` on."""
     out = [
         Job(scenario, seed, "pictures")
         for scenario in scenarios
         if scenario.pictures
         for seed in scenario.seeds(pictures, first)[:pictures]
     ]
-    return out + [Job(scenario, seed, "blobs") for scenario in scenarios for seed in scenario.seeds(seeds, first)]
+    by_blobs = [scenario for scenario in scenarios if not (scenario.pictures and pictures)]
+    return out + [Job(scenario, seed, "blobs") for scenario in by_blobs for seed in scenario.seeds(seeds, first)]
 
 
 def all_runs(jobs: Sequence[Job], processes: int) -> list[Run]:

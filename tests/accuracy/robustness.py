@@ -21,16 +21,15 @@ MOST_SPEED_ERROR = {"angular": 0.05, "linear": 0.03}
 
 
 def robustness_verdicts(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> list[Verdict]:
-    """One for every promise, by the simulated measurements."""
-    blobs = [run for run in runs if run.mode == "blobs"]
-    carpus = [run for run in blobs if run.method == CARPUS]
+    """One for every promise that was run."""
+    carpus = [run for run in runs if run.method == CARPUS]
     if not carpus:
         return []
     return [
         *_troubles(carpus, scenarios),
         *_names(carpus),
         _smoother(carpus, scenarios),
-        *_ratios(blobs, scenarios),
+        *_ratios(runs, scenarios),
         *_speeds(carpus, scenarios),
     ]
 
@@ -109,14 +108,14 @@ def _smoother(carpus: Sequence[Run], scenarios: Sequence[Scenario]) -> Verdict:
     return Verdict("looking back below live in every row", found, not above)
 
 
-def _ratios(blobs: Sequence[Run], scenarios: Sequence[Scenario]) -> list[Verdict]:
+def _ratios(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> list[Verdict]:
     """Against the same filter that was told true names, geometry and noise."""
     out = []
     slow = [scenario for scenario in scenarios if scenario.pool == SLOW]
     for name, rows in (("rest", [s for s in scenarios if s.name == "rest"]), (SLOW, slow)):
         names = {row.name for row in rows}
         mine, bound = (
-            score([run for run in blobs if run.scenario in names and run.method == method], rows[0].columns)
+            score([run for run in runs if run.scenario in names and run.method == method], rows[0].columns)
             if rows
             else None
             for method in (CARPUS, INFORMED)

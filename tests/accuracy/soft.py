@@ -18,14 +18,14 @@ OBLIQUE: dict[str, Any] = {"tilt_deg": 15.0, "tilt_heading_deg": -90.0}
 _EXERCISE_HZ = (0.25, 0.5)
 
 
-def _wrist(name: str, *, pictures: bool = False, **options: Any) -> Scenario:
+def _wrist(name: str, **options: Any) -> Scenario:
     return Scenario(
-        name, {**DRAWN, **options}, _EXERCISE_HZ, trouble=dict(USUAL_TROUBLE), has_bound=False, pictures=pictures
+        name, {**DRAWN, **options}, _EXERCISE_HZ, trouble=dict(USUAL_TROUBLE), has_bound=False, pictures=True
     )
 
 
-def _hand(name: str, *motions: str, pictures: bool = False, **options: Any) -> HandScenario:
-    return HandScenario(name, motions, {**TROUBLE, **DRAWN, **options}, pictures=pictures)
+def _hand(name: str, *motions: str, **options: Any) -> HandScenario:
+    return HandScenario(name, motions, {**TROUBLE, **DRAWN, **options}, pictures=True)
 
 
 SOFT_WRIST = (
@@ -45,7 +45,6 @@ SOFT_WRIST = (
         worn="ring+watch+bandage",
         sleeve="jeans",
         pen_marks=6,
-        pictures=True,
     ),
 )
 SOFT_HAND = (
@@ -65,6 +64,5 @@ SOFT_HAND = (
         worn="ring+watch",
         sleeve="jeans",
         pen_marks=6,
-        pictures=True,
     ),
 )

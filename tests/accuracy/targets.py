@@ -33,19 +33,18 @@ class Verdict:
 
 
 def verdicts(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> list[Verdict]:
-    """One for every promise, by the simulated measurements; those of pictures are too few recordings to judge."""
+    """One for every promise that was run."""
     out: list[Verdict] = []
-    blobs = [run for run in runs if run.mode == "blobs"]
     for pool, limits in MOST_RMSE_DEG.items():
         rows = {scenario.name: scenario for scenario in scenarios if scenario.pool == pool}
-        mine = [run for run in blobs if run.method == CARPUS and run.scenario in rows]
+        mine = [run for run in runs if run.method == CARPUS and run.scenario in rows]
         if not mine:
             continue
         columns = next(iter(rows.values())).columns
         figures = score(mine, columns)
         assert figures is not None
         out += _of_pool(pool, figures, columns, limits)
-    carpus = [run for run in blobs if run.method == CARPUS]
+    carpus = [run for run in runs if run.method == CARPUS]
     if carpus:
         wrong, taken = sum(run.wrong for run in carpus), sum(run.taken for run in carpus)
         share = wrong / max(1, taken)
