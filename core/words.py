@@ -545,6 +545,10 @@ FINDINGS: dict[str, FindingWords] = {
         phrase("There is one more blue spot on the hand than there are names."),
         phrase("Cover the spot with the question mark, or give it its name."),
     ),
+    "near_spot": FindingWords(
+        phrase("Another blue spot lies close to the {markers}: it may be the disc."),
+        phrase("Click the {markers} again in its middle, or cover the other spot."),
+    ),
     "no_palm": FindingWords(
         phrase("No hand has this shape: the {markers} does not lie where the other discs expect it."),
         phrase("Check that a disc was clicked there, and not another blue spot."),

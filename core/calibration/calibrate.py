@@ -136,7 +136,9 @@ def calibrate(
     capture = still_capture(seen(), taken, settings)
     hand = measure_hand(clicks, capture, camera, settings, findings, start_angles_rad)
     if not any(finding.kind in _NAMES_WRONG for finding in hand.verdict.findings):
-        hand = _with_odd_disc(hand, clicks, first, found_px, detector.detect(first), camera, settings, detection)
+        everywhere = detector.detect(first)
+        hand = _with_near_spot(hand, clicks, found_px, radius_px, everywhere, settings)
+        hand = _with_odd_disc(hand, clicks, first, found_px, everywhere, camera, settings, detection)
     calibration = hand.calibration
     if calibration is not None:
         still = [frame for frame in frames if frame.timestamp_s <= first.timestamp_s + capture.lasted_s]
@@ -175,7 +177,31 @@ def _with_odd_disc(
     kind: FindingKind = "other_spot" if odd.fits else "spare_spot" if odd.spot >= 0 else "no_palm"
     spot_px = tuple(map(float, spare_px[odd.spot])) if odd.spot >= 0 else ()
     marker = (names[palm[odd.marker]],) if odd.marker >= 0 else ()
-    verdict = replace(hand.verdict, findings=(*hand.verdict.findings, Finding(kind, marker, spot_px=spot_px)))
+    return _doubted(hand, Finding(kind, marker, spot_px=spot_px))
+
+
+def _with_near_spot(
+    hand: MeasuredHand,
+    clicks: Clicks,
+    found_px: FloatArray,
+    radius_px: FloatArray,
+    everywhere: Detections,
+    settings: CalibrationSettings,
+) -> MeasuredHand:
+    """The measured hand, doubted where a spot that nobody named lies so near to a disc that it may be the disc."""
+    apart = np.linalg.norm(everywhere.pixel[:, None] - found_px[None], axis=-1)
+    # A disc is its own nearest blob.
+    apart[apart.argmin(axis=0)] = np.inf
+    near = apart / radius_px
+    if not near.size or not near.min() < settings.odd_disc.near_radii:
+        return hand
+    spot, marker = np.unravel_index(int(near.argmin()), near.shape)
+    spot_px = tuple(map(float, everywhere.pixel[spot]))
+    return _doubted(hand, Finding("near_spot", (clicks.protocol.markers[marker],), spot_px=spot_px))
+
+
+def _doubted(hand: MeasuredHand, finding: Finding) -> MeasuredHand:
+    verdict = replace(hand.verdict, findings=(*hand.verdict.findings, finding))
     calibration = None if hand.calibration is None else replace(hand.calibration, verdict=verdict)
     return replace(hand, verdict=verdict, calibration=calibration)
 

@@ -24,7 +24,8 @@ class OddDiscSettings:
     to 0.05, discs stuck 4 mm off by up to 0.12. A spot as near to the palm's discs as ``beside``, a share of its
     length, lies on the palm: there is one disc too many. More than ``most_spare`` of these are the discs of a whole
     hand, or a pattern; nobody is asked of each. Spots within ``same_spot_px`` of a disc are that disc; one farther than
-    ``of_the_hand_m`` from the depth of the palm lies on something else.
+    ``of_the_hand_m`` from the depth of the palm lies on something else. One within ``near_radii`` of a disc's middle,
+    in its radii, may be the disc itself.
     """
 
     questioned: float = 0.08
@@ -34,6 +35,7 @@ class OddDiscSettings:
     most_spare: int = 2
     same_spot_px: float = 4.0
     of_the_hand_m: float = 0.06
+    near_radii: float = 1.6
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,6 +27,7 @@ FindingKind = Literal[
     "depth_off",
     "other_spot",
     "spare_spot",
+    "near_spot",
     "no_palm",
 ]
 

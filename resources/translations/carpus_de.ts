@@ -4404,6 +4404,10 @@
         <translation>{markers}: Eine andere blaue Stelle passt besser.</translation>
     </message>
     <message>
+        <source>Another blue spot lies close to the {markers}: it may be the disc.</source>
+        <translation>{markers}: Dicht daneben liegt eine andere blaue Stelle, die der Marker sein könnte.</translation>
+    </message>
+    <message>
         <source>Another program is making {subject} at this moment.</source>
         <translation>Ein anderes Programm erstellt das gerade: {subject}.</translation>
     </message>
@@ -4534,6 +4538,10 @@
     <message>
         <source>Click the marker in the first picture of this recording.</source>
         <translation>Klicken Sie den Marker im ersten Bild dieser Aufnahme an.</translation>
+    </message>
+    <message>
+        <source>Click the {markers} again in its middle, or cover the other spot.</source>
+        <translation>Klicken Sie noch einmal in die Mitte ({markers}), oder decken Sie die andere Stelle ab.</translation>
     </message>
     <message>
         <source>Clock</source>

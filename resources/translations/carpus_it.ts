@@ -4404,6 +4404,10 @@
         <translation>Un altro punto blu corrisponde meglio a: {markers}.</translation>
     </message>
     <message>
+        <source>Another blue spot lies close to the {markers}: it may be the disc.</source>
+        <translation>Un altro punto blu è molto vicino a: {markers}. Potrebbe essere il marcatore.</translation>
+    </message>
+    <message>
         <source>Another program is making {subject} at this moment.</source>
         <translation>In questo momento un altro programma sta creando {subject}.</translation>
     </message>
@@ -4542,6 +4546,10 @@
     <message>
         <source>Click the marker in the first picture of this recording.</source>
         <translation>Fare clic sul marcatore nella prima immagine di questa registrazione.</translation>
+    </message>
+    <message>
+        <source>Click the {markers} again in its middle, or cover the other spot.</source>
+        <translation>Rifare il clic al centro ({markers}), o coprire l'altro punto.</translation>
     </message>
     <message>
         <source>Clock</source>

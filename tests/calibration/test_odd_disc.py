@@ -15,7 +15,7 @@ from carpus.core.detection.settings import DetectionSettings
 from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.types import FloatArray, Side
 from tests.calibration.still_hands import Scene, clicks_on, frames_of
-from tests.detection.pictures import CAMERA, PAPERS, Extra
+from tests.detection.pictures import CAMERA, PAPERS, SKIN, Extra
 
 SIDES: tuple[Side, Side] = ("right", "left")
 NO_SPOT = np.empty((0, 2))
@@ -64,6 +64,24 @@ def test_a_blue_thing_away_from_the_palm_is_nobody_s_affair() -> None:
     scene = Scene()
     away = scene.discs_px.min(axis=0) + [-38.0, 60.0]
     assert odd_kinds(judged(scene, scene.discs_px, away)) == []
+
+
+@pytest.mark.parametrize(("radii", "told"), [(1.2, True), (2.6, False)])
+def test_a_spot_that_nobody_named_close_to_a_disc_is_told(radii: float, told: bool) -> None:
+    """Either may be the disc: a ring finger's knuckle was measured on the wrong of two, and nothing was said."""
+    scene = Scene()
+    radius_px = CAMERA.fx_px * 0.006 / scene.distance_m
+    u, v = scene.discs_px[0]
+    spot = Extra((float(u + radii * radius_px), float(v)), 0.5 * radius_px, PAPERS["blue"])
+    frames = frames_of(scene, extras=(spot,))
+    for one in frames:  # a line of skin between the two
+        left, right = (round(u + (radii + by) * radius_px) for by in (-0.85, -0.4))
+        one.color_rgb[round(v) - 6 : round(v) + 7, left:right] = SKIN
+    outcome = calibrate(clicks_on(scene), frames, CAMERA, CalibrationSettings(), DetectionSettings())
+    near = [finding for finding in outcome.verdict.findings if finding.kind == "near_spot"]
+    assert [finding.markers for finding in near] == ([("WRIST",)] if told else [])
+    assert all(np.linalg.norm(np.array(finding.spot_px) - spot.pixel) < 1.5 for finding in near)
+    assert outcome.verdict.can_start
 
 
 @pytest.mark.parametrize("side", SIDES)

@@ -12,6 +12,7 @@ from carpus.core.camera import Camera
 from carpus.core.detection.appearance import MarkerAppearance, learn_appearance
 from carpus.core.detection.detector import Detector, Region
 from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.touching import TouchingSettings, split_touching
 from carpus.core.types import Detections, FloatArray
 from tests.detection.pictures import (
     CAMERA,
@@ -183,6 +184,35 @@ def test_predicted_region_holds_every_disc_and_little_more() -> None:
     wider = detector.region_about(PALM_PX, 16.0 * covariance, np.full(6, DISTANCE_M))
     assert wider.left < region.left
     assert wider.bottom > region.bottom
+
+
+def test_an_unsure_hand_is_looked_for_only_so_far_away() -> None:
+    settings = DetectionSettings(most_unsure_px=60.0)
+    detector = Detector(learnt(Look(), np.random.default_rng(13))[0], CAMERA, settings)
+    middle = np.array([[0.5 * CAMERA.width_px, 0.5 * CAMERA.height_px]])
+    found = [detector.region_about(middle, sd_px**2 * np.eye(2)[None], np.array([DISTANCE_M])) for sd_px in (5.0, 1e4)]
+    assert found[0].right - found[0].left < found[1].right - found[1].left, "at 5 pixels it is not the limit"
+    disc_px = CAMERA.fx_px * settings.marker_radius_m / DISTANCE_M
+    reach_px = settings.most_unsure_px + 2.2 * disc_px + 3.0
+    assert found[1].right - found[1].left == pytest.approx(2.0 * reach_px, abs=2.5)
+    assert found[1].bottom - found[1].top == pytest.approx(2.0 * reach_px, abs=2.5)
+
+
+@pytest.mark.parametrize(
+    ("apart_radii", "bar_radii", "parts"), [(0.7, 0.0, 0), (1.3, 0.0, 2), (0.0, 2.65, 0), (0.0, 3.0, 2)]
+)
+def test_a_blob_longer_than_a_disc_is_taken_apart(apart_radii: float, bar_radii: float, parts: int) -> None:
+    """Two discs over each other by their scatter, a bar by its length: beyond 2.8 radii it is more than one disc."""
+    radius_px = 20.0
+    v, u = np.mgrid[:120, :160]
+    if bar_radii:
+        is_blob = (np.abs(u - 70) <= 0.5 * bar_radii * radius_px) & (np.abs(v - 60) <= 3)
+    else:
+        is_blob = np.hypot(u - 60, v - 60) <= radius_px
+        is_blob |= np.hypot(u - 60 - apart_radii * radius_px, v - 60) <= radius_px
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(is_blob.astype(np.uint8), ltype=cv2.CV_16U)
+    found = split_touching(labels, stats, np.full(2, radius_px), TouchingSettings())
+    assert [len(own) for _, own, _ in found] == ([parts] if parts else [])
 
 
 def test_nothing_is_found_where_nothing_is() -> None:

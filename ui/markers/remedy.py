@@ -25,7 +25,7 @@ def remedy_of(verdict: Verdict, *, is_live: bool) -> Remedy:
         return "correct"
     if "other_spot" in kinds:
         return "take_spot"
-    if "no_palm" in kinds:
+    if kinds & {"no_palm", "near_spot"}:
         return "click_these"
     if is_live and kinds & set(_PICTURE):
         return "new_picture"

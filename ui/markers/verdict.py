@@ -31,10 +31,11 @@ MARKER_FINDINGS = (
     "depth_off",
     "other_spot",
     "spare_spot",
+    "near_spot",
     "no_palm",
 )
 NAMES_WRONG = ("shifted", "swapped", "misnamed", "wrong_side")
-DISC_DOUBTED = ("other_spot", "no_palm", "spare_spot")
+DISC_DOUBTED = ("other_spot", "no_palm", "spare_spot", "near_spot")
 STILL_FINDINGS = ("moved", "few_frames")
 
 
