@@ -1,0 +1,90 @@
+"""The filter is as sure as it may be: innovations and errors against their stated covariances, motion by motion.
+
+NIS: innovation against its covariance, per measured component; NEES: the turn's and the place's error against theirs,
+per axis. Both are 1 on average when all is stated as it is. A hand's motion is no white acceleration: at rest and at
+ends of strokes the filter allows for more than happens, so the averages may lie below 1, and hardly above.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from carpus.core.depth_sensor import PRIMESENSE
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import FloatArray
+from tests.tracking.hands import CAMERA, DT_S, RIGID, Motion, Pose, blobs, calibration, rotation_of, swing
+
+PIXEL_SD_PX = 0.15
+DEPTH_SD_M = float(np.hypot(PRIMESENSE.reading_sd_m(np.array(0.7)), PRIMESENSE.stays_sd_m(np.array(0.7))))
+SECONDS, RUNS, SETTLED = 4.0, 2, 15
+HIDDEN_SHARE = 0.1
+MOTIONS: dict[str, Motion] = {
+    "rest": lambda _time_s: Pose(),
+    "slow deviation": swing(0, 25.0, 0.4),
+    "slow flexion": swing(1, 50.0, 0.4),
+    "slow pro/supination": swing(2, 35.0, 0.4),
+    "fast deviation": swing(0, 25.0, 1.7),
+}
+
+
+def consistency(motion: Motion, settings: TrackerSettings, noise: float = 1.0) -> tuple[float, float, float]:
+    """Mean NIS per component, and mean NEES per axis of turn and of place, over some runs of a well known palm.
+
+    ``noise`` of the measurements over what the settings say of it.
+    """
+    nis, dof, turn, place = 0.0, 0, [], []
+    for seed in range(RUNS):
+        rng = np.random.default_rng(seed)
+        tracker = Tracker(calibration(sd_m=1e-4), CAMERA, settings)
+        for i in range(round(SECONDS / DT_S)):
+            pose = motion(i * DT_S)
+            found = blobs(
+                pose,
+                rng,
+                hidden=np.flatnonzero(rng.random(6) < HIDDEN_SHARE),
+                pixel_sd_px=noise * PIXEL_SD_PX,
+                depth_sd_m=noise * DEPTH_SD_M,
+            )
+            frame = tracker.step(i, i * DT_S, found)
+            belief = tracker.record.history[-1].belief
+            if i < SETTLED or belief is None:
+                continue
+            if frame.nis_dof:
+                nis, dof = nis + frame.nis, dof + frame.nis_dof
+            error = Rotation.from_matrix(belief.rotation_w2_w0.T @ rotation_of(*pose.angles_deg)).as_rotvec()
+            turn.append(normalised(error, belief.covariance[6:9, 6:9]))
+            place.append(normalised(pose.position_m - belief.position_m, belief.covariance[:3, :3]))
+    return nis / dof, float(np.mean(turn)), float(np.mean(place))
+
+
+def normalised(error: FloatArray, covariance: FloatArray) -> float:
+    return float(error @ np.linalg.solve(covariance, error)) / error.size
+
+
+def told(**noise: float) -> TrackerSettings:
+    """Settings that know the palm's depths to be right, with other choices about noise."""
+    settings = RIGID
+    return replace(settings, noise=replace(settings.noise, depth_stays_m=0.0, **noise))
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_filter_is_neither_bold_nor_timid(name: str) -> None:
+    nis, turn, place = consistency(MOTIONS[name], told())
+    assert 0.7 < nis < 1.1
+    assert 0.6 < turn < 1.25
+    assert 0.6 < place < 1.25
+
+
+def test_noise_twice_as_large_as_stated_is_found_out() -> None:
+    """Without the watch on the residuals the filter would be far too bold."""
+    blind = consistency(MOTIONS["slow flexion"], told(most_adapted=1.0, least_adapted=1.0, outlier_sd=1e3), noise=2.0)
+    watchful = consistency(MOTIONS["slow flexion"], told(), noise=2.0)
+    assert blind[0] > 1.6
+    assert blind[1] > 2.0
+    assert watchful[0] < 1.2
+    assert watchful[1] < 1.6
