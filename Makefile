@@ -7,7 +7,7 @@ export OMP_NUM_THREADS := 1
 
 PACKAGE_PY := $(or $(PYTHON),python3)
 
-.PHONY: run test lint pytest bench accuracy validation torture screenshots fresh package package-test windows-test release docs translations setup setup-test lock clean
+.PHONY: run test lint pytest coverage bench accuracy validation torture screenshots fresh package package-test windows-test release docs translations setup setup-test lock clean
 
 run: setup                      ## the application on a simulated camera and patient
 	.venv/bin/carpus demo
@@ -22,6 +22,9 @@ lint: setup-test                ## style, types, layers
 
 pytest: setup-test
 	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup
+
+coverage: setup-test            ## how much of the code the tests reach, half as long again as the tests alone
+	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup --cov --cov-report=term:skip-covered $(ARGUMENTS)
 
 bench: setup-test               ## cost per frame and of the screen
 	$(PY) -m tests.bench
@@ -55,7 +58,7 @@ docs: build/docs-tools/ready    ## the documentation as a site, into build/site;
 
 build/docs-tools/ready: requirements-docs.lock
 	$(PACKAGE_PY) -m venv --clear build/docs-tools
-	build/docs-tools/bin/python -m pip install --disable-pip-version-check --progress-bar off -q -r requirements-docs.lock
+	build/docs-tools/bin/python -m pip install --disable-pip-version-check --progress-bar off -q --require-hashes -r requirements-docs.lock
 	touch $@
 
 translations: setup-test        ## texts of the sources into resources/translations; says how many are missing

@@ -12,8 +12,9 @@ pin() {
     "$tools/bin/pip-compile" --quiet --upgrade --strip-extras --annotation-style=line --no-emit-index-url \
         --no-emit-find-links --no-emit-trusted-host --no-emit-options "$@" pyproject.toml
 }
+lowest=3.11
 with_hashes() {  # of the pins of some locks, each with the hash of every file of it, into the last
-    "$tools/bin/uv" pip compile --quiet --generate-hashes --no-header --no-annotate --universal --python-version 3.11 \
+    "$tools/bin/uv" pip compile --quiet --generate-hashes --no-header --no-annotate --universal --python-version "$lowest" \
         --no-deps --native-tls "${@:1:$#-1}" --output-file "${@: -1}"
 }
 if [ "${1:-}" != hashes ]; then
@@ -22,3 +23,4 @@ if [ "${1:-}" != hashes ]; then
 fi
 with_hashes requirements-dev.lock requirements-alone.lock requirements-build.lock installer/hashes.lock
 with_hashes requirements.lock installer/package/tools.lock installer/package/cameras.lock installer/package/hashes.lock
+lowest=3.12 with_hashes requirements-docs.lock requirements-docs.lock  # one of its tools wants 3.11.5

@@ -93,7 +93,7 @@ passing() {
     awk -v pattern="$1" -v name="$2" -v terminal="$terminal" '
         $0 ~ pattern { count++
             if (terminal) { printf "\rsetup: %s, step %d: %-60.60s", name, count, $0; fflush() }
-            else if (count % 25 == 1) { printf "setup: %s, step %d\n", name, count; fflush() } }
+            else if (count % 10 == 1) { printf "setup: %s, step %d\n", name, count; fflush() } }
         END { if (terminal && count) printf "\n" }'
 }
 
@@ -132,7 +132,7 @@ if ! .venv/bin/python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/d
     "$python" -m venv --clear .venv
 fi
 rm -f .venv/.ready-for-*
-install() { .venv/bin/python -m pip install --disable-pip-version-check --progress-bar off "$@" | passing "^(Collecting|Downloading|Installing)" pip; }
+install() { .venv/bin/python -m pip install --disable-pip-version-check --progress-bar off "$@" | passing "^(Collecting|Processing|Downloading|Installing)" pip; }
 # Each file must have a hash of installer/hashes.lock; what builds Carpus itself is among them.
 locks=("$lock" requirements-build.lock)
 [ "$purpose" = run ] || locks+=(requirements-alone.lock)

@@ -7,6 +7,7 @@ import dataclasses
 import json
 import multiprocessing
 import shutil
+import signal
 import tempfile
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
@@ -263,6 +264,7 @@ _worker: list[tuple[SimulatedPictures, Path]] = []
 
 
 def _begin_worker(spec: RecordingSpec, folder: Path) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C reaches all: who asked for pictures says when to stop
     _worker.append((SimulatedPictures(spec), folder))
 
 

@@ -140,7 +140,7 @@ def write_deb(folder: Path, python: Path, number: str) -> Path:
         python, "-P", "-c",
         "import sys; sys.path.insert(0, sys.argv[1]); from man_page import man_page; from carpus import __version__;"
         "from carpus.app.commands import COMMANDS; from carpus.core.capture.cameras import udev_rules;"
-        "print(man_page(__version__, sys.argv[2], COMMANDS), udev_rules(), sep='\0', end='')",
+        "print(man_page(__version__, sys.argv[2], COMMANDS), udev_rules(), sep=chr(0), end='')",
         HERE, date,
     )  # fmt: skip
     page, _, rules = told.partition("\0")

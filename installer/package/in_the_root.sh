@@ -29,7 +29,8 @@ doctor orbbec; grep -q 'carpus-cameras-extra' "$out/doctor-orbbec.txt" || fail "
 apt-get install -y -qq --no-install-recommends /srv/extra.deb >/dev/null
 doctor orbbec; grep -q '^ok  *Orbbec driver' "$out/doctor-orbbec.txt" || fail "no Orbbec driver"
 grep -q '^ok  *Camera rights' "$out/doctor-orbbec.txt" || fail "no rights for Orbbec"
-as_clinician carpus track /home/clinician/no.mkv --calibration no.json --output no.h5 2>&1 | grep -q 'Python package av' && fail "no .mkv"
+echo no video >/home/clinician/no.mkv
+as_clinician carpus track /home/clinician/no.mkv --calibration no.json --output no.h5 2>&1 | tee -a "$out/doctor-orbbec.txt" | grep -q damaged || fail "no .mkv"
 say "RealSense and, by the second package ($(dpkg-query --show --showformat='${Installed-Size}' carpus-cameras-extra) kB), Orbbec are there"
 
 # --- what the system knows of it --------------------------------------------------------------------------------

@@ -6,6 +6,7 @@ import dataclasses
 import errno
 import hashlib
 import json
+import signal
 from pathlib import Path
 
 import h5py
@@ -15,7 +16,14 @@ import pytest
 from carpus.core.capture.tum import TumFolder
 from carpus.core.errors import OutputExists
 from carpus.core.simulation.measurements import measurement_sequence
-from carpus.core.simulation.recording import TRUTH_FILE, cached_recording, clicks_of, simulate, truth_in
+from carpus.core.simulation.recording import (
+    TRUTH_FILE,
+    _rendering_processes,
+    cached_recording,
+    clicks_of,
+    simulate,
+    truth_in,
+)
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.trouble import covered_discs, false_blobs, frame_times
@@ -203,3 +211,10 @@ def test_measurements_repeat_and_can_be_free_of_noise() -> None:
     assert len(clean.detections[closing]) < len(clean.detections[0]) - 4  # the fist hides the finger ends
     for blobs, marker, pixel in zip(clean.detections, clean.marker, clean.truth.disc_pixel, strict=True):
         np.testing.assert_allclose(blobs.pixel, pixel[marker], atol=1e-9)
+
+
+def test_ctrl_c_is_left_to_whoever_asked_for_pictures(tmp_path: Path) -> None:
+    processes = _rendering_processes(SPEC, tmp_path, 1)
+    assert processes is not None
+    with processes:
+        assert processes.submit(signal.getsignal, signal.SIGINT).result() == signal.SIG_IGN
