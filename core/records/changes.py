@@ -13,13 +13,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass, field
 from typing import Any, Literal
 
-from sqlalchemy import Connection, RowMapping, Table, delete, func, insert, select, update
+from sqlalchemy import Column, Connection, RowMapping, Table, delete, func, insert, select, update
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.exc import IntegrityError
 
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, PseudonymTaken
 from carpus.core.records.schema import PATIENT, SESSION, SHARED, TOMBSTONE
 
+NOWHERE = "lost/"
+"""Begins the path of a session in whose place a file of another lies, and whose own was not found."""
 PRACTICE = "practice"
 """Identity of the practice patient, of whom simulated sessions count, and who is on no server."""
 
@@ -104,6 +106,10 @@ def make(connection: Connection, change: Change) -> None:
     transaction must end without effect.
     """
     owners: set[str] = set()
+    if change and change[0].way == "join":
+        _join(connection, change)
+        owners = {row.values["patient_id"] for row in change if row.table == "session" and row.values["patient_id"]}
+        change = ()
     for row in change:
         if row.table == "session":
             before = connection.execute(select(SESSION.c.patient_id).where(SESSION.c.id == row.id)).scalar()
@@ -141,19 +147,34 @@ def _kept(connection: Connection, table: Table, row: Row) -> None:
     connection.execute(these.on_conflict_do_update(index_elements=["id"], set_=then))
 
 
-def _joined(connection: Connection, table: Table, row: Row) -> None:
-    of = [row.id, *(row.values[name] for name in ("patient_id", "session_id") if row.values.get(name))]
-    if connection.execute(select(TOMBSTONE.c.id).where(TOMBSTONE.c.id.in_(of))).first() is not None:
-        return  # erased, and not to be brought back by a copy that is older
-    made = postgresql.insert(table).values(id=row.id, **row.values)
-    connection.execute(made.on_conflict_do_nothing(index_elements=["id"]))
-
-
 def _dropped(connection: Connection, table: Table, row: Row) -> None:
     connection.execute(delete(table).where(table.c.id == row.id))
 
 
-_MAKING = {"new": _new, "change": _changed, "keep": _kept, "drop": _dropped, "join": _joined}
+_MAKING = {"new": _new, "change": _changed, "keep": _kept, "drop": _dropped}
+
+
+def _join(connection: Connection, change: Change) -> None:
+    """Rows of one table of a copy, those that a server has not and never had: what was erased does not come back by a
+    copy that is older. A file of another name lies where such a path leads already."""
+    table, ids = SHARED[change[0].table], [row.id for row in change]
+    known = {*_those(connection, TOMBSTONE.c.id, ids), *_those(connection, table.c.id, ids)}
+    rows = [{"id": row.id, **row.values} for row in change if row.id not in known]
+    for key in table.foreign_keys:
+        of = key.parent.name
+        there = _those(connection, key.column, [row[of] for row in rows if row[of]])
+        rows = [row for row in rows if not row[of] or row[of] in there]
+    if table is PATIENT and (taken := _those(connection, PATIENT.c.folded, [row["folded"] for row in rows])):
+        raise PseudonymTaken(next(row["pseudonym"] for row in rows if row["folded"] in taken))
+    if table is SESSION:
+        taken = _those(connection, SESSION.c.path, [row["path"] for row in rows])
+        rows = [row | {"path": f"{NOWHERE}{row['id']}"} if row["path"] in taken else row for row in rows]
+    if rows:
+        connection.execute(insert(table), rows)
+
+
+def _those(connection: Connection, column: Column[Any], values: Sequence[Any]) -> set[Any]:
+    return set(connection.scalars(select(column).where(column.in_(values))))
 
 
 def is_practice(connection: Connection, row: Row) -> bool:

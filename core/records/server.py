@@ -29,7 +29,7 @@ from carpus.core.records.changes import PRACTICE, Change, is_practice, joining, 
 from carpus.core.records.changes import Row as Changed
 from carpus.core.records.database import Database, up_to_date
 from carpus.core.records.outbox import lay_out
-from carpus.core.records.schema import COPIED, DEED, DELIVERED, OUTBOX, OWN, PATIENT, SEEN, SESSION, SHARED, TOMBSTONE
+from carpus.core.records.schema import COPIED, DEED, DELIVERED, OUTBOX, OWN, SEEN, SESSION, SHARED, TOMBSTONE
 
 LOOK_S, RETRY_S, KEEP_DELIVERED_S = 2.0, 5.0, 90 * 86_400.0
 AT_ONCE, PAGE = 500, 5000
@@ -157,10 +157,10 @@ class Server:
             up_to_date(there, self._name)
         with self._copy.writing() as connection:
             for table in SHARED.values():
-                rows = connection.execute(select(table)).mappings().all()
-                mine = [row for row in joining(table, rows) if not is_practice(connection, row)]
-                for start in range(0, len(mine), AT_ONCE):
-                    lay_out(connection, mine[start : start + AT_ONCE], uuid.uuid4().hex)
+                for rows in connection.execute(select(table)).mappings().partitions(AT_ONCE):
+                    mine = [row for row in joining(table, rows) if not is_practice(connection, row)]
+                    if mine:
+                        lay_out(connection, mine, uuid.uuid4().hex)
             for key, value in (("server", known), ("step", "0")):
                 made = sqlite.insert(OWN).values(name=key, value=value)
                 connection.execute(made.on_conflict_do_update(index_elements=["name"], set_={"value": value}))
@@ -218,23 +218,25 @@ class Server:
     def _send(self, change_id: str, change: Change) -> None:
         """Make a change there, once. A new patient whose pseudonym somebody else has taken meanwhile is not lost: a
         number is put to the name, which is told."""
-        taken = ""
-        for number in range(1, MOST_NAMESAKES):
+        given = dict[str, int]()
+        while True:
+            sent = [_numbered(row, given[row.id]) if row.id in given else row for row in change]
             try:
                 with self._engine.begin() as there:
                     taken_down = postgresql.insert(DELIVERED).values(id=change_id, at_s=time.time())
                     there.execute(text("SELECT pg_advisory_xact_lock(2026)"))  # one at a time, before any row is held
                     if there.execute(taken_down.on_conflict_do_nothing().returning(DELIVERED.c.id)).first():
-                        make(there, change if number == 1 else _numbered(change, number))
+                        make(there, sent)
             except PseudonymTaken as fault:
-                if not any(row.table == "patient" and row.way in ("new", "join") for row in change):
-                    raise
-                taken = fault.subject
-                continue
-            if number > 1:
-                self._tell(PseudonymGiven(taken, f"{number}"))
+                names = {row.values.get("pseudonym"): row.id for row in sent if row.way in ("new", "join")}
+                if (patient_id := names.get(fault.subject, "")) and given.get(patient_id, 1) < MOST_NAMESAKES:
+                    given[patient_id] = given.get(patient_id, 1) + 1
+                    continue
+                raise
+            for row in change:
+                if row.id in given:
+                    self._tell(PseudonymGiven(row.values["pseudonym"], f"{given[row.id]}"))
             return
-        raise ChangeRefused(self._name, "")
 
     def _as_there(self, change: Change) -> list[tuple[Changed, dict[str, Any] | None]]:
         """Rows of a refused change, as the server has them."""
@@ -316,13 +318,10 @@ def _put(connection: Connection, name: str, rows: Sequence[dict[str, Any]]) -> N
     connection.execute(made.on_conflict_do_update(index_elements=["id"], set_=values), rows)
 
 
-def _numbered(change: Change, number: int) -> Change:
-    """The same with a number behind the pseudonym of each new patient."""
-
-    def name(values: dict[str, Any]) -> dict[str, Any]:
-        return values | {key: f"{values[key]} ({number})" for key in ("pseudonym", "folded") if key in values}
-
-    return [replace(row, values=name(dict(row.values))) if row.table == PATIENT.name else row for row in change]
+def _numbered(row: Changed, number: int) -> Changed:
+    """A new patient with a number behind the pseudonym."""
+    named = {name: f"{row.values[name]} ({number})" for name in ("pseudonym", "folded")}
+    return replace(row, values={**row.values, **named})
 
 
 def _cut(line: Any) -> None:

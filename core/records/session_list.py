@@ -20,7 +20,7 @@ from carpus.core.names import folded
 from carpus.core.phrase import phrase
 from carpus.core.private import make_private
 from carpus.core.records import changes
-from carpus.core.records.changes import PRACTICE, changed, kept, new
+from carpus.core.records.changes import NOWHERE, PRACTICE, changed, kept, new
 from carpus.core.records.patients import Patients, columns
 from carpus.core.records.schema import PATIENT, SEEN, SESSION
 from carpus.core.records.seen_files import COPY, Seen, can_be_stored, files_there, remembered, stored
@@ -32,8 +32,6 @@ from carpus.core.types import Side
 
 MOST_LETTERS = 40
 """Of a pseudonym in a file's name, which no system lets be as long as one likes."""
-NOWHERE = "lost/"
-"""Begins the path of a session in whose place a file of another lies, and whose own was not found."""
 TRIALS_FOLDER = "corrections"
 """In the data folder: sessions tracked again that nobody has decided about."""
 AT_ONCE = 500

@@ -25,7 +25,7 @@ from carpus.core.records.schema import COMMENT, DEED, OUTBOX, OWN, PATIENT, SESS
 from carpus.core.records.server import Server
 from carpus.core.records.values import PatientEntry, Rebuilt
 from tests.records.postgres import Cluster
-from tests.records.samples import HERON, LINDEN, LONG_S, T0, measure, opened, settled, traces, until, waiting
+from tests.records.samples import HERON, LINDEN, LONG_S, T0, measure, opened, record, settled, traces, until, waiting
 from tests.torture.wire import Wire
 
 
@@ -286,6 +286,25 @@ def test_a_computer_that_joins_brings_what_it_has(tmp_path: Path, there: str) ->
         settled(a)
         assert count(there, "deed") == 1
         assert b.patients.one(linden).session_count == 1
+
+
+def test_of_what_a_computer_brings_only_a_name_that_is_taken_gets_a_number(tmp_path: Path, there: str) -> None:
+    told: list[CarpusFault] = []
+    for name in ("a", "b"):
+        with opened(tmp_path / name) as house:
+            linden, own = house.patients.add(LINDEN), house.patients.add(PatientEntry(f"Oak {name}", "left"))
+            record(house.store.sessions_folder / "s.h5", f"Oak {name}", T0)
+            house.files.take_in()
+            of_sessions.add_comment(house.store, measure(house, linden, T0), name, "AB")
+            assert house.patients.one(own).session_count == 1
+        with opened(tmp_path / name, there, told.append) as house:
+            settled(house)
+    with opened(tmp_path / "c", there) as house:
+        until(lambda: len(house.names()) == 4)
+        assert sorted(house.names()) == ["Linden 42", "Linden 42 (2)", "Oak a", "Oak b"]
+        assert {one.session_count for one in house.patients.listed()} == {1}
+        assert sorted(row.text for row in house.store.rows(select(COMMENT))) == ["a", "b"]
+    assert [type(one) for one in told] == [PseudonymGiven]
 
 
 def test_a_copy_that_joins_again_brings_back_nobody_who_was_erased(tmp_path: Path, there: str) -> None:
