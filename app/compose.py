@@ -416,6 +416,7 @@ def write_log() -> None:
         handler = logging.NullHandler()
     handler.setFormatter(LINES)
     logging.basicConfig(level=logging.INFO, handlers=[handler])
+    logging.getLogger("alembic").setLevel(logging.WARNING)  # how the store is set up says nothing to a person
 
 
 def with_data_folder(settings: Settings, folder: Path | None) -> Settings:

@@ -14,7 +14,7 @@ from carpus.ui.translate import tr
 DEFAULT_KEYS = {
     "help": "F1", "settings": "Ctrl+,", "lock": "Ctrl+L", "search": "Ctrl+F", "new_patient": "Ctrl+N",
     "report": "Ctrl+P",
-    "export": "Ctrl+E", "back": "Esc",
+    "export": "Ctrl+E", "back": "Esc", "quit": "Ctrl+Q",
     "record": "Space", "note": "F5", "pain": "F6", "pause": "F7", "overlay": "F8", "whole_picture": "F9",
     "patient_view": "Shift+F11", "large_view": "F11",
     "speeds": "F4", "next_angle": "F2", "next_finger": "F3", "side_view": "Shift+F8",
@@ -78,7 +78,8 @@ def action_words(name: str) -> str:
     words = {
         "help": tr("Help"), "settings": tr("Settings"), "lock": tr("Lock"), "search": tr("Search for a patient"),
         "new_patient": tr("New patient"), "report": tr("Report"), "export": tr("Export"),
-        "back": tr("Go back"), "record": tr("Record, and stop and review"), "note": tr("Note"),
+        "back": tr("Go back"), "quit": tr("Close Carpus"), "note": tr("Note"),
+        "record": tr("Record, and stop and review"),
         "pain": tr("Pain score"), "pause": tr("Pause and go on"),
         "overlay": tr("Hide or show the marks on the picture"),
         "whole_picture": tr("Whole picture or hand area"), "speeds": tr("Speeds or angles"),

@@ -211,6 +211,8 @@ class BackingUp(QObject):
             first = self.tr("The last back-up is {days} days old.").format(days=days)
             headline = f"{first if days > 1 else self.tr('The last back-up is of {day}.').format(day=age)} {rest}"
             facts = self.tr("{when} · {n} sessions, {size} GB · read back and compared: all equal")
+            if last.sessions == 1:
+                facts = self.tr("{when} · 1 session, {size} GB · read back and compared: all equal")
             size = numbers.fixed(last.size_bytes / 1e9, 2) if last.size_bytes < 1e10 else f"{last.size_bytes / 1e9:.0f}"
             detail = facts.format(when=numbers.report_date(last.made.astimezone()), n=last.sessions, size=size)
             more = self.tr("Reminder after {days} days.").format(days=self._settings.remind_days)

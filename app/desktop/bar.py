@@ -115,7 +115,7 @@ class Bar(QObject):
             return
         if place == "review" and self._review.saved_at is not None:
             camera.show_state("good", self.tr("Saved {time}").format(time=f"{self._review.saved_at:%H:%M}"))
-        elif now.kind == "practice" and (self._is_demo or now.source is not None):
+        elif now.kind == "practice" and (self._is_demo or now.source is not None or place in STEPS):
             camera.show_state("good", self.tr("Simulated camera"))
         elif now.kind == "file" and now.source is not None:
             name = Path(now.choice.path).name

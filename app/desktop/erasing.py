@@ -73,6 +73,7 @@ class Erasing(QObject):
                 size_mb=plan.size_bytes / 1e6,
                 made=tuple(str(one.path) for one in plan.made if one.state != "not_found"),
                 others=plan.others,
+                by_hand=self._records.values_by_hand(plan.patient_id) if plan.kind == "patient" else 0,
                 last_backup=self._last_backup(),
                 kept_until=kept_until(last, years) if last is not None else None,
                 retention_years=years,
@@ -121,17 +122,21 @@ class Erasing(QObject):
 
     def _bring_back(self, identity: str) -> None:
         self._journey.background.run(
-            lambda: self._records.bring_back(identity), lambda _: self.show_again(), self._journey.teller.fault, self
+            lambda: self._records.bring_back(identity),
+            lambda _: self.show_again(identity),
+            self._journey.teller.fault,
+            self,
         )
 
-    def show_again(self) -> None:
-        """The list that is shown, with what is in it now."""
+    def show_again(self, chosen: str = "") -> None:
+        """The list that is shown, with what is in it now; ``chosen`` the patient or session that is to be chosen."""
         journey = self._journey
         journey.sessions.changed.emit()
         if journey.place == "sessions" and journey.patient is not None:
+            journey.now.session_id = chosen or journey.now.session_id
             journey.viewing.open_sessions(journey.patient.patient_id)
         elif journey.place == "patients":
-            journey.patients.refresh()
+            journey.patients.refresh(chosen)
 
     def _refused(self, single: bool, fault: Exception) -> None:
         """Some of it may be gone all the same."""

@@ -78,7 +78,7 @@ from carpus.ui.theme import Theme
 
 MEASURING = ("camera", "markers", "live")
 """Where an open camera or recording is measured with; behind the review it only waits for another set."""
-ALL_KEYS = ("help", "settings", "search", "new_patient", "back")
+ALL_KEYS = ("help", "settings", "search", "new_patient", "back", "quit")
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,7 +227,7 @@ class Journey(QObject):
         up_from_sessions = self._past_strips(self.sessions, self._to_patient)
         put("sessions", Stop(self.sessions, self.sessions.first, up_from_sessions))
         put("review", Stop(self.review, first(self.review), self._to_patient, self.review.end))
-        put("progress", Stop(self.progress, first(self.progress), self._to_session))
+        put("progress", Stop(self.progress, first(self.progress), self._up_from_progress))
         put("by_hand", Stop(self.by_hand, self.by_hand.first, self.entering_by_hand.leave))
         put("report", Stop(self.report, lambda: self.report.save_button, self._up_from_report))
         put("correct", Stop(self.correct, first(self.correct), self._to_session, while_aside=True))
@@ -385,6 +385,13 @@ class Journey(QObject):
         else:
             self._to_session()
 
+    def _up_from_progress(self) -> None:
+        """Where one came from: the list of patients, or the session."""
+        if self.way.came_from("progress") == "patients":
+            self._to_patient()
+        else:
+            self._to_session()
+
     def _to_progress(self) -> None:
         if self.now.patient is not None:
             self.viewing.open_progress(self.now.patient.patient_id)
@@ -513,8 +520,9 @@ class Journey(QObject):
             (self.setting_up.up_from_markers if self.place == "markers" else self.setting_up.up_to_camera)()
 
     def _take_key(self, name: str) -> None:
-        actions: dict[str, Callable[[], None]] = {"back": self._escape, "help": self._open_guide}
+        actions: dict[str, Callable[[], object]] = {"back": self._escape, "help": self._open_guide}
         actions["settings"] = self.settings_wanted.emit
+        actions["quit"] = self._shell.close
         if self.place == "patients":
             actions["search"] = lambda: self.patients.search.setFocus(Qt.FocusReason.ShortcutFocusReason)
             actions["new_patient"] = self.patients.new_patient

@@ -42,6 +42,7 @@ class Navigator(QObject):
         self._stops: dict[Place, Stop] = {}
         self._place: Place = "patients"
         self._before_aside: Place = "patients"
+        self._came: dict[Place, Place] = {}
 
     @property
     def place(self) -> Place:
@@ -62,10 +63,16 @@ class Navigator(QObject):
         old, new = self._stops.get(self._place), self._stops[place]
         if old is not None and place != self._place and not (old.while_aside and place in ASIDE):
             old.leave()
+        if place != self._place and self._place not in ASIDE:
+            self._came[place] = self._place
         self._place = place
         self.leaving.emit(place)
         self._shell.show_screen(new.screen, new.first())
         self.arrived.emit(place)
+
+    def came_from(self, place: Place) -> Place:
+        """From where a place was last gone to, help and settings aside."""
+        return self._came.get(place, "patients")
 
     def may_aside(self) -> bool:
         """Whether help and settings can be opened now: not from each other, a recording, or a question."""

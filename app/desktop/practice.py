@@ -5,6 +5,7 @@ Its still hand takes a second to draw and is there at once; the movement is draw
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable
 from dataclasses import replace
@@ -65,6 +66,11 @@ def practice_spec(set_up: SetUp) -> RecordingSpec:
         hidden_share=0.02,
     )
     return replace(usual, **_OTHERWISE.get(exercise.id, {}))
+
+
+def practice_times(set_up: SetUp) -> int:
+    """How often the take is played until the patient has done what is asked."""
+    return max(1, math.ceil(set_up.repetitions / (practice_spec(set_up).repetitions or 1)))
 
 
 def practice_take(set_up: SetUp, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:

@@ -13,7 +13,7 @@ from carpus.app.desktop.erasing import Erasing
 from carpus.core.library.records import Archived, Records
 from carpus.core.records.log import LoggedDeed as StoredDeed
 from carpus.core.records.retention import RETENTION_YEARS, Due
-from carpus.ui import numbers
+from carpus.ui import numbers, terms
 from carpus.ui.records.cards import RecordsCard
 from carpus.ui.records.list_sheets import LogSheet, RecordsSheet
 from carpus.ui.records.ports import ListedRecord, LoggedDeed
@@ -86,9 +86,11 @@ class RecordLists(QObject):
             ListedRecord(
                 one.patient_id,
                 one.pseudonym,
-                self.tr("{n} sessions, the last on {last}; had to be kept until {until}").format(
-                    n=one.sessions, last=numbers.day_of_year(one.last), until=numbers.day_of_year(one.until)
-                ),
+                (
+                    self.tr("1 session, on {last}; had to be kept until {until}")
+                    if one.sessions == 1
+                    else self.tr("{n} sessions, the last on {last}; had to be kept until {until}")
+                ).format(n=one.sessions, last=numbers.day_of_year(one.last), until=numbers.day_of_year(one.until)),
                 one.archived,
             )
             for one in found
@@ -142,9 +144,27 @@ class RecordLists(QObject):
     def _deed(self, entry: StoredDeed, names: dict[str, str]) -> LoggedDeed:
         of_whom = names.get(entry.subject, entry.subject[:8])
         by = self.tr("by command") if entry.by == "command" else ""
-        facts = ", ".join(f"{name} {value}" for name, value in entry.facts.items() if len(str(value)) < 20)
+        facts = ", ".join(filter(None, (self._fact(name, value) for name, value in entry.facts.items())))
         detail = " · ".join(part for part in (facts, by) if part)
         return LoggedDeed(entry.number, entry.when.astimezone(), entry.who, self._words(entry.did), of_whom, detail)
+
+    def _fact(self, name: str, value: object) -> str:
+        """What is known of a deed, in words; empty for what says nothing to a person."""
+        if name == "exercise":
+            return terms.exercise_name(str(value).upper())
+        one, many = {
+            "files": (self.tr("1 file"), self.tr("{n} files")),
+            "sessions": (self.tr("1 session"), self.tr("{n} sessions")),
+            "values": (self.tr("1 value"), self.tr("{n} values")),
+            "left": (self.tr("1 left"), self.tr("{n} left")),
+            "limits": (self.tr("1 study"), self.tr("{n} studies")),
+            "idle": (self.tr("nobody was there"), ""),
+            "sealed": (self.tr("sealed"), ""),
+            "deidentified": (self.tr("without what identifies"), ""),
+            "late": (self.tr("finished later"), ""),
+            "set": (self.tr("with a PIN"), ""),
+        }.get(name, ("", ""))
+        return one if value == 1 else many.format(n=value) if value or name == "left" else ""
 
     def _words(self, did: str) -> str:
         words = {

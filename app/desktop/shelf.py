@@ -9,16 +9,12 @@ from carpus.core.errors import SessionUnreadable
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.library.set_up import PRACTICE_PATIENT
-from carpus.core.output.report_content import SessionFigures
 from carpus.core.records.log import fingerprint
 from carpus.core.records.values import SessionEntry
-from carpus.ui import terms
 from carpus.ui.check_card.standing_words import unsure_name
-from carpus.ui.figures import figure_of
 from carpus.ui.ports import SessionLine
-from carpus.ui.report.further_rows import short_words
-from carpus.ui.report.hand_rows import compared_figures, range_words
-from carpus.ui.report.tables import mean_words, repetition_words
+from carpus.ui.report.main_figure import main_figure
+from carpus.ui.report.tables import repetition_words
 from carpus.ui.report.words import corrected_words, warnings
 
 
@@ -91,19 +87,3 @@ class StoredSessions:
         self._library.index.rename_exercise(session_id, exercise)
         self._library.note_session("renamed", session_id, exercise=exercise.lower())
         self._library.forget_figures(session_id)
-
-
-def main_figure(figures: SessionFigures) -> str:
-    """The figure that a therapist looks for first: the best of the trained movement, or the first joint."""
-    about = short_words(figures)
-    if about:
-        return about
-    if figures.joint_rows:
-        trained = figure_of(figures.exercise.joint).finger
-        for figure in sorted(compared_figures(figures), key=lambda one: one.finger != trained):
-            row = figures.row("arc", -1, figure.joint)
-            if row is not None and row.count:
-                return f"{figure.long_name} {range_words(row)}"
-        return ""
-    rows = [row for row in figures.rows if row.movement != "arc" and row.count] or [*figures.rows]
-    return f"{terms.movement_name(rows[0].movement)} {mean_words(rows[0])}" if rows else ""

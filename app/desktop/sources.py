@@ -11,6 +11,7 @@ from pathlib import Path
 
 from carpus import __version__
 from carpus.app.desktop.calibrator import HandCalibrator
+from carpus.app.desktop.practice import practice_times
 from carpus.app.settings import Settings
 from carpus.app.sources import open_recording
 from carpus.core.calibration.result import Calibration
@@ -103,7 +104,7 @@ class Sources:
         set_ups = {one.id: replace(set_up, exercise=one) for one in (set_up.exercise, *parts)}
         begun = self._practice_beginning(set_up)
         take, still_s = begun or self._practice_take(set_up, progress)
-        patient = PracticeSource(take, still_s, begins_only=begun is not None)
+        patient = PracticeSource(take, still_s, begins_only=begun is not None, times=practice_times(set_up))
         session = self._session(PacedSource(patient, self._speed))
         drawn = {} if begun else {set_up.exercise.id: take}
         drawing = TakesDrawn(patient, self._practice_take, set_ups, drawn, progress, session.notice)

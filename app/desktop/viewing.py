@@ -68,8 +68,8 @@ class Viewing(QObject):
 
     def open_sessions(self, patient_id: str) -> None:
         """All sessions of a patient."""
-        row = self._now.patient = self._find_patient(patient_id)
-        self._list.begin(patient_id, row.pseudonym, self._now.session_id)
+        self._now.patient = self._find_patient(patient_id)
+        self._list.begin(patient_id, self._now.name, self._now.session_id)
         self._way.go("sessions")
 
     def open_review(self, session_id: str) -> None:

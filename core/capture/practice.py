@@ -15,11 +15,13 @@ class PracticeSource:
     """Frames without end, not paced, times rising by themselves.
 
     The take begins with a hand that is still for ``still_s``: these pictures come again and again, forwards and
-    backwards, until :meth:`let_go`. Then the take is played through once, and the hand rests until let go again.
+    backwards, until :meth:`let_go`. Then the take is played through, and the hand rests until let go again.
     """
 
-    def __init__(self, take: FrameSource, still_s: float, *, begins_only: bool = False) -> None:
-        """``begins_only``: the take is the still hand alone, which goes on resting until :meth:`play_next`."""
+    def __init__(self, take: FrameSource, still_s: float, *, begins_only: bool = False, times: int = 1) -> None:
+        """``begins_only``: the take is the still hand alone, which goes on resting until :meth:`play_next`. ``times``
+        the movement is played whenever it is let go."""
+        self._times = times
         self._take, self._played, self._begins_only = take, [take], begins_only
         self._still_s = still_s
         self._next: FrameSource | None = None
@@ -87,15 +89,16 @@ class PracticeSource:
             if following is not None:
                 moving, last_s = following.frames(), still[0].timestamp_s - period_s
                 playing = following
-            for frame in moving:
-                if self._closed.is_set():
-                    return
-                yield timed(frame, frame.timestamp_s - last_s)
-                last_s = frame.timestamp_s
+            for _ in range(self._times):
+                for frame in moving:
+                    if self._closed.is_set():
+                        return
+                    yield timed(frame, frame.timestamp_s - last_s)
+                    last_s = frame.timestamp_s
+                moving, last_s = playing.frames(), still[0].timestamp_s - period_s
             self._free.clear()
             if self._closed.is_set():
                 return
-            moving, last_s = playing.frames(), still[0].timestamp_s - period_s
 
     def _recalled(self, take: Iterator[Frame], still: list[Frame]) -> Iterator[Frame]:
         """The still hand's pictures as they come, all kept in ``still``, then those to and fro."""

@@ -1812,6 +1812,14 @@
         <translation>Das Gesehene passt nicht: Hand einen Moment flach halten</translation>
     </message>
     <message>
+        <source>No angle known yet</source>
+        <translation>Noch kein Winkel bekannt</translation>
+    </message>
+    <message>
+        <source>Hold the hand flat for a moment</source>
+        <translation>Die Hand einen Moment flach halten</translation>
+    </message>
+    <message>
         <source>Tracking well</source>
         <translation>Verfolgung gut</translation>
     </message>
@@ -2384,8 +2392,12 @@
         <translation>Alles ohne Patient ausprobieren</translation>
     </message>
     <message>
+        <source>No camera needed</source>
+        <translation>Keine Kamera nötig</translation>
+    </message>
+    <message>
         <source>Simulated camera</source>
-        <translation>Simulierte Kamera</translation>
+        <translation type="vanished">Simulierte Kamera</translation>
     </message>
     <message>
         <source>No session yet</source>
@@ -6825,7 +6837,9 @@
     </message>
     <message>
         <source>The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions.</source>
-        <translation>Die Liste der Patienten war beschädigt ({detail}); eine neue enthält, was lesbar war, und die Sitzungen.</translation>
+        <translation>Die Patientenliste war beschädigt ({detail}); eine neue enthält, was lesbar war, und die Sitzungen.</translation>
+    </message>
+    <message>
         <source>The packed program does without {packages}; Carpus from its source can have it.</source>
         <translation>Das gepackte Programm kommt ohne {packages} aus; Carpus aus den Quellen kann es haben.</translation>
     </message>
@@ -7192,6 +7206,10 @@
     <message>
         <source>{when} · {n} sessions, {size} GB · read back and compared: all equal</source>
         <translation>{when} · {n} Sitzungen, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
+    </message>
+    <message>
+        <source>{when} · 1 session, {size} GB · read back and compared: all equal</source>
+        <translation>{when} · 1 Sitzung, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
     </message>
     <message>
         <source>Reminder after {days} days.</source>
@@ -8622,8 +8640,16 @@
         <translation>Ihre Unterlagen sind bis {day} aufzubewahren {years}: Das Löschen käme vor diesem Tag.</translation>
     </message>
     <message>
+        <source>1 value measured by hand.</source>
+        <translation>1 von Hand gemessener Wert.</translation>
+    </message>
+    <message>
         <source>They had to be kept until {day} {years}.</source>
         <translation>Sie waren bis {day} aufzubewahren {years}.</translation>
+    </message>
+    <message>
+        <source>{count} values measured by hand.</source>
+        <translation>{count} von Hand gemessene Werte.</translation>
     </message>
     <message>
         <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}</source>
@@ -9764,6 +9790,10 @@ Umschalt+F8 von der Seite</translation>
         <translation>Bester heute</translation>
     </message>
     <message>
+        <source>Best {movement}</source>
+        <translation>Bestwert {movement}</translation>
+    </message>
+    <message>
         <source>Target {angle}</source>
         <translation>Ziel {angle}</translation>
     </message>
@@ -9917,7 +9947,11 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>&amp;Change…</source>
-        <translation>Ä&amp;ndern…</translation>
+        <translation type="vanished">Ä&amp;ndern…</translation>
+    </message>
+    <message>
+        <source>&amp;Other exercise…</source>
+        <translation>A&amp;ndere Übung…</translation>
     </message>
     <message>
         <source>&amp;Review</source>
@@ -10455,6 +10489,10 @@ Umschalt+F8 von der Seite</translation>
         <translation>Ihre letzte Sitzung ist mehr als {n} Jahre her. Nichts geht von selbst.</translation>
     </message>
     <message>
+        <source>1 session, on {last}; had to be kept until {until}</source>
+        <translation>1 Sitzung, am {last}; war bis {until} aufzubewahren</translation>
+    </message>
+    <message>
         <source>{n} sessions, the last on {last}; had to be kept until {until}</source>
         <translation>{n} Sitzungen, die letzte am {last}; aufzubewahren bis {until}</translation>
     </message>
@@ -10489,6 +10527,58 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>by command</source>
         <translation>auf Befehl</translation>
+    </message>
+    <message>
+        <source>1 file</source>
+        <translation>1 Datei</translation>
+    </message>
+    <message>
+        <source>{n} files</source>
+        <translation>{n} Dateien</translation>
+    </message>
+    <message>
+        <source>1 value</source>
+        <translation>1 Wert</translation>
+    </message>
+    <message>
+        <source>{n} values</source>
+        <translation>{n} Werte</translation>
+    </message>
+    <message>
+        <source>1 left</source>
+        <translation>noch 1 übrig</translation>
+    </message>
+    <message>
+        <source>{n} left</source>
+        <translation>noch {n} übrig</translation>
+    </message>
+    <message>
+        <source>1 study</source>
+        <translation>1 Studie</translation>
+    </message>
+    <message>
+        <source>{n} studies</source>
+        <translation>{n} Studien</translation>
+    </message>
+    <message>
+        <source>nobody was there</source>
+        <translation>niemand war da</translation>
+    </message>
+    <message>
+        <source>sealed</source>
+        <translation>versiegelt</translation>
+    </message>
+    <message>
+        <source>without what identifies</source>
+        <translation>ohne Identifizierendes</translation>
+    </message>
+    <message>
+        <source>finished later</source>
+        <translation>später beendet</translation>
+    </message>
+    <message>
+        <source>with a PIN</source>
+        <translation>mit PIN</translation>
     </message>
     <message>
         <source>opened</source>

@@ -1812,6 +1812,14 @@
         <translation>Ciò che si vede non torna: tenere un momento la mano piatta</translation>
     </message>
     <message>
+        <source>No angle known yet</source>
+        <translation>Ancora nessun angolo noto</translation>
+    </message>
+    <message>
+        <source>Hold the hand flat for a moment</source>
+        <translation>Tenere la mano piatta per un momento</translation>
+    </message>
+    <message>
         <source>Tracking well</source>
         <translation>La mano è seguita bene</translation>
     </message>
@@ -2384,8 +2392,12 @@
         <translation>Provare tutto senza un paziente</translation>
     </message>
     <message>
+        <source>No camera needed</source>
+        <translation>Nessuna telecamera necessaria</translation>
+    </message>
+    <message>
         <source>Simulated camera</source>
-        <translation>Telecamera simulata</translation>
+        <translation type="vanished">Telecamera simulata</translation>
     </message>
     <message>
         <source>No session yet</source>
@@ -6829,7 +6841,9 @@
     </message>
     <message>
         <source>The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions.</source>
-        <translation>L’elenco dei pazienti era danneggiato ({detail}); uno nuovo contiene ciò che si è potuto leggere e le sessioni.</translation>
+        <translation>L’elenco dei pazienti era danneggiato ({detail}); uno nuovo contiene ciò che si è potuto leggere, e le sedute.</translation>
+    </message>
+    <message>
         <source>The packed program does without {packages}; Carpus from its source can have it.</source>
         <translation>Il programma impacchettato fa a meno di {packages}; Carpus dai sorgenti può averlo.</translation>
     </message>
@@ -7192,6 +7206,10 @@
     <message>
         <source>{when} · {n} sessions, {size} GB · read back and compared: all equal</source>
         <translation>{when} · {n} sedute, {size} GB · riletta e confrontata: tutto uguale</translation>
+    </message>
+    <message>
+        <source>{when} · 1 session, {size} GB · read back and compared: all equal</source>
+        <translation>{when} · 1 seduta, {size} GB · riletta e confrontata: tutto uguale</translation>
     </message>
     <message>
         <source>Reminder after {days} days.</source>
@@ -8622,8 +8640,16 @@
         <translation>La documentazione va conservata fino al {day} {years}: la cancellazione avviene prima di quel giorno.</translation>
     </message>
     <message>
+        <source>1 value measured by hand.</source>
+        <translation>1 valore misurato a mano.</translation>
+    </message>
+    <message>
         <source>They had to be kept until {day} {years}.</source>
         <translation>Andavano conservate fino al {day} {years}.</translation>
+    </message>
+    <message>
+        <source>{count} values measured by hand.</source>
+        <translation>{count} valori misurati a mano.</translation>
     </message>
     <message>
         <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}</source>
@@ -9764,6 +9790,10 @@ Maiusc+F8 di lato</translation>
         <translation>Migliore oggi</translation>
     </message>
     <message>
+        <source>Best {movement}</source>
+        <translation>Migliore {movement}</translation>
+    </message>
+    <message>
         <source>Target {angle}</source>
         <translation>Obiettivo {angle}</translation>
     </message>
@@ -9917,7 +9947,11 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>&amp;Change…</source>
-        <translation>&amp;Cambia…</translation>
+        <translation type="vanished">&amp;Cambia…</translation>
+    </message>
+    <message>
+        <source>&amp;Other exercise…</source>
+        <translation>Altro eser&amp;cizio…</translation>
     </message>
     <message>
         <source>&amp;Review</source>
@@ -10455,6 +10489,10 @@ Maiusc+F8 di lato</translation>
         <translation>La loro ultima seduta risale a più di {n} anni fa. Nulla va via da solo.</translation>
     </message>
     <message>
+        <source>1 session, on {last}; had to be kept until {until}</source>
+        <translation>1 seduta, il {last}; da conservare fino al {until}</translation>
+    </message>
+    <message>
         <source>{n} sessions, the last on {last}; had to be kept until {until}</source>
         <translation>{n} sedute, l’ultima: {last}; da conservare fino al {until}</translation>
     </message>
@@ -10489,6 +10527,58 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>by command</source>
         <translation>da riga di comando</translation>
+    </message>
+    <message>
+        <source>1 file</source>
+        <translation>1 file</translation>
+    </message>
+    <message>
+        <source>{n} files</source>
+        <translation>{n} file</translation>
+    </message>
+    <message>
+        <source>1 value</source>
+        <translation>1 valore</translation>
+    </message>
+    <message>
+        <source>{n} values</source>
+        <translation>{n} valori</translation>
+    </message>
+    <message>
+        <source>1 left</source>
+        <translation>1 rimasto</translation>
+    </message>
+    <message>
+        <source>{n} left</source>
+        <translation>{n} rimasti</translation>
+    </message>
+    <message>
+        <source>1 study</source>
+        <translation>1 studio</translation>
+    </message>
+    <message>
+        <source>{n} studies</source>
+        <translation>{n} studi</translation>
+    </message>
+    <message>
+        <source>nobody was there</source>
+        <translation>nessuno era presente</translation>
+    </message>
+    <message>
+        <source>sealed</source>
+        <translation>sigillato</translation>
+    </message>
+    <message>
+        <source>without what identifies</source>
+        <translation>senza dati identificativi</translation>
+    </message>
+    <message>
+        <source>finished later</source>
+        <translation>terminato più tardi</translation>
+    </message>
+    <message>
+        <source>with a PIN</source>
+        <translation>con PIN</translation>
     </message>
     <message>
         <source>opened</source>

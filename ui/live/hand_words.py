@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.live.light import Lamp
@@ -30,6 +32,8 @@ def hand_lamp(frame: TrackedFrame | None, seen: Mapping[str, Seen]) -> Lamp:
         return Lamp("warn", tr("Doubtful"), tr("What is seen does not fit: hold the hand flat for a moment"))
     if not hidden and partly:
         return Lamp("warn", _partly_words(partly), remedy(partly))
+    if not hidden and not np.isfinite(frame.moment.joint_angles_rad).any():
+        return Lamp("idle", tr("No angle known yet"), tr("Hold the hand flat for a moment"))
     if not hidden:
         return Lamp("good", tr("Tracking well"), tr("All {count} markers seen").format(count=len(seen)))
     return Lamp("warn", hidden_words(hidden), remedy(hidden))

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.marker_words import hidden_remedy, marker_name
 from carpus.ui.translate import tr
@@ -45,6 +47,8 @@ def lamp_for(frame: TrackedFrame | None, markers: Sequence[str], forearm_moved: 
         return Lamp("warn", tr("Doubtful"), tr("What is seen does not fit: hold the hand flat for a moment"))
     if forearm_moved:
         return Lamp("warn", tr("Arm moved"), tr("Lay the forearm back where it was"))
+    if not np.isfinite(frame.moment.angles_rad).any():
+        return Lamp("idle", tr("No angle known yet"), tr("Hold the hand flat for a moment"))
     return Lamp("good", tr("Tracking well"), tr("All {count} markers seen").format(count=len(markers)))
 
 

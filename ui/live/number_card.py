@@ -18,6 +18,7 @@ from carpus.ui.icons import paint_state
 from carpus.ui.plot.axes import hatch
 from carpus.ui.plot.style import CURVE_TOKENS, screen_style
 from carpus.ui.theme import Theme
+from carpus.ui.translate import inside
 
 NUMBER_PX, NUMBER_WIDE_PX = 128, 160
 WIDE_FROM_PX = 900
@@ -260,7 +261,12 @@ class NumberCard(QWidget):
         positive = reading.figure is not None or self._word == SIDES[reading.angle][0]
         best = reading.best_positive_deg if positive else reading.best_negative_deg
         across = left + 0.487 * self._right_px()
-        self._text(painter, self.tr("Best today"), across, y, 14, REGULAR, "text2")
+        movement = "" if reading.figure is not None else terms.movement_name(SIDES[reading.angle][0 if positive else 1])
+        words = self.tr("Best {movement}").format(movement=inside(movement)) if movement else self.tr("Best today")
+        size, room = 14, self._across - 8 - across
+        while size > 10 and QFontMetricsF(font(size * scale, REGULAR)).horizontalAdvance(words) > room:
+            size -= 1
+        self._text(painter, words, across, y, size, REGULAR, "text2")
         bound = reading.best_at_least and math.isfinite(best)
         shown = f"≥{numbers.NARROW_GAP}{numbers.degrees(best)}" if bound else numbers.degrees(best)
         self._text(painter, shown, across, y + 21 * scale, 20, SEMIBOLD, "text")

@@ -52,7 +52,7 @@ class PatientCardView(Card):
         self.start_button = Button(theme, self.tr("Start session, same set-up"), "primary", icon="play", hint=ENTER)
         self.bubble = BubbleView(theme)
         self.edit_button = Button(theme, self.tr("&Edit…"), "quiet", height_px=32)
-        self.change_button = Button(theme, self.tr("&Change…"))
+        self.change_button = Button(theme, self.tr("&Other exercise…"))
         self.review_button = Button(theme, self.tr("&Review"))
         self.progress_button = Button(theme, self.tr("&Progress"))
         self.sessions_button = Button(theme, self.tr("All &sessions"))

@@ -60,7 +60,7 @@ def cells(row: PatientRow, today: date) -> tuple[str, str, str, str, str, str]:
     """Name, hand, exercise, date, how long ago, number of sessions."""
     if row.patient_id == PRACTICE_PATIENT:
         hint = tr("Try everything without a patient")
-        return row.pseudonym, terms.side_name(row.side), tr("Simulated camera"), hint, "", ""
+        return row.pseudonym, terms.side_name(row.side), tr("No camera needed"), hint, "", ""
     if row.last_session is None:
         return row.pseudonym, terms.side_name(row.side), "", tr("No session yet"), "", ""
     when = row.last_session

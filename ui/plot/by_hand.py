@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime, time
 
@@ -25,22 +25,30 @@ HALF_PX = 4.5
 DAY_S = 86_400.0
 
 
-def noon_s(day: date) -> float:
-    """Where a day lies on an axis of time."""
-    return datetime.combine(day, time(12)).timestamp()
+def day_s(day: date, sessions: Iterable[datetime] = ()) -> float:
+    """Where a value known only by its day lies on an axis of time: at that day's session, whose time is known, else in
+    the middle of the day."""
+    same = [when for when in sessions if when.date() == day]
+    return (same[0] if same else datetime.combine(day, time(12))).timestamp()
 
 
 @dataclass(frozen=True, slots=True)
 class Squares:
     """Values by hand of one way: hollow squares, diamonds where it was moved by somebody else; never joined with ours.
 
-    ``joined``: a thin line between them, where nothing else is in the panel."""
+    ``joined``: a thin line between them, where nothing else is in the panel; ``sessions``: when ours were. What is
+    beyond the axis of time is an arrow at its end.
+    """
 
     values: Sequence[HandValue]
     joined: bool = False
+    sessions: Sequence[datetime] = ()
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        places = [QPointF(float(panel.x(noon_s(one.day))), float(panel.y(one.value))) for one in self.values]
+        times = [day_s(one.day, self.sessions) for one in self.values]
+        places = [
+            QPointF(float(panel.x(at)), float(panel.y(one.value))) for at, one in zip(times, self.values, strict=True)
+        ]
         shown = [at for at in places if panel.box.left() - 1 <= at.x() <= panel.box.right() + 1]
         painter.setPen(QPen(style.color("text"), 1.6 * style.unit))
         if self.joined and len(shown) > 1:
@@ -49,6 +57,18 @@ class Squares:
         passive = bool(self.values) and self.values[0].way == "passive"
         for at in shown:
             paint_square(painter, at, style.unit, turned=passive)
+        for edge, way in ((panel.box.left(), -1.0), (panel.box.right(), 1.0)):
+            beyond = [at for at in places if (at.x() - edge) * way > 1]
+            if beyond:
+                nearest = min(beyond, key=lambda at, edge=edge: abs(at.x() - edge))  # type: ignore[misc]
+                _paint_beyond(painter, QPointF(edge, nearest.y()), way * style.unit)
+
+
+def _paint_beyond(painter: QPainter, at: QPointF, unit: float) -> None:
+    """An arrow: there is more before or after what the axis of time shows."""
+    reach = 2.0 * HALF_PX * unit
+    corners = [QPointF(0, -abs(reach) / 2), QPointF(reach, 0), QPointF(0, abs(reach) / 2)]
+    painter.drawPolygon(QPolygonF([at + corner for corner in corners]))
 
 
 def paint_square(painter: QPainter, at: QPointF, unit: float, *, turned: bool = False) -> None:
@@ -104,7 +124,8 @@ def paint_course(
     painter.drawText(QPointF(box.left(), box.top() + 0.8 * title), measure_name(measure))
     active = [one for one in values if one.way != "passive"]
     passive = [one for one in values if one.way == "passive"]
-    times = [noon_s(one.day) for one in values] + [when.timestamp() for when, _ in ours]
+    when = [one for one, _ in ours]
+    times = [day_s(one.day, when) for one in values] + [one.timestamp() for one in when]
     if not times:
         painter.setFont(style.end_label)
         painter.setPen(style.color("text2"))
@@ -123,7 +144,7 @@ def paint_course(
     if ours:
         OurDots(ours).paint(painter, style, panel)
     for some in (passive, active):
-        Squares(some, joined=not ours).paint(painter, style, panel)
+        Squares(some, joined=not ours, sessions=when).paint(painter, style, panel)
     labels = (
         [(ours[-1][1], tr("Carpus {value}").format(value=value_words(measure, ours[-1][1])), "curve_a")] if ours else []
     )
@@ -133,7 +154,7 @@ def paint_course(
             words = pattern.format(value=value_words(measure, some[-1].value))
             labels.append((some[-1].value, words, "text"))
     EndLabels(labels).paint(painter, style, panel)
-    _paint_days(painter, style, panel, [one.day for one in values] + [when.date() for when, _ in ours])
+    _paint_days(painter, style, panel, [one.day for one in values] + [one.date() for one in when])
     _paint_meaning(painter, style, box, has_passive=bool(passive), has_ours=bool(ours), ways=len(measure.ways))
 
 
@@ -146,7 +167,7 @@ def _paint_days(painter: QPainter, style: PlotStyle, panel: Panel, days: Sequenc
     for day in [known[-1], known[0], *known[1:-1]]:
         text = numbers.day_month(day)
         width = metrics.horizontalAdvance(text)
-        left = float(panel.x(noon_s(day))) - width / 2
+        left = float(panel.x(day_s(day))) - width / 2
         if any(left < end + 6 * style.unit and left + width > start - 6 * style.unit for start, end in taken):
             continue
         taken.append((left, left + width))

@@ -22,7 +22,7 @@ from carpus.ui.figures import figure_of
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.icons import triangle
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.by_hand import Squares, noon_s, paint_square
+from carpus.ui.plot.by_hand import Squares, day_s, paint_square
 from carpus.ui.plot.marks import Across, EndLabels, Level, Mark, Scales
 from carpus.ui.plot.polygon import polygon
 from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle
@@ -78,9 +78,19 @@ def scale_of(progress: Progress, key: RowKey) -> Scale:
 
 
 def extent_s(progress: Progress) -> tuple[float, float]:
-    """Ends of the time axis, to scale, with room beside the first and the last session."""
-    times = [point.figures.when.timestamp() for point in progress.points]
-    times = sorted([*times, *(noon_s(one.day) for key in panels_of(progress) for one in by_hand_of(progress, key))])
+    """Ends of the time axis, to scale, with room beside the first and the last session.
+
+    Values by hand widen it by at most half the time of the sessions on either side, which keep half of the width.
+    """
+    when = [point.figures.when for point in progress.points]
+    times = sorted(one.timestamp() for one in when)
+    by_hand = [day_s(one.day, when) for key in panels_of(progress) for one in by_hand_of(progress, key)]
+    if len(times) > 1 and by_hand:
+        most = 0.5 * (times[-1] - times[0])
+        first, last = max(min(by_hand), times[0] - most), min(max(by_hand), times[-1] + most)
+        times = sorted([*times, first, last])
+    else:
+        times = sorted([*times, *by_hand])
     pad = PAD_SHARE * (times[-1] - times[0]) if len(times) > 1 and times[-1] > times[0] else ALONE_S / 2
     return times[0] - pad, times[-1] + pad
 
@@ -306,11 +316,12 @@ def paint_behind(
     unit = style.unit
     line = QFontMetricsF(style.end_label).height()
     dates: set[float] = set()
+    when = [point.figures.when for point in progress.points]
     for panel, key in panels:
         painter.setFont(font(style.end_label.pixelSize() * 1.25, SEMIBOLD, display=False))
         painter.setPen(style.color("text"))
         painter.drawText(QPointF(panel.box.left(), panel.box.top() - 9 * unit), name_of(progress, key))
-        for mark in (*still(progress, key), Squares(by_hand_of(progress, key))):
+        for mark in (*still(progress, key), Squares(by_hand_of(progress, key), sessions=when)):
             mark.paint(painter, style, panel)
         if panel.box.left() not in dates:
             dates.add(panel.box.left())

@@ -146,6 +146,10 @@ class EraseSheet(Sheet):
                     "({files}, {size} MB)."
                 )
             words = what.format(count=facts.sessions, files=files, size=size)
+            if facts.by_hand == 1:
+                words = f"{words} {self.tr('1 value measured by hand.')}"
+            elif facts.by_hand:
+                words = f"{words} {self.tr('{count} values measured by hand.').format(count=facts.by_hand)}"
         else:
             what = self.tr("Angles, pictures, notes and pain scores of this session ({files}, {size} MB).")
             words = what.format(files=files, size=size)

@@ -11,7 +11,8 @@ class ErasureFacts:
     """What is said before a session, or with ``when`` None a patient, is erased.
 
     ``made``: reports and exports that Carpus saved elsewhere; they stay. ``others`` counts the patient's sessions that
-    stay. ``kept_until`` None where no years are set, ``last_backup`` None before the first.
+    stay. ``kept_until`` None where no years are set, ``last_backup`` None before the first. ``by_hand``: values that a
+    person measured, which go with a patient.
     """
 
     pseudonym: str
@@ -27,6 +28,7 @@ class ErasureFacts:
     kept_until: date | None
     retention_years: int
     today: date
+    by_hand: int = 0
 
 
 @dataclass(frozen=True, slots=True)

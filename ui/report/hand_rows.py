@@ -129,8 +129,8 @@ def trains_thumb(figures: SessionFigures) -> bool:
 
 
 def compared_figures(figures: SessionFigures) -> tuple[Figure, ...]:
-    """What is compared with last time: of every finger, or of the thumb alone."""
-    fingers = (1,) if trains_thumb(figures) else FINGERS
+    """What is compared with last time: of the fingers that the exercise trains, or of the thumb alone."""
+    fingers = (1,) if trains_thumb(figures) else figures.exercise.digits or FINGERS
     return tuple(Figure(finger, compared_row(figures)) for finger in fingers)
 
 

@@ -50,6 +50,7 @@ from carpus.ui.plot.ways_view import WaysView
 from carpus.ui.ports import SessionStore, StoredResult
 from carpus.ui.report.further_rows import FIRST, further_rows, further_title
 from carpus.ui.report.hand_rows import column_heads, finger_rows, limits_words
+from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.tables import column_names, repetition_words, table_rows
 from carpus.ui.report.words import corrected_words
 from carpus.ui.review.further_table import FurtherTable
@@ -130,7 +131,7 @@ class ReviewScreen(QWidget):
         fingers += [(finger, finger_name(str(finger))) for finger in FINGERS]
         self.finger = Choices(theme, [*fingers, (WRIST, self.tr("Wrist"))])
         self.notes = Text(theme, "", 14, REGULAR, wrap=True)
-        self.title = Text(theme, self.tr("Range of motion"), 16, SEMIBOLD)
+        self.title = ElidedText(theme, self.tr("Range of motion"), 16, SEMIBOLD)
         self.count = ElidedText(theme, "", 14, REGULAR, "text2")  # one line: what it says comes when all has its place
         self.again_button = Button(theme, self.tr("Another set"), "quiet", icon="plus")
         self.count_button = Button(theme, self.tr("Do not count"), "quiet")
@@ -306,11 +307,12 @@ class ReviewScreen(QWidget):
         self.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _session_words(self) -> str:
-        """What was done, with which hand and when."""
+        """What was done, with which hand and when, and the figure that the list of sessions names."""
         assert self.figures is not None
         of = self.figures
         hand = inside(terms.hand_name(of.side))
-        return f"{terms.exercise_name(of.exercise.id)}, {hand} · {numbers.short_date(of.when)} {of.when:%H:%M}"
+        what = f"{terms.exercise_name(of.exercise.id)}, {hand} · {numbers.short_date(of.when)} {of.when:%H:%M}"
+        return " · ".join(filter(None, (what, main_figure(of))))
 
     def end(self) -> None:
         """Stop playing."""

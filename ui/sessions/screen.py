@@ -175,7 +175,7 @@ class SessionsScreen(QWidget):
             numbers.clock(line.duration_s), line.counted_words, line.corrected.rstrip("."),
         )  # fmt: skip
         self.facts.setText(" · ".join(fact for fact in facts if fact))
-        self.remark.setText(" ".join(part for part in (remark(line), line.warning) if part))
+        self.remark.setText(" · ".join(part for part in (remark(line), line.warning) if part))
         self.remark.setVisible(bool(self.remark.text()))
         back = self.tr("&Take back: let it count")
         self.aside_button.set_face(back if line.set_aside else self.tr("&Set aside…"))
