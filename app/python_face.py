@@ -12,7 +12,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, replace
 from itertools import chain
 from pathlib import Path
-from typing import Any, Literal, get_args
+from types import NoneType, UnionType
+from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from carpus import __version__
 from carpus.app.commands.kept import note, note_exported
 from carpus.app.of_file import read_choices
 from carpus.app.sources import open_recording
-from carpus.core.agreement.compare import MOST_SHIFT_S, Compared
+from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S, Compared
 from carpus.core.agreement.compared_files import compare_files
 from carpus.core.calibration.calibrate import calibrate
 from carpus.core.calibration.candidates import CandidateSettings, marker_candidates
@@ -197,9 +198,9 @@ def write_session(
     ``exercise`` by its id (``WRIST_FE``) has its repetitions counted; the rest as in :func:`track`.
     """
     where = "carpus.write_session"
-    _check(where, "smooth", smooth, True)
+    _check(where, "smooth", smooth, bool)
     if exercise:
-        _check(where, "exercise", exercise, "", [known.id for known in EXERCISES])
+        _check(where, "exercise", exercise, Literal[*(known.id for known in EXERCISES)])
     chosen = _chosen(where, filter, settings | {"dip": dip, "use_depth": use_depth, "profile": profile})
     told = clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(Path(clicks))
     source = open_recording(Path(path), need_depth=chosen.paper is None and use_depth)
@@ -215,13 +216,9 @@ def write_session(
 
 def _chosen(where: str, method: str, wanted: Mapping[str, Any]) -> TrackSettings:
     """Checked settings. Raises :class:`SettingsInvalid` with one sentence."""
-    _check(where, "filter", method, "default", get_args(FilterName))
+    _check(where, "filter", method, FilterName)
     known = TrackerSettings()
-    choices = {"dip": get_args(Dip), "profile": get_args(Profile)}
-    for name, value in wanted.items():
-        if name not in TrackerSettings.__dataclass_fields__:
-            raise SettingsInvalid(where, f"it has no setting {name}")
-        _check(where, name, value, getattr(known, name), choices.get(name, ()))
+    _check_fields(where, wanted, TrackerSettings)
     if method == "paper":
         if others := [name for name in wanted if name != "profile" and wanted[name] != getattr(known, name)]:
             raise SettingsInvalid(where, f"the papers' filter knows no {others[0]}")
@@ -229,15 +226,49 @@ def _chosen(where: str, method: str, wanted: Mapping[str, Any]) -> TrackSettings
     return TrackSettings(tracker=replace(known, **wanted))
 
 
-def _check(where: str, name: str, value: object, usual: object, choices: Sequence[str] = ()) -> None:
-    """Raise :class:`SettingsInvalid` for a value of another kind than the usual one, or none of the choices."""
-    if choices and value not in choices:
-        allowed = " or ".join(repr(choice) for choice in choices)
-        raise SettingsInvalid(where, f"{name} is {value!r}, {allowed} expected")
+_KINDS: Mapping[Any, str] = {
+    float: "a number", int: "a whole number", bool: "True or False", str: "a text",
+}  # fmt: skip
+
+
+def _check_fields(where: str, wanted: Mapping[str, Any], kind: type) -> None:
+    """Raise :class:`SettingsInvalid` for what is no field of a dataclass, or no such value as its type says."""
+    hints = get_type_hints(kind)
+    for name, value in wanted.items():
+        if name not in hints:
+            raise SettingsInvalid(where, f"it has no setting {name}")
+        _check(where, name, value, hints[name])
+
+
+def _check(
+    where: str, name: str, value: object, hint: Any, limits: tuple[float, float] = (-math.inf, math.inf)
+) -> None:
+    """Raise :class:`SettingsInvalid` for a value that is not of a type, or a number beyond its limits."""
+    if isinstance(hint, UnionType):
+        if value is None:
+            return
+        hint = next(one for one in get_args(hint) if one is not NoneType)
     number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-    fits = number if isinstance(usual, float) else isinstance(value, type(usual))
+    expected = _KINDS.get(hint, f"a {getattr(hint, '__name__', hint)}")
+    if get_origin(hint) is Literal:
+        fits, expected = value in get_args(hint), " or ".join(map(repr, get_args(hint)))
+    elif hint is float:
+        fits = number
+    else:
+        fits = type(value) is hint if hint in _KINDS else isinstance(value, get_origin(hint) or hint)
+    if fits and number and not limits[0] <= float(value) <= limits[1]:  # type: ignore[arg-type]
+        fits, expected = False, f"from {limits[0]:g} to {limits[1]:g}"
     if not fits:
-        raise SettingsInvalid(where, f"{name} is {value!r}, such a value as {usual!r} expected")
+        raise SettingsInvalid(where, f"{name} is {value!r}, {expected} expected")
+
+
+def _check_picture(
+    where: str, name: str, value: Any, kind: type, channels: tuple[int, ...], size: tuple[int, ...] = ()
+) -> None:
+    shape = getattr(value, "shape", ())
+    if getattr(value, "dtype", None) != kind or shape[2:] != channels or len(shape) < 2 or (size and shape != size):
+        wanted = ", ".join(("H", "W", *map(str, channels))) if not size else "as large as the picture"
+        raise SettingsInvalid(where, f"{name} is no recording and no picture ({wanted}) {kind.__name__}")
 
 
 def _tracked(path: Path, clicks: str | Path | ProposedClicks, chosen: TrackSettings) -> Iterator[HandFrame]:
@@ -327,7 +358,11 @@ def propose_clicks(
     ``frame`` is a recording (its first picture counts), a :class:`Frame`, or a picture (H, W, 3) uint8 RGB with its
     ``depth`` (H, W) uint16 in ``depth_unit_m`` if there is one. Markers without a likely disc are left out.
     """
-    _check("carpus.propose_clicks", "hand", hand, "right", get_args(Side))
+    where = "carpus.propose_clicks"
+    _check(where, "hand", hand, Side)
+    _check(where, "protocol", protocol, str)
+    _check(where, "camera", camera, Camera | None)
+    _check(where, "depth_unit_m", depth_unit_m, float, (1e-6, 1.0))
     markers = protocol_named(protocol)
     if isinstance(frame, (str, Path)):
         source = open_recording(Path(frame), need_depth=False)
@@ -340,7 +375,10 @@ def propose_clicks(
     elif isinstance(frame, Frame):
         first = frame
     else:
-        first = Frame(0, 0.0, np.asarray(frame, dtype=np.uint8), depth, depth_unit_m)
+        _check_picture(where, "frame", frame, np.uint8, (3,))
+        if depth is not None:
+            _check_picture(where, "depth", depth, np.uint16, (), frame.shape[:2])
+        first = Frame(0, 0.0, frame, depth, depth_unit_m)
     camera = camera or DEFAULT_CAMERA
     blobs = marker_candidates(first, camera, DetectionSettings(), CandidateSettings())
     found = propose_names(blobs, camera, hand, markers, NamingSettings())
@@ -382,18 +420,26 @@ def compare(
     radians: bool | None = None,
     smoothed: bool = False,
     most_shift_s: float = MOST_SHIFT_S,
+    lag_s: float | None = None,
+    drift_percent: float = 0.0,
 ) -> Compared:
     """How far a session agrees with C3D, TRC, MOT, a CSV table or list of readings, or another session.
 
-    ``columns`` angle (or ``time``) to column, a minus before it turns its sign; ``markers`` disc to marker. Of each of
+    ``columns`` angle (or ``time``) to column, a minus before it turns its sign; ``markers`` disc to marker. The clocks
+    are at most ``most_shift_s`` apart; ``lag_s`` by how much later things happen on the reference's, where it is known,
+    and ``drift_percent`` by how much that runs fast. Of each of
     ``pairs``: ``figures_deg`` with bias, limits, rmse, correlation, icc, cmc. Readings without a time are compared with
     the repetitions that count: what a person left out of them is left out here.
     """
-    _check("carpus.compare", "smoothed", smoothed, False)
-    _check("carpus.compare", "most_shift_s", most_shift_s, MOST_SHIFT_S)
+    where = "carpus.compare"
+    _check(where, "smoothed", smoothed, bool)
+    _check(where, "most_shift_s", most_shift_s, float, (0.0, FURTHEST_SHIFT_S))
+    _check(where, "lag_s", lag_s, float | None, (-FURTHEST_SHIFT_S, FURTHEST_SHIFT_S))
+    _check(where, "drift_percent", drift_percent, float, (-LARGEST_DRIFT_PERCENT, LARGEST_DRIFT_PERCENT))
     result = compare_files(
         Path(session), Path(reference), columns=columns, markers=markers, radians=radians, smoothed=smoothed,
-        most_shift_s=most_shift_s, choices=read_choices(Path(session)),
+        most_shift_s=most_shift_s, lag_s=math.nan if lag_s is None else lag_s, drift=0.01 * drift_percent,
+        choices=read_choices(Path(session)),
     )  # fmt: skip
     return result.compared
 
@@ -401,7 +447,5 @@ def compare(
 def simulate(folder: str | Path, **options: Any) -> Truth:
     """A synthetic recording as a TUM folder, with clicks and truth beside it; ``options`` are those of
     :class:`core.simulation.spec.RecordingSpec`. Its true values."""
-    unknown = sorted(set(options) - set(RecordingSpec.__dataclass_fields__))
-    if unknown:
-        raise SettingsInvalid("carpus.simulate", ", ".join(unknown))
+    _check_fields("carpus.simulate", options, RecordingSpec)
     return recording.simulate(RecordingSpec(**options), Path(folder))

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from carpus import __version__
 from carpus.app.command_line import number
-from carpus.core.agreement.compare import MOST_SHIFT_S
+from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S
 from carpus.core.hand.sites import SITES
 from carpus.core.known_names import known_names
 
@@ -66,21 +66,21 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--smoothed", action="store_true", help="compare the smoother's results, not the filter's")
     parser.add_argument(
         "--max-shift",
-        type=number(0.0, 3600.0, "seconds"),
+        type=number(0.0, FURTHEST_SHIFT_S, "seconds"),
         default=MOST_SHIFT_S,
         metavar="SECONDS",
         help="furthest that the clocks are apart",
     )
     parser.add_argument(
         "--lag",
-        type=number(-3600.0, 3600.0, "seconds"),
+        type=number(-FURTHEST_SHIFT_S, FURTHEST_SHIFT_S, "seconds"),
         default=math.nan,
         metavar="SECONDS",
         help="how much later things happen on the reference's clock, where it is known: no shift is looked for",
     )
     parser.add_argument(
         "--drift",
-        type=number(-10.0, 10.0, "percent"),
+        type=number(-LARGEST_DRIFT_PERCENT, LARGEST_DRIFT_PERCENT, "percent"),
         default=0.0,
         metavar="PERCENT",
         help="by how much the reference's clock runs fast, to be taken out",

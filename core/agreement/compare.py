@@ -27,6 +27,8 @@ SAFE_OVERLAP_S = 5.0
 SAME_CLOCK_S, SAME_CLOCK_ALIKE = 0.5, 0.01
 """Two results of one recording are not further apart, and not apart for a match that is hardly better."""
 MOST_SHIFT_S = 10.0
+FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT = 3600.0, 10.0
+"""What a person may say of two clocks."""
 LEAST_MATCH = 0.5
 """Below this correlation no shift is believed: it is not the same movement."""
 SLOW_HZ = 5.0

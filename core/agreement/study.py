@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from carpus.core.agreement.compare import MOST_SHIFT_S, Compared, Pairs
+from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S, Compared, Pairs
 from carpus.core.agreement.compared_files import Result, compare_files
 from carpus.core.agreement.statistics import Agreement, Between, agreement_of_people
 from carpus.core.agreement.tables import HEAD, cell, figure_lines, row_of
@@ -111,8 +111,18 @@ def _line(path: Path, row: Mapping[str, str | None], read_map: Callable[[str], M
         read_map(said["columns"]) if said.get("columns") else {},
         read_map(said["markers"]) if said.get("markers") else {},
         None if not unit else unit == "rad",
-        float(said.get("lag_s") or math.nan), 0.01 * float(said.get("drift_percent") or 0.0),
+        _number(said, "lag_s", math.nan, FURTHEST_SHIFT_S),
+        0.01 * _number(said, "drift_percent", 0.0, LARGEST_DRIFT_PERCENT),
     )  # fmt: skip
+
+
+def _number(said: Mapping[str, str], name: str, usual: float, most: float) -> float:
+    if not said.get(name):
+        return usual
+    value = float(said[name])
+    if not abs(value) <= most:
+        raise ValueError(f"{name} is {said[name]}, from {-most:g} to {most:g}")
+    return value
 
 
 def study_of(

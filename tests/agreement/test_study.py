@@ -126,7 +126,16 @@ def test_what_cannot_be_compared_is_left_out_and_told(
     assert found["all people", ""]["bias_deg"] == ""
 
 
-@pytest.mark.parametrize("text", ["", "person,session\n1,2\n", "person,session,reference\n,a.h5,b.csv\n", "\x00\x01"])
+_HEAD = "person,session,reference,drift_percent,lag_s\n"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "", "person,session\n1,2\n", "person,session,reference\n,a.h5,b.csv\n", "\x00\x01",
+        f"{_HEAD}a,a.h5,b.csv,400,\n", f"{_HEAD}a,a.h5,b.csv,,nan\n",
+    ],
+)  # fmt: skip
 def test_what_is_no_table_of_a_study_is_said(text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "t.csv").write_text(text)
     assert main(["compare", "--study", str(tmp_path / "t.csv")]) == 1

@@ -45,6 +45,10 @@ def test_an_unknown_setting_is_named(folder: Path) -> None:
         next(carpus.track(folder, folder / "calibration.json", profil="slow"))
     with pytest.raises(SettingsInvalid, match="second"):
         carpus.simulate(folder.parent / "other", second=3.0)
+    for wrong, said in (({"seconds": "long"}, "seconds is 'long', a number expected"), ({"motion": 3}, "motion is 3")):
+        with pytest.raises(SettingsInvalid, match=said):
+            carpus.simulate(folder.parent / "other", **wrong)
+    assert not (folder.parent / "other").exists()
     with pytest.raises(AttributeError):
         _ = carpus.no_such_thing  # type: ignore[attr-defined]
 
@@ -53,7 +57,7 @@ def test_an_unknown_setting_is_named(folder: Path) -> None:
     ("wrong", "said"),
     [
         ({"dip": "fre"}, "dip is 'fre', 'coupled' or 'free' expected"),
-        ({"use_depth": "no"}, "use_depth is 'no', such a value as True expected"),
+        ({"use_depth": "no"}, "use_depth is 'no', True or False expected"),
         ({"profile": "brsk"}, "profile is 'brsk', 'slow' or 'standard' or 'brisk' expected"),
         ({"filter": "papers"}, "filter is 'papers', 'default' or 'paper' expected"),
         ({"lost_after_s": "long"}, "lost_after_s is 'long'"),
@@ -76,6 +80,17 @@ def test_a_hand_an_exercise_and_a_choice_of_a_comparison_that_are_none_are_refus
         carpus.write_session(folder, clicks, folder.parent / "no.h5", exercise="WRIST_XX")
     with pytest.raises(SettingsInvalid, match="smoothed is 'no'"):
         carpus.compare(truth, truth, smoothed="no")  # type: ignore[arg-type]
+    for choice, said in (
+        ({"most_shift_s": -1}, "most_shift_s is -1, from 0 to 3600 expected"), ({"lag_s": 1e9}, "lag_s is"),
+        ({"drift_percent": 11.0}, "drift_percent is 11.0, from -10 to 10"),
+    ):  # fmt: skip
+        with pytest.raises(SettingsInvalid, match=re.escape(said)):
+            carpus.compare(truth, truth, **choice)  # type: ignore[arg-type]
+    for picture in (5, np.zeros((4, 4), dtype=np.uint8), np.zeros((4, 4, 3))):
+        with pytest.raises(SettingsInvalid, match=re.escape("frame is no recording and no picture (H, W, 3) uint8")):
+            carpus.propose_clicks(picture)
+    with pytest.raises(SettingsInvalid, match="depth is no"):
+        carpus.propose_clicks(np.zeros((4, 4, 3), dtype=np.uint8), depth=np.zeros((2, 2), dtype=np.uint16))
     with pytest.raises(SettingsInvalid, match="hand is 'middle', 'right' or 'left' expected"):
         carpus.propose_clicks(folder, hand="middle")  # type: ignore[arg-type]
 
@@ -166,6 +181,9 @@ def test_export_and_compare_in_ten_lines(folder: Path, tmp_path: Path) -> None:
     assert {path.suffix for path in done.files} >= {".mot", ".c3d"}
     found = carpus.compare(folder / "truth.h5", tmp_path / "truth.mot")
     assert max(pair.figures_deg.rmse for pair in found.pairs) < 0.1
+    given = carpus.compare(folder / "truth.h5", tmp_path / "truth.mot", lag_s=0.1, drift_percent=1.0).shift
+    assert given is not None
+    assert (given.reference_later_s, given.was_given, given.drift) == (0.1, True, pytest.approx(0.01))
     with pytest.raises(ValueError, match="xls"):
         carpus.export(folder / "truth.h5", tmp_path / "other", ["xls"])
 
