@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from carpus.core.agreement.watch import UNWATCHED, Watch
@@ -15,8 +16,6 @@ STEP_S = 1.0 / 100.0
 """Of the times on which a shift is looked for."""
 LEAST_OVERLAP_S, LEAST_SHARE = 1.0, 0.6
 """What both must have in common, in seconds and of the shorter of the two: a short piece fits anywhere."""
-TOLD_EVERY = 50
-"""Shifts between two words on how far it is."""
 ALIKE, FLOOR = 3.0, 0.003
 """A match is as good as the best where its log-likelihood is less by no more than this, of what both leave unexplained
 and a bit that sampling alone does."""
@@ -123,16 +122,11 @@ def best_shift(curves: Curves, most_s: float, same_clock_alike: float = 0.0, wat
     first, furthest = round(theirs_s[0] / STEP_S), round(most_s / STEP_S)
     least = min(round(max(LEAST_OVERLAP_S, LEAST_SHARE * shorter_s) / STEP_S), len(a), len(b))
     shifts = np.arange(-furthest, furthest + 1)
-    match = np.full(len(shifts), np.nan)
-    for k, shift in enumerate(shifts):
-        if not k % TOLD_EVERY:
-            watch.at(k / len(shifts))
-        begin_a, begin_b = max(0, first - shift), max(0, shift - first)
-        count = min(len(a) - begin_a, len(b) - begin_b)
-        if count >= least:
-            match[k] = _match(
-                a[begin_a : begin_a + count], b[begin_b : begin_b + count], weight, least, curves.either_sign
-            )
+    alike = np.full((len(shifts), a.shape[1]), np.nan)
+    for k in range(a.shape[1]):
+        watch.at(k / a.shape[1])
+        alike[:, k] = _correlations(a[:, k], b[:, k], shifts - first, least)
+    match = _joined(alike, weight, either_sign=curves.either_sign)
     if not np.isfinite(match).any():
         return Shift(0.0, math.nan)
     score = np.where(np.isfinite(match), np.abs(match) if curves.either_sign else match, -np.inf)
@@ -231,18 +225,47 @@ def with_drift(curves: Curves, shift: Shift) -> Shift:
     return replace(shift, drift_found=found.drift, lag_without_drift_s=found.lag_s)
 
 
+def _correlations(a: FloatArray, b: FloatArray, later: NDArray[np.intp], least: int) -> FloatArray:
+    """Correlation (L,) of ``a`` (N,) with ``b`` (K,) begun so many samples ``later`` (L,), over what both have; NaN
+    where that is fewer than ``least``. All shifts at once, by Fourier transforms of the sums that it is made of."""
+    from scipy.signal import correlate, correlation_lags
+
+    has_a, has_b = np.isfinite(a), np.isfinite(b)
+    x, y = (np.where(has, one - np.mean(one[has]), 0.0) for one, has in ((a, has_a), (b, has_b)))
+    lags = correlation_lags(len(b), len(a)).tolist()
+    out = np.full(len(later), np.nan)
+    inside = (later >= lags[0]) & (later <= lags[-1])
+
+    def summed(of_a: FloatArray, of_b: FloatArray) -> FloatArray:
+        return np.asarray(correlate(of_b, of_a, method="fft")[later[inside] - lags[0]])
+
+    one_a, one_b = has_a.astype(np.float64), has_b.astype(np.float64)
+    count = np.maximum(np.rint(summed(one_a, one_b)), 1.0)
+    mean_x, mean_y = summed(x, one_b) / count, summed(one_a, y) / count
+    power_x, power_y = summed(x * x, one_b) / count - mean_x**2, summed(one_a, y * y) / count - mean_y**2
+    # What a transform leaves of the variance of a curve that stands still is no movement.
+    moves = (count >= least) & (power_x > 1e-10 * np.mean(x * x)) & (power_y > 1e-10 * np.mean(y * y))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        alike = (summed(x, y) / count - mean_x * mean_y) / np.sqrt(power_x * power_y)
+    out[inside] = np.where(moves, np.clip(alike, -1.0, 1.0), np.nan)
+    return out
+
+
 def _match(a: FloatArray, b: FloatArray, weight: FloatArray, least: int, either_sign: bool = False) -> float:
-    """Weighted mean of the signals' correlations; with ``either_sign`` of their sizes, with the sign of most of it."""
-    total = size = used = 0.0
-    for k in range(a.shape[1]):
-        both = np.isfinite(a[:, k]) & np.isfinite(b[:, k])
-        if both.sum() < least:
-            continue
-        x, y = a[both, k] - a[both, k].mean(), b[both, k] - b[both, k].mean()
-        power = math.sqrt(float(x @ x) * float(y @ y))
-        if power > 0.0:
-            alike = float(weight[k]) * float(x @ y) / power
-            total, size, used = total + alike, size + abs(alike), used + float(weight[k])
-    if not used:
-        return math.nan
-    return math.copysign(size, total) / used if either_sign else total / used
+    """How well signals (N, S) go together as they are."""
+    alike = np.full((1, a.shape[1]), np.nan)
+    for k, (x, y) in enumerate(zip(a.T, b.T, strict=True)):
+        both = np.isfinite(x) & np.isfinite(y)
+        if both.sum() >= least and np.ptp(x[both]) > 0.0 and np.ptp(y[both]) > 0.0:
+            alike[0, k] = np.corrcoef(x[both], y[both])[0, 1]
+    return float(_joined(alike, weight, either_sign=either_sign)[0])
+
+
+def _joined(alike: FloatArray, weight: FloatArray, *, either_sign: bool) -> FloatArray:
+    """Weighted mean (L,) of the signals' correlations (L, S), NaN of those that are not known; with ``either_sign`` of
+    their sizes, with the sign of most of it."""
+    weights = np.where(np.isfinite(alike), weight, 0.0)
+    share = weights * np.nan_to_num(alike)
+    total, size, used = share.sum(axis=1), np.abs(share).sum(axis=1), weights.sum(axis=1)
+    joined = np.copysign(size, total) if either_sign else total
+    return np.asarray(np.divide(joined, used, out=np.full(len(used), np.nan), where=used > 0.0))

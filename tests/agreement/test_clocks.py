@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.agreement.clocks import Curves, Shift, best_shift, with_drift
+from carpus.core.agreement.clocks import Curves, Shift, _correlations, best_shift, with_drift
 from carpus.core.types import FloatArray
 
 
@@ -71,6 +71,23 @@ def test_drift_and_a_turned_sign_do_not_hide_behind_a_shift() -> None:
         found = with_drift(each, best_shift(each, 10.0))
         assert found.drift_found == pytest.approx(0.01, abs=5e-4)
         assert found.lag_without_drift_s == pytest.approx(0.2, abs=0.02)
+
+
+def test_all_shifts_at_once_are_what_each_is_by_itself() -> None:
+    rng = np.random.default_rng(3)
+    a, b = (np.cumsum(rng.normal(0.0, 1.0, count)) + 1e3 for count in (300, 380))
+    a[40:90], b[:7], b[200:230] = np.nan, np.nan, np.nan
+    a[:40] = 1e3  # at rest
+    later = np.arange(-400, 401)
+    found = _correlations(a, b, later, 60)
+    for shift, match in zip(later.tolist(), found.tolist(), strict=True):
+        mine, other = a[max(0, -shift) :], b[max(0, shift) :]
+        count = min(len(mine), len(other))
+        both = np.isfinite(mine[:count]) & np.isfinite(other[:count])
+        if both.sum() >= 60:
+            assert match == pytest.approx(np.corrcoef(mine[:count][both], other[:count][both])[0, 1], abs=1e-9)
+        else:
+            assert np.isnan(match)
 
 
 def test_the_end_of_the_search_is_said() -> None:
