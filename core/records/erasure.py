@@ -19,7 +19,7 @@ from pathlib import Path
 
 from sqlalchemy import delete, select
 
-from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished
+from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished, FolderMissing
 from carpus.core.names import folded
 from carpus.core.records.changes import PRACTICE, Row, changed, dropped
 from carpus.core.records.database import STORE_FILE
@@ -28,7 +28,7 @@ from carpus.core.records.of_sessions import MadeFile, made_from
 from carpus.core.records.patients import Patients
 from carpus.core.records.schema import PATIENT, RECIPIENT, SEEN, SESSION
 from carpus.core.records.session_list import FilesOfSessions, SessionList, file_name, trials_of
-from carpus.core.records.store import Store
+from carpus.core.records.store import SESSIONS_FOLDER, Store
 from carpus.core.records.values import SessionEntry
 
 
@@ -51,7 +51,7 @@ class ErasurePlan:
 
 def plan_session(store: Store, session_id: str) -> ErasurePlan:
     """One recording with all its results, also those copied in since the last look. Raises KeyError for a session that
-    is not in the store, :class:`ErasureLeadsOut`."""
+    is not in the store, :class:`ErasureLeadsOut`, :class:`FolderMissing` for a share that is away."""
     FilesOfSessions(store).take_in(tells=False)
     sessions = SessionList(store)
     results, patient_id = sessions.results_of(session_id), sessions.owner(session_id)
@@ -61,7 +61,7 @@ def plan_session(store: Store, session_id: str) -> ErasurePlan:
 
 def plan_patient(store: Store, patient_id: str) -> ErasurePlan:
     """A patient with all sessions, also those copied in since the last look. Raises KeyError for one that is not in the
-    store, :class:`ErasureLeadsOut`."""
+    store, :class:`ErasureLeadsOut`, :class:`FolderMissing`."""
     FilesOfSessions(store).take_in(tells=False)
     Patients(store).one(patient_id)
     results = SessionList(store).of_patient(patient_id, archived=True)
@@ -72,6 +72,8 @@ def _plan(
     store: Store, kind: Kind, identity: str, patient_id: str, results: Sequence[SessionEntry], others: int
 ) -> ErasurePlan:
     going, sessions = [patient_id] if kind == "patient" else [], [one.session_id for one in results]
+    if results and _is_away(store):
+        raise FolderMissing(store.sessions_folder)
     links = _links(store, going, sessions)
     if links:
         raise ErasureLeadsOut(links[0])
@@ -119,6 +121,8 @@ def _go_on(store: Store) -> list[Path]:
     mine = (SESSION.c.erasing == 1) | SESSION.c.patient_id.in_(patients)
     rows = store.rows(select(SESSION.c.id, SESSION.c.path).where(mine))
     sessions = [str(row.id) for row in rows]
+    if rows and _is_away(store):
+        return [store.sessions_folder]
     files = _files(store, patients, sessions)
     left = [*_links(store, patients, sessions), *(path for path in sorted(files) if not _gone(path))]
     for folder in sorted({path.parent for path in files} | {store.sessions_folder / one for one in patients}):
@@ -129,7 +133,8 @@ def _go_on(store: Store) -> list[Path]:
         return left
     names = [name for row in people for name in (row.folded, folded(row.name)) if name]
     # What is of this computer alone goes first: as long as the rows are marked, a kill in between is made good.
-    paths = [path.relative_to(store.sessions_folder).as_posix() for path in files if _is_session_file(store, path)]
+    root = store.sessions_folder
+    paths = [path.relative_to(root).as_posix() for path in files if path.is_relative_to(root)]
     store.own(
         *(delete(SEEN).where(SEEN.c.path == path) for path in [*paths, *(str(row.path) for row in rows)]),
         *(delete(SEEN).where(SEEN.c.reason.endswith(str(row.path), autoescape=True)) for row in rows),
@@ -206,6 +211,11 @@ def _is_beside(path: Path, stems: Collection[str]) -> bool:
     return any(str(path.with_name(".".join(parts[:end]))) in stems for end in range(1, len(parts)))
 
 
+def _is_away(store: Store) -> bool:
+    """Whether the clinic's share is not there: the files would come back with it. An empty folder may be its place."""
+    return store.sessions_folder != store.folder / SESSIONS_FOLDER and not any(store.sessions_folder.rglob("*.h5"))
+
+
 def _links(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> list[Path]:
     """Links on the way to what is to go: nobody knows what else lies behind them."""
     root = store.sessions_folder
@@ -228,10 +238,6 @@ def _inside(folder: Path, stored: str) -> Path | None:
 def _plain_files(folder: Path) -> Iterator[Path]:
     if not folder.is_symlink():
         yield from (path for path in folder.rglob("*") if path.is_symlink() or path.is_file())
-
-
-def _is_session_file(store: Store, path: Path) -> bool:
-    return path.is_relative_to(store.sessions_folder)
 
 
 def _gone(path: Path) -> bool:

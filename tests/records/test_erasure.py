@@ -13,7 +13,7 @@ import pytest
 from sqlalchemy import select, update
 
 from carpus.core.by_hand.values import HandValue
-from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished, OutputNotWritable, SessionChanged
+from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished, FolderMissing, OutputNotWritable, SessionChanged
 from carpus.core.library.corrections import Corrections
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import SetUp
@@ -232,6 +232,25 @@ def test_no_row_and_no_link_leads_out_of_the_folder(tmp_path: Path, folder: Path
     erasure.finish_erasing(house.store, house.log)
     assert sorted(path.name for path in mine.iterdir()) == ["a.h5", "b.h5"]
     assert house.store.rows(select(SESSION)) == []
+
+
+def test_while_the_share_is_away_nothing_is_erased(tmp_path: Path, folder: Path) -> None:
+    share = tmp_path / "share"
+    with opened(folder, sessions=share) as house:
+        linden = house.patients.add(LINDEN)
+        path = house.index.one(measure(house, linden, T0)).path
+        share.rename(tmp_path / "away")
+        with pytest.raises(FolderMissing):
+            erasure.plan_patient(house.store, linden)
+        house.store.own(update(PATIENT).where(PATIENT.c.id == linden).values(erasing=1))
+    with opened(folder, sessions=share) as house:
+        erasure.finish_erasing(house.store, house.log)
+        share.rmdir()  # made by who looked for it, as below a share that is not mounted
+        (tmp_path / "away").rename(share)
+        assert path.exists()
+        erasure.finish_erasing(house.store, house.log)
+    assert not path.exists()
+    assert traces(tmp_path, *NAMES, linden) == []
 
 
 def test_what_was_copied_in_and_not_looked_at_brings_nobody_back(folder: Path, house: House) -> None:
