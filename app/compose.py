@@ -105,7 +105,7 @@ class Desktop:
     def show(self) -> None:
         """Bring up the first screen and tell of what was recovered."""
         self.journey.show_patients()
-        put_in_place(self.shell, LastPlaces(self.library.folder).window())
+        put_in_place(self.shell, LastPlaces(self.library.store).window())
         self.shell.create()  # what hides the names must be there before anything is seen
         self.safe.locking.lock_at_start()
         self.shell.show()
@@ -137,7 +137,7 @@ class Desktop:
         self.journey.now.choice = now.choice
         self.journey.show_patients()
         self.journey.show_again_at(place, now)
-        put_in_place(self.shell, LastPlaces(self.library.folder).window())
+        put_in_place(self.shell, LastPlaces(self.library.store).window())
         self.shell.create()
         self.safe.locking.look_again()
         self.shell.show()
@@ -192,7 +192,7 @@ class Desktop:
             self.welcome.end()
             self.safe.locking.end()
             self.safe.backing_up.end()
-            LastPlaces(self.library.folder).keep_window(place_of(self.shell))
+            LastPlaces(self.library.store).keep_window(place_of(self.shell))
             self.journey.close()
             self.shell.hide()
             self.library.close()

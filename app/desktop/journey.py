@@ -122,7 +122,7 @@ class Journey(QObject):
         self.now = NowOpen(choice=SourceChoice("practice" if parts.is_demo else "camera"))
         self.background = Background()
         self.opener = Opener(parts.sources)
-        self._places = LastPlaces(parts.library.folder)
+        self._places = LastPlaces(parts.library.store)
         self.teller = Teller(shell.stage, theme, parts.phrasebook)
         self._make_screens(theme, keys)
         self._make_flows(theme)

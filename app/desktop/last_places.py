@@ -2,27 +2,30 @@
 
 from __future__ import annotations
 
-import json
+from contextlib import suppress
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from PySide6.QtCore import QStandardPaths
 from PySide6.QtWidgets import QFileDialog, QWidget
 
+from carpus.core.errors import CarpusFault
+from carpus.core.records.of_clinic import keep_place, last_place
+from carpus.core.records.store import Store
+
 Kind = Literal["recordings", "reports", "exports"]
-FILE = "last_places.json"
 
 
 class LastPlaces:
-    """A folder for each kind of thing, kept in the data folder; only a convenience, so nothing here is a fault."""
+    """A folder for each kind of thing, kept for this computer; only a convenience, so nothing here is a fault."""
 
-    def __init__(self, folder: Path) -> None:
-        self._path = folder / FILE
+    def __init__(self, store: Store) -> None:
+        self._store = store
 
     def folder(self, kind: Kind) -> str:
         """Where to begin looking: the last place if it is still there, else documents, else home."""
-        for candidate in (self._stored().get(kind), documents()):
-            if isinstance(candidate, str) and candidate and Path(candidate).is_dir():
+        for candidate in (self._kept(kind), documents()):
+            if candidate and Path(candidate).is_dir():
                 return candidate
         return str(Path.home())
 
@@ -39,27 +42,22 @@ class LastPlaces:
         self.keep(kind, str(Path(path).parent))
         return Path(path)
 
-    def _keep(self, name: str, value: str) -> None:
-        try:
-            self._path.write_text(json.dumps(self._stored() | {name: value}), encoding="utf-8")
-        except OSError:
-            return  # a full or read-only disk tells elsewhere
-
     def window(self) -> str:
         """The window's place as it was kept, empty before the first time."""
-        kept = self._stored().get("window")
-        return kept if isinstance(kept, str) else ""
+        return self._kept("window")
 
     def keep_window(self, place: str) -> None:
         """Remember the window's place."""
         self._keep("window", place)
 
-    def _stored(self) -> dict[str, Any]:
-        try:
-            found = json.loads(self._path.read_text(encoding="utf-8"))
-        except (OSError, ValueError, RecursionError):
-            return {}
-        return found if isinstance(found, dict) else {}
+    def _keep(self, name: str, value: str) -> None:
+        with suppress(CarpusFault):  # a full or read-only disk tells elsewhere
+            keep_place(self._store, name, value)
+
+    def _kept(self, name: str) -> str:
+        with suppress(CarpusFault):
+            return last_place(self._store, name)
+        return ""
 
 
 def documents() -> str:

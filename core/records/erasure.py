@@ -24,9 +24,10 @@ from carpus.core.names import folded
 from carpus.core.records.changes import PRACTICE, Row, changed, dropped
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import Kind, Log
+from carpus.core.records.of_clinic import PLACE
 from carpus.core.records.of_sessions import MadeFile, made_from
 from carpus.core.records.patients import Patients
-from carpus.core.records.schema import PATIENT, RECIPIENT, SEEN, SESSION
+from carpus.core.records.schema import OWN, PATIENT, RECIPIENT, SEEN, SESSION
 from carpus.core.records.session_list import FilesOfSessions, SessionList, file_name, trials_of
 from carpus.core.records.store import SESSIONS_FOLDER, Store
 from carpus.core.records.values import SessionEntry
@@ -135,7 +136,13 @@ def _go_on(store: Store) -> list[Path]:
     # What is of this computer alone goes first: as long as the rows are marked, a kill in between is made good.
     root = store.sessions_folder
     paths = [path.relative_to(root).as_posix() for path in files if path.is_relative_to(root)]
+    places = store.rows(select(OWN).where(OWN.c.name.startswith(PLACE)))
     store.own(
+        *(
+            delete(OWN).where(OWN.c.name == row.name)
+            for row in places
+            if any(one in folded(row.value) for one in names)
+        ),
         *(delete(SEEN).where(SEEN.c.path == path) for path in [*paths, *(str(row.path) for row in rows)]),
         *(delete(SEEN).where(SEEN.c.reason.endswith(str(row.path), autoescape=True)) for row in rows),
     )

@@ -1,4 +1,5 @@
-"""What belongs to the clinic and to no patient: to whom letters are written, and the back-ups that were made."""
+"""What belongs to the clinic and to no patient: to whom letters are written, the back-ups that were made, and where on
+this computer things were last opened and saved."""
 
 from __future__ import annotations
 
@@ -7,14 +8,16 @@ import uuid
 from dataclasses import dataclass
 from datetime import datetime
 
-from sqlalchemy import select
+from sqlalchemy import delete, insert, select
 
 from carpus.core.records.changes import kept, new
-from carpus.core.records.schema import BACKUP, RECIPIENT, SESSION
+from carpus.core.records.schema import BACKUP, OWN, RECIPIENT, SESSION
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import moment
 
 MOST_RECIPIENTS = 50
+PLACE = "place "
+"""Begins the names of places among what is of this computer alone."""
 
 
 def recipients(store: Store) -> list[str]:
@@ -54,3 +57,15 @@ def last_backup(store: Store) -> LastBackup | None:
     made = moment(row.made, 0.0)
     later = store.rows(select(SESSION.c.id).where(SESSION.c.created_s > made.timestamp(), SESSION.c.erasing == 0))
     return LastBackup(made, row.place, row.sessions, row.size_bytes, len(later))
+
+
+def last_place(store: Store, name: str) -> str:
+    """Where that was last; empty before the first time."""
+    row = store.row(select(OWN.c.value).where(OWN.c.name == f"{PLACE}{name}"))
+    return row.value if row else ""
+
+
+def keep_place(store: Store, name: str, place: str) -> None:
+    """Remember where."""
+    name = f"{PLACE}{name}"
+    store.own(delete(OWN).where(OWN.c.name == name), insert(OWN).values(name=name, value=place))

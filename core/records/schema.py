@@ -130,7 +130,7 @@ SEEN = _local(
 )  # fmt: skip
 """How files looked when they were last read; ``reason`` why one is no session."""
 OWN = _local("own", Column("name", Text, primary_key=True), Column("value", Text, nullable=False))
-"""What this copy knows of itself: how far it has read the server."""
+"""Of this computer alone: how far it has read the server, where a person last opened and saved things."""
 
 COPIED = (
     PATIENT, SESSION, COMMENT, CORRECTION, MEASURED, SET_UP, GOAL, EXERCISE_SET, REPORT_FORM, RECIPIENT, MADE, BACKUP,

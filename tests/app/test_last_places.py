@@ -2,42 +2,47 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from carpus.app.desktop import last_places
-from carpus.app.desktop.last_places import FILE, LastPlaces
+from carpus.app.desktop.last_places import LastPlaces
+from carpus.core.errors import DiskFull
+from carpus.core.records.store import Store
 
 
-def test_the_first_time_it_is_documents_or_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def store(tmp_path: Path) -> Iterator[Store]:
+    with Store(tmp_path / "data") as found:
+        yield found
+
+
+def test_the_first_time_it_is_documents_or_home(tmp_path: Path, store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
     papers = tmp_path / "papers"
     monkeypatch.setattr(last_places, "documents", lambda: str(papers))
-    assert LastPlaces(tmp_path).folder("reports") == str(Path.home()), "the folder for papers is not there"
+    assert LastPlaces(store).folder("reports") == str(Path.home()), "the folder for papers is not there"
     papers.mkdir()
-    assert LastPlaces(tmp_path).folder("reports") == str(papers)
+    assert LastPlaces(store).folder("reports") == str(papers)
 
 
-def test_each_kind_has_its_own_place_until_it_is_gone(tmp_path: Path) -> None:
-    places = LastPlaces(tmp_path)
+def test_each_kind_has_its_own_place_until_it_is_gone(tmp_path: Path, store: Store) -> None:
+    places = LastPlaces(store)
     for kind in ("reports", "recordings"):
         (tmp_path / kind).mkdir()
         places.keep(kind, str(tmp_path / kind))  # type: ignore[arg-type]
-    again = LastPlaces(tmp_path)
+    again = LastPlaces(store)
     assert again.folder("reports") == str(tmp_path / "reports")
     assert again.folder("recordings") == str(tmp_path / "recordings")
     (tmp_path / "reports").rmdir()
     assert again.folder("reports") != str(tmp_path / "reports")
 
 
-@pytest.mark.parametrize("content", ["", "[1]", '{"reports": 7}', "not json"])
-def test_a_damaged_file_is_no_fault(tmp_path: Path, content: str) -> None:
-    (tmp_path / FILE).write_text(content)
-    places = LastPlaces(tmp_path)
-    assert Path(places.folder("reports")).is_dir()
-    places.keep("reports", str(tmp_path))
-    assert places.folder("reports") == str(tmp_path)
+def test_a_store_that_cannot_be_written_is_no_fault(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> None:
+        raise DiskFull("disk")
 
-
-def test_a_folder_that_cannot_be_written_is_no_fault(tmp_path: Path) -> None:
-    LastPlaces(tmp_path / "nowhere").keep("reports", str(tmp_path))
+    monkeypatch.setattr(store, "own", full)
+    LastPlaces(store).keep("reports", str(store.folder))
+    assert Path(LastPlaces(store).folder("reports")).is_dir()

@@ -102,6 +102,7 @@ def fill(house: House, patient_id: str) -> list[str]:
     of_patients.enter_by_hand(house.store, patient_id, [value])
     keep_set_up(house.store, SetUp(patient_id, entry.pseudonym, "right", exercise_named("WRIST_FE"), 8, 25.0, -20.0))
     house.patients.let_take_part([*house.patients.taking_part(), patient_id])
+    of_clinic.keep_place(house.store, entry.pseudonym[:2], f"/papers/{entry.name}")
     of_clinic.remember_recipient(house.store, f"{entry.name}\nOak Street 1")
     house.log.note("opened", "patient", patient_id)
     return sessions
@@ -124,6 +125,7 @@ def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) ->
         assert [len(of_sessions.comments(house.store, one.session_id)) for one in house.index.of_patient(heron)] == [
             1
         ] * 3
+        assert of_clinic.last_place(house.store, "He") == f"/papers/{HERON.name}"
         assert of_clinic.recipients(house.store) == [f"{HERON.name}\nOak Street 1"]
     assert traces(folder, *NAMES, linden, *sessions) == []
 

@@ -70,7 +70,7 @@ def parts(
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(tmp_path))
     store = Store(tmp_path)
     printing = Printing(
-        window, screen, None, told, None, stored, LastPlaces(tmp_path), background,  # type: ignore[arg-type]
+        window, screen, None, told, None, stored, LastPlaces(store), background,  # type: ignore[arg-type]
         theme=theme, therapist=lambda: "", forms=ReportForms(window, theme, store, told.fault),
     )  # fmt: skip
     window.show()
