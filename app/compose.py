@@ -271,7 +271,8 @@ def compose(
     journey.care.changed.connect(lambda: camera_card.show_standing(*card_words(journey.care.standing)))
     camera_card.show_standing(*card_words(journey.care.standing))
     safe = _safekeeping(shell, theme, journey, library, keeper, settings, settings_folder, parts.today)
-    keeper.screen.add_cards(journey.forms.card, camera_card)
+    keeper.screen.add_cards("camera", camera_card)
+    keeper.screen.add_cards("report", journey.forms.card)
     tour = Tour(journey)
     welcome = Welcome(journey, theme, tour, keeper, library)
     again = partial(compose, qt, is_demo=is_demo, take=take, speed=speed, settings_folder=settings_folder, today=today)
@@ -330,7 +331,7 @@ def _safekeeping(
         minutes=settings.lock.after_min, is_busy=is_recording,
         keep_minutes=lambda minutes: keeper.keep(lock=LockSettings(minutes)),
     )  # fmt: skip
-    keeper.screen.add_cards(backing_up.card, locking.card, lists.card)
+    keeper.screen.add_cards("safety", backing_up.card, locking.card, lists.card)
     backing_up.remind()
     return Safe(erasing, lists, backing_up, locking)
 

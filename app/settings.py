@@ -42,12 +42,13 @@ Values = Mapping[str, Any]
 @dataclass(frozen=True, slots=True)
 class ScreenSettings:
     """``theme`` of the window; ``text_scale`` 1, 1.25 or 1.5; ``keys`` that a person gave to actions; ``language`` a
-    code of two letters, or the computer's."""
+    code of two letters, or the computer's; ``research``: whether what only research needs is shown."""
 
     theme: Literal["light", "dark", "system"] = "system"
     text_scale: float = 1.0
     keys: Mapping[str, str] = field(default_factory=dict)
     language: str = "system"
+    research: bool = False
 
     def __post_init__(self) -> None:
         if not 0.5 <= self.text_scale <= 4.0:
@@ -244,6 +245,7 @@ def keep_preferences(chosen: Settings, folder: Path | None = None) -> None:
         f"theme = {_text(screen.theme)}",
         f"text_scale = {float(screen.text_scale)}",
         f"language = {_text(screen.language)}",
+        f"research = {'true' if screen.research else 'false'}",
         "[screen.keys]",
         *(f"{name} = {_text(key)}" for name, key in sorted(screen.keys.items())),
         "[recording]",

@@ -461,3 +461,5 @@ class Preferences:
     """Whether the patient's view beeps where a goal is reached."""
     language: str = "system"
     """Of the window: a code of :data:`carpus.ui.language.LANGUAGES`, or the computer's."""
+    research: bool = False
+    """Whether what only research needs is shown."""

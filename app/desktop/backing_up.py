@@ -123,7 +123,7 @@ class BackingUp(QObject):
         facts = self._facts()
         words = Words(facts.headline, facts.detail, self.tr("Plug the disk for back-ups in, and back up."))
         place = self._journey.patients.notice_place
-        self._journey.teller.strip(place, words, self.tr("To the settings"), self._journey.settings_wanted.emit)
+        self._journey.teller.strip(place, words, self.tr("To the settings"), self._journey.safety_wanted.emit)
 
     def look(self) -> None:
         """Once a minute: is it time?"""

@@ -109,9 +109,11 @@ def _now() -> datetime:
 
 
 class Journey(QObject):
-    """Owns the screens and the flows. ``settings_wanted`` asks for the settings screen."""
+    """Owns the screens and the flows. ``settings_wanted`` asks for the settings screen,
+    ``safety_wanted`` for what it has of back-up, lock and records."""
 
     settings_wanted = Signal()
+    safety_wanted = Signal()
 
     def __init__(self, shell: Shell, theme: Theme, keys: Keys, parts: Parts) -> None:
         super().__init__(shell)
@@ -568,6 +570,11 @@ class Journey(QObject):
                 self.viewing.open_sessions(before.patient.patient_id)
             else:
                 self.viewing.open_review_of(before.patient.patient_id, before.session_id)
+
+    def show_research(self, *, on: bool) -> None:
+        """Show what only research needs, or fold it away; no value changes by it."""
+        for shown in (self.live, self.review.player, self.printing, self.sessions):
+            shown.show_research(on=on)
 
     def put_settings(self, screen: QWidget) -> None:
         """The settings screen, which is made where settings are kept."""

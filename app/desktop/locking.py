@@ -97,7 +97,7 @@ class Locking(QObject):
         if self.pin.is_set:
             self._lock(0)
         else:
-            self._journey.settings_wanted.emit()
+            self._journey.safety_wanted.emit()
 
     def _lock_by_itself(self) -> None:
         if not self.pin.is_set or self.locked or self._minutes == 0:

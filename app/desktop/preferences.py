@@ -64,6 +64,7 @@ class PreferenceKeeper(QObject):
             settings.report.agreement_limit_deg,
             settings.patient.sound,
             settings.screen.language,
+            settings.screen.research,
         )
         self.screen = SettingsScreen(theme, chosen, __version__, measured)
         self._shown_folder = chosen.data_folder
@@ -71,9 +72,12 @@ class PreferenceKeeper(QObject):
         self.screen.done.connect(journey.way.back)
         self.screen.licences.clicked.connect(lambda: LicencesWindow(self.screen, theme, licence_texts()).exec())
         journey.put_settings(self.screen)
+        journey.show_research(on=chosen.research)
         journey.settings_wanted.connect(lambda: journey.way.aside("settings"))
         self._background = Background()
         journey.settings_wanted.connect(self.look_for_newer)
+        journey.safety_wanted.connect(lambda: self.screen.choose("safety"))
+        journey.safety_wanted.connect(journey.settings_wanted)
 
     def look_for_newer(self) -> None:
         """Where the clinic named a folder of packages, and nowhere else."""
@@ -97,13 +101,14 @@ class PreferenceKeeper(QObject):
             recording = replace(recording, folder=chosen.data_folder)
         self._settings = replace(
             self._settings,
-            screen=ScreenSettings(chosen.theme, chosen.text_scale, chosen.keys, chosen.language),
+            screen=ScreenSettings(chosen.theme, chosen.text_scale, chosen.keys, chosen.language, chosen.research),
             recording=recording,
             report=ReportSettings(chosen.therapist, chosen.angle_order, chosen.agreement_limit_deg),
             stream=StreamSettings(chosen.stream),
             patient=PatientSettings(chosen.patient_sound),
         )
         self._theme.choose(self._theme_of(self._settings), chosen.text_scale)
+        self._journey.show_research(on=chosen.research)
         self._journey.settings = replace(
             self._journey.settings,
             report=self._settings.report,

@@ -119,6 +119,7 @@ class Printing(QObject):
         self._stop = threading.Event()
         self._exported = ""
         self.formats = ExportSheet(window, theme)
+        self._research = True
         self.formats.wanted.connect(self._export)
         self.formats.stop.connect(self._stop.set)
         self._stepped.connect(self.formats.progress, Qt.ConnectionType.QueuedConnection)
@@ -128,6 +129,11 @@ class Printing(QObject):
         screen.saved.connect(lambda path: self.reported.emit(path, self._shown))
         screen.saved.connect(lambda path: places.keep("reports", str(Path(path).parent)))
 
+    def show_research(self, *, on: bool) -> None:
+        """Whether reports have the page of movement, and an export all formats."""
+        self._research = on
+        self.formats.show_research(on=on)
+
     def session(self, session_id: str) -> None:
         """Make the report of a session and show it."""
         row, stored, name = self._now.patient, self._stored, self._now.name
@@ -135,7 +141,7 @@ class Printing(QObject):
 
         def gather() -> SessionReport:
             session = stored.session(session_id)
-            return session_report(
+            report = session_report(
                 session,
                 choices=stored.choices(session_id),
                 history=stored.history(row.patient_id),
@@ -147,6 +153,7 @@ class Printing(QObject):
                 comment=stored.comment(session_id),
                 form=self._forms.form,
             )
+            return report if self._research else replace(report, motion=None)
 
         def show(report: SessionReport) -> None:
             self._shown = [session_id]

@@ -8801,6 +8801,10 @@
         <translation>Vorhandene Dateien werden nie überschrieben.</translation>
     </message>
     <message>
+        <source>Tables of angles, repetitions and measures (CSV), for any spreadsheet.</source>
+        <translation>Tabellen der Winkel, Wiederholungen und Maße (CSV), für jede Tabellenkalkulation.</translation>
+    </message>
+    <message>
         <source>Nobody can be found by it: new random name, days counted, no notes</source>
         <translation>Niemand ist daran erkennbar: neuer Zufallsname, Tage gezählt, keine Notizen</translation>
     </message>
@@ -11597,6 +11601,10 @@ Umschalt+F8 von der Seite</translation>
         <translation>Übereinstimmung auf</translation>
     </message>
     <message>
+        <source>For research</source>
+        <translation>Für Forschung</translation>
+    </message>
+    <message>
         <source>Done</source>
         <translation>Fertig</translation>
     </message>
@@ -11627,6 +11635,18 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Sessions and the list of patients. Private to you; nothing leaves this computer.</source>
         <translation>Sitzungen und die Liste der Patienten. Nur für Sie; nichts verlässt diesen Computer.</translation>
+    </message>
+    <message>
+        <source>Research</source>
+        <translation>Forschung</translation>
+    </message>
+    <message>
+        <source>Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all formats of an export, the order of the angles, streaming, agreement. No value changes by it.</source>
+        <translation>Zeigt, was der Alltag einer Praxis nicht braucht: Bahn und Achsen, Geschwindigkeiten, die Bewegungsseite in Berichten, alle Formate eines Exports, die Reihenfolge der Winkel, Streaming, Übereinstimmung. Kein Wert ändert sich dadurch.</translation>
+    </message>
+    <message>
+        <source>Order of the angles</source>
+        <translation>Reihenfolge der Winkel</translation>
     </message>
     <message>
         <source>Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ order; sessions in different orders are never compared.</source>
@@ -11687,6 +11707,26 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Measure the clinic’s own limits…</source>
         <translation>Eigene Grenzen messen…</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Messen</translation>
+    </message>
+    <message>
+        <source>Report and clinic</source>
+        <translation>Bericht und Praxis</translation>
+    </message>
+    <message>
+        <source>Safety</source>
+        <translation>Sicherheit</translation>
+    </message>
+    <message>
+        <source>Looks and language</source>
+        <translation>Aussehen, Sprache</translation>
     </message>
     <message>
         <source>Settings</source>

@@ -4561,7 +4561,7 @@
     </message>
     <message>
         <source>Click the {markers} again in its middle, or cover the other spot.</source>
-        <translation>Rifare il clic al centro ({markers}), o coprire l'altro punto.</translation>
+        <translation>Rifare il clic al centro ({markers}), o coprire l&apos;altro punto.</translation>
     </message>
     <message>
         <source>Clock</source>
@@ -8801,6 +8801,10 @@
         <translation>I file già presenti non vengono mai sovrascritti.</translation>
     </message>
     <message>
+        <source>Tables of angles, repetitions and measures (CSV), for any spreadsheet.</source>
+        <translation>Tabelle di angoli, ripetizioni e misure (CSV), per qualsiasi foglio di calcolo.</translation>
+    </message>
+    <message>
         <source>Nobody can be found by it: new random name, days counted, no notes</source>
         <translation>Nessuno è riconoscibile: nuovo nome casuale, giorni contati, nessuna nota</translation>
     </message>
@@ -11597,6 +11601,10 @@ Maiusc+F8 di lato</translation>
         <translation>Concordano entro</translation>
     </message>
     <message>
+        <source>For research</source>
+        <translation>Per la ricerca</translation>
+    </message>
+    <message>
         <source>Done</source>
         <translation>Fine</translation>
     </message>
@@ -11627,6 +11635,18 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Sessions and the list of patients. Private to you; nothing leaves this computer.</source>
         <translation>Sedute ed elenco dei pazienti. Dati riservati; nulla lascia questo computer.</translation>
+    </message>
+    <message>
+        <source>Research</source>
+        <translation>Ricerca</translation>
+    </message>
+    <message>
+        <source>Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all formats of an export, the order of the angles, streaming, agreement. No value changes by it.</source>
+        <translation>Mostra ciò che la giornata di uno studio non richiede: percorso e assi, velocità, la pagina del movimento nei referti, tutti i formati di esportazione, l’ordine degli angoli, lo streaming, la concordanza. Nessun valore cambia per questo.</translation>
+    </message>
+    <message>
+        <source>Order of the angles</source>
+        <translation>Ordine degli angoli</translation>
     </message>
     <message>
         <source>Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ order; sessions in different orders are never compared.</source>
@@ -11687,6 +11707,26 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Measure the clinic’s own limits…</source>
         <translation>Misura i limiti del centro…</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Telecamera</translation>
+    </message>
+    <message>
+        <source>Measuring</source>
+        <translation>Misurare</translation>
+    </message>
+    <message>
+        <source>Report and clinic</source>
+        <translation>Referto e studio</translation>
+    </message>
+    <message>
+        <source>Safety</source>
+        <translation>Sicurezza</translation>
+    </message>
+    <message>
+        <source>Looks and language</source>
+        <translation>Aspetto e lingua</translation>
     </message>
     <message>
         <source>Settings</source>

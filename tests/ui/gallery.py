@@ -15,7 +15,7 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 import numpy as np
 from PySide6.QtCore import QEvent, QLocale
-from PySide6.QtWidgets import QApplication, QScrollArea, QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 
 from carpus.app.desktop.phrases import WordTable
 from carpus.core.agreement.reference import Outline
@@ -907,11 +907,16 @@ class Gallery:
         backup, lock = BackupCard(self.theme, 18), LockCard(self.theme, 10, "Ctrl+L")
         backup.show_facts(OLD_BACKUP)
         lock.show_pin(is_set=True)
-        screen.add_cards(backup, lock, RecordsCard(self.theme, 10, (0, 3, 5, 10, 15, 20, 30)))
+        screen.add_cards("safety", backup, lock, RecordsCard(self.theme, 10, (0, 3, 5, 10, 15, 20, 30)))
+        screen.choose("safety")
         self.settle()
-        scroll = screen.findChild(QScrollArea)
-        assert scroll is not None
-        scroll.verticalScrollBar().setValue(backup.y() - 8)
+
+    def settings_research(self) -> None:
+        self.settings()
+        screen = self.shell.stage.currentWidget()
+        assert isinstance(screen, SettingsScreen)
+        screen.choose("research")
+        screen.research.click()
         self.settle()
 
     def locked(self) -> None:
@@ -1039,7 +1044,8 @@ class Gallery:
             "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
             "progress", "progress_by_hand", "progress_hand", "by_hand", "report", "report_hand",
             "report_progress", "report_own", "report_letter", "letter_sheet",
-            "settings", "settings_safe", "locked", "pin_change", "records_due", "records_log", "help",
+            "settings", "settings_safe", "settings_research", "locked", "pin_change", "records_due", "records_log",
+            "help",
             "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",
             "markers_guided", "markers_ready_guided", "live_guided", "live_hand_guided", "review_guided",
             "report_guided", "board", "board_showing", "board_result", "board_poor", "card", "card_out", "card_none",

@@ -164,6 +164,20 @@ def test_settings_act_at_once_and_tell_what_was_chosen(qtbot: QtBot, theme: Them
     )
 
 
+def test_what_only_research_needs_is_folded_away_until_it_is_switched_on(qtbot: QtBot, theme: Theme) -> None:
+    screen = SettingsScreen(theme, Preferences(stream=True, angle_order="isb"))
+    qtbot.addWidget(screen)
+    screen.show()
+    screen.choose("research")
+    folded = (screen.angle_order, screen.stream, screen.agreement)
+    assert not any(widget.isVisible() for widget in folded)
+    told: list[Preferences] = []
+    screen.changed.connect(told.append)
+    screen.research.click()
+    assert all(widget.isVisible() for widget in folded)
+    assert (told[-1].research, told[-1].stream, told[-1].angle_order) == (True, True, "isb"), "no value changes by it"
+
+
 def test_about_tells_what_lies_in_the_clinics_folder(qtbot: QtBot, theme: Theme) -> None:
     screen = SettingsScreen(theme, Preferences(), "0.9.1")
     qtbot.addWidget(screen)
@@ -182,6 +196,7 @@ def test_a_key_can_be_given_to_one_action_only(qtbot: QtBot, theme: Theme) -> No
     screen = SettingsScreen(theme, Preferences(), "1.0.0")
     qtbot.addWidget(screen)
     screen.show()
+    screen.choose("keys")
     screen.keys["note"].setKeySequence(QKeySequence("Ctrl+J"))
     screen.keys["note"].editingFinished.emit()
     assert screen.preferences.keys == {"note": "Ctrl+J"}

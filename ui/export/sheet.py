@@ -49,6 +49,10 @@ class ExportSheet(Sheet):
         for name in FORMATS:
             words = QCoreApplication.translate(CONTEXT, str(NAMES[name])) if name in NAMES else name.upper()
             self.boxes[name] = self._tick(words)
+        words = self.tr("Tables of angles, repetitions and measures (CSV), for any spreadsheet.")
+        self.plain = Text(theme, words, 14, wrap=True)
+        self.plain.hide()
+        body.addWidget(self.plain)
         body.addSpacing(8)
         self.nobody = self._tick(self.tr("Nobody can be found by it: new random name, days counted, no notes"))
         self.bar = ThinBar(theme, self.tr("How far the export is"))
@@ -74,6 +78,15 @@ class ExportSheet(Sheet):
             box.toggled.connect(self._check)
         self.boxes["csv"].setChecked(True)
         self._show_state()
+
+    def show_research(self, *, on: bool) -> None:
+        """All formats, or tables alone, which any program of tables opens."""
+        for name, box in self.boxes.items():
+            box.setVisible(on)
+            if not on:
+                box.setChecked(name == "csv")
+        self.plain.setVisible(not on)
+        self.compare_button.setVisible(on)
 
     @property
     def formats(self) -> Sequence[str]:

@@ -119,6 +119,7 @@ class LiveScreen(QWidget):
         self.pain = Button(theme, self.tr("Pain"), "quiet", hint="F6")
         self.pause = Button(theme, self.tr("Pause"), icon="pause", hint="F7", height_px=52)
         self.main = Button(theme, "", "primary", height_px=56)
+        self._research = True
         self.speeds = Button(theme, self.tr("Speeds"), "quiet", hint="F4", height_px=32)
         self.patient = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
         self.course = Text(theme, "", 16, SEMIBOLD, wrap=True)
@@ -229,12 +230,21 @@ class LiveScreen(QWidget):
             QTimer.singleShot(0, self._place_question)  # when the picture has its new place
         return super().eventFilter(watched, event)
 
+    def show_research(self, *, on: bool) -> None:
+        """The path with its axes and the speeds, or neither; that the forearm lies still is watched all the same."""
+        self._research = on
+        if not on and self.curves.shows_speeds:
+            self.toggle_speeds()
+        self._shortcuts["speeds"].setEnabled(on)
+        self._fit()
+
     def _fit(self) -> None:
         """With large text on a small screen, what is read from afar keeps its room and the path gives way."""
         tight = is_tight(self, self._theme)
         small = not self._large
         self.picture.setVisible(small)
-        self.path.setVisible(small and not tight and not self._whole_hand)
+        self.path.setVisible(small and not tight and not self._whole_hand and self._research)
+        self.speeds.setVisible(self._research)
         self.hand_map.setVisible(small and not tight and self._whole_hand)
         self.curves.setVisible(small and not self._whole_hand)
         self.fingers.setVisible(small and self._whole_hand)

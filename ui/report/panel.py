@@ -107,6 +107,7 @@ class ReportPanel(QWidget):
             tick.setChecked(report.form.has(name))
         self.ticks["bars"].setVisible(report.joints is None)
         self.ticks["by_hand"].setVisible(bool(report.by_hand))
+        self.ticks["motion"].setVisible(report.motion is not None)
         self._report = report
         self._soon.stop()
         self._show_sentences()

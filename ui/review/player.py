@@ -29,6 +29,7 @@ class Player(Card):
     def __init__(self, theme: Theme, *, plays: bool = True) -> None:
         """``plays``: whether it can be played, not only stepped through."""
         super().__init__(theme, 0)
+        self._research, self._plays = True, plays
         self._end_s = 1.0
         self._speed = 2
         self.back = icon_button(theme, "step-back", self.tr("Previous picture (←)"))
@@ -90,7 +91,17 @@ class Player(Card):
 
     def next_view(self) -> None:
         """Something else is drawn of the movement."""
+        if not self._research:
+            return
         self.view.setCurrentIndex((self.view.currentIndex() + 1) % self.view.count())
+
+    def show_research(self, *, on: bool) -> None:
+        """Paths, places, speeds and ZYZ beside the angles, or these alone."""
+        self._research = on
+        if not on:
+            self.view.setCurrentIndex(0)
+        for shown in (self.view, self.view_key):
+            shown.setVisible(on and self._plays)
 
     def show_tight(self, tight: bool) -> None:
         """Large text: fewer hints."""

@@ -66,6 +66,10 @@ class SessionsScreen(QWidget):
         self._lay_out()
         self._connect(keys or Keys())
 
+    def show_research(self, *, on: bool) -> None:
+        """Whether another measurement can be compared with."""
+        self.reference_button.setVisible(on)
+
     def _lay_out(self) -> None:
         left = QVBoxLayout()
         left.setSpacing(12)

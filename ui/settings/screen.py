@@ -1,19 +1,22 @@
-"""The settings: every choice acts at once and is told to whoever stores it."""
+"""The settings: an index and one part at a time; every choice acts at once and is told to whoever stores it."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Literal, get_args
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import (
     QApplication,
+    QButtonGroup,
     QFileDialog,
     QGridLayout,
     QHBoxLayout,
     QKeySequenceEdit,
     QLineEdit,
+    QStackedWidget,
     QVBoxLayout,
     QWidget,
 )
@@ -26,6 +29,7 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices, DegreesField
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
+from carpus.ui.controls.tick import Tick
 from carpus.ui.keys import DEFAULT_KEYS, action_words
 from carpus.ui.language import LANGUAGES
 from carpus.ui.ports import Preferences
@@ -33,6 +37,8 @@ from carpus.ui.settings.limits import limits_card
 from carpus.ui.theme import GAP_PX, MARGIN_PX, TEXT_SCALES, Theme
 
 MOST_AGREEMENT_DEG = 45
+INDEX_PX = 200
+Part = Literal["camera", "measuring", "report", "safety", "looks", "keys", "research", "about"]
 
 
 class SettingsScreen(QWidget):
@@ -80,6 +86,8 @@ class SettingsScreen(QWidget):
         self.agreement.set_value(preferences.agreement_limit_deg or math.nan)
         self.agreement.setAccessibleName(self.tr("Agree within"))
         self.keys: dict[str, QKeySequenceEdit] = {}
+        self.research = Tick(theme, self.tr("For research"))
+        self.research.setChecked(preferences.research)
         self.fault = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.back = Button(theme, self.tr("Done"), "primary", hint=self.tr("Esc"))
         self._lay_out()
@@ -87,9 +95,6 @@ class SettingsScreen(QWidget):
 
     def _lay_out(self) -> None:
         theme = self._theme
-        page = QVBoxLayout()
-        page.setContentsMargins(0, 4, 12, 4)
-        page.setSpacing(GAP_PX)
         looks = self._card(self.tr("Looks"))
         looks.body.addWidget(Text(theme, self.tr("Colours"), 14, REGULAR, "text2"))
         looks.body.addWidget(self.looks)
@@ -107,17 +112,23 @@ class SettingsScreen(QWidget):
         row.addWidget(self.folder, 1)
         row.addWidget(self.folder_button)
         data.body.addLayout(row)
-        data.body.addSpacing(8)
-        data.body.addWidget(Text(theme, self.tr("Initials on reports"), 14, REGULAR, "text2"))
+        initials = self._card(self.tr("Initials on reports"))
         self.therapist.setMaximumWidth(theme.px(220))
-        data.body.addWidget(self.therapist)
-        data.body.addSpacing(8)
+        initials.body.addWidget(self.therapist)
+        research = self._card(self.tr("Research"))
+        words = self.tr(
+            "Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all "
+            "formats of an export, the order of the angles, streaming, agreement. No value changes by it."
+        )
+        research.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        research.body.addWidget(self.research, 0, Qt.AlignmentFlag.AlignLeft)
+        order = self._card(self.tr("Order of the angles"))
         words = self.tr(
             "Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ order; "
             "sessions in different orders are never compared."
         )
-        data.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        data.body.addWidget(self.angle_order)
+        order.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        order.body.addWidget(self.angle_order)
         stream = self._card(self.tr("Other programs"))
         words = self.tr(
             "While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any computer "
@@ -182,13 +193,46 @@ class SettingsScreen(QWidget):
         self._limits = Card(theme, 0)  # what is in it changes when new limits are put into force
         self._limits.set_colors("canvas", "canvas")
         self.show_limits(self._measured)
-        for card in (looks, data, patient, self._limits, agreement, stream, keys, about):
-            page.addWidget(card)
-        page.addStretch(1)
-        self._page = page
-        host = ScrolledColumn()
-        host.setLayout(page)
-        scroll = scroll_area(host)
+        self._folded = (order, agreement, stream)
+        self._pages: dict[Part, QVBoxLayout] = {part: QVBoxLayout() for part in get_args(Part)}
+        cards: dict[Part, tuple[QWidget, ...]] = {
+            "camera": (), "measuring": (patient, self._limits), "report": (initials,), "safety": (data,),
+            "looks": (looks,), "keys": (keys,), "research": (research, *self._folded), "about": (about,),
+        }  # fmt: skip
+        titles: dict[Part, str] = {
+            "camera": self.tr("Camera"), "measuring": self.tr("Measuring"), "report": self.tr("Report and clinic"),
+            "safety": self.tr("Safety"), "looks": self.tr("Looks and language"), "keys": self.tr("Keys"),
+            "research": self.tr("Research"), "about": self.tr("About Carpus"),
+        }  # fmt: skip
+        self._stack = QStackedWidget()
+        self.index: dict[Part, Button] = {}
+        group = QButtonGroup(self)
+        index = QVBoxLayout()
+        index.setSpacing(4)
+        for number, (part, page) in enumerate(self._pages.items()):
+            page.setContentsMargins(0, 4, 12, 4)
+            page.setSpacing(GAP_PX)
+            for card in cards[part]:
+                page.addWidget(card)
+            page.addStretch(1)
+            host = ScrolledColumn()
+            host.setLayout(page)
+            self._stack.addWidget(scroll_area(host))
+            button = self.index[part] = Button(theme, titles[part], "quiet", height_px=40)
+            button.setCheckable(True)
+            group.addButton(button, number)
+            index.addWidget(button)
+        index.addStretch(1)
+        group.idClicked.connect(lambda number: self.choose(get_args(Part)[number]))
+        beside = QHBoxLayout()
+        beside.setSpacing(GAP_PX)
+        self._left = QWidget()
+        index.setContentsMargins(0, 4, 0, 4)
+        self._left.setLayout(index)
+        beside.addWidget(self._left)
+        beside.addWidget(self._stack, 1)
+        self._fold()
+        self.choose("looks")
         head = QHBoxLayout()
         head.setContentsMargins(0, 0, 8, 0)
         head.addWidget(heading(theme, self.tr("Settings")), 1)
@@ -197,7 +241,7 @@ class SettingsScreen(QWidget):
         whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX - 8, GAP_PX)
         whole.setSpacing(12)
         whole.addLayout(head)
-        whole.addWidget(scroll, 1)
+        whole.addLayout(beside, 1)
 
     def show_limits(self, measured: ErrorLimits) -> None:
         """The limits that hold from now on."""
@@ -223,10 +267,27 @@ class SettingsScreen(QWidget):
         for field in self.keys.values():
             field.setFixedWidth(self._theme.px(104))
 
-    def add_cards(self, *cards: Card) -> None:
-        """Cards of others, after looks and data."""
+    def add_cards(self, part: Part, *cards: Card) -> None:
+        """Cards of others, before what else the part has."""
         for number, card in enumerate(cards):
-            self._page.insertWidget(2 + number, card)
+            self._pages[part].insertWidget(number, card)
+        self._fold()
+
+    def choose(self, part: Part) -> None:
+        """Show one part."""
+        self.index[part].setChecked(True)
+        self._stack.setCurrentIndex(get_args(Part).index(part))
+
+    def _fold(self) -> None:
+        """What only research needs is there for who switched it on; a part with nothing in it is not offered."""
+        for card in self._folded:
+            card.setVisible(self._preferences.research)
+        for part, page in self._pages.items():
+            self.index[part].setVisible(page.count() > 1)
+
+    def _take_research(self, on: bool) -> None:
+        self._change(replace(self._preferences, research=on))
+        self._fold()
 
     def _card(self, title: str) -> Card:
         card = Card(self._theme, 24)
@@ -239,6 +300,7 @@ class SettingsScreen(QWidget):
         self.language.chosen.connect(lambda value: self._change(replace(self._preferences, language=value)))
         self.angle_order.chosen.connect(lambda value: self._change(replace(self._preferences, angle_order=value)))
         self.stream.chosen.connect(lambda value: self._change(replace(self._preferences, stream=value)))
+        self.research.toggled.connect(self._take_research)
         self.patient_sound.chosen.connect(lambda value: self._change(replace(self._preferences, patient_sound=value)))
         self.therapist.editingFinished.connect(self._take_therapist)
         self.agreement.editingFinished.connect(self._take_agreement)
