@@ -148,7 +148,7 @@ def retest_lines(found: Sequence[StudyFigures]) -> Iterator[str]:
 
 def head(options: argparse.Namespace) -> Iterator[str]:
     asked = f"--first-seed {options.first_seed} --seeds {options.seeds} --people {options.people}"
-    asked += f" --motions {','.join(options.motions)}"
+    asked += f" --motions {','.join(options.motions)}" + (f' --only "{options.only}"' if options.only else "")
     libraries = ", ".join(f"{name} {version(name)}" for name in LIBRARIES)
     yield f"""# Validation
 
@@ -214,6 +214,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.error(f"motions are {', '.join(MOTIONS)}")
     if options.first_seed is None:
         options.first_seed = 10_000_000 + secrets.randbelow(1_000_000_000)
+    options.output.parent.mkdir(parents=True, exist_ok=True)
     lines = list(head(options))
     if options.people:
         lines += agreement_part(options)
