@@ -133,7 +133,7 @@ def find_repetitions(angle: Signal) -> Exercise:
         one = Repetition(float(time[start]), float(time[end]), valid_share)
         if cut_at is None:
             return one
-        by_gap = angle.beside_gap(float(time[cut_at]), _STILL_S)
+        by_gap = angle.beside_gap(float(time[cut_at]), 1.5 / angle.rate_hz)
         by: Cut = "cut_by_gap" if by_gap else "cut_by_start" if cut_at == start else "cut_by_end"
         return replace(one, cut=by, cut_s=float(time[cut_at]))
 
@@ -150,11 +150,11 @@ def find_repetitions(angle: Signal) -> Exercise:
         ]
         marks = home.marks(run, runs)
         whole += [between(a, b) for a, b in pairwise(marks) if time[b] - time[a] >= LEAST_DURATION_S]
-        first, last = run.turns[0], run.turns[-1]
-        if not home.rests(first) and first.turn not in marks:
-            cut.append(between(first.turn, marks[0] if marks else last.turn, first.turn))
-        if not home.rests(last) and marks and marks[-1] < last.turn:
-            cut.append(between(marks[-1], last.turn, last.turn))
+        first, last = run.part.start, run.part.stop - 1
+        if not home.rests(run.turns[0]) and run.turns[0].turn not in marks:
+            cut.append(between(first, marks[0] if marks else last, first))
+        if not home.rests(run.turns[-1]) and marks and marks[-1] < run.turns[-1].turn:
+            cut.append(between(marks[-1], last, last))
     return Exercise(tuple(whole), tuple(strokes), tuple(cut), unseen)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import shutil
 from dataclasses import astuple, replace
+from itertools import product
 from pathlib import Path
 
 import h5py
@@ -177,12 +178,20 @@ def test_a_table_from_before_there_were_lower_bounds_is_read(path: Path, session
     assert read_session(old).repetitions == session.repetitions
 
 
-@pytest.mark.parametrize("ends", ["way out", "way back", "at the middle", "nearly back"])
-@pytest.mark.parametrize("by", ["gap", "end", "start"])
+@pytest.mark.parametrize(
+    ("by", "ends"),
+    [
+        *product(("gap", "end", "start"), ("way out", "way back", "at the middle", "nearly back")),
+        # Who begins with a hold goes from there and back to it: a start in it cuts nothing.
+        *product(("gap", "end"), ("a hold",)),
+    ],
+)
 def test_half_a_repetition_is_listed_and_never_counted(by: str, ends: str) -> None:
     one = np.radians(60.0) * (0.5 - 0.5 * np.cos(2 * np.pi * np.arange(0.0, 1.0, 1 / 120)))  # there and back in 4 s
     still = np.zeros(30)
-    piece = one[: {"way out": 40, "way back": 80, "at the middle": 90, "nearly back": 96}[ends]]
+    piece = one[: {"way out": 40, "way back": 80, "at the middle": 90, "nearly back": 96, "a hold": 60}[ends]]
+    if ends == "a hold":
+        piece = np.concatenate((piece, np.full(30, np.radians(60.0))))
     after = np.concatenate((np.tile(one, 3), still))
     value = np.concatenate((still, np.tile(one, 3), piece, np.full(60, np.nan) if by == "gap" else [], after))
     if by == "end":
@@ -204,6 +213,9 @@ def test_half_a_repetition_is_listed_and_never_counted(by: str, ends: str) -> No
         assert row.end_s - row.start_s == pytest.approx(4.0, abs=0.6)
         assert math.degrees(row.arc_rad) == pytest.approx(60.0, abs=0.5)
         assert row.movement_time_s == pytest.approx(4.0, rel=0.15)
+    seen_until_s = time_s[30 + 3 * 120 + len(piece) - 1]
+    edge_s = cut.start_s if by == "start" else cut.end_s - seen_until_s
+    assert edge_s == pytest.approx(0.0, abs=1e-6), "to the last picture"
     # Its quickest moment may be in what was not seen.
     short = [stroke for each in measured_repetitions(trained, RepetitionChoices()) for stroke in each.strokes]
     assert all(math.isnan(each.peak_speed_rad_s) or each.arc_rad > math.radians(59.0) for each in short)
