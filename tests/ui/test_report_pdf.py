@@ -152,11 +152,15 @@ def test_nothing_is_painted_outside_the_margins(report: Path, tmp_path: Path, nu
     assert (grey[inside] < 100).any()
 
 
-def test_a_long_name_and_exercise_stay_within_the_margins(tmp_path: Path) -> None:
-    path = write_session_report(session(), tmp_path / "x.pdf", pseudonym="Blue Hummingbird Mountain 42 and more of")
+def test_long_names_and_reasons_stay_within_the_margins(tmp_path: Path) -> None:
+    choices = RepetitionChoices(dict.fromkeys(range(4), "pain, and looked away from the screen"))
+    path = write_session_report(
+        session(), tmp_path / "x.pdf", choices=choices, pseudonym="Blue Hummingbird Mountain 42 and more of"
+    )
     boxes = tool("pdftotext", "-bbox", "-f", "1", "-l", "1", str(path), "-")
-    right = max(float(found) for found in re.findall(r'xMax="([0-9.]+)"', boxes))
-    assert right <= 595.28 - 42.52 + 2.0
+    left, right = ([float(at) for at in re.findall(rf'{side}="([0-9.-]+)"', boxes)] for side in ("xMin", "xMax"))
+    assert min(left) >= 42.52 - 2.0
+    assert max(right) <= 595.28 - 42.52 + 2.0
     assert "Blue Hummingbird Mountain 42 and more of" in words_of(path)
 
 

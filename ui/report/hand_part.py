@@ -32,8 +32,7 @@ def paint_finger_table(
     page: Page, figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None, top: float
 ) -> float:
     """One row for each finger, then in words what the camera's view limits."""
-    page.title(tr("Range of motion of the fingers"), top + 11, repetition_words(figures))
-    baseline = top + 25
+    baseline = top + 25 + page.title(tr("Range of motion of the fingers"), top + 11, repetition_words(figures))
     heads, rows = column_heads(figures, previous, other), finger_rows(figures, previous, other)
     edges = column_edges(page, heads, rows)
     for column, head in enumerate(heads, 1):

@@ -138,8 +138,12 @@ class Page:
             self.text(name, left, top + 9, 8.5, REGULAR, "text2")
             self.text(value, left, top + 23, 10.0, MEDIUM)
 
-    def title(self, text: str, baseline: float, aside: str = "") -> None:
-        """Title of a section, with a small remark at the right."""
-        self.text(text, self.left, baseline, 11.5, SEMIBOLD)
-        if aside:
+    def title(self, text: str, baseline: float, aside: str = "") -> float:
+        """Title of a section, with a small remark at the right or, where it is too long, below; returns how much lower
+        that is."""
+        end = self.text(text, self.left, baseline, 11.5, SEMIBOLD)
+        if end + 12.0 + self.width_of(aside, 8.5) <= self.right:
             self.text_right(aside, self.right, baseline, 8.5, REGULAR, "text2")
+            return 0.0
+        below = baseline + 3.0
+        return self.paragraph(aside, self.left, below, self.right - self.left, 8.5, REGULAR, "text2") - below

@@ -180,9 +180,8 @@ TABLE_EDGES = (0.0, 0.143, 0.354, 0.467, 0.594, 0.690, 0.715)
 
 def _paint_table(page: Page, report: SessionReport, top: float) -> float:
     figures = report.figures
-    page.title(tr("Range of motion"), top + 11, repetition_words(figures))
+    baseline = top + 26 + page.title(tr("Range of motion"), top + 11, repetition_words(figures))
     head = column_names(figures, report.previous, report.other_hand)
-    baseline = top + 26
     _paint_row(page, head, baseline, 8.5, ["text2"] * 7, [MEDIUM] * 7)
     rows = [row for row in table_rows(figures, report.previous, report.other_hand) if row.best]
     for row in rows:
@@ -207,9 +206,9 @@ def _paint_row(
     for column, text in enumerate(texts):
         edge = page.left + TABLE_EDGES[column] * width
         if column in (0, 1, 6):
-            room = width - TABLE_EDGES[6] * width
+            room = {0: TABLE_EDGES[1] * width - 4.0, 6: width - TABLE_EDGES[6] * width}.get(column, width)
             fitting = size
-            while column == 6 and fitting > 6.5 and page.width_of(text, fitting, weights[column]) > room:
+            while fitting > 6.5 and page.width_of(text, fitting, weights[column]) > room:
                 fitting -= 0.25
             page.text(text, edge, baseline, fitting, weights[column], tokens[column])
         else:
