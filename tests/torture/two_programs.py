@@ -30,7 +30,7 @@ from carpus.core.records.schema import COMMENT, COPIED, CORRECTION, MEASURED, OU
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import verify
 from tests.records.postgres import Cluster
-from tests.records.samples import T0, House, measure, opened
+from tests.records.samples import T0, House, measure, opened, waiting
 from tests.torture.kills import ROOT
 from tests.torture.wire import Wire
 
@@ -70,9 +70,11 @@ def program(folder: Path, share: Path, url: str, name: str, count: int, seconds:
             time.sleep(max(begin + seconds * (number + 1) / count - time.monotonic(), 0.0))
         print("made", flush=True)
         sys.stdin.readline()  # no more trouble comes
-        end = time.monotonic() + SETTLE_S
-        while house.store.is_behind or house.store.row(select(OUTBOX.c.id).where(OUTBOX.c.refused == "")):
-            assert time.monotonic() < end, "not delivered"
+        least, end = count + 1, 0.0
+        while house.store.is_behind or waiting(house):
+            if (left := waiting(house)) < least:  # however slow the computer: as long as some arrive
+                least, end = left, time.monotonic() + SETTLE_S
+            assert time.monotonic() < end, f"{left} not delivered; told last: {faults[-3:]}"
             time.sleep(0.05)
     ledger.told = [type(one).__name__ for one in faults]
     print(json.dumps(asdict(ledger)), flush=True)
@@ -210,7 +212,7 @@ def _run(
             assert one.stdout is not None
             assert one.stdout.readline() == "made\n"
         trouble.end()
-        said = [one.communicate("\n", timeout=2 * SETTLE_S)[0] for one in running]
+        said = [one.communicate("\n", timeout=20 * SETTLE_S)[0] for one in running]
     finally:
         for one in running:
             one.kill()
