@@ -68,7 +68,7 @@ class SoftTissue:
     cups_together: float = 0.9
     lasts_s: float = 1.5
     rests_s: float = 1e4
-    creeps_s: float = 7.0
+    creeps_s: float = 300.0
     looked_back: float = 1.35
     home_m: float = 1e-5
     leaving_per_s: float = 0.05

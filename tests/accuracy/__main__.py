@@ -11,7 +11,7 @@ import time
 from collections.abc import Mapping, Sequence
 from typing import TypeVar
 
-from tests.accuracy import cameras, check_cards, hand21_table, papers, readings_table, second
+from tests.accuracy import badly, cameras, check_cards, hand21_table, papers, readings_table, second
 from tests.accuracy.hand21 import ROWS, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
 from tests.accuracy.robustness import robustness_verdicts
@@ -34,10 +34,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.accuracy", description=__doc__)
     parser.add_argument(
         "--group",
-        choices=("all", *dict.fromkeys((*WRIST_ROWS, *HAND_ROWS)), "papers", "second", "camera"),
+        choices=("all", *dict.fromkeys((*WRIST_ROWS, *HAND_ROWS)), "papers", "second", "camera", "badly"),
         default="all",
         help="which rows; second: the patient that is for judging only, by rendered pictures alone; camera: "
-        "calibration and check card",
+        "calibration and check card; badly: hands calibrated badly",
     )
     parser.add_argument("--only", default="", metavar="TEXT", help="rows whose name holds this")
     parser.add_argument(
@@ -54,7 +54,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     seeds, pictures = (SEEDS, 0) if options.quick else (options.seeds, options.pictures)
     wrist, hand = (_named(rows, options.group, options.only) for rows in (WRIST_ROWS, HAND_ROWS))
     judged = second.rows_named(options.only) if options.group in ("all", "second") and pictures else []
-    if not wrist and not hand and not judged and options.group not in ("papers", "camera"):
+    if not wrist and not hand and not judged and options.group not in ("papers", "camera", "badly"):
         print(f"no row of {options.group} is named like {options.only}", file=sys.stderr)
         return 2
     begin = time.monotonic()
@@ -68,6 +68,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.group == "camera" and pictures:
         for group in (cameras, check_cards):
             print("", group.report(options.only, max(seeds // 2, 1), as_markdown=options.markdown), sep="\n")
+    if options.group in ("all", "badly") and pictures and not options.only:
+        print("", badly.report(pictures), sep="\n")
     if judged:
         print()
         print(second.report(judged, pictures, options.processes, as_markdown=options.markdown))
