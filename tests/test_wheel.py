@@ -150,17 +150,18 @@ def empty(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def install_lines(*pages: str) -> list[str]:
-    """What the pages tell a person to type for installing, each line once."""
-    text = "\n".join((ROOT / page).read_text(encoding="utf-8") for page in pages)
-    found = re.findall(r"^(?:python3 -m venv \.venv && )?\.venv/bin/pip install .+$|`(pip install [^`]+)`", text, re.M)
-    whole = re.findall(r"^python3 -m venv \.venv && \.venv/bin/pip install .+$", text, re.M)
-    return list(dict.fromkeys([*whole, *filter(None, found)]))
+def install_lines() -> list[str]:
+    """What README and pages tell a person to type for installing from a checkout, what is installed once each."""
+    pages = [ROOT / "README.md", *sorted((ROOT / "resources").glob("*.md"))]
+    text = "\n".join(page.read_text(encoding="utf-8") for page in pages)
+    found = re.findall(r"^((?:python3 -m venv \.venv && )?\.venv/bin/pip install .+)$", text, re.M)
+    found += re.findall(r"`((?:\.venv/bin/)?pip install [^`]+)`", text)
+    return list({line.partition("pip install ")[2]: line for line in reversed(found)}.values())
 
 
 def test_install_lines_work_as_written(empty: Path) -> None:
     """Each in an empty environment; what Carpus needs comes from where these tests have it, not from the net."""
-    lines = install_lines("README.md", "resources/camera.md")
+    lines = install_lines()
     assert any("venv" in line for line in lines)
     assert any("[realsense]" in line for line in lines)
     path = os.pathsep.join([f"{empty}/.venv/bin", str(Path(sys.executable).parent), os.environ["PATH"]])
