@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.hand.anatomy import HARD_LIMITS_RAD
+from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.sites import joint_discs
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD, Figure, MotionRange, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
@@ -23,8 +24,6 @@ from carpus.core.measures.signals import BoolArray, Signal, even_signal, low_pas
 from carpus.core.measures.validity import LARGEST_SD_RAD
 from carpus.core.types import FloatArray, TrackStatus
 
-DIP_PER_PIP = 2.0 / 3.0
-"""Bending of the end joint per bending of the middle joint where no disc measures it (hand paper)."""
 LEAST_SEEN_SHARE = 0.3
 """A repetition in which a joint was seen for less says nothing of that joint."""
 BEYOND_RAD = math.radians(15.0)
@@ -148,6 +147,14 @@ def joint_range(track: JointTrack, repetitions: Sequence[Repetition]) -> MotionR
     return replace(measured, top_limited=top, bottom_limited=bottom)
 
 
+def bending_weights(count: int, *, inferred: bool) -> FloatArray:
+    """Of the joints (count,) of a finger in its bending, base first; an end joint that is inferred counts with the one
+    before it."""
+    weights = np.ones(count)
+    weights[-1] += DIP_PER_PIP if inferred else 0.0
+    return weights
+
+
 def total_active_motion(
     finger: int, tracks: Sequence[JointTrack], repetitions: Sequence[Repetition], *, inferred: bool
 ) -> TotalMotion:
@@ -157,9 +164,7 @@ def total_active_motion(
     straight at the moment it is smallest; bending backwards counts 0 in both. Both moments need all joints seen. With
     ``inferred`` the end joint is taken as two thirds of the last joint given.
     """
-    weight = np.ones(len(tracks))
-    if inferred:
-        weight[-1] += DIP_PER_PIP
+    weight = bending_weights(len(tracks), inferred=inferred)
     nothing = Figure(np.empty(0), math.nan, math.nan)
     if not all(track.known for track in tracks):
         return TotalMotion(finger, nothing, nothing, nothing, True, inferred, 0.0)

@@ -10,9 +10,10 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.hand.clinical_angles import side_sign
+from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.sites import DIGITS
 from carpus.core.measures.coherence import digit_coherence
-from carpus.core.measures.fingers import DIP_PER_PIP, JointTrack
+from carpus.core.measures.fingers import JointTrack
 from carpus.core.measures.forearm import rotation_in_place
 from carpus.core.measures.grade import Grade, total_grade, total_share
 from carpus.core.measures.path import TIP_NOISE, WRIST_NOISE

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.measures.fingers import DIP_PER_PIP
+from carpus.core.measures.fingers import bending_weights
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
 from carpus.core.measures.signals import LONGEST_GAP_S
 from carpus.core.measures.validity import valid_wrist_angles
@@ -129,8 +129,5 @@ def _total_bending(joints: JointCurves, finger: int) -> FloatArray:
     if not set(names) <= set(joints.names):
         return np.full(len(joints.time_s), np.nan)
     columns = [joints.names.index(name) for name in names]
-    weight = np.ones(len(columns))
-    if inferred:
-        weight[-1] += DIP_PER_PIP
     bend = np.where(joints.seen[:, columns], np.maximum(joints.angles_deg[:, columns], 0.0), np.nan)
-    return np.asarray(bend @ weight)
+    return np.asarray(bend @ bending_weights(len(columns), inferred=inferred))
