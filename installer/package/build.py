@@ -19,6 +19,7 @@ import shutil
 import subprocess
 import sys
 import tarfile
+import tempfile
 import time
 from collections.abc import Callable
 from datetime import UTC, datetime
@@ -99,6 +100,12 @@ def pack(python: Path) -> Path:
         WORK / "work", HERE / "carpus.spec",
     )  # fmt: skip
     return WORK / "carpus"
+
+
+def try_start(folder: Path) -> None:
+    """Start what was packed, and let it make a store: what is read as a file, not imported, may be missing."""
+    with tempfile.TemporaryDirectory() as data:
+        run(folder / ("carpus.exe" if WINDOWS else "carpus"), "log", env=os.environ | {"CARPUS_DATA": data})
 
 
 def write_archive(folder: Path, name: str) -> Path:
@@ -210,6 +217,7 @@ def main() -> int:
     parts = folder / "parts"
     if not WINDOWS:
         say(f"{slim.slim(parts) / 1e6:.0f} MB left out that nothing calls")
+    try_start(folder)
     bill = DIST / f"carpus-{number}-{sys.platform}.cdx.json"
     run(python, HERE / "parts_list.py", folder, bill)
     size = slim.size(folder)
