@@ -21,14 +21,16 @@ BESIDE = ("LICENSE", "CITATION.cff")
 LANGUAGES = {"en": "Guide", "de": "Anleitung", "it": "Guida"}
 RESOURCES = {
     "Method": ("method", "accuracy", "performance", "untried", "decisions"),
-    "For researchers": ("api", "formats", "session-format", "clusters", "glossary"),
+    "For researchers": ("api", "formats", "session-format", "validation", "clusters", "glossary"),
 }
 OTHERS = "Keeping it running"
 """Of all that no heading names."""
 PYTHON = """# Python interface
 
 ::: carpus.app.python_face
-    options: {members: [track, open_session, simulate, propose_clicks, export, compare], show_root_toc_entry: false}
+    options:
+      members: [track, write_session, open_session, simulate, propose_clicks, export, compare]
+      show_root_toc_entry: false
 """
 
 
