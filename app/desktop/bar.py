@@ -153,11 +153,14 @@ class Bar(QObject):
 
     def show_counters(self, counters: LiveCounters) -> None:
         """Pictures a second, what was lost, and for how long the disk has room."""
-        words = self.tr("{count} pictures/s").format(count=round(counters.fps))
+        simulated = self._now.kind == "practice"  # drawn with as few pictures as are enough
+        few = counters.fps < 25.0 and not simulated
+        words = self.tr("{count} pictures/s, under 25") if few else self.tr("{count} pictures/s")
+        words = words.format(count=round(counters.fps))
         lost = counters.dropped + counters.missing
         if lost:
             words = self.tr("{words}, {lost} lost").format(words=words, lost=lost)
-        self._shell.bar.camera.show_state("good" if counters.fps >= 25.0 else "warn", words)
+        self._shell.bar.camera.show_state("warn" if few else "good", words)
         minutes = counters.disk_minutes_left
         if minutes == minutes:
             state = "bad" if minutes < 10.0 else "warn" if minutes < 30.0 else "none"

@@ -7454,6 +7454,10 @@
         <translation>{count} Bilder/s</translation>
     </message>
     <message>
+        <source>{count} pictures/s, under 25</source>
+        <translation>{count} Bilder/s, unter 25</translation>
+    </message>
+    <message>
         <source>{words}, {lost} lost</source>
         <translation>{words}, {lost} verloren</translation>
     </message>

@@ -7454,6 +7454,10 @@
         <translation>{count} immagini/s</translation>
     </message>
     <message>
+        <source>{count} pictures/s, under 25</source>
+        <translation>{count} immagini/s, meno di 25</translation>
+    </message>
+    <message>
         <source>{words}, {lost} lost</source>
         <translation>{words}, {lost} perse</translation>
     </message>

@@ -214,7 +214,7 @@ def test_the_whole_journey_by_keyboard(
     wait(qtbot, lambda: journey.live.repetitions >= 2)
     press(Qt.Key.Key_Space)
     path = reviewed(qtbot, desktop)
-    check_file(path, "Practice patient")
+    check_file(path, "practice")
     with h5py.File(path) as file:
         assert "strap loose" in file["events/text"].asstr()[:].tolist()
     pdf = tmp_path / "report.pdf"

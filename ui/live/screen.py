@@ -705,7 +705,7 @@ class LiveScreen(QWidget):
         overlay.paint_links(painter, frame, self._measuring.camera, picture.to_screen)
         overlay.paint_markers(painter, frame, picture.to_screen, picture.scale)
         asked = self.question.doubt is not None  # then the discs are what is to be looked at
-        if calibration is not None and frame.status != TrackStatus.LOST and not asked:
+        if self._research and calibration is not None and frame.status != TrackStatus.LOST and not asked:
             shown = QRectF(picture.rect())
             camera = self._measuring.camera
             overlay.paint_axes(painter, self._theme, frame, calibration, camera, picture.to_screen, shown)
