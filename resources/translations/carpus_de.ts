@@ -11978,6 +11978,10 @@ Umschalt+F8 von der Seite</translation>
         <translation>&amp;Erneut prüfen</translation>
     </message>
     <message>
+        <source>&amp;Details</source>
+        <translation>Ein&amp;zelheiten</translation>
+    </message>
+    <message>
         <source>&amp;Guide me through a first session</source>
         <translation>Durch eine erste Sitzung &amp;führen</translation>
     </message>

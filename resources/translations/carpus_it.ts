@@ -11978,6 +11978,10 @@ Maiusc+F8 di lato</translation>
         <translation>Verifica di &amp;nuovo</translation>
     </message>
     <message>
+        <source>&amp;Details</source>
+        <translation>&amp;Dettagli</translation>
+    </message>
+    <message>
         <source>&amp;Guide me through a first session</source>
         <translation>&amp;Guidami in una prima seduta</translation>
     </message>

@@ -58,6 +58,8 @@ class WelcomePanel(Card):
         self.folder_button = Button(theme, self.tr("Another &folder…"), height_px=36)
         self.close_button = Button(theme, self.tr("Close Carpus"), height_px=36)
         self.again_button = Button(theme, self.tr("&Look again"), "quiet", icon="rotate-ccw", height_px=36)
+        self.details_button = Button(theme, self.tr("&Details"), "quiet", height_px=36)
+        self.details_button.setCheckable(True)
         self.tour_button = Button(theme, self.tr("&Guide me through a first session"), icon="arrow-right")
         self.later_button = Button(theme, self.tr("Not now"), "quiet", hint=self.tr("Esc"))
         self._rows = QVBoxLayout()
@@ -69,6 +71,8 @@ class WelcomePanel(Card):
         ):  # fmt: skip
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves the keyboard with the search
             button.clicked.connect(signal)
+        self.details_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.details_button.toggled.connect(self._fold)
         self.show_looking()
         self.show_folder("", counts_later=False)
 
@@ -81,6 +85,7 @@ class WelcomePanel(Card):
         text.addWidget(self.purpose)
         head = QHBoxLayout()
         head.addWidget(self.state, 1)
+        head.addWidget(self.details_button)
         head.addWidget(self.again_button)
         text.addLayout(head)
         text.addLayout(self._rows)
@@ -131,6 +136,7 @@ class WelcomePanel(Card):
         self.checks = [CheckRow(self._theme, check) for check in sorted(checks, key=lambda check: order[check.state])]
         for row in self.checks:
             self._rows.addWidget(row)
+        self._fold()
         wanting = sum(check.state != "good" for check in checks)
         if not wanting:
             words = self.tr("This computer has everything that Carpus needs.")
@@ -140,6 +146,11 @@ class WelcomePanel(Card):
             words = self.tr("{count} things are to be done; the practice patient needs none of them.")
         self.state.setText(words.format(count=wanting))
         self.again_button.setEnabled(True)
+
+    def _fold(self) -> None:
+        """What stands well is a detail."""
+        for row in self.checks:
+            row.setVisible(row.check.state != "good" or self.details_button.isChecked())
 
     def show_folder(self, folder: str, *, counts_later: bool) -> None:
         """Where the data lie, or will from the next start on."""
