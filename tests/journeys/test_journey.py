@@ -287,7 +287,7 @@ def test_a_recording_of_the_camera_plays_through_its_own_library_in_real_time(
         assert len(times) + int(file["quality/dropped_frames"][:].sum()) == source.info.frame_count
     assert json.loads(read_session(path).header.parameters)["source"]["registered"] == "assumed"
     assert time.monotonic() - begun_s > 0.9 * (times[-1] - times[0]) / SPEED
-    check_file(path, "Practice patient")
+    check_file(path, "practice")
 
 
 def test_depth_that_is_measured_beside_the_colours_is_opened_again_the_other_way(
