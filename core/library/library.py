@@ -20,7 +20,14 @@ from carpus.core.capture.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.capture.raw import RawRecording
 from carpus.core.capture.raw_pictures import decode_color
 from carpus.core.check_card.trust import camera_of, with_trust
-from carpus.core.errors import CarpusFault, FilesSetApart, SessionUnreadable
+from carpus.core.errors import (
+    CarpusFault,
+    FilesSetApart,
+    FolderMissing,
+    OutputNotWritable,
+    RecordingMoved,
+    SessionUnreadable,
+)
 from carpus.core.formats.export import Wanted, export_sessions
 from carpus.core.library.coming_home import bring_home, fallback_place
 from carpus.core.library.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
@@ -40,7 +47,7 @@ from carpus.core.records.log import By, Deed, Fact, Kind, Log
 from carpus.core.records.of_sessions import MOST_CHARACTERS, Comment, MadeKind
 from carpus.core.records.patients import Patients
 from carpus.core.records.schema import PATIENT
-from carpus.core.records.session_list import FilesOfSessions, SessionList
+from carpus.core.records.session_list import FilesOfSessions, SessionList, free_path
 from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry, entry_of, newest_results
 from carpus.core.session.reader import has_raw, read_outline, read_raw_color, read_session
@@ -192,9 +199,16 @@ class Library:
         return ""
 
     def new_path(self, set_up: SetUp) -> Path:
-        """A free path for a session that begins now."""
-        now = datetime.now().astimezone()
-        return self.index.new_path(set_up.patient_id, set_up.pseudonym, set_up.exercise.id, set_up.side, now)
+        """A free path for a session that begins now: on this computer while a share is away, which is told."""
+        about = set_up.pseudonym, set_up.exercise.id, set_up.side, datetime.now().astimezone()
+        try:
+            return self.index.new_path(set_up.patient_id, *about)
+        except (FolderMissing, OutputNotWritable) as fault:
+            if not self.store.on_share:
+                raise
+            path = free_path(self.fallback_folder(), *about)
+            self.log_fault(RecordingMoved(path, fault.detail or phrase("not there now")))
+            return path
 
     def entered(self, set_up: SetUp, path: Path) -> str:
         """Take a finished session into the store, and remember how it was set up."""
@@ -258,8 +272,11 @@ class Library:
 
     def recover(self) -> tuple[Sequence[Recovered], Sequence[CarpusFault]]:
         """Finish interrupted sessions; take these, and files that were copied in, into the store."""
-        faults = [*self._told, *self.store.told, *bring_home(self.folder, self._folder_of)]
+        faults = [*self._told, *self.store.told]
         self._told, self.store.told = [], []
+        if not self.store.sessions_folder.is_dir():  # a share: it is neither made nor taken for empty
+            return [], [*faults, FolderMissing(self.store.sessions_folder)]
+        faults += bring_home(self.folder, self._folder_of)
         recovery = recover_folder(self.store.sessions_folder, given_up=self._files.given_up())
         apart = [*self._files.first_told(recovery.faults), *self._files.take_in().faults]
         found: list[Recovered] = []

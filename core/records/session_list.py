@@ -15,7 +15,7 @@ from typing import Any
 from sqlalchemy import Row, delete, select
 
 from carpus.core.durable import write_fault
-from carpus.core.errors import CarpusFault, SessionUnreadable
+from carpus.core.errors import CarpusFault, FolderMissing, SessionUnreadable
 from carpus.core.names import folded
 from carpus.core.phrase import phrase
 from carpus.core.private import make_private
@@ -26,6 +26,7 @@ from carpus.core.records.schema import PATIENT, SEEN, SESSION
 from carpus.core.records.seen_files import COPY, Seen, can_be_stored, files_there, remembered, stored
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import AffectedSide, PatientEntry, Rebuilt, SessionEntry, moment
+from carpus.core.session.disk import free_name
 from carpus.core.session.reader import give, read_outline
 from carpus.core.session.values import SessionOutline
 from carpus.core.types import Side
@@ -80,15 +81,12 @@ class SessionList:
 
     def new_path(self, patient_id: str, pseudonym: str, exercise: str, hand: Side, when: datetime) -> Path:
         """A free path for a session that begins now, in the patient's own private folder, which has the patient's
-        identity for a name."""
+        identity for a name. Raises :class:`FolderMissing` for a share that is away, :class:`OutputNotWritable`."""
         folder = self.folder / patient_id
+        if self._store.on_share and not self.folder.is_dir():
+            raise FolderMissing(self.folder)
         make_private(folder)
-        stem = f"{file_name(pseudonym) or 'patient'}_{when:%Y-%m-%d_%H%M%S}_{file_name(exercise) or 'session'}_{hand}"
-        candidate, number = folder / f"{stem}.h5", 1
-        while candidate.exists():
-            number += 1
-            candidate = folder / f"{stem}-{number}.h5"
-        return candidate
+        return free_path(folder, pseudonym, exercise, hand, when)
 
     def enter(self, path: Path, patient_id: str, by: str = "") -> SessionEntry:
         """Take a finished session file into the list. Raises :class:`SessionUnreadable`."""
@@ -171,6 +169,12 @@ class SessionList:
             row.recording_id, row.exercise, row.hand, row.frames, row.duration_s, bool(row.complete),
             bool(row.simulated), row.by,
         )  # fmt: skip
+
+
+def free_path(folder: Path, pseudonym: str, exercise: str, hand: Side, when: datetime) -> Path:
+    """A name in a folder that no session has yet."""
+    stem = f"{file_name(pseudonym) or 'patient'}_{when:%Y-%m-%d_%H%M%S}_{file_name(exercise) or 'session'}_{hand}"
+    return free_name(folder / f"{stem}.h5")
 
 
 def trials_of(store: Store, session_ids: Collection[str]) -> Iterator[Path]:

@@ -44,8 +44,11 @@ class Store:
     ) -> None:
         self.folder = folder
         self.sessions_folder = sessions_folder or folder / SESSIONS_FOLDER
+        self.on_share = self.sessions_folder != folder / SESSIONS_FOLDER
+        """Whether the sessions lie in a folder of several computers, which is never made here and keeps its rights."""
         make_private(folder)
-        make_private(self.sessions_folder)
+        if not self.on_share:
+            make_private(self.sessions_folder)
         self.told: list[CarpusFault] = []
         """What was found when the store was opened."""
         self._database = self._opened(folder / STORE_FILE)

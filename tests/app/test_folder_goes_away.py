@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import time
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -11,14 +12,16 @@ import numpy as np
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture.raw import LOOK_EVERY_S, RawRecording, RawWriter
 from carpus.core.capture.source import SourceInfo
-from carpus.core.errors import RecordingMoved, RecordingReturned
+from carpus.core.errors import CarpusFault, FolderMissing, RecordingMoved, RecordingReturned
 from carpus.core.library.coming_home import bring_home, fallback_place
 from carpus.core.library.library import Library
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.writer import Fallback, SessionWriter
 from carpus.core.types import Frame
+from tests.app.test_library import set_up
 from tests.pipeline.live_fakes import HeldSource
+from tests.records.samples import record
 from tests.session.samples import CAMERA, CREATED, make_calibration, make_frame, make_header
 
 INFO = SourceInfo("x", DEFAULT_CAMERA, False, None, 30.0, {})
@@ -85,6 +88,41 @@ def test_it_is_told_within_a_second_and_the_session_comes_home(tmp_path: Path) -
     assert library.session(entry.session_id).header.session_id == session_id
     assert list(fallback_place(data).iterdir()) == []
     library.close()
+
+
+def test_while_the_share_is_away_the_window_starts_and_measures_here(tmp_path: Path) -> None:
+    """Nothing is made where the share belongs, which would hide under it once it is mounted."""
+    data, share = tmp_path / "data", tmp_path / "share"
+    with closing(Library(data, sessions=share)) as library:
+        assert [type(fault) for fault in library.recover()[1]] == [FolderMissing]
+        told: list[CarpusFault] = []
+        library.log_fault = told.append
+        linden = library.patients.add(PatientEntry("Linden 42", "left"))
+        choice = set_up(linden, "Linden 42")
+        path = record(library.new_path(choice), "Linden 42", CREATED, "left")
+        assert path.parent == fallback_place(data)
+        assert [type(fault) for fault in told] == [RecordingMoved]
+        library.entered(choice, path)
+        library.recover()
+        assert path.exists()
+        assert not share.exists()
+    share.mkdir()
+    with closing(Library(data, sessions=share)) as library:
+        assert [type(fault) for fault in library.recover()[1]] == [RecordingReturned]
+        assert [one.path.parent for one in library.sessions(linden)] == [share / linden]
+
+
+def test_a_share_keeps_its_rights(tmp_path: Path) -> None:
+    """It may belong to another account, which alone may change them."""
+    share = tmp_path / "share"
+    share.mkdir(0o770)
+    share.chmod(0o770)
+    with closing(Library(tmp_path / "data", sessions=share)) as library:
+        assert share.stat().st_mode & 0o777 == 0o770
+        linden = library.patients.add(PatientEntry("Linden 42", "left"))
+        library.new_path(set_up(linden, "Linden 42"))
+    assert share.stat().st_mode & 0o777 == 0o770
+    assert (share / linden).stat().st_mode & 0o777 == 0o700
 
 
 def test_nothing_to_bring_home(tmp_path: Path) -> None:

@@ -181,6 +181,7 @@ def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     data, share = tmp_path / "data", tmp_path / "share"
+    share.mkdir()
     monkeypatch.setenv("CARPUS_DATA", str(data))
     settings = settings_folder() / "settings.toml"
     settings.parent.mkdir(parents=True, exist_ok=True)

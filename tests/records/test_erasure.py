@@ -238,6 +238,7 @@ def test_no_row_and_no_link_leads_out_of_the_folder(tmp_path: Path, folder: Path
 
 def test_while_the_share_is_away_nothing_is_erased(tmp_path: Path, folder: Path) -> None:
     share = tmp_path / "share"
+    share.mkdir()
     with opened(folder, sessions=share) as house:
         linden = house.patients.add(LINDEN)
         path = house.index.one(measure(house, linden, T0)).path
@@ -247,7 +248,9 @@ def test_while_the_share_is_away_nothing_is_erased(tmp_path: Path, folder: Path)
         house.store.own(update(PATIENT).where(PATIENT.c.id == linden).values(erasing=1))
     with opened(folder, sessions=share) as house:
         erasure.finish_erasing(house.store, house.log)
-        share.rmdir()  # made by who looked for it, as below a share that is not mounted
+        share.mkdir()  # where it is mounted
+        erasure.finish_erasing(house.store, house.log)
+        share.rmdir()
         (tmp_path / "away").rename(share)
         assert path.exists()
         erasure.finish_erasing(house.store, house.log)

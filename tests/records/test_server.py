@@ -43,6 +43,7 @@ def count(url: str, table: str) -> int:
 
 def test_what_one_computer_enters_the_other_has(tmp_path: Path, there: str) -> None:
     sessions = tmp_path / "share"
+    sessions.mkdir()
     with opened(tmp_path / "a", there, sessions=sessions) as a, opened(tmp_path / "b", there, sessions=sessions) as b:
         linden = a.patients.add(LINDEN)
         session_id = measure(a, linden, T0)
@@ -65,6 +66,7 @@ def test_what_one_computer_enters_the_other_has(tmp_path: Path, there: str) -> N
 
 def test_the_practice_patient_s_sessions_are_of_no_server_wherever_they_lie(tmp_path: Path, there: str) -> None:
     share = tmp_path / "share"
+    share.mkdir()
     with opened(tmp_path / "a", there, sessions=share) as a, opened(tmp_path / "b", there, sessions=share) as b:
         session_id = measure(a, PRACTICE, T0)
         path = a.index.one(session_id).path

@@ -162,6 +162,7 @@ def line(count: int, seconds: float, longest_s: float, folder: Path) -> str:
     """So many changes in so many seconds; AssertionError for any that is neither there once nor told."""
     folder.mkdir(parents=True)
     share, cluster = folder / "share", Cluster()
+    share.mkdir()
     wire = Wire(cluster.port)
     try:
         direct = cluster.new_database("clinic")
