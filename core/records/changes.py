@@ -8,6 +8,7 @@ refused.
 from __future__ import annotations
 
 import json
+import re
 import secrets
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass, field
@@ -26,6 +27,7 @@ PRACTICE = "practice"
 """Identity of the practice patient, of whom simulated sessions count, and who is on no server."""
 
 _MOST_VERSION = 1 << 30
+_IDENTITY = re.compile(r"[0-9a-f]{32}")
 Way = Literal["new", "change", "keep", "drop", "join"]
 
 
@@ -175,6 +177,11 @@ def _join(connection: Connection, change: Change) -> None:
 
 def _those(connection: Connection, column: Column[Any], values: Sequence[Any]) -> set[Any]:
     return set(connection.scalars(select(column).where(column.in_(values))))
+
+
+def is_identity(text: str) -> bool:
+    """Whether this program gives such identities to patients, whose folders have them for names."""
+    return text == PRACTICE or _IDENTITY.fullmatch(text) is not None
 
 
 def is_practice(connection: Connection, row: Row) -> bool:

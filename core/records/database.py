@@ -175,7 +175,9 @@ def rescue(aside: Path, into: Database) -> int:
 
 def set_aside(path: Path, now: datetime) -> Path:
     """Give a damaged database and its journals another name, so that a new one can be made; where it is now."""
-    aside = path.with_name(f"{path.stem}.damaged-{now:%Y%m%d-%H%M%S}{path.suffix}")
+    stem, number = f"{path.stem}.damaged-{now:%Y%m%d-%H%M%S}", 1
+    while (aside := path.with_name(f"{stem}{f'-{number}' * (number > 1)}{path.suffix}")).exists():
+        number += 1
     try:
         for tail in ("", "-wal", "-shm"):
             old = path.with_name(path.name + tail)

@@ -21,7 +21,7 @@ from sqlalchemy import delete, select
 
 from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished, FolderMissing
 from carpus.core.names import folded
-from carpus.core.records.changes import PRACTICE, Row, changed, dropped
+from carpus.core.records.changes import PRACTICE, Row, changed, dropped, is_identity
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import Kind, Log
 from carpus.core.records.of_clinic import PLACE
@@ -126,7 +126,7 @@ def _go_on(store: Store) -> list[Path]:
         return [store.sessions_folder]
     files = _files(store, patients, sessions)
     left = [*_links(store, patients, sessions), *(path for path in sorted(files) if not _gone(path))]
-    for folder in sorted({path.parent for path in files} | {store.sessions_folder / one for one in patients}):
+    for folder in sorted({path.parent for path in files} | set(_folders(store, patients))):
         if folder.is_relative_to(store.sessions_folder) and folder != store.sessions_folder:
             with contextlib.suppress(OSError):  # another patient's session is in it
                 folder.rmdir()
@@ -171,8 +171,8 @@ def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> se
     own = {path for stored in mine if (path := _inside(root, stored)) is not None and path.exists()}
     found = own | {path for stored in mine for path in _beside(store, stored)}
     found |= {path for stored in mine for path in files.copies_of(stored) if path.is_file()}
-    for patient_id in patients:
-        found |= set(_plain_files(root / patient_id))
+    for folder in _folders(store, patients):
+        found |= set(_plain_files(folder))
     for name, said in _names_of(store, patients):
         orphans = (path for path in _plain_files(root) if not _is_beside(path, others))
         found |= {path for path in orphans if name.search(path.name) or _says(path, said)}
@@ -226,11 +226,16 @@ def _is_away(store: Store) -> bool:
 def _links(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> list[Path]:
     """Links on the way to what is to go: nobody knows what else lies behind them."""
     root = store.sessions_folder
-    ways = {root / one / "_" for one in patients}
+    ways = {folder / "_" for folder in _folders(store, patients)}
     for row in store.rows(select(SESSION.c.path).where(SESSION.c.id.in_(sessions))):
         ways |= {root / row.path} if ".." not in Path(row.path).parts else set()
     on_way = {one for way in ways for one in (way, *way.parents) if one != root and one.is_relative_to(root)}
     return sorted(one for one in on_way if one.is_symlink())
+
+
+def _folders(store: Store, patients: Sequence[str]) -> list[Path]:
+    """Of these patients; an identity that this program did not give names none, for it could lead anywhere."""
+    return [store.sessions_folder / one for one in patients if is_identity(one)]
 
 
 def _inside(folder: Path, stored: str) -> Path | None:

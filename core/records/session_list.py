@@ -15,7 +15,7 @@ from typing import Any
 from sqlalchemy import Row, delete, select
 
 from carpus.core.durable import write_fault
-from carpus.core.errors import CarpusFault, FolderMissing, SessionUnreadable
+from carpus.core.errors import CarpusFault, FolderMissing, OutputNotWritable, SessionUnreadable
 from carpus.core.names import folded
 from carpus.core.phrase import phrase
 from carpus.core.private import make_private
@@ -81,10 +81,13 @@ class SessionList:
 
     def new_path(self, patient_id: str, pseudonym: str, exercise: str, hand: Side, when: datetime) -> Path:
         """A free path for a session that begins now, in the patient's own private folder, which has the patient's
-        identity for a name. Raises :class:`FolderMissing` for a share that is away, :class:`OutputNotWritable`."""
+        identity for a name. Raises :class:`FolderMissing` for a share that is away, :class:`OutputNotWritable`, also
+        for an identity that this program did not give."""
         folder = self.folder / patient_id
         if self._store.on_share and not self.folder.is_dir():
             raise FolderMissing(self.folder)
+        if not changes.is_identity(patient_id):
+            raise OutputNotWritable(folder)
         make_private(folder)
         return free_path(folder, pseudonym, exercise, hand, when)
 

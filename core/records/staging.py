@@ -38,7 +38,7 @@ class Staged:
         lock: IO[bytes] | None = None
         try:
             lock = open(_lock_of(folder), "xb", opener=private)  # noqa: SIM115  # until it is in its place
-            _hold(lock)
+            hold(lock)
             make_private(folder)
         except OSError as cause:
             raise write_fault(target, cause) from cause
@@ -104,14 +104,14 @@ def _is_whole(lock: Path) -> bool | None:
     """Whether its folder is whole; None where a program that lives holds it."""
     try:
         with lock.open("r+b") as file:
-            _hold(file)
+            hold(file)
             return file.read(len(WHOLE)) == WHOLE
     except OSError:
         return None
 
 
-def _hold(file: IO[bytes]) -> None:
-    """Raises OSError where another program holds it."""
+def hold(file: IO[bytes]) -> None:
+    """Until it is closed, or the program dies. Raises OSError where another program holds it."""
     if os.name == "nt":
         import msvcrt
 

@@ -2,27 +2,39 @@
 
 from __future__ import annotations
 
+import time
 import uuid
-from collections.abc import Callable, Collection, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 from sqlalchemy import Delete, Insert, Row, Select, Update, select
 
-from carpus.core.errors import CarpusFault, LogUnguarded, RegisterDamaged, RegisterMissing, RegisterSetAside, ServerGone
+from carpus.core.errors import (
+    CarpusFault,
+    LogUnguarded,
+    RegisterBusy,
+    RegisterDamaged,
+    RegisterMissing,
+    RegisterSetAside,
+    ServerGone,
+)
 from carpus.core.phrase import phrase
-from carpus.core.private import make_private
+from carpus.core.private import make_private, make_private_file
 from carpus.core.records.changes import PRACTICE, Change, is_practice, make, new
 from carpus.core.records.database import STORE_FILE, Database, rescue, set_aside
 from carpus.core.records.outbox import forget, is_shared, lay_out
 from carpus.core.records.schema import PATIENT
+from carpus.core.records.staging import hold
 
 if TYPE_CHECKING:
     from carpus.core.records.server import Server
 
 SESSIONS_FOLDER = "sessions"
+MOST_ALONE_S = 60.0
+"""To wait for another program that opens the store: one that brings a large one up to date takes long."""
 MOST_WAIT_S = 2.0
 """For the server's word on what somebody else may have changed too."""
 CONTESTED = ("patient", "correction", "exercise_set", "report_form")
@@ -65,15 +77,16 @@ class Store:
             self._server = Server(url, self._database, tell)
 
     def _opened(self, path: Path) -> Database:
-        try:
-            return Database(path)
-        except RegisterDamaged as fault:
-            aside, database = set_aside(path, datetime.now()), Database(path)
-            rows = rescue(aside, database)
-            self.told.append(
-                RegisterSetAside(aside, phrase("{detail}; {count} rows read", detail=fault.detail, count=rows))
-            )
-            return database
+        with _alone(path):  # two programs that meet a damaged one would each set aside what the other has just made
+            try:
+                return Database(path)
+            except RegisterDamaged as fault:
+                aside, database = set_aside(path, datetime.now()), Database(path)
+                rows = rescue(aside, database)
+                self.told.append(
+                    RegisterSetAside(aside, phrase("{detail}; {count} rows read", detail=fault.detail, count=rows))
+                )
+                return database
 
     def _has_sessions(self) -> bool:
         files = (one.relative_to(self.sessions_folder) for one in self.sessions_folder.rglob("*.h5"))
@@ -148,6 +161,24 @@ class Store:
     def leave_no_trace(self) -> None:
         """Bring what was taken out to the disk as taken out."""
         self._database.leave_no_trace()
+
+
+@contextmanager
+def _alone(path: Path) -> Iterator[None]:
+    """While no other program opens that store. Raises :class:`RegisterBusy`, :class:`OutputNotWritable`."""
+    end = time.monotonic() + MOST_ALONE_S
+    lock = path.with_suffix(".lock")
+    make_private_file(lock)
+    with lock.open("r+b") as file:
+        while True:
+            try:
+                hold(file)
+                break
+            except OSError as cause:
+                if time.monotonic() > end:
+                    raise RegisterBusy(path, cause.strerror or "") from cause
+                time.sleep(0.02)
+        yield
 
 
 def new_id() -> str:

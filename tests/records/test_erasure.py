@@ -21,6 +21,7 @@ from carpus.core.library.set_ups import keep_set_up
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records import erasure, of_clinic, of_patients, of_sessions
+from carpus.core.records.changes import new
 from carpus.core.records.log import read_log
 from carpus.core.records.retention import due, kept_until
 from carpus.core.records.schema import PATIENT, SESSION
@@ -399,3 +400,21 @@ def test_what_is_due_is_decided_by_the_last_session(house: House) -> None:
     last_day = found[0].until
     assert due(house.store, 10, last_day) == []
     assert len(due(house.store, 10, last_day + timedelta(days=1))) == 1
+
+
+def test_an_identity_that_leads_out_erases_nothing_there(tmp_path: Path, folder: Path, house: House) -> None:
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    (mine / "letter.txt").write_text("a letter")
+    people = [str(mine), "../../mine", "."]
+    stays = measure(house, house.patients.add(LINDEN), T0)
+    house.store.do(
+        [new(PATIENT, one, folded=one, pseudonym=f"Oak {number}", erasing=1) for number, one in enumerate(people)]
+    )
+    for one in people:
+        with pytest.raises(OutputNotWritable):
+            house.index.new_path(one, "Oak", "WRIST_FE", "right", T0)
+    erasure.finish_erasing(house.store, house.log)
+    assert (mine / "letter.txt").exists()
+    assert house.index.one(stays).path.exists()
+    assert house.names() == ["Linden 42"]

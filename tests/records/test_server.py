@@ -19,7 +19,7 @@ from sqlalchemy.pool import NullPool
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, PseudonymGiven, PseudonymTaken, ServerGone
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records import erasure, of_sessions
-from carpus.core.records.changes import PRACTICE, Change, new
+from carpus.core.records.changes import PRACTICE, Change, dropped, new
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import COMMENT, DEED, OUTBOX, OWN, PATIENT, SESSION
 from carpus.core.records.server import Server
@@ -393,3 +393,13 @@ def test_what_the_server_may_not_write_waits(tmp_path: Path, there: str) -> None
                 settled(house)
             assert [one.text for one in of_sessions.comments(house.store, session_id)] == ["a\ufffdb ?"]
     assert count(there, "comment") == 1
+
+
+def test_what_is_erased_once_more_goes_everywhere_once_more(tmp_path: Path, there: str) -> None:
+    row = new(PATIENT, uuid.uuid4().hex, folded="linden 42", pseudonym="Linden 42")
+    with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
+        for _ in range(2):
+            a.store.do([row])
+            until(lambda: b.names() == ["Linden 42"])
+            a.store.do([dropped(PATIENT, row.id)])
+            until(lambda: b.names() == [])

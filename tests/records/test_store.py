@@ -11,6 +11,7 @@ import stat
 import subprocess
 import sys
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from datetime import date, datetime, timedelta
 from pathlib import Path
 
@@ -32,7 +33,7 @@ from carpus.core.names import name_of
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records import of_clinic, of_sessions, schema
 from carpus.core.records.changes import PRACTICE, new
-from carpus.core.records.database import STORE_FILE
+from carpus.core.records.database import STORE_FILE, set_aside
 from carpus.core.records.log import read_log
 from carpus.core.records.patients import columns
 from carpus.core.records.pseudonyms import WORDS, suggest_pseudonym
@@ -499,3 +500,19 @@ def test_tracking_a_file_loads_no_database(tmp_path: Path) -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_two_programs_that_meet_a_damaged_store_lose_nothing_of_it(tmp_path: Path) -> None:
+    content, now = b"this is no store at all" * 100, datetime(2026, 10, 9)
+    path = tmp_path / STORE_FILE
+    path.write_bytes(content)
+    aside = set_aside(path, now)
+    path.write_bytes(b"another")
+    assert set_aside(path, now) != aside
+    assert aside.read_bytes() == content, "never onto a name that is there"
+    path.write_bytes(content)
+    with ThreadPoolExecutor(4) as programs:
+        stores = list(programs.map(lambda _: Store(tmp_path), range(4)))
+    assert sum(len(one.told) for one in stores) == 1, "one sets it aside, the others find the new one"
+    for one in stores:
+        one.close()

@@ -45,7 +45,8 @@ CREATE FUNCTION carpus_next_step() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN
   PERFORM pg_advisory_xact_lock(2026);
   NEW.step := nextval('carpus_step'); RETURN NEW; END $$;
 CREATE FUNCTION carpus_gone() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN
-  INSERT INTO tombstone (id, of_table) VALUES (OLD.id, TG_TABLE_NAME) ON CONFLICT DO NOTHING; RETURN OLD; END $$;
+  INSERT INTO tombstone (id, of_table) VALUES (OLD.id, TG_TABLE_NAME)
+  ON CONFLICT (id) DO UPDATE SET of_table = excluded.of_table; RETURN OLD; END $$;
 CREATE FUNCTION carpus_only_added() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN
   RAISE EXCEPTION 'the log is only added to'; END $$;
 CREATE TRIGGER deed_stays BEFORE UPDATE OR DELETE OR TRUNCATE ON deed EXECUTE FUNCTION carpus_only_added();
