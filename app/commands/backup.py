@@ -11,7 +11,7 @@ from carpus import __version__
 from carpus.app.asking import ask_passphrase
 from carpus.app.commands.kept import note_in
 from carpus.app.commands.progress import bar
-from carpus.app.settings import load_sound_settings, settings_folder
+from carpus.app.settings import load_sound_settings, sessions_folder, settings_folder
 from carpus.core.errors import BackupMissing, OutputExists
 
 EXAMPLE = """carpus backup /media/backup
@@ -51,12 +51,18 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"{there[0].name}: {len(there[0].files)} files read and compared: all equal.")
         return 0
     folder: Path = arguments.data_folder or settings.data_folder
+    share = sessions_folder(settings) if folder == settings.data_folder else None
     os.nice(5) if hasattr(os, "nice") else None
     if arguments.sealed:
-        return _sealed(folder, place)
+        return _sealed(folder, share, place)
     with bar("backing up", "byte") as progress:
         made = back_up(
-            folder, place, software_version=__version__, settings_folder=settings_folder(), progress=progress
+            folder,
+            place,
+            software_version=__version__,
+            sessions=share,
+            settings_folder=settings_folder(),
+            progress=progress,
         )
     thin_out(place, settings.backup.keep, settings.backup.months, datetime.now().astimezone())
     with Store(folder) as store:
@@ -68,7 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _sealed(folder: Path, path: Path) -> int:
+def _sealed(folder: Path, share: Path | None, path: Path) -> int:
     from carpus.core.names import LEAST_OF_PASSPHRASE
     from carpus.core.records.sealed import seal_backup
 
@@ -77,7 +83,13 @@ def _sealed(folder: Path, path: Path) -> int:
     passphrase = ask_passphrase(least_signs=LEAST_OF_PASSPHRASE)
     with bar("sealing", "byte") as progress:
         made = seal_backup(
-            folder, path, passphrase, software_version=__version__, settings_folder=settings_folder(), progress=progress
+            folder,
+            path,
+            passphrase,
+            software_version=__version__,
+            sessions=share,
+            settings_folder=settings_folder(),
+            progress=progress,
         )
     note_in(folder, "backed_up", "everything", sessions=made.sessions, sealed=1)
     print(f"{path}: {made.sessions} sessions, {made.size_bytes / 1e6:.1f} MB, opened again and compared: all equal.")

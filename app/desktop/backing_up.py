@@ -151,6 +151,7 @@ class BackingUp(QObject):
             self._library.folder,
             place,
             software_version=__version__,
+            sessions=self._library.store.sessions_folder,
             settings_folder=self._settings_folder,
             progress=self._step,
         )
@@ -308,7 +309,8 @@ class BackingUp(QObject):
             path.unlink(missing_ok=True)  # the dialog has asked
             made = seal_backup(
                 self._library.folder, path, passphrase, software_version=__version__,
-                settings_folder=self._settings_folder, progress=self._step,
+                sessions=self._library.store.sessions_folder, settings_folder=self._settings_folder,
+                progress=self._step,
             )  # fmt: skip
             self._library.note("backed_up", sessions=made.sessions, sealed=1)
             return made

@@ -4,7 +4,8 @@ A folder for back-ups holds ``objects/``, every content once under its SHA-256, 
 back-up that says which file has which content. So fourteen back-ups take little more room than one, and any of them is
 whole. The JSON is written last: a back-up that was cut short is none. Nothing is compressed or hidden: with the JSON
 beside it every file can be found again without Carpus. The store is taken first, as of one moment, and every session
-that it knows must be among the files. Linked folders and files are followed.
+that it knows must be among the files, also those on a share. Linked folders and files are followed. One program at a
+time works in such a folder.
 """
 
 from __future__ import annotations
@@ -29,18 +30,21 @@ from carpus.core.errors import (
     BackupUnequal,
     BackupUnreadable,
     FolderMissing,
+    OutputBusy,
     OutputExists,
 )
 from carpus.core.phrase import phrase
 from carpus.core.private import make_private, private
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.staging import Staged, remove_left_behind
+from carpus.core.records.staging import Staged, hold, remove_left_behind
+from carpus.core.records.store import SESSIONS_FOLDER
 from carpus.core.session import heartbeat
 from carpus.core.session.disk import is_being_written
 
 FORMAT, FORMAT_VERSION = "carpus-backup", 1
 OBJECTS, BACKUPS = "objects", "backups"
-SETTINGS_PREFIX, SESSIONS_PREFIX = "@settings/", "sessions/"
+SETTINGS_PREFIX, SESSIONS_PREFIX = "@settings/", f"{SESSIONS_FOLDER}/"
+PLACE_LOCK = ".lock"
 LEFT_OUT = (".alive", "-wal", "-shm", "-journal", ".lock", ".new")
 BLOCK = 1 << 20
 _SHA256 = re.compile(r"[0-9a-f]{64}")
@@ -108,20 +112,28 @@ def back_up(
     place: Path,
     *,
     software_version: str,
+    sessions: Path | None = None,
     settings_folder: Path | None = None,
     now: datetime | None = None,
     progress: Progress = lambda _done, _total: None,
 ) -> Backup:
-    """Copy everything that is not in the place yet, read all of it back, and write down what is where.
+    """Copy everything that is not in the place yet, read all of it back, and write down what is where. ``sessions`` is
+    the folder of the sessions where that is a share.
 
-    Raises :class:`BackupPlaceUnsuited`, :class:`BackupUnequal` where what is read back differs, :class:`DiskFull` and
-    :class:`OutputNotWritable`; the back-ups that were there before are as they were. Raises :class:`BackupIncomplete`
-    where a file cannot be read or a session that the store knows has none; all else is backed up then.
+    Raises :class:`OutputBusy` while another back-up into the place runs, :class:`BackupPlaceUnsuited`,
+    :class:`BackupUnequal` where what is read back differs, :class:`DiskFull` and :class:`OutputNotWritable`; the
+    back-ups that were there before are as they were. Raises :class:`BackupIncomplete` where a file cannot be read or a
+    session that the store knows has none; all else is backed up then.
     """
     check_place(data_folder, place)
-    sources = gather(data_folder, place, settings_folder)
+    sources = gather(data_folder, place, settings_folder, sessions)
     for folder in (place, place / OBJECTS, place / BACKUPS):
         make_private(folder)
+    with _alone(place):
+        return _back_up(sources, place, software_version, now or datetime.now().astimezone(), progress)
+
+
+def _back_up(sources: Sources, place: Path, software_version: str, now: datetime, progress: Progress) -> Backup:
     before = backups(place)
     known = {one.path: one for one in before[0].files} if before else {}
     done, total = 0, 2 * sources.size_bytes or 1
@@ -132,7 +144,7 @@ def back_up(
         try:
             files.append(_kept(path, source, place, known.get(path)))
             of[path] = source
-        except FileNotFoundError:
+        except SourceGone:
             pass  # taken away meanwhile
         except SourceFails:
             lacking.append(path)
@@ -144,12 +156,12 @@ def back_up(
         except BackupUnequal:  # kept from an earlier back-up, and damaged since
             if one.path not in of:
                 raise
-            with contextlib.suppress(FileNotFoundError, SourceFails):
+            with contextlib.suppress(SourceFails):
                 files[number] = _stored(place, one.path, _blocks(of[one.path]), one.changed_ns)
             _compare(place, files[number])
         done += one.size
         progress(min(done, total), total)
-    when = (now or datetime.now().astimezone()).replace(microsecond=0)
+    when = now.replace(microsecond=0)
     name = _free_name(place, f"{when:%Y-%m-%dT%H%M%S}")
     made = backup_of(name, when, files, sources.running, len(lacking), software_version)
     _write(place / BACKUPS / f"{made.name}.json", told(made))
@@ -168,14 +180,17 @@ def backup_of(
     )
 
 
-def gather(data_folder: Path, place: Path, settings_folder: Path | None) -> Sources:
-    """Everything that a back-up of a data folder holds. Raises :class:`FolderMissing`, :class:`BackupUnreadable` for a
-    store that cannot be read, :class:`BackupPlaceUnsuited` for a place that a link leads into."""
+def gather(data_folder: Path, place: Path, settings_folder: Path | None, sessions: Path | None = None) -> Sources:
+    """Everything that a back-up of a data folder holds, the ``sessions`` of a share too. Raises :class:`FolderMissing`,
+    :class:`BackupUnreadable` for a store that cannot be read, :class:`BackupPlaceUnsuited` for a place that a link
+    leads into."""
     if not data_folder.is_dir():
         raise FolderMissing(data_folder)
     snapshot, wanted = _of_store(data_folder / STORE_FILE)
     lacking: list[str] = []
     there = dict(_walk(data_folder, place.resolve(), lacking))
+    if sessions is not None and sessions != data_folder / SESSIONS_FOLDER:
+        there |= _walk(sessions, place.resolve(), lacking, SESSIONS_PREFIX)
     parts = [path for name, path in there.items() if name.endswith(".part")]
     beating = heartbeat.still_beating(parts)
     busy = {path for path in parts if path in beating or _is_written(path)}
@@ -247,7 +262,14 @@ def compare(place: Path, backup: Backup, progress: Progress = lambda _done, _tot
 
 def thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
     """Keep the newest ``keep`` back-ups and the newest of each month for so many months; how many were taken away,
-    with every content that no back-up needs. Nothing is touched that a link leads to, nor what is no content."""
+    with every content that no back-up needs. Nothing is touched that a link leads to, nor what is no content, nor
+    anything while a back-up into the place runs."""
+    with contextlib.suppress(OutputBusy), _alone(place):
+        return _thin_out(place, keep, months, now)
+    return 0
+
+
+def _thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
     there = backups(place)
     kept = {one.name for one in there[:keep]}
     for month in {(one.made.year, one.made.month) for one in there}:
@@ -291,6 +313,7 @@ def restore(
     :class:`DiskFull`, :class:`OutputNotWritable`; then nothing is left.
     """
     remove_left_behind(target)
+    chosen: list[tuple[Path, Path]] = []
     if not replaces and target.exists() and (not target.is_dir() or any(target.iterdir())):
         raise OutputExists(target)
     staged = Staged.begin(target)
@@ -302,6 +325,9 @@ def restore(
                 if into is None or into.exists():
                     continue
                 make_private(into.parent)
+                chosen.append((into.with_name(f".{into.name}.new"), into))
+                into = chosen[-1][0]
+                into.unlink(missing_ok=True)  # of a program that was killed
             else:
                 into = staged.folder / one.path
                 for folder in reversed(into.relative_to(staged.folder).parents):
@@ -310,8 +336,14 @@ def restore(
             done += one.size
             progress(done, total)
         staged.complete()
-    except BaseException:
+        for part, into in chosen:
+            part.replace(into)
+    except BaseException as cause:
         staged.drop()
+        for part, _ in chosen:
+            part.unlink(missing_ok=True)
+        if isinstance(cause, OSError):
+            raise write_fault(target, cause) from cause
         raise
     return staged
 
@@ -343,11 +375,11 @@ def check_place(data_folder: Path, place: Path) -> None:
         raise BackupPlaceUnsuited(place, phrase("in the data folder, or around it"))
 
 
-def _walk(folder: Path, place: Path | None, lacking: list[str]) -> Iterator[tuple[str, Path]]:
+def _walk(folder: Path, place: Path | None, lacking: list[str], prefix: str = "") -> Iterator[tuple[str, Path]]:
     """Every file by its path with slashes, links followed, each folder once; what leads nowhere or cannot be read is
     added to ``lacking``."""
     seen: set[tuple[int, int]] = set()
-    waiting = [("", folder)]
+    waiting = [(prefix, folder)]
     while waiting:
         name, here = waiting.pop()
         try:
@@ -398,13 +430,32 @@ class SourceFails(Exception):
     """A file of the data folder that cannot be read."""
 
 
+class SourceGone(SourceFails):
+    """A file of the data folder that is there no more."""
+
+
+@contextlib.contextmanager
+def _alone(place: Path) -> Iterator[None]:
+    """While no other program writes into a place. Raises :class:`OutputBusy` and the faults of writing."""
+    try:
+        lock = open(place / PLACE_LOCK, "ab", opener=private)  # noqa: SIM115  # closed below
+    except OSError as cause:
+        raise write_fault(place, cause) from cause
+    with lock:
+        try:
+            hold(lock)
+        except OSError as cause:
+            raise OutputBusy(place) from cause
+        yield
+
+
 def _blocks(source: Path) -> Iterator[bytes]:
     try:
         with source.open("rb") as file:
             while block := file.read(BLOCK):
                 yield block
-    except FileNotFoundError:
-        raise
+    except FileNotFoundError as cause:
+        raise SourceGone from cause
     except OSError as cause:
         raise SourceFails from cause
 
@@ -413,8 +464,8 @@ def _kept(path: str, source: Path, place: Path, before: Kept | None) -> Kept:
     """The content of a file, copied unless it is there already."""
     try:
         state = source.stat()
-    except FileNotFoundError:
-        raise
+    except FileNotFoundError as cause:
+        raise SourceGone from cause
     except OSError as cause:
         raise SourceFails from cause
     changed_ns = max(0, state.st_mtime_ns)
@@ -439,8 +490,6 @@ def _stored(place: Path, path: str, blocks: Iterator[bytes], changed_ns: int) ->
         make_private(target.parent)
         part.replace(target)
         sync_folder(target.parent)
-    except (FileNotFoundError, SourceFails):
-        raise
     except OSError as cause:
         raise write_fault(place, cause) from cause
     finally:

@@ -51,6 +51,7 @@ def seal_backup(
     passphrase: str,
     *,
     software_version: str,
+    sessions: Path | None = None,
     settings_folder: Path | None = None,
     now: datetime | None = None,
     progress: Progress = lambda _done, _total: None,
@@ -58,7 +59,7 @@ def seal_backup(
     """A back-up as one new file, opened again and compared. Raises :class:`TooLargeToSeal`, :class:`OutputExists` and
     what :func:`core.records.backup.back_up` raises."""
     check_place(data_folder, path)
-    sources = gather(data_folder, path, settings_folder)
+    sources = gather(data_folder, path, settings_folder, sessions)
     _check_size(path, sources.size_bytes)
     packed, files, lacking = _Packed(), list[Kept](), list(sources.lacking)
     if sources.snapshot:

@@ -196,5 +196,8 @@ def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(
     assert path.is_relative_to(share)
     assert read_comment(path) == "Less swelling."
     assert read_choices(path).left_out == {0: "pain"}
+    monkeypatch.setattr(tqdm, "monitor_interval", 0)
+    monkeypatch.setattr("os.nice", lambda _: 0)
+    assert main(["backup", str(tmp_path / "disk")]) == 0
     assert main(["erase", str(path), "--for-good", "Linden 42"]) == 0
     assert not path.exists()

@@ -9,7 +9,14 @@ from typing import Any
 
 import pytest
 
-from carpus.core.errors import BackupIncomplete, BackupPlaceUnsuited, BackupUnequal, BackupUnreadable, OutputExists
+from carpus.core.errors import (
+    BackupIncomplete,
+    BackupPlaceUnsuited,
+    BackupUnequal,
+    BackupUnreadable,
+    OutputBusy,
+    OutputExists,
+)
 from carpus.core.records import backup as module
 from carpus.core.records.backup import (
     BACKUPS,
@@ -46,11 +53,11 @@ def data(tmp_path: Path) -> Path:
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    """All but the store, whose journal comes and goes."""
+    """All but the store, whose journal comes and goes, and locks."""
     return {
         path.relative_to(folder).as_posix(): path.read_bytes()
         for path in folder.rglob("*")
-        if path.is_file() and ".sqlite3" not in path.name
+        if path.is_file() and ".sqlite3" not in path.name and path.suffix != ".lock"
     }
 
 
@@ -78,6 +85,19 @@ def test_everything_is_restored_on_another_computer(data: Path, tmp_path: Path) 
         assert house.files.take_in().sessions == 0
     with pytest.raises(OutputExists):
         restored(tmp_path / "disk", made, new)
+
+
+def test_a_restore_that_fails_leaves_no_settings(data: Path, tmp_path: Path) -> None:
+    settings, place = tmp_path / "settings", tmp_path / "disk"
+    settings.mkdir()
+    for name in ("a", "b"):
+        (settings / f"{name}.toml").write_text(f"{name} = 1")
+    made = back_up(data, place, software_version="1", settings_folder=settings, now=NOW)
+    last = next(one for one in made.files if one.path.endswith("b.toml")).sha256
+    (place / OBJECTS / last[:2] / last).write_text("b = 2")
+    with pytest.raises(BackupUnequal):
+        restored(place, made, tmp_path / "new", tmp_path / "new settings")
+    assert list((tmp_path / "new settings").iterdir()) == []
 
 
 def test_a_running_recording_is_left_out_and_said(data: Path, tmp_path: Path) -> None:
@@ -241,6 +261,38 @@ def test_linked_folders_and_files_are_followed(data: Path, tmp_path: Path) -> No
     assert (tmp_path / "new" / "limits.json").read_text() == "{}"
     with pytest.raises(BackupPlaceUnsuited):
         back_up(data, elsewhere / "backup", software_version="1")
+
+
+def test_the_sessions_of_a_share_are_in_it(data: Path, tmp_path: Path) -> None:
+    share = tmp_path / "share"
+    (data / "sessions").rename(share)
+    made = back_up(data, tmp_path / "disk", software_version="1", sessions=share, now=NOW)
+    assert (made.sessions, made.lacking) == (2, 0)
+    restored(tmp_path / "disk", made, tmp_path / "new")
+    assert contents(tmp_path / "new" / "sessions") == contents(share)
+    with pytest.raises(BackupPlaceUnsuited):
+        back_up(data, share / "backup", software_version="1", sessions=share)
+    share.rename(tmp_path / "away")
+    with pytest.raises(BackupIncomplete):
+        back_up(data, tmp_path / "disk", software_version="1", sessions=share, now=NOW)
+
+
+def test_two_into_one_place_take_nothing_from_each_other(data: Path, tmp_path: Path) -> None:
+    """What only an old back-up had goes with that one, unless a back-up that runs has just found it there."""
+    place, met = tmp_path / "disk", []
+    back_up(data, place, software_version="1", now=NOW - timedelta(days=40))
+
+    def other(done: int, _: int) -> None:
+        assert thin_out(place, 0, 0, NOW) == 0
+        with pytest.raises(OutputBusy):
+            back_up(data, place, software_version="1", now=NOW)
+        met.append(done)
+
+    made = back_up(data, place, software_version="1", now=NOW, progress=other)
+    assert met
+    compare(place, made)
+    assert thin_out(place, 1, 0, NOW) == 1
+    compare(place, made)
 
 
 @pytest.mark.parametrize("lost", ["file", "folder", "link"])
