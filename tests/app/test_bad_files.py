@@ -12,7 +12,7 @@ from pathlib import Path
 import h5py
 import pytest
 
-from carpus.core.errors import CarpusFault, FilesSetApart, RegisterSetAside, SessionUnreadable
+from carpus.core.errors import CarpusFault, FilesSetApart, RegisterMissing, RegisterSetAside, SessionUnreadable
 from carpus.core.library import library as library_module
 from carpus.core.library.library import Library
 from carpus.core.records import session_list
@@ -65,10 +65,10 @@ def text_time(file: h5py.File) -> None:
 
 
 def started(folder: Path) -> tuple[list[str], list[CarpusFault]]:
-    """The program's start on a folder: patients, and what it tells."""
+    """The program's start on a folder: patients, and what it tells of its files."""
     library = Library(folder)
     try:
-        faults = list(library.recover()[1])
+        faults = [one for one in library.recover()[1] if not isinstance(one, RegisterMissing)]
         return [record.entry.pseudonym for record in library.patients.listed()], faults
     finally:
         library.close()
