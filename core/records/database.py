@@ -22,6 +22,8 @@ STORE_FILE = "records.sqlite3"
 SMALL_BYTES = 64 << 20
 """A file up to this size is looked through when it is opened; a larger one would hold up the start, and its damage is
 met where it is."""
+BUSY_MS = 5000
+"""How long one program waits for another."""
 _MIGRATING = threading.Lock()
 """Alembic keeps the migration that runs in globals of its own: one at a time in a process."""
 
@@ -37,7 +39,9 @@ class Database:
     def __init__(self, path: Path) -> None:
         self._path, self._writing = path, threading.RLock()
         make_private_file(path)
-        self._engine = create_engine(f"sqlite:///{path}", connect_args={"isolation_level": None, "timeout": 5.0})
+        self._engine = create_engine(
+            f"sqlite:///{path}", connect_args={"isolation_level": None, "timeout": BUSY_MS / 1e3}
+        )
         event.listen(self._engine, "connect", _prepare)
         event.listen(self._engine, "begin", _begin)
         try:
@@ -72,13 +76,16 @@ class Database:
             with writes.begin():
                 yield writes
 
-    def leave_no_trace(self) -> None:
-        """Empty the write-ahead log, which keeps what was overwritten; another program may hold that up a little."""
+    def leave_no_trace(self, *, waits: bool = True) -> bool:
+        """Empty the write-ahead log, which keeps what was overwritten; whether it is, for another program that reads
+        holds that up."""
         with self._writing, self._complaints():
             raw = self._engine.raw_connection()
             try:
-                raw.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+                raw.execute(f"PRAGMA busy_timeout = {BUSY_MS if waits else 0}")
+                return not raw.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()[0]
             finally:
+                raw.execute(f"PRAGMA busy_timeout = {BUSY_MS}")
                 raw.close()
 
     def _check(self, connection: Connection) -> None:
@@ -159,8 +166,12 @@ def rescue(aside: Path, into: Database) -> int:
         new = connection.connection.cursor()
         new.execute("PRAGMA defer_foreign_keys = ON")
         for table in (*SHARED.values(), OUTBOX):
-            names = ", ".join(f'"{column.name}"' for column in table.c)
-            put = f"INSERT OR IGNORE INTO {table.name} ({names}) VALUES ({', '.join('?' * len(table.c))})"
+            there = set[str]()
+            with contextlib.suppress(sqlite3.Error):
+                there = {one for _, one, *_ in old.execute(f"PRAGMA table_info({table.name})")}
+            columns = [column.name for column in table.c if column.name in there]
+            names = ", ".join(f'"{one}"' for one in columns)
+            put = f"INSERT OR IGNORE INTO {table.name} ({names}) VALUES ({', '.join('?' * len(columns))})"
             for order in ("ASC", "DESC"):
                 with contextlib.suppress(sqlite3.Error):
                     for row in old.execute(f"SELECT {names} FROM {table.name} ORDER BY rowid {order}"):

@@ -126,13 +126,15 @@ def _go_on(store: Store) -> list[Path]:
         return [store.sessions_folder]
     files = _files(store, patients, sessions)
     left = [*_links(store, patients, sessions), *(path for path in sorted(files) if not _gone(path))]
-    for folder in sorted({path.parent for path in files} | set(_folders(store, patients))):
+    emptied = {folder for path in files for folder in path.parents} | set(_folders(store, patients))
+    for folder in sorted(emptied, reverse=True):
         if folder.is_relative_to(store.sessions_folder) and folder != store.sessions_folder:
             with contextlib.suppress(OSError):  # another patient's session is in it
                 folder.rmdir()
     if left:
         return left
-    names = [name for row in people for name in (row.folded, folded(row.name)) if name]
+    said = (one for row in people for one in (row.folded, row.name, *row.former.split("\n")))
+    names = [folded(one) for one in said if one]
     # What is of this computer alone goes first: as long as the rows are marked, a kill in between is made good.
     root = store.sessions_folder
     paths = [path.relative_to(root).as_posix() for path in files if path.is_relative_to(root)]
@@ -149,8 +151,7 @@ def _go_on(store: Store) -> list[Path]:
     letters = _letters_to(store, names)
     store.forget_waiting([*patients, *sessions, *(row.id for row in letters)])
     store.do([*(dropped(SESSION, one) for one in sessions), *(dropped(PATIENT, one) for one in patients), *letters])
-    store.leave_no_trace()
-    return []
+    return [] if store.leave_no_trace() else [store.folder / f"{STORE_FILE}-wal"]
 
 
 def _letters_to(store: Store, names: Sequence[str]) -> list[Row]:
@@ -175,7 +176,7 @@ def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> se
         found |= set(_plain_files(folder))
     for name, said in _names_of(store, patients):
         orphans = (path for path in _plain_files(root) if not _is_beside(path, others))
-        found |= {path for path in orphans if name.search(path.name) or _says(path, said)}
+        found |= {one for one in orphans if name.search(one.relative_to(root).as_posix()) or _says(one, said)}
     found |= set(trials_of(store, going))
     stem, suffix = STORE_FILE.split(".")
     found |= set(store.folder.glob(f"{stem}.damaged-*.{suffix}*"))
@@ -183,10 +184,15 @@ def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> se
 
 
 def _names_of(store: Store, patients: Sequence[str]) -> Iterator[tuple[re.Pattern[str], re.Pattern[bytes]]]:
-    """Of each patient the pseudonym as a word in a file's name, where that could be nobody else's, and in a file."""
-    names = {row.id: row.pseudonym for row in store.rows(select(PATIENT.c.id, PATIENT.c.pseudonym))} if patients else {}
-    alike = Counter(map(file_name, names.values()))
-    for pseudonym in (names[one] for one in patients if one != PRACTICE):
+    """Of each patient the pseudonyms, and a name of several words, as words in the path of a file, where that could be
+    nobody else's, and in a file."""
+    names = {
+        row.id: {row.pseudonym, *row.former.split("\n"), row.name if " " in row.name else ""} - {""}
+        for row in (store.rows(select(PATIENT)) if patients else ())
+    }
+    equal = Counter(one for own in names.values() for one in own)
+    alike = Counter(one for own in names.values() for one in {file_name(name) for name in own})
+    for pseudonym in (one for patient in patients if patient != PRACTICE for one in names[patient] if equal[one] == 1):
         stem, word = re.escape(file_name(pseudonym)), re.escape(pseudonym)
         name = rf"(?<![^\W_])(?:{stem}|{word})(?![^\W_])" if alike[file_name(pseudonym)] == 1 else r"(?!)"
         said = rb"(?<![\w\x80-\xff])" + re.escape(pseudonym.encode()) + rb"(?![\w\x80-\xff])"

@@ -78,7 +78,11 @@ class Patients:
         Raises :class:`PseudonymTaken`, :class:`NameUnsuited`, :class:`ChangedMeanwhile`. Files recorded under an
         earlier pseudonym keep it.
         """
-        self._store.do([changed(PATIENT, patient_id, version, **columns(entry))])
+        values = columns(entry)
+        row = self._store.row(select(PATIENT.c.pseudonym, PATIENT.c.former).where(PATIENT.c.id == patient_id))
+        if row is not None and row.pseudonym != values["pseudonym"]:
+            values["former"] = "\n".join(dict.fromkeys([*row.former.split("\n"), row.pseudonym])).strip()
+        self._store.do([changed(PATIENT, patient_id, version, **values)])
         self._store.leave_no_trace()  # of a name that was taken away
 
     def archive(self, patient_id: str, now: datetime | None = None) -> None:

@@ -56,10 +56,12 @@ PATIENT = _shared(
     "patient",
     Column("folded", Text, nullable=False, unique=True),
     _texts("pseudonym", "name", "side", "dominance", "age_band", "note", "search", "archived", "last", "last_exercise"),
+    _texts("former"),
     _numbers("sessions", "results", "erasing", "takes_part"),
     _reals("added_s", "last_s"),
 )
-"""``folded``: the pseudonym as it is compared. ``archived``: since when, empty in the lists. What is counted, and
+"""``folded``: the pseudonym as it is compared. ``former``: earlier ones, each a line, which files may still
+bear. ``archived``: since when, empty in the lists. What is counted, and
 ``last``, is of recordings that are in the lists and not simulated; it is worked out whenever a session changes."""
 Index("patient_last", PATIENT.c.last_s, PATIENT.c.added_s)
 Index(

@@ -15,6 +15,7 @@ import tempfile
 import threading
 import time
 import uuid
+from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -22,7 +23,7 @@ from typing import Any
 
 from sqlalchemy import Connection, Row, Select, Table, create_engine, delete, event, func, select, text, update
 from sqlalchemy.dialects import postgresql, sqlite
-from sqlalchemy.exc import DataError, DBAPIError, IntegrityError
+from sqlalchemy.exc import DataError, DBAPIError, IntegrityError, InterfaceError, OperationalError
 
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, ChangeRefused, PseudonymGiven, PseudonymTaken, ServerGone
 from carpus.core.records.changes import PRACTICE, Change, is_practice, joining, make, read_back
@@ -44,6 +45,14 @@ _OPTIONS = {
 PATIENCE_S, MOST_CONNECTING_S = 2.0, 30.0
 """How long a program that ends waits for what is on its way; and, once every line is cut, for a connection that is
 being made to each of the server's addresses."""
+MOST_TRIES = 5
+"""Of a change at which the server fails again and again, before it is refused: what comes after it would wait."""
+_WAITS = {"42501", "25006"}
+"""No right, read-only: as PostgreSQL calls what waits until somebody has seen to it."""
+_WHICH = text(
+    "SELECT system_identifier || '/' || current_database() || '/' || coalesce(to_regclass('deed')::oid::text, '')"
+    " FROM pg_control_system()"
+)
 _UNIQUE = {"patient": "folded", "session": "path"}
 
 
@@ -57,7 +66,7 @@ class Server:
         event.listen(self._engine, "connect", self._connected)
         self._name = self._engine.url.render_as_string(hide_password=True).split("@")[-1]
         self._copy, self._tell = copy, tell
-        self._fetched = -1
+        self._fetched, self._known, self._tries = -1, "", Counter[str]()
         self._work, self._ends = threading.Event(), threading.Event()
         self._rounds = threading.Condition()
         self._round, self._refused = 0, dict[str, CarpusFault]()
@@ -141,20 +150,24 @@ class Server:
             pass
         self._fetch()
         if self._leaves_traces:
-            self._copy.leave_no_trace()
-            self._leaves_traces = False
+            self._leaves_traces = not self._copy.leave_no_trace(waits=False)
 
     # --- to the server ------------------------------------------------------------------------------------
     def _join(self) -> None:
-        """The first time that this copy meets this server: tables are made, and what is here goes there."""
+        """The first time that a program meets a server its tables are made, or brought to this version; the first time
+        that this copy meets it, what is here goes there. One put back from a dump, whose tables were made anew, is
+        another server: its steps are of before, and what it lacks goes there again."""
         with self._engine.begin() as there:
-            name = there.execute(text("SELECT system_identifier || '/' || current_database() FROM pg_control_system()"))
-            known = str(name.scalar())
-            with self._copy.reading() as connection:
-                if connection.execute(select(OWN.c.value).where(OWN.c.name == "server")).scalar() == known:
-                    return
+            known = str(there.execute(_WHICH).scalar())
+            if known == self._known:
+                return
             there.execute(text("SELECT pg_advisory_xact_lock(2025)"))
             up_to_date(there, self._name)
+            known = str(there.execute(_WHICH).scalar())
+        self._known, self._fetched = known, -1
+        with self._copy.reading() as connection:
+            if connection.execute(select(OWN.c.value).where(OWN.c.name == "server")).scalar() == known:
+                return
         with self._copy.writing() as connection:
             for table in SHARED.values():
                 for rows in connection.execute(select(table)).mappings().partitions(AT_ONCE):
@@ -173,10 +186,13 @@ class Server:
         for row in waiting:
             if self._ends.is_set():
                 return False
-            change, fault = read_back(row.change), None
+            change, fault = list[Changed](), None
             try:
+                change = [*read_back(row.change)]
                 self._send(row.id, change)
-            except (CarpusFault, IntegrityError, DataError) as cause:  # all else waits: no right, read-only
+            except Exception as cause:
+                if not self._is_hopeless(row.id, cause):
+                    raise
                 fault = cause if isinstance(cause, CarpusFault) else ChangeRefused(self._name, _said(cause))
             there = self._as_there(change) if fault is not None else []
             with self._copy.writing() as connection:
@@ -192,6 +208,17 @@ class Server:
                 self._refuse(row.id, fault)
                 self._forget(row.id)
         return bool(waiting)
+
+    def _is_hopeless(self, change_id: str, cause: Exception) -> bool:
+        """Whether a change will never be taken; a broken line, a missing right, a server that only reads are waited
+        for."""
+        if isinstance(cause, CarpusFault | IntegrityError | DataError):
+            return True
+        state = getattr(getattr(cause, "orig", None), "sqlstate", None)
+        if isinstance(cause, OperationalError | InterfaceError | OSError) or state in _WAITS:
+            return False
+        self._tries[change_id] += 1
+        return self._tries[change_id] >= MOST_TRIES
 
     def _forget(self, change_id: str) -> None:
         with self._copy.writing() as connection:
@@ -241,7 +268,7 @@ class Server:
     def _as_there(self, change: Change) -> list[tuple[Changed, dict[str, Any] | None]]:
         """Rows of a refused change, as the server has them."""
         with self._engine.connect() as there:
-            rows = [one for one in change if one.table != DEED.name]
+            rows = [one for one in change if one.table in SHARED and one.table != DEED.name]
             tables = [SHARED[one.table] for one in rows]
             found = [
                 there.execute(select(table).where(table.c.id == one.id)).mappings().first()

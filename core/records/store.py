@@ -158,9 +158,9 @@ class Store:
         with self._database.writing() as connection:
             forget(connection, ids)
 
-    def leave_no_trace(self) -> None:
-        """Bring what was taken out to the disk as taken out."""
-        self._database.leave_no_trace()
+    def leave_no_trace(self) -> bool:
+        """Bring what was taken out to the disk as taken out; whether it is."""
+        return self._database.leave_no_trace()
 
 
 @contextmanager

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import shutil
+import sqlite3
 from collections.abc import Iterator
 from dataclasses import replace
 from datetime import date, timedelta
@@ -20,7 +22,7 @@ from carpus.core.library.set_up import SetUp
 from carpus.core.library.set_ups import keep_set_up
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import RepetitionChoices
-from carpus.core.records import erasure, of_clinic, of_patients, of_sessions
+from carpus.core.records import database, erasure, of_clinic, of_patients, of_sessions
 from carpus.core.records.changes import new
 from carpus.core.records.log import read_log
 from carpus.core.records.retention import due, kept_until
@@ -418,3 +420,31 @@ def test_an_identity_that_leads_out_erases_nothing_there(tmp_path: Path, folder:
     assert (mine / "letter.txt").exists()
     assert house.index.one(stays).path.exists()
     assert house.names() == ["Linden 42"]
+
+
+def test_an_earlier_pseudonym_and_a_folder_with_a_name_go_too(folder: Path, house: House) -> None:
+    linden, sessions = house.patients.add(replace(LINDEN, pseudonym="Fir 11")), folder / "sessions"
+    house.patients.change(linden, LINDEN)
+    house.patients.add(HERON)
+    for name in ("damaged.h5", "Linden 42/a/notes.txt", "letters/notes Erika Mustermann.txt", "letters/Heron 17.txt"):
+        (sessions / name).parent.mkdir(parents=True, exist_ok=True)
+        (sessions / name).write_bytes(b"\0Fir 11\0" if name == "damaged.h5" else b"a note")
+    house.files.take_in()
+    erase_patient(house, linden)
+    assert [path.name for path in sessions.rglob("*") if path.is_file()] == ["Heron 17.txt"]
+    assert traces(folder, "Fir 11", "fir 11", *NAMES) == []
+
+
+def test_what_another_program_still_reads_is_told_as_left(
+    folder: Path, house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(database, "BUSY_MS", 0)
+    linden = house.patients.add(LINDEN)
+    with contextlib.closing(sqlite3.connect(folder / database.STORE_FILE)) as reader:
+        reader.execute("BEGIN")
+        reader.execute("SELECT count(*) FROM patient").fetchall()
+        with pytest.raises(ErasureUnfinished, match="wal"):
+            erase_patient(house, linden)
+        reader.rollback()
+    erasure.finish_erasing(house.store, house.log)
+    assert traces(folder, *NAMES) == []

@@ -12,19 +12,28 @@ from datetime import timedelta
 from pathlib import Path
 
 import pytest
-from sqlalchemy import create_engine, delete, func, select, text, update
+from sqlalchemy import create_engine, delete, func, insert, select, text, update
 from sqlalchemy.exc import DBAPIError
 from sqlalchemy.pool import NullPool
 
-from carpus.core.errors import CarpusFault, ChangedMeanwhile, PseudonymGiven, PseudonymTaken, ServerGone
+from carpus.core.errors import (
+    CarpusFault,
+    ChangedMeanwhile,
+    ChangeRefused,
+    PseudonymGiven,
+    PseudonymTaken,
+    RegisterUnreadable,
+    ServerGone,
+)
 from carpus.core.output.report_content import RepetitionChoices
-from carpus.core.records import erasure, of_sessions
+from carpus.core.records import changes, erasure, of_sessions, server
 from carpus.core.records.changes import PRACTICE, Change, dropped, new
+from carpus.core.records.changes import Row as Changed
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import COMMENT, DEED, OUTBOX, OWN, PATIENT, SESSION
 from carpus.core.records.server import Server
 from carpus.core.records.values import PatientEntry, Rebuilt
-from tests.records.postgres import Cluster
+from tests.records.postgres import Cluster, binaries
 from tests.records.samples import HERON, LINDEN, LONG_S, T0, measure, opened, record, settled, traces, until, waiting
 from tests.torture.wire import Wire
 
@@ -403,3 +412,46 @@ def test_what_is_erased_once_more_goes_everywhere_once_more(tmp_path: Path, ther
             until(lambda: b.names() == ["Linden 42"])
             a.store.do([dropped(PATIENT, row.id)])
             until(lambda: b.names() == [])
+
+
+def test_a_server_that_is_put_back_from_a_dump_gets_what_it_lacks(tmp_path: Path, there: str) -> None:
+    dump = str(tmp_path / "dump")
+    with opened(tmp_path / "a", there) as a:
+        a.patients.add(LINDEN)
+        settled(a)
+        subprocess.run([binaries() / "pg_dump", "--format=custom", "--file", dump, there], check=True)
+        a.patients.add(HERON)
+        settled(a)
+    back = ["--clean", "--single-transaction", "--dbname", there, dump]
+    subprocess.run([binaries() / "pg_restore", *back], check=True)
+    with opened(tmp_path / "b", there) as b, opened(tmp_path / "a", there) as a:
+        for number in range(9):  # more than was lost: the number of the last change says nothing
+            b.patients.add(PatientEntry(f"Oak {number}", "left"))
+        until(lambda: len(a.names()) == len(b.names()) == 11)
+
+
+def test_a_server_of_a_newer_carpus_is_told_also_where_it_is_known(tmp_path: Path, there: str) -> None:
+    told: list[CarpusFault] = []
+    with opened(tmp_path, there) as house:
+        settled(house)
+    engine = create_engine(there.replace("postgresql", "postgresql+psycopg"), poolclass=NullPool)
+    with engine.begin() as connection:
+        connection.execute(text("UPDATE alembic_version SET version_num = '99'"))
+    with opened(tmp_path, there, told.append):
+        until(lambda: bool(told))
+    assert isinstance(told[0], RegisterUnreadable)
+
+
+def test_a_change_that_can_never_be_made_lets_the_others_pass(
+    tmp_path: Path, there: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(server, "RETRY_S", 0.0)
+    told: list[CarpusFault] = []
+    with opened(tmp_path, there, told.append) as house:
+        settled(house)
+        lost = Changed("keep", "of a newer Carpus", "x", {})
+        house.store.own(insert(OUTBOX).values(id="y", change=changes.told([lost])))
+        house.patients.add(LINDEN)
+        until(lambda: any(isinstance(one, ChangeRefused) for one in told))
+        settled(house)
+    assert count(there, "patient") == 1
