@@ -210,7 +210,8 @@ def repetition_lines(session: Session, choices: RepetitionChoices | None = None)
         if (row := one.row) is None:
             continue
         least = "at least " if row.at_least else ""
-        parts = [f"{row.start_s:.2f} to {row.end_s:.2f} s"]
+        start, end = (f"{time_s:.2f}" if math.isfinite(time_s) else "?" for time_s in (row.start_s, row.end_s))
+        parts = [f"{start} to {end} s"]
         if math.isfinite(row.arc_rad):
             parts.append(f"arc {least}{math.degrees(row.arc_rad):.1f} deg")
         if math.isfinite(row.peak_speed_rad_s):

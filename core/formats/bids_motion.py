@@ -86,7 +86,9 @@ def write(take: Take, folder: Path) -> list[Path]:
          "yes" if row.counted else f"no: {row.reason.replace('_', ' ')}")
         for n, row in enumerate((one.row for one in take.figures.repetitions), 1) if row is not None
     ]  # fmt: skip
-    lines = ([_event_cell(value) for value in event] for event in sorted(events, key=lambda event: event[0]))
+    lines = (
+        [_event_cell(value) for value in event] for event in sorted(events, key=lambda e: (math.isnan(e[0]), e[0]))
+    )
     head = ("onset", "duration", "trial_type", "value", "peak", "arc", "counted")
     out.append(new_table(place / f"{stem}_events.tsv", head, lines, "\t"))
     out.append(new_json(place / f"{stem}_events.json", _EVENTS))

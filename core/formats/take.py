@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -72,7 +73,8 @@ def repetition_events(take: Take) -> list[Event]:
             said = f"{number}" if one.row.counted else f"{number}, not counted: {one.row.reason.replace('_', ' ')}"
             row = on_clock(one.row, start_s)
             for kind, time_s in (("start", row.start_s), ("peak", row.peak_s), ("end", row.end_s)):
-                out.append(Event(time_s, f"repetition_{kind}", said))
+                if math.isfinite(time_s):
+                    out.append(Event(time_s, f"repetition_{kind}", said))
     return out
 
 

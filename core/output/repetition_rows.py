@@ -14,10 +14,10 @@ from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.fingers import JointTrack, joint_range
 from carpus.core.measures.motion_range import LEAST_VALID_SHARE, MotionRange, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
-from carpus.core.measures.repetitions import COUNTING_CUTOFF_HZ, Cut, Repetition, find_repetitions
+from carpus.core.measures.repetitions import COUNTING_CUTOFF_HZ, Cut, Repetition, Stroke, find_repetitions
 from carpus.core.measures.repetitions import Exercise as Found
 from carpus.core.measures.signals import BoolArray, Signal, even_signal, low_pass, stretches
-from carpus.core.measures.speed import StrokeMeasures, measure_stroke
+from carpus.core.measures.speed import PLACE_SHARE, StrokeMeasures, measure_stroke
 from carpus.core.measures.validity import settled, valid_view, valid_wrist_angles
 from carpus.core.output.exercises import Exercise, exercise_named
 from carpus.core.output.joint_content import joint_tracks
@@ -159,7 +159,7 @@ def _measured(
     # Motion cut in the middle is cut within strokes: each belongs where it ends, unless a person cut there.
     belongs_s = _end_s if edges_s is None else _middle_s
     own = tuple(one for one in strokes if window.start_s < belongs_s(one) <= window.end_s)
-    start_s, end_s = edges_s or _left_and_reached(rep, own)
+    start_s, end_s = edges_s or _left_and_reached(trained.tracked, rep, own)
     turns_high = own[0].stroke.rising if own and edges_s is None else None
     peak_s, is_high = _furthest(trained.tracked, window, turns_high)
     measured = trained.range_of((window,))
@@ -216,20 +216,40 @@ def _middle_s(stroke: StrokeMeasures) -> float:
     return 0.5 * (stroke.stroke.start_s + stroke.stroke.end_s)
 
 
-def _left_and_reached(rep: Repetition, strokes: Sequence[StrokeMeasures]) -> tuple[float, float]:
-    """When the first stroke left its turning place and the last reached its own; where that is not known, or the
-    repetition is cut in the middle and not at turning places, its own start and end."""
+def _left_and_reached(tracked: Signal, rep: Repetition, strokes: Sequence[StrokeMeasures]) -> tuple[float, float]:
+    """When the first stroke left its turning place and the last reached its own; NaN where a gap hides that. Where
+    the repetition is cut, or begins or ends at no turning place, it has its own start and end."""
     start_s, end_s = rep.start_s, rep.end_s
-    if strokes and abs(strokes[0].stroke.start_s - start_s) <= 1e-6 and strokes[0].onset_s >= start_s:
-        start_s = strokes[0].onset_s
-    if strokes and abs(strokes[-1].stroke.end_s - end_s) <= 1e-6 and strokes[-1].offset_s <= end_s:
-        end_s = strokes[-1].offset_s
+    if strokes and abs(strokes[0].stroke.start_s - start_s) <= 1e-6 and rep.cut_s != start_s:
+        first = strokes[0]
+        start_s = first.onset_s if first.onset_s >= start_s else _edge_of_place(tracked, first.stroke, leaving=True)
+    if strokes and abs(strokes[-1].stroke.end_s - end_s) <= 1e-6 and rep.cut_s != end_s:
+        last = strokes[-1]
+        end_s = last.offset_s if last.offset_s <= end_s else _edge_of_place(tracked, last.stroke, leaving=False)
     return start_s, end_s
+
+
+def _edge_of_place(tracked: Signal, stroke: Stroke, *, leaving: bool) -> float:
+    """When a stroke whose speed does not say it left its first turning place, or reached its last, told from the angle
+    alone; NaN where the sample beyond that edge was not seen."""
+    part = low_pass(tracked, COUNTING_CUTOFF_HZ).between(stroke.start_s, stroke.end_s)
+    way = stroke.toward * part.value
+    if not part.finite.any():
+        return math.nan
+    low, high = float(np.nanmin(way)), float(np.nanmax(way))
+    near = PLACE_SHARE * (high - low)
+    edge = int(np.flatnonzero(way >= high - near)[0])
+    if leaving:
+        edge = int(np.flatnonzero(way[: edge + 1] <= low + near)[-1])
+    beyond = edge + (1 if leaving else -1)
+    seen = 0 <= beyond < len(way) and math.isfinite(way[beyond])
+    return float(part.time_s[edge]) if seen else math.nan
 
 
 def _furthest(tracked: Signal, window: Repetition, turns_high: bool | None) -> tuple[float, bool]:
     """When the angle was furthest on its way there, in the middle of a hold, and whether it was high there; furthest
-    from where it began where it is not known which way that was."""
+    from where it began where it is not known which way that was. NaN where a gap, or what cut the repetition, begins
+    or ends there: it may have been further where it was not seen."""
     part = low_pass(tracked, COUNTING_CUTOFF_HZ).between(window.start_s, window.end_s)
     known = part.value[part.finite]
     if not len(known):
@@ -240,6 +260,11 @@ def _furthest(tracked: Signal, window: Repetition, turns_high: bool | None) -> t
     away = away if turns_high else -away
     at = int(np.nanargmax(away))
     held = next(run for run in stretches(away >= HELD_SHARE * away[at]) if run.start <= at < run.stop)
+    first_s, last_s = float(part.time_s[held.start]), float(part.time_s[held.stop - 1])
+    near_s = 1.5 / part.rate_hz
+    cut = min(abs(first_s - window.cut_s), abs(last_s - window.cut_s)) <= near_s
+    if cut or not part.finite[max(held.start - 1, 0) : held.stop + 1].all():
+        return math.nan, turns_high
     return float(part.time_s[held].mean()), turns_high
 
 

@@ -593,8 +593,8 @@ def _same_recording(one: SessionFigures, other: SessionFigures) -> bool:
 def _shown(measured: Sequence[Measured], choices: RepetitionChoices) -> tuple[ShownRepetition, ...]:
     return tuple(
         ShownRepetition(
-            one.row.start_s,
-            one.row.end_s,
+            one.row.start_s if math.isfinite(one.row.start_s) else one.window.start_s,
+            one.row.end_s if math.isfinite(one.row.end_s) else one.window.end_s,
             choices.left_out.get(number, ""),
             one.unmeasured,
             one.row,

@@ -28,7 +28,7 @@ from carpus.core.output.repetition_rows import (
 from carpus.core.output.report_content import session_figures
 from carpus.core.session import schema
 from carpus.core.session.reader import read_session, verify
-from carpus.core.session.values import Session
+from carpus.core.session.values import RepetitionRow, Session
 from carpus.core.summary import repetition_lines
 from tests.formats.takes import stopping
 from tests.ui.fakes import session as simulated
@@ -243,3 +243,34 @@ def test_who_comes_back_too_far_has_the_peak_at_the_turn() -> None:
     (one,) = measured_repetitions(trained, RepetitionChoices())
     assert one.row.peak_s == pytest.approx(2.4, abs=0.2)
     assert math.degrees(one.row.angle_rad) == pytest.approx(50.0, abs=1.0)
+
+
+def rows_of(way_deg: dict[float, float], hidden: tuple[float, float] = (0.0, 0.0)) -> list[RepetitionRow]:
+    """Of minimum-jerk ways between angles (deg) at times (s), without noise, part of it hidden."""
+    knots_s, knots_deg = np.array(list(way_deg)), np.array(list(way_deg.values()))
+    time_s = np.arange(0.0, knots_s[-1], 1 / 30)
+    at = np.clip(np.searchsorted(knots_s, time_s, side="right") - 1, 0, len(knots_s) - 2)
+    share = (time_s - knots_s[at]) / np.diff(knots_s)[at]
+    value = knots_deg[at] + np.diff(knots_deg)[at] * (10 * share**3 - 15 * share**4 + 6 * share**5)
+    seen = ~((time_s > hidden[0]) & (time_s < hidden[1]))
+    angle = even_signal(time_s, np.radians(value), seen)
+    sd = even_signal(time_s, np.full(len(time_s), np.radians(0.3)), seen)
+    found = find_repetitions(angle)
+    trained = Trained("flexion", found, angle, sd, angle, True, lambda some: motion_range(angle, sd, some))
+    return [one.row for one in measured_repetitions(trained, RepetitionChoices())]
+
+
+def test_a_gap_on_the_way_does_not_make_the_rest_part_of_a_repetition() -> None:
+    back = {0.0: 0.0, 1.0: 0.0, 2.0: 60.0, 3.0: 0.0, 14.0: 0.0, 15.0: 60.0, 16.0: 0.0, 17.0: 0.0}
+    row = rows_of(back, (2.3, 2.7))[0]
+    assert row.counted
+    assert row.end_s == pytest.approx(2.94, abs=0.2)
+    there = {0.0: 0.0, 11.0: 0.0, 12.0: 60.0, 13.0: 0.0, 14.0: 0.0, 15.0: 60.0, 16.0: 0.0, 17.0: 0.0}
+    assert rows_of(there, (11.3, 11.7))[0].start_s == pytest.approx(11.06, abs=0.2)
+    assert math.isnan(rows_of(back, (2.6, 3.1))[0].end_s), "when it came to rest was hidden"
+
+
+@pytest.mark.parametrize(("hidden", "known"), [((1.55, 2.45), False), ((1.87, 2.13), False), ((1.2, 1.5), True)])
+def test_a_peak_that_a_gap_hides_has_no_time(hidden: tuple[float, float], known: bool) -> None:
+    row = rows_of({0.0: 0.0, 1.0: 0.0, 2.0: 60.0, 3.0: 0.0, 4.0: 0.0, 5.0: 60.0, 6.0: 0.0, 7.0: 0.0}, hidden)[0]
+    assert math.isfinite(row.peak_s) == known
