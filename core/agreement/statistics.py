@@ -14,7 +14,7 @@ from scipy.special import chdtri, fdtri, stdtrit
 from carpus.core.types import FloatArray
 
 FEWEST = 3
-"""Pairs below which nothing is said."""
+"""Pairs below which nothing is said, and people."""
 FEWEST_TO_JUDGE = 10
 OPPOSITE = -0.5
 """Below this correlation the two measure the same with opposite signs, or not the same."""
@@ -98,11 +98,18 @@ NOTHING = Agreement(
 
 @dataclass(frozen=True, slots=True)
 class Between:
-    """What several people's differences are made of: ``sd_between`` people's means, ``sd_within`` one of them."""
+    """What several people's differences are made of: ``sd_between`` people's means, ``sd_within`` one of them; both NaN
+    where nobody has two pairs, which alone tell them apart."""
 
     people: int
     sd_between: float
     sd_within: float
+
+
+def fewest_of_person(*, waveform: bool) -> int:
+    """Pairs with which a person counts among several: a single reading says something of people, a piece of a curve
+    nothing."""
+    return FEWEST if waveform else 1
 
 
 def agreement_of_people(
@@ -114,8 +121,9 @@ def agreement_of_people(
     people's means unweighted); intervals of the limits by recovering the variances of both (Zou 2013). Neighbours in
     time count for less, as in :func:`agreement`. No ICC and no CMC: pairs of several people have none in common.
     """
+    least = fewest_of_person(waveform=waveform)
     known = [np.isfinite(a) & np.isfinite(b) for a, b in zip(measured, reference, strict=True)]
-    pairs = [(a[k], b[k]) for a, b, k in zip(measured, reference, known, strict=True) if k.sum() >= FEWEST]
+    pairs = [(a[k], b[k]) for a, b, k in zip(measured, reference, known, strict=True) if k.sum() >= least]
     people, differences = len(pairs), [a - b for a, b in pairs]
     count = sum(map(len, differences))
     if people < FEWEST:
@@ -123,9 +131,8 @@ def agreement_of_people(
     worth = np.array([independent_count(d) if waveform else float(len(d)) for d in differences])
     means = np.array([d.mean() for d in differences])
     # What is left about a person's mean is of fewer independent values than there are pictures.
-    own = np.array([d.var() for d in differences]) * worth / (worth - 1.0)
     df = float(worth.sum() - people)
-    within = float(((worth - 1.0) * own).sum() / df)
+    within = float((np.array([d.var() for d in differences]) * worth).sum() / df) if df > 0.0 else 0.0
     of_means = float(means.var(ddof=1))
     share = 1.0 - float((1.0 / worth).mean())
     sd = math.sqrt(of_means + share * within)
@@ -134,13 +141,13 @@ def agreement_of_people(
 
     def aside(p: float) -> float:
         """How far the variance may be off, to the side that a chi-square's ``p`` belongs to."""
-        parts = [(of_means, people - 1.0), (share * within, df)]
+        parts = [(of_means, people - 1.0), *([(share * within, df)] if df > 0.0 else [])]
         return math.sqrt(sum((v * (1.0 - d / float(chdtri(d, 1.0 - p)))) ** 2 for v, d in parts))
 
-    least, most = math.sqrt(max(sd**2 - aside(0.975), 0.0)), math.sqrt(sd**2 + aside(0.025))
+    sd_low, sd_high = math.sqrt(max(sd**2 - aside(0.975), 0.0)), math.sqrt(sd**2 + aside(0.025))
     mean_part = t**2 * of_means / people
-    inner = math.sqrt(mean_part + (z * (sd - least)) ** 2)
-    outer = math.sqrt(mean_part + (z * (most - sd)) ** 2)
+    inner = math.sqrt(mean_part + (z * (sd - sd_low)) ** 2)
+    outer = math.sqrt(mean_part + (z * (sd_high - sd)) ** 2)
     half = math.sqrt(mean_part)
     low, high = bias - z * sd, bias + z * sd
     everything = np.concatenate(differences)
@@ -152,6 +159,8 @@ def agreement_of_people(
         rmse=float(np.sqrt(np.mean(everything**2))), largest=float(np.abs(everything).max()),
         correlation=float(np.corrcoef(a, b)[0, 1]) if a.std() > 0.0 and b.std() > 0.0 else math.nan,
     )  # fmt: skip
+    if not df > 0.0:
+        return found, Between(people, math.nan, math.nan)
     between = max(of_means - float((1.0 / worth).mean()) * within, 0.0)
     return found, Between(people, math.sqrt(between), math.sqrt(within))
 
@@ -185,7 +194,7 @@ def icc_2_1(readings: FloatArray, worth: float | None = None) -> tuple[float, In
     n, k = readings.shape
     ms_rows, ms_columns, ms_rest = _mean_squares(readings)
     below = ms_rows + (k - 1) * ms_rest + k * (ms_columns - ms_rest) / n
-    if below <= 0.0:
+    if below <= 0.0 or not np.ptp(readings, axis=0).any():
         return math.nan, _UNKNOWN
     icc = max((ms_rows - ms_rest) / below, _least_icc(k))
     m = n if worth is None else max(worth, 2.0)
@@ -234,7 +243,7 @@ def icc_3_1(readings: FloatArray, worth: float | None = None) -> tuple[float, In
     """
     n, k = readings.shape
     ms_rows, _, ms_rest = _mean_squares(readings)
-    if ms_rows + (k - 1) * ms_rest <= 0.0:
+    if ms_rows + (k - 1) * ms_rest <= 0.0 or not np.ptp(readings, axis=0).any():
         return math.nan, _UNKNOWN
     icc = (ms_rows - ms_rest) / (ms_rows + (k - 1) * ms_rest)
     if ms_rest <= 0.0:

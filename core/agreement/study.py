@@ -18,7 +18,7 @@ import numpy as np
 
 from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S, Compared, Pairs
 from carpus.core.agreement.compared_files import Result, compare_files
-from carpus.core.agreement.statistics import Agreement, Between, agreement_of_people
+from carpus.core.agreement.statistics import Agreement, Between, agreement_of_people, fewest_of_person
 from carpus.core.agreement.tables import HEAD, cell, figure_lines, row_of
 from carpus.core.errors import CarpusFault, ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.formats.new_output import new_json, new_table
@@ -52,11 +52,14 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class OfPeople:
-    """One angle over all people: ``pairs`` of all sessions one after the other, with the figures of all."""
+    """One angle over all people: ``pairs`` of all sessions one after the other, with the figures of all, in which those
+    ``left_out`` are not: each has fewer than ``fewest`` pairs."""
 
     pairs: Pairs
     between: Between
     sessions: int
+    left_out: tuple[str, ...]
+    fewest: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,6 +171,9 @@ def _of_people(name: str, done: Sequence[tuple[Line, Result]]) -> OfPeople:
     reference = [np.degrees(np.concatenate([one.reference_rad for one in own])) for own in by_person.values()]
     waveform = any(result.compared.shift is not None for _, result in done)
     figures, between = agreement_of_people(measured, reference, waveform)
+    fewest = fewest_of_person(waveform=waveform)
+    counts = (np.isfinite(a + b).sum() for a, b in zip(measured, reference, strict=True))
+    left_out = tuple(person for person, count in zip(by_person, counts, strict=True) if count < fewest)
     times, begin_s = [], 0.0
     for one in everything:
         time_s = np.where(np.isfinite(one.time_s), one.time_s, np.arange(len(one.time_s)))
@@ -177,13 +183,24 @@ def _of_people(name: str, done: Sequence[tuple[Line, Result]]) -> OfPeople:
         name, np.concatenate(times), np.concatenate([one.measured_rad for one in everything]),
         np.concatenate([one.reference_rad for one in everything]), figures,
     )  # fmt: skip
-    return OfPeople(pairs, between, len(everything))
+    return OfPeople(pairs, between, len(everything), left_out, fewest)
 
 
 def _few(one: OfPeople) -> list[str]:
-    if math.isfinite(one.pairs.figures_deg.bias):
-        return []
-    return [str(phrase("{people} people are too few for figures of all: three are needed", people=one.between.people))]
+    out = []
+    if one.left_out:
+        out.append(
+            phrase(
+                "not in the figures of all: {people}, with fewer than {fewest} pairs",
+                people=", ".join(one.left_out),
+                fewest=str(one.fewest),
+            )
+        )
+    if not math.isfinite(one.pairs.figures_deg.bias):
+        out.append(
+            phrase("{people} people are too few for figures of all: three are needed", people=one.between.people)
+        )
+    return [str(words) for words in out]
 
 
 def write_study(study: AgreementStudy, folder: Path, software_version: str) -> list[Path]:

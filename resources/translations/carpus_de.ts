@@ -6132,6 +6132,10 @@
         <translation>kein Objekt mit hand, protocol und markers</translation>
     </message>
     <message>
+        <source>not in the figures of all: {people}, with fewer than {fewest} pairs</source>
+        <translation>nicht in den Werten aller: {people}, mit weniger als {fewest} Paaren</translation>
+    </message>
+    <message>
         <source>not in the list of patients</source>
         <translation>nicht in der Liste der Patienten</translation>
     </message>
@@ -6858,6 +6862,10 @@
     <message>
         <source>it cannot be read as a table: {why}</source>
         <translation>sie lässt sich nicht als Tabelle lesen: {why}</translation>
+    </message>
+    <message>
+        <source>not there now</source>
+        <translation type="unfinished">jetzt nicht da</translation>
     </message>
     <message>
         <source>only {time} s are in common: the shift of the clocks is not sure</source>

@@ -6132,6 +6132,10 @@
         <translation>non un oggetto con hand, protocol e markers</translation>
     </message>
     <message>
+        <source>not in the figures of all: {people}, with fewer than {fewest} pairs</source>
+        <translation>non nei valori di tutti: {people}, con meno di {fewest} coppie</translation>
+    </message>
+    <message>
         <source>not in the list of patients</source>
         <translation>non nell’elenco dei pazienti</translation>
     </message>
@@ -6862,6 +6866,10 @@
     <message>
         <source>it cannot be read as a table: {why}</source>
         <translation>non si legge come tabella: {why}</translation>
+    </message>
+    <message>
+        <source>not there now</source>
+        <translation type="unfinished">ora non c’è</translation>
     </message>
     <message>
         <source>only {time} s are in common: the shift of the clocks is not sure</source>

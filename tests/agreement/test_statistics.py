@@ -161,3 +161,30 @@ def test_few_people_say_nothing() -> None:
     found, between = agreement_of_people([one, one + 1.0], [one, one])
     assert math.isnan(found.bias)
     assert between.people == 2
+
+
+@pytest.mark.parametrize("each", [1, 2])
+def test_people_with_one_or_two_readings_count(each: int) -> None:
+    rng = np.random.default_rng(0)
+    truth = rng.normal(50.0, 10.0, (30, each))
+    theirs = truth + rng.normal(1.0, 2.0, (30, each))
+    found, between = agreement_of_people(list(theirs), list(truth), waveform=False)
+    assert (found.count, between.people) == (30 * each, 30)
+    plain = agreement(theirs.mean(axis=1), truth.mean(axis=1), waveform=False)
+    assert found.bias_interval == pytest.approx(plain.bias_interval)
+    assert found.lower_interval[0] < found.limits[0] < found.lower_interval[1]
+    if each == 1:
+        assert found.sd == pytest.approx(plain.sd)
+        assert math.isnan(between.sd_within)
+        assert math.isnan(between.sd_between)
+    else:
+        assert between.sd_within == pytest.approx((theirs - truth).std(axis=1, ddof=1).mean(), rel=0.5)
+    few = [one[: 1 + k // 10] for k, one in enumerate(np.hstack((theirs, theirs, theirs))[:, :3])]
+    assert agreement_of_people(few, [one - 1.0 for one in few], waveform=False)[1].people == 30
+
+
+def test_two_that_stand_still_have_no_icc() -> None:
+    found = agreement(np.zeros(50), np.ones(50))
+    assert math.isnan(found.icc)
+    assert math.isnan(found.icc_3_1)
+    assert found.bias == -1.0

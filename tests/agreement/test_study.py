@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 import shutil
 from collections.abc import Iterable
 from pathlib import Path
@@ -14,7 +15,10 @@ import pytest
 from tqdm import tqdm
 
 from carpus.app.__main__ import main
+from carpus.core.agreement.compare import Pairs
 from carpus.core.agreement.compared_files import compare_files
+from carpus.core.agreement.statistics import NOTHING, Between
+from carpus.core.agreement.study import OfPeople, _few
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.session.reader import read_session
 from tests.formats.takes import stored
@@ -142,3 +146,10 @@ def test_what_is_no_table_of_a_study_is_said(text: str, tmp_path: Path, capsys: 
     assert "t.csv" in capsys.readouterr().err
     assert main(["compare"]) == 2
     assert main(["compare", "--study", str(tmp_path / "t.csv"), "--lag", "1"]) == 2
+
+
+def test_who_is_not_in_the_figures_of_all_is_named() -> None:
+    nothing = Pairs("flexion", np.zeros(0), np.zeros(0), np.zeros(0), NOTHING)
+    few = OfPeople(nothing, Between(2, math.nan, math.nan), 3, ("anna", "bert"), 3)
+    assert "anna, bert" in _few(few)[0]
+    assert "too few" in _few(few)[1]
