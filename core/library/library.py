@@ -451,7 +451,7 @@ class Library:
         return self.by_hand(self.owner(session_id))
 
     def made(self, paths: Sequence[Path], kind: MadeKind, session_ids: Iterable[str]) -> None:
-        """Take down files that were made from sessions, so that they go when one of these is erased."""
+        """Take down files that were made from sessions, so that they are named when one of these is erased."""
         known = [one for one in session_ids if one not in self._elsewhere]
         of_sessions.remember_made(self.store, paths, kind, known)
         for session_id in known:

@@ -88,7 +88,7 @@ class MadeFile:
 
 
 def remember_made(store: Store, paths: Iterable[Path], kind: MadeKind, session_ids: Sequence[str]) -> None:
-    """Take down files that were just made from these sessions; one that cannot be read is not there to be erased. A
+    """Take down files that were just made from these sessions; one that cannot be read is not there to be named. A
     file is known again by its content: what a person changed since, or put in its place, is left alone."""
     change = []
     for path in paths:

@@ -113,6 +113,12 @@ class Server:
                 self._rounds.wait(0.05)
             self._answers = self._answers and time.monotonic() < end
 
+    def has_fetched(self, most_s: float) -> bool:
+        """Whether the copy has what the server had when this program began, or since; waits for the first look."""
+        with self._rounds:
+            self._rounds.wait_for(lambda: self._round > 0, most_s)
+            return self.is_there
+
     def rows(self, query: Select[Any]) -> Sequence[Row[Any]]:
         """What is stored there. Raises :class:`ServerGone`."""
         try:

@@ -200,9 +200,11 @@ class FilesOfSessions:
     def take_in(self, *, tells: bool = True) -> Rebuilt:
         """Read what was copied in or changed since the last look; a session whose file is gone stays in the list.
 
-        A pseudonym without a patient becomes one; a file without a pseudonym is listed without a patient. What cannot
-        be read is remembered as told, unless nobody ``tells`` of it.
+        A pseudonym without a patient becomes one; a file without a pseudonym is listed without a patient. While a
+        server may know better whose they are, neither is listed. What cannot be read is remembered as told, unless
+        nobody ``tells`` of it.
         """
+        knows_all = self._store.knows_all()
         before, (there, nameless) = remembered(self._store), self._there()
         known = {row.path: row for row in self._store.rows(select(SESSION))}
         now_seen: dict[str, Seen] = {}
@@ -226,7 +228,7 @@ class FilesOfSessions:
         if now_seen:  # of what has no name that can be kept nobody knows whether it was told
             faults += [SessionUnreadable(ascii(Path(one).name), phrase("a name that is no text")) for one in nameless]
         gone = [path for path in before if path not in there and not self._is_part(path)]
-        taken, added = self._enter(found, known, there.keys(), now_seen)
+        taken, added = self._enter(found, known, there.keys(), now_seen, knows_all=knows_all)
         self._store.own(*stored(now_seen), *(delete(SEEN).where(SEEN.c.path == path) for path in gone))
         return Rebuilt(taken, added, tuple(faults))
 
@@ -236,6 +238,8 @@ class FilesOfSessions:
         known: dict[str, Row[Any]],
         there: Iterable[str],
         now_seen: dict[str, Seen],
+        *,
+        knows_all: bool,
     ) -> tuple[int, int]:
         """Put what was read into the list; a further copy of a session counts once: the one that is known, of new ones
         the longest, then the first by name."""
@@ -255,6 +259,9 @@ class FilesOfSessions:
             of_practice = subject == PRACTICE or path.startswith(f"{PRACTICE}/")
             owner = PRACTICE if of_practice else people.get(folded(subject))
             before = rows.get(session_id)
+            if before is None and owner is None and not knows_all:
+                del now_seen[path]
+                continue
             if owner is None and subject and (before is None or before.patient_id is None):
                 owner, added = people.setdefault(folded(subject), new_id()), added + 1
                 hands = {one.header.hand for _, one in found if folded(one.header.subject_id) == folded(subject)}

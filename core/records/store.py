@@ -135,6 +135,10 @@ class Store:
             if shared and is_shared(connection):
                 lay_out(connection, shared, change_id)
 
+    def knows_all(self) -> bool:
+        """Whether there is no server, or the copy is up to date with it; waits a moment when it was just opened."""
+        return self._server is None or self._server.has_fetched(MOST_WAIT_S)
+
     def rows_there(self, query: Select[Any]) -> Sequence[Row[Any]]:
         """What the server has, of what is copied nowhere; this computer's own where there is none, or it is gone."""
         if self._server is not None:

@@ -299,6 +299,26 @@ def test_a_computer_that_joins_brings_what_it_has(tmp_path: Path, there: str) ->
         assert b.patients.one(linden).session_count == 1
 
 
+def test_a_new_computer_takes_no_session_of_the_share_for_its_own(tmp_path: Path, there: str) -> None:
+    share = tmp_path / "share"
+    share.mkdir()
+    with opened(tmp_path / "a", there, sessions=share) as a:
+        linden = a.patients.add(LINDEN)
+        session_id = measure(a, linden, T0)
+        settled(a)
+    with opened(tmp_path / "b", "postgresql://127.0.0.1:1/nowhere", sessions=share) as b:
+        assert b.files.take_in() == Rebuilt(0, 0, ()), "the server may know whose it is"
+        heron = b.patients.add(HERON)
+        record(b.index.new_path(heron, "Heron 17", "WRIST_FE", "left", T0), "Heron 17", T0)
+        assert b.files.take_in() == Rebuilt(1, 0, ())
+    with opened(tmp_path / "b", there, sessions=share) as b:
+        b.files.take_in()
+        settled(b)
+        assert sorted(b.names()) == ["Heron 17", "Linden 42"]
+        assert b.index.owner(session_id) == linden
+        assert count(there, "patient") == count(there, "session") == 2
+
+
 def test_of_what_a_computer_brings_only_a_name_that_is_taken_gets_a_number(tmp_path: Path, there: str) -> None:
     told: list[CarpusFault] = []
     for name in ("a", "b"):
