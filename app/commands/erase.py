@@ -76,6 +76,5 @@ def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> in
 def _say(plan: ErasurePlan) -> None:
     print(f"This goes: {plan.sessions} sessions, {len(plan.files)} files, {plan.size_bytes / 1e6:.1f} MB")
     for one in plan.made:
-        if one.state != "not_found":
-            print(f"This stays, delete it yourself: {one.kind} {one.path}")
+        print(f"This stays, delete it yourself: {one.kind} {one.path}")
     print("This stays: back-ups and files copied elsewhere; Carpus cannot reach them.")

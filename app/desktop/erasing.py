@@ -71,7 +71,7 @@ class Erasing(QObject):
                 sessions=plan.sessions,
                 files=len(plan.files),
                 size_mb=plan.size_bytes / 1e6,
-                made=tuple(str(one.path) for one in plan.made if one.state != "not_found"),
+                made=tuple(str(one.path) for one in plan.made),
                 others=plan.others,
                 by_hand=self._records.values_by_hand(plan.patient_id) if plan.kind == "patient" else 0,
                 last_backup=self._last_backup(),

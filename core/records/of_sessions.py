@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
+import os
 import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -21,7 +21,6 @@ from carpus.core.records.values import moment
 
 MOST_CHARACTERS = 20_000
 MadeKind = Literal["report", "export"]
-State = Literal["as_made", "changed", "not_found"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,43 +78,25 @@ def keep_choices(store: Store, session_id: str, kept: RepetitionChoices, version
 
 @dataclass(frozen=True, slots=True)
 class MadeFile:
-    """A file outside the data folder as it was made, and what has become of it."""
+    """A file outside the data folder."""
 
     path: Path
     kind: MadeKind
-    state: State
-    size_bytes: int
 
 
 def remember_made(store: Store, paths: Iterable[Path], kind: MadeKind, session_ids: Sequence[str]) -> None:
-    """Take down files that were just made from these sessions; one that cannot be read is not there to be named. A
-    file is known again by its content: what a person changed since, or put in its place, is left alone."""
-    change = []
-    for path in paths:
-        content = content_of(path)
-        for session_id in session_ids if content else ():
-            row = {"session_id": session_id, "path": str(path.absolute()), "kind": kind, "content": content}
-            change.append(new(MADE, new_id(), **row))
-    store.do(change)
+    """Take down files that were just made from these sessions, so that they can be named when one is erased."""
+    store.do(
+        [
+            new(MADE, new_id(), session_id=session_id, path=str(path.absolute()), kind=kind)
+            for path in paths
+            for session_id in session_ids
+        ]
+    )
 
 
 def made_from(store: Store, session_ids: Iterable[str]) -> list[MadeFile]:
-    """What was made from any of these sessions, alone or with others."""
-    found: dict[str, MadeFile] = {}
-    for row in store.rows(select(MADE).where(MADE.c.session_id.in_(list(session_ids)))):
-        path = Path(row.path)
-        now = content_of(path)
-        state: State = "not_found" if not now else "as_made" if now == row.content else "changed"
-        found[row.path] = MadeFile(path, row.kind, state, path.stat().st_size if now else 0)
-    return [found[path] for path in sorted(found)]
-
-
-def content_of(path: Path) -> str:
-    """SHA-256 of a plain file; empty where there is none that can be read."""
-    try:
-        if path.is_symlink() or not path.is_file():
-            return ""
-        with path.open("rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
-    except OSError:
-        return ""
+    """What was made from any of these sessions, alone or with others, and is still there."""
+    rows = store.rows(select(MADE.c.path, MADE.c.kind).where(MADE.c.session_id.in_(list(session_ids))))
+    kinds = {row.path: row.kind for row in rows}
+    return [MadeFile(Path(path), kinds[path]) for path in sorted(kinds) if os.path.isfile(path)]  # noqa: PTH113  # also where nobody may look

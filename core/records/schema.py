@@ -108,7 +108,7 @@ EXERCISE_SET = _shared("exercise_set", _texts("name", "discs", "parts"), _number
 REPORT_FORM = _shared("report_form", _texts("name", "address", "logo", "paper", "left_out", "sentences"))
 RECIPIENT = _shared("recipient", _texts("address"), _reals("used_s"))
 MADE = _shared("made", _of("session"), _texts("path", "kind", "content"))
-"""Files outside the data folder that were made from a session; ``content`` their SHA-256."""
+"""Files outside the data folder that were made from a session; ``content`` is not used."""
 BACKUP = _shared("backup", _texts("made", "place"), _numbers("sessions"), Column("size_bytes", _LONG, nullable=False))
 DEED = _shared("deed", _texts("at", "who", "by", "did", "kind", "subject", "facts"), Column("at_ns", _LONG, index=True))
 """Only ever added to. ``subject``: a fingerprint of the patient's or session's id, so that what was erased is
