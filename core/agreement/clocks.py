@@ -43,7 +43,9 @@ class Shift:
     clock, both counted from their first picture; ``match`` the correlation there, below nothing where the curves run
     against each other.
 
-    ``rivals`` are other shifts that match nearly as well, each with its match; ``at_edge`` whether the search ended
+    ``rivals`` are the nearest other shifts that match nearly as well, each with its match, and ``more_rivals`` whether
+    there are others; ``upright``, where ``match`` is below nothing, the shift up to ``most_s`` at which the curves run
+    together best, with its match; ``at_edge`` whether the search ended
     where this was found; ``was_given`` by a person. ``drift_found`` is what is left, with ``lag_without_drift_s``
     the shift that goes with it; NaN where there is none to speak of.
     """
@@ -51,6 +53,9 @@ class Shift:
     reference_later_s: float
     match: float
     rivals: tuple[tuple[float, float], ...] = ()
+    more_rivals: bool = False
+    upright: tuple[float, float] | None = None
+    most_s: float = math.nan
     at_edge: bool = False
     was_given: bool = False
     drift: float = 0.0
@@ -142,10 +147,14 @@ def best_shift(curves: Curves, most_s: float, same_clock_alike: float = 0.0, wat
     worse = 0.5 * INDEPENDENT_HZ * shorter_s * np.log((1.0 - cleared + FLOOR) / (1.0 - cleared.max() + FLOOR))
     at = min((k for k, less in zip(near, worse, strict=True) if less <= ALIKE), key=lambda k: abs(shifts[k]))
     rivals = sorted((k for k in tops if k != at and score[k] >= best - RIVAL), key=lambda k: abs(shifts[k]))
+    together = next((k for k in tops if match[k] > 0.0), None) if match[at] < 0.0 else None
     return Shift(
         _top_s(shifts, score, at),
         float(match[at]),
         tuple((_top_s(shifts, score, k), float(match[k])) for k in rivals[:MOST_RIVALS]),
+        more_rivals=len(rivals) > MOST_RIVALS,
+        upright=None if together is None else (_top_s(shifts, score, together), float(match[together])),
+        most_s=most_s,
         at_edge=at in (0, len(shifts) - 1),
     )
 

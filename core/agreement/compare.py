@@ -31,6 +31,8 @@ FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT = 3600.0, 10.0
 """What a person may say of two clocks."""
 LEAST_MATCH = 0.5
 """Below this correlation no shift is believed: it is not the same movement."""
+LARGEST_SCALE, MOVES_RAD = 2.0, math.radians(3.0)
+"""Where one moves by so many times the standard deviation of the other, and by so much, their units may differ."""
 SLOW_HZ = 5.0
 NEUTRAL_S = 0.5
 NEUTRAL_POSE, FIRST_IN_COMMON = "its neutral pose", "the session at the first moment in common"
@@ -130,13 +132,13 @@ def compare(
     for name in names:
         if name not in theirs:
             continue
-        found = at_times(shift.reference_time_s(time_s), reference_s, theirs[name])
+        found = at_times(shift.reference_time_s(time_s), reference_s, _unwrapped(theirs[name]))
         both = np.isfinite(found) & np.isfinite(own[name])
         if both.sum() < FEWEST:
             not_used.append(f"{name}: fewer than {FEWEST} pictures in common")
             continue
         mine, other = np.unwrap(own[name][both]), found[both]
-        other = other + 2.0 * math.pi * np.rint((mine - other) / (2.0 * math.pi))
+        other = other + 2.0 * math.pi * np.rint(np.median(mine - other) / (2.0 * math.pi))
         pairs.append(Pairs(name, time_s[both], mine, other, agreement(np.degrees(mine), np.degrees(other))))
     if not pairs:
         raise ReferenceUnsuited(reference.path, phrase("the two have no time in common"))
@@ -146,6 +148,16 @@ def compare(
         reference.kind, tuple(pairs), shift, alignment, len(session), int((~use).sum()), overlap_s, rate_hz,
         tuple(not_used), remarks_of(pairs, shift, overlap_s),
     )  # fmt: skip
+
+
+def _unwrapped(angle_rad: FloatArray) -> FloatArray:
+    """An angle (K,) without jumps of whole turns; one that spans more than a turn has none."""
+    known = np.isfinite(angle_rad)
+    if not known.any() or float(np.ptp(angle_rad[known])) > 2.0 * math.pi + 1e-9:
+        return angle_rad
+    out = angle_rad.copy()
+    out[known] = np.unwrap(angle_rad[known])
+    return np.asarray(out)
 
 
 def _shift(
@@ -167,20 +179,26 @@ def _shift(
         most_shift_s = min(most_shift_s, SAME_CLOCK_S) if reference.same_clock else most_shift_s
     faster = replace(curves, time_s=curves.time_s * (1.0 + drift))
     shift = replace(best_shift(faster, most_shift_s, alike, watch), drift=drift)
-    _check_match(reference, shift)
-    return with_drift(curves, shift)
+    shift = with_drift(curves, shift)
+    _check_match(reference, curves, shift)
+    return shift
 
 
-def _check_match(reference: Reference, shift: Shift) -> None:
+def _check_match(reference: Reference, curves: Curves, shift: Shift) -> None:
+    """Cleared of drift, which over minutes blurs what is the same movement."""
     if math.isnan(shift.match):
         raise ReferenceUnsuited(
             reference.path,
             phrase("less than {least_overlap_s} s in common, or nothing moves", least_overlap_s=f"{LEAST_OVERLAP_S:g}"),
         )
-    if not abs(shift.match) >= LEAST_MATCH:
+    match = abs(shift.match)
+    if math.isfinite(shift.drift_found):
+        cleared = Shift(shift.lag_without_drift_s, math.nan, drift=shift.drift + shift.drift_found)
+        match = max(match, abs(curves.match(cleared)))
+    if not match >= LEAST_MATCH:
         raise ReferenceUnsuited(
             reference.path,
-            phrase("the curves match by {match} at best: is it the same movement?", match=f"{shift.match:.2f}"),
+            phrase("the curves match by {match} at best: is it the same movement?", match=f"{match:.2f}"),
         )
 
 
@@ -195,10 +213,31 @@ def remarks_of(pairs: Sequence[Pairs], shift: Shift | None, overlap_s: float = m
         for one in pairs
         if one.figures_deg.is_opposite
     ]
+    out += [
+        phrase(
+            "{angle}: the reference moves {percent} % as far as Carpus: its unit may be another, or its angle",
+            angle=one.name,
+            percent=f"{100.0 * share:.3g}",
+        )
+        for one in pairs
+        if not 1.0 / LARGEST_SCALE <= (share := _scale(one)) <= LARGEST_SCALE
+    ]
     if shift is None:
         return tuple(out)
     if overlap_s < SAFE_OVERLAP_S:
         out.append(phrase("only {time} s are in common: the shift of the clocks is not sure", time=f"{overlap_s:.1f}"))
+    if shift.match < 0.0 and math.isfinite(shift.most_s):
+        out.append(
+            phrase("the curves run against each other, or the shift is beyond {most} s", most=f"{shift.most_s:g}")
+            if shift.upright is None
+            else phrase(
+                "the curves run against each other, or the shift is beyond {most} s: with the same sign they match "
+                "best at {later} s ({match})",
+                most=f"{shift.most_s:g}",
+                later=f"{shift.upright[0]:+.2f}",
+                match=f"{shift.upright[1]:.3f}",
+            )
+        )
     if shift.rivals:
         others = ", ".join(f"{later_s:+.2f} s ({match:.3f})" for later_s, match in shift.rivals)
         words = phrase(
@@ -207,7 +246,7 @@ def remarks_of(pairs: Sequence[Pairs], shift: Shift | None, overlap_s: float = m
             match=f"{shift.match:.3f}",
             others=others,
         )
-        out.append(words)
+        out.append(f"{words} …" if shift.more_rivals else words)
     if shift.at_edge:
         out.append(phrase("the best shift lies at the end of what was searched: it may be further"))
     if math.isfinite(shift.drift_found):
@@ -223,6 +262,12 @@ def remarks_of(pairs: Sequence[Pairs], shift: Shift | None, overlap_s: float = m
         )
         out.append(words)
     return tuple(out)
+
+
+def _scale(pairs: Pairs) -> float:
+    """How far the reference moves as a share of how far Carpus does; 1 where neither moves much."""
+    mine, other = float(pairs.measured_rad.std()), float(pairs.reference_rad.std())
+    return other / mine if mine > 0.0 and max(mine, other) >= MOVES_RAD else 1.0
 
 
 # --- time ------------------------------------------------------------------------------------------------------

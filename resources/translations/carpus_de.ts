@@ -6212,6 +6212,14 @@
         <translation>die Kurven stimmen bestenfalls zu {match} überein: Ist es dieselbe Bewegung?</translation>
     </message>
     <message>
+        <source>the curves run against each other, or the shift is beyond {most} s</source>
+        <translation>die Kurven laufen einander entgegen, oder die Verschiebung liegt jenseits von {most} s</translation>
+    </message>
+    <message>
+        <source>the curves run against each other, or the shift is beyond {most} s: with the same sign they match best at {later} s ({match})</source>
+        <translation>die Kurven laufen einander entgegen, oder die Verschiebung liegt jenseits von {most} s: mit gleichem Vorzeichen passen sie am besten bei {later} s ({match})</translation>
+    </message>
+    <message>
         <source>the first {stored} rows stay in {lost_folder}</source>
         <translation>die ersten {stored} Zeilen bleiben in {lost_folder}</translation>
     </message>
@@ -6366,6 +6374,10 @@
     <message>
         <source>wrist</source>
         <translation>Handgelenk</translation>
+    </message>
+    <message>
+        <source>{angle}: the reference moves {percent} % as far as Carpus: its unit may be another, or its angle</source>
+        <translation>{angle}: die Referenz bewegt sich {percent} % so weit wie Carpus: vielleicht hat sie eine andere Einheit oder ist ein anderer Winkel</translation>
     </message>
     <message>
         <source>{bits} bits per colour, 8 are expected</source>
@@ -6865,7 +6877,7 @@
     </message>
     <message>
         <source>not there now</source>
-        <translation type="unfinished">jetzt nicht da</translation>
+        <translation>jetzt nicht da</translation>
     </message>
     <message>
         <source>only {time} s are in common: the shift of the clocks is not sure</source>

@@ -6212,6 +6212,14 @@
         <translation>le curve concordano al massimo per {match}: è lo stesso movimento?</translation>
     </message>
     <message>
+        <source>the curves run against each other, or the shift is beyond {most} s</source>
+        <translation>le curve vanno una contro l’altra, o lo sfasamento è oltre {most} s</translation>
+    </message>
+    <message>
+        <source>the curves run against each other, or the shift is beyond {most} s: with the same sign they match best at {later} s ({match})</source>
+        <translation>le curve vanno una contro l’altra, o lo sfasamento è oltre {most} s: con lo stesso segno corrispondono meglio a {later} s ({match})</translation>
+    </message>
+    <message>
         <source>the first {stored} rows stay in {lost_folder}</source>
         <translation>le prime {stored} righe restano in {lost_folder}</translation>
     </message>
@@ -6366,6 +6374,10 @@
     <message>
         <source>wrist</source>
         <translation>polso</translation>
+    </message>
+    <message>
+        <source>{angle}: the reference moves {percent} % as far as Carpus: its unit may be another, or its angle</source>
+        <translation>{angle}: il riferimento si muove del {percent} % rispetto a Carpus: forse ha un’altra unità o è un altro angolo</translation>
     </message>
     <message>
         <source>{bits} bits per colour, 8 are expected</source>
@@ -6869,7 +6881,7 @@
     </message>
     <message>
         <source>not there now</source>
-        <translation type="unfinished">ora non c’è</translation>
+        <translation>ora non c’è</translation>
     </message>
     <message>
         <source>only {time} s are in common: the shift of the clocks is not sure</source>

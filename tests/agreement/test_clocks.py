@@ -62,6 +62,7 @@ def test_what_repeats_itself_exactly_has_rivals_which_are_named() -> None:
     assert any(abs(later_s - 3.0) < 0.01 for later_s in named)
     assert abs(found.reference_later_s) == min(map(abs, named)), "of equals the smallest"
     assert len(found.rivals) == 3
+    assert found.more_rivals
 
 
 def test_drift_and_a_turned_sign_do_not_hide_behind_a_shift() -> None:
@@ -112,3 +113,11 @@ def test_clocks_that_agree_have_no_drift(noise_deg: float) -> None:
     assert np.isnan(with_drift(both, best_shift(both, 10.0)).drift_found)
     short = curves(hand, 0.5, length_s=8.0, drift=0.01)
     assert np.isnan(with_drift(short, best_shift(short, 10.0)).drift_found), "too short to tell"
+
+
+def test_a_lag_beyond_the_search_has_its_best_upright_match() -> None:
+    found = best_shift(curves(lambda time_s: np.where(time_s > 4.0, sine(time_s), 0.0), 5.0), 4.0)
+    assert found.match < 0.0
+    assert found.upright is not None
+    assert 0.0 < found.upright[1] < 1.0
+    assert found.most_s == 4.0

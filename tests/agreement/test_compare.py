@@ -13,7 +13,8 @@ import pytest
 
 from carpus.app.__main__ import main
 from carpus.core import so3
-from carpus.core.agreement.compare import compare
+from carpus.core.agreement.clocks import Curves, Shift, best_shift, with_drift
+from carpus.core.agreement.compare import LEAST_MATCH, _check_match, compare, remarks_of
 from carpus.core.agreement.reference import Reading, Reference, read_reference
 from carpus.core.agreement.tables import lines
 from carpus.core.errors import ReferenceUnreadable, ReferenceUnsuited
@@ -92,6 +93,24 @@ def test_a_turned_sign_is_said_and_not_shifted_away(session: Session) -> None:
     assert [remark for remark in found.remarks_on("flexion") if "opposite" in remark]
     assert not [remark for remark in found.remarks_on("deviation") if "opposite" in remark]
     assert not any("opposite" in remark for remark in compare(session, right).remarks)
+
+
+@pytest.mark.parametrize("factor", [math.pi / 180.0, 180.0 / math.pi])
+def test_a_wrong_unit_is_said_and_its_error_not_folded(session: Session, factor: float) -> None:
+    right = other(session, 0.0)
+    found = compare(session, replace(right, angles_rad={name: factor * v for name, v in right.angles_rad.items()}))
+    assert any(remark.startswith("flexion: the reference moves") for remark in found.remarks)
+    flexion = next(one for one in found.pairs if one.name == "flexion")
+    assert np.ptp(flexion.reference_rad) == pytest.approx(factor * np.ptp(flexion.measured_rad), rel=0.02)
+    assert not any("as far as Carpus" in remark for remark in compare(session, right).remarks)
+
+
+def test_a_reference_of_whole_turns_more_agrees(session: Session) -> None:
+    right = other(session, 0.0)
+    wrapped = {name: np.mod(v, 2.0 * math.pi) for name, v in right.angles_rad.items()}
+    for angles in (wrapped, {name: v + 4.0 * math.pi for name, v in right.angles_rad.items()}):
+        found = compare(session, replace(right, angles_rad=angles), lag_s=0.0)
+        assert all(one.figures_deg.largest < 2.0 for one in found.pairs)
 
 
 def test_a_lag_that_is_known_is_taken(session: Session) -> None:
@@ -236,3 +255,24 @@ def test_what_is_no_reference_is_said_in_a_sentence(name: str, content: bytes, t
     (tmp_path / name).write_bytes(content)
     with pytest.raises(ReferenceUnreadable):
         read_reference(tmp_path / name)
+
+
+def test_drift_over_minutes_is_no_other_movement() -> None:
+    time_s = np.arange(0.0, 140.0, 1 / 30)
+    mine = np.sin(np.pi * time_s)
+    there_s = np.arange(0.0, 140.0, 0.01)
+    curves = Curves(time_s, mine[:, None], there_s, np.sin(np.pi * there_s / 0.99)[:, None], either_sign=True)
+    shift = best_shift(curves, 10.0)
+    assert abs(shift.match) < LEAST_MATCH
+    _check_match(Reference(Path("x.mot"), "angles"), curves, with_drift(curves, shift))
+    noise = replace(curves, other=np.random.default_rng(0).normal(size=curves.other.shape))
+    with pytest.raises(ReferenceUnsuited):
+        _check_match(Reference(Path("x.mot"), "angles"), noise, with_drift(noise, best_shift(noise, 10.0)))
+
+
+def test_against_each_other_may_be_a_shift_beyond_the_search() -> None:
+    against = Shift(-0.5, -0.98, ((1.0, 0.97),), more_rivals=True, upright=(1.0, 0.97), most_s=10.0)
+    said = remarks_of((), against)
+    assert any("beyond 10 s" in remark and "+1.00 s (0.970)" in remark for remark in said)
+    assert any(remark.endswith("…") for remark in said)
+    assert not any("beyond" in remark for remark in remarks_of((), replace(against, match=0.98, upright=None)))
