@@ -14,8 +14,11 @@ from carpus.core.known_names import known_names
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.records.erasure import ErasurePlan
+from carpus.core.records.store import is_kept_in
 from carpus.core.session.reader import read_outline
 
+MOST_WAIT_S = 15.0
+"""For the clinic's server."""
 EXAMPLE = """carpus erase "Fern 12"
 carpus erase "Fern 12" --for-good "Fern 12\""""
 
@@ -36,13 +39,19 @@ def run(arguments: argparse.Namespace) -> int:
         return 1
     if not folder.is_dir():
         raise FolderMissing(folder)
+    if not is_kept_in(folder):
+        print(f"carpus: {folder} is no data folder; nothing has been deleted.", file=sys.stderr)
+        return 1
+    of_clinic = folder == settings.data_folder
     library = Library(
-        folder, by="command", sessions=sessions_folder(settings) if folder == settings.data_folder else None
-    )
+        folder, by="command", url=settings.records.url if of_clinic else "",
+        sessions=sessions_folder(settings) if of_clinic else None,
+    )  # fmt: skip
     library.who = initials
     faults: list[CarpusFault] = []
     library.log_fault = faults.append
     try:
+        library.store.settled(MOST_WAIT_S)  # what others have recorded of the patient goes too
         return _erase(library, arguments.what, path, arguments.for_good)
     finally:
         library.close()
@@ -69,7 +78,11 @@ def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> in
         print(f"carpus: {confirmed} is not whose it is; nothing has been deleted.", file=sys.stderr)
         return 1
     records.erase(plan)
-    print("Erased. The log keeps that it was erased, no name.")
+    if library.store.settled(MOST_WAIT_S):
+        print("Erased. The log keeps that it was erased, no name.")
+    else:
+        print("Erased on this computer. The clinic's server does not answer: it still has all rows, until Carpus is "
+              "opened here and reaches it.")  # fmt: skip
     return 0
 
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import argparse
 import csv
+import sys
 from pathlib import Path
 
-from carpus.app.settings import load_sound_settings
-from carpus.core.errors import FolderMissing, OutputExists
+from carpus.app.settings import load_sound_settings, sessions_folder
+from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, RegisterDamaged
 from carpus.core.private import private
 
+MOST_WAIT_S = 15.0
+"""For the clinic's server."""
 EXAMPLE = "carpus log --output log.csv"
 HEAD = ("number", "when", "who", "by", "did", "kind", "subject", "facts")
 
@@ -21,15 +24,29 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from carpus.core.records.log import read_log
-    from carpus.core.records.store import Store
+    from carpus.core.records.store import Store, is_kept_in
 
-    folder: Path = arguments.data_folder or load_sound_settings()[0].data_folder
+    settings, _ = load_sound_settings()
+    folder: Path = arguments.data_folder or settings.data_folder
     if not folder.is_dir():
         raise FolderMissing(folder)
+    if not is_kept_in(folder):
+        print(f"carpus: {folder} is no data folder: it has no log.", file=sys.stderr)
+        return 1
     if arguments.output is not None and arguments.output.exists():
         raise OutputExists(arguments.output)
-    with Store(folder) as store:
+    own = folder == settings.data_folder
+    faults: list[CarpusFault] = []
+    with Store(
+        folder, sessions_folder(settings) if own else None, settings.records.url if own else "", faults.append
+    ) as store:
+        if not store.settled(MOST_WAIT_S):
+            print("carpus: the clinic's server does not answer: this is what was done on this computer.",
+                  file=sys.stderr)  # fmt: skip
         deeds = read_log(store)
+    for fault in faults:
+        if isinstance(fault, RegisterDamaged):
+            print(f"carpus: a line is damaged and left out ({fault.detail}).", file=sys.stderr)
     rows = []
     for deed in deeds:
         facts = " ".join(f"{name}={value}" for name, value in deed.facts.items())

@@ -21,7 +21,8 @@ from carpus.core.records.store import Store
 def read_sets(store: Store) -> tuple[ExerciseSet, ...]:
     """The sets of the clinic; those whose exercises this Carpus does not know are left out."""
     rows = store.rows(select(EXERCISE_SET).order_by(EXERCISE_SET.c.place))
-    return tuple(_set(row) for row in rows if not row.gone and _is_known(row)) if rows else USUAL_SETS
+    known = store.sound((row for row in rows if not row.gone), lambda row: [_set(row)] if _is_known(row) else [])
+    return tuple(one for found in known for one in found) if rows else USUAL_SETS
 
 
 def keep_sets(store: Store, sets: Sequence[ExerciseSet], before: Sequence[ExerciseSet]) -> None:
@@ -36,7 +37,7 @@ def keep_sets(store: Store, sets: Sequence[ExerciseSet], before: Sequence[Exerci
         if row is None:
             change.append(new(EXERCISE_SET, one.set_id, **_columns(one), place=place))
         elif row.gone or read.get(one.set_id) != one or row.place != place:
-            if not row.gone and _set(row) != read.get(one.set_id):
+            if not row.gone and store.sound([row], _set) != [read.get(one.set_id)]:
                 raise ChangedMeanwhile(EXERCISE_SET.name)
             change.append(changed(EXERCISE_SET, one.set_id, row.version, **_columns(one), place=place, gone=0))
     for gone in sorted(read.keys() - {one.set_id for one in sets}):

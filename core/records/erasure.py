@@ -27,10 +27,13 @@ from carpus.core.records.log import Kind, Log
 from carpus.core.records.of_clinic import PLACE
 from carpus.core.records.of_sessions import MadeFile, made_from
 from carpus.core.records.patients import Patients
-from carpus.core.records.schema import OWN, PATIENT, RECIPIENT, SEEN, SESSION
+from carpus.core.records.schema import OWN, PATIENT, RECIPIENT, SEEN, SESSION, SHARED
 from carpus.core.records.session_list import FilesOfSessions, SessionList, file_name, trials_of
-from carpus.core.records.store import SESSIONS_FOLDER, Store
+from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry
+
+IS_THERE = ".carpus-is-there"
+"""In a share of which something was erased: who finds it knows that it is the share, and not its empty place."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +100,7 @@ def erase(store: Store, plan: ErasurePlan, log: Log) -> int:
     FilesOfSessions(store).take_in(tells=False)
     marked = [changed(SESSION, one.session_id, erasing=1) for one in plan.results]
     store.do([*marked, *([changed(PATIENT, plan.patient_id, erasing=1)] if plan.kind == "patient" else [])])
-    left = _go_on(store)
+    left = go_on(store)
     if left:
         log.note("erase_begun", plan.kind, plan.identity, left=len(left))
         raise ErasureUnfinished(left[0].name, f"{len(left)}")
@@ -110,17 +113,28 @@ def finish_erasing(store: Store, log: Log) -> None:
     if store.row(select(SESSION.c.id).where(SESSION.c.erasing == 1)) or store.row(
         select(PATIENT.c.id).where(PATIENT.c.erasing == 1)
     ):
-        left = _go_on(store)
+        left = go_on(store)
         log.note("erase_begun" if left else "erased", "everything", late=1, left=len(left))
     store.leave_no_trace()  # of a program that was killed before it did so
 
 
-def _go_on(store: Store) -> list[Path]:
-    """Delete the files of what is marked, then its rows; files that could not be deleted."""
-    people = store.rows(select(PATIENT).where(PATIENT.c.erasing == 1))
+def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]:
+    """Delete the files of what is marked, then its rows; files that could not be deleted. Of what is ``gone_there``, on
+    the server, nothing is sent to it, and nothing else goes."""
+    people = [
+        row
+        for row in store.rows(select(PATIENT).where(PATIENT.c.erasing == 1))
+        if gone_there is None or row.id in gone_there
+    ]
     patients = [str(row.id) for row in people]
     mine = (SESSION.c.erasing == 1) | SESSION.c.patient_id.in_(patients)
-    rows = store.rows(select(SESSION.c.id, SESSION.c.path).where(mine))
+    rows = [
+        row
+        for row in store.rows(select(SESSION.c.id, SESSION.c.path, SESSION.c.patient_id).where(mine))
+        if gone_there is None or row.id in gone_there or row.patient_id in patients
+    ]
+    if not people and not rows:
+        return []
     sessions = [str(row.id) for row in rows]
     if rows and _is_away(store):
         return [store.sessions_folder]
@@ -150,7 +164,11 @@ def _go_on(store: Store) -> list[Path]:
     )
     letters = _letters_to(store, names)
     store.forget_waiting([*patients, *sessions, *(row.id for row in letters)])
-    store.do([*(dropped(SESSION, one) for one in sessions), *(dropped(PATIENT, one) for one in patients), *letters])
+    change = [*(dropped(SESSION, one) for one in sessions), *(dropped(PATIENT, one) for one in patients), *letters]
+    if gone_there is None:
+        store.do(change)
+    else:
+        store.own(*(delete(SHARED[one.table]).where(SHARED[one.table].c.id == one.id) for one in change))
     return [] if store.leave_no_trace() else [store.folder / f"{STORE_FILE}-wal"]
 
 
@@ -221,12 +239,19 @@ def _beside(store: Store, stored: str) -> set[Path]:
 def _is_beside(path: Path, stems: Collection[str]) -> bool:
     """Whether a file lies beside one of these under its name."""
     parts = path.name.split(".")
-    return any(str(path.with_name(".".join(parts[:end]))) in stems for end in range(1, len(parts)))
+    return any(str(path.with_name(".".join(parts[:end]))) in stems for end in range(2 - bool(parts[0]), len(parts)))
 
 
 def _is_away(store: Store) -> bool:
     """Whether the clinic's share is not there: the files would come back with it. An empty folder may be its place."""
-    return store.sessions_folder != store.folder / SESSIONS_FOLDER and not any(store.sessions_folder.rglob("*.h5"))
+    mark = store.sessions_folder / IS_THERE
+    if not store.on_share or mark.exists():
+        return False
+    if not any(store.sessions_folder.rglob("*.h5")):
+        return True
+    with contextlib.suppress(OSError):  # the last session may go, and what is left of it is to be gone on with
+        mark.touch()
+    return False
 
 
 def _links(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> list[Path]:

@@ -82,11 +82,15 @@ def fingerprint(identity: str) -> str:
 
 
 def read_log(store: Store) -> tuple[LoggedDeed, ...]:
-    """The whole log, oldest first."""
+    """The whole log, oldest first; of a line that is damaged the number is missing."""
+    rows = store.rows_there(select(DEED).order_by(DEED.c.at_ns, DEED.c.id))
+    numbers = {row.id: number for number, row in enumerate(rows, 1)}
     return tuple(
-        LoggedDeed(
-            number, moment(row.at, row.at_ns / 1e9), row.who, row.by, row.did, row.kind, row.subject,
-            json.loads(row.facts),
+        store.sound(
+            rows,
+            lambda row: LoggedDeed(
+                numbers[row.id], moment(row.at, row.at_ns / 1e9), row.who, row.by, row.did, row.kind, row.subject,
+                dict(json.loads(row.facts)),
+            ),
         )
-        for number, row in enumerate(store.rows_there(select(DEED).order_by(DEED.c.at_ns, DEED.c.id)), 1)
     )  # fmt: skip

@@ -7,7 +7,9 @@ import math
 import time
 from collections.abc import Iterable
 from datetime import UTC, date, datetime
+from typing import Any
 
+from sqlalchemy import Row as SqlRow
 from sqlalchemy import select
 
 from carpus.core.by_hand.measures import MEASURES
@@ -40,13 +42,14 @@ def by_hand(store: Store, patient_id: str) -> list[HandValue]:
     """Everything that was ever entered of a patient, in order; without measures that this Carpus does not know."""
     known = [measure.id for measure in MEASURES]
     query = select(MEASURED).where(MEASURED.c.patient_id == patient_id, MEASURED.c.measure.in_(known))
-    return [
-        HandValue(
-            row.measure, row.way, row.side, date.fromisoformat(row.day), tuple(json.loads(row.tries)), row.place,
-            row.by, moment(row.entered, row.entered_ns / 1e9),
-        )
-        for row in store.rows(query.order_by(MEASURED.c.entered_ns, MEASURED.c.id))
-    ]  # fmt: skip
+    return store.sound(store.rows(query.order_by(MEASURED.c.entered_ns, MEASURED.c.id)), _hand_value)
+
+
+def _hand_value(row: SqlRow[Any]) -> HandValue:
+    return HandValue(
+        row.measure, row.way, row.side, date.fromisoformat(row.day), tuple(map(float, json.loads(row.tries))),
+        row.place, row.by, moment(row.entered, row.entered_ns / 1e9),
+    )  # fmt: skip
 
 
 def goals(store: Store, patient_id: str) -> Goals:

@@ -9,9 +9,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
-from sqlalchemy import select
+from sqlalchemy import Row, select
 
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records.changes import changed, new
@@ -55,9 +55,13 @@ def choices(store: Store, session_id: str) -> tuple[RepetitionChoices, int]:
     row = store.row(select(CORRECTION).where(CORRECTION.c.session_id == session_id))
     if row is None:
         return RepetitionChoices(), 0
+    return next(iter(store.sound([row], _choices)), RepetitionChoices()), row.version
+
+
+def _choices(row: Row[Any]) -> RepetitionChoices:
     left_out = {int(number): str(reason) for number, reason in json.loads(row.left_out).items()}
-    edges_s = {int(number): (start, end) for number, (start, end) in json.loads(row.edges_s).items()}
-    return RepetitionChoices(left_out, edges_s, bool(row.not_counted), row.reason), row.version
+    edges_s = {int(number): (float(start), float(end)) for number, (start, end) in json.loads(row.edges_s).items()}
+    return RepetitionChoices(left_out, edges_s, bool(row.not_counted), row.reason)
 
 
 def keep_choices(store: Store, session_id: str, kept: RepetitionChoices, version: int) -> int:

@@ -16,7 +16,7 @@ import threading
 import time
 import uuid
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any
@@ -30,7 +30,7 @@ from carpus.core.records.changes import PRACTICE, Change, is_practice, joining, 
 from carpus.core.records.changes import Row as Changed
 from carpus.core.records.database import Database, up_to_date
 from carpus.core.records.outbox import lay_out
-from carpus.core.records.schema import COPIED, DEED, DELIVERED, OUTBOX, OWN, SEEN, SESSION, SHARED, TOMBSTONE
+from carpus.core.records.schema import COPIED, DEED, DELIVERED, OUTBOX, OWN, PATIENT, SEEN, SESSION, SHARED, TOMBSTONE
 
 LOOK_S, RETRY_S, KEEP_DELIVERED_S = 2.0, 5.0, 90 * 86_400.0
 AT_ONCE, PAGE = 500, 5000
@@ -57,15 +57,17 @@ _UNIQUE = {"patient": "folded", "session": "path"}
 
 
 class Server:
-    """Delivers and fetches in a thread of its own; ``tell`` is called from there."""
+    """Delivers and fetches in a thread of its own; from there ``tell`` is called, and ``let_go`` with what is gone."""
 
-    def __init__(self, url: str, copy: Database, tell: Callable[[CarpusFault], None]) -> None:
+    def __init__(
+        self, url: str, copy: Database, tell: Callable[[CarpusFault], None], let_go: Callable[[Collection[str]], None]
+    ) -> None:
         plain = url.removeprefix("postgresql+psycopg").removeprefix("postgresql").removeprefix("postgres")
         self._engine = create_engine(f"postgresql+psycopg{plain}", connect_args=_OPTIONS, pool_size=1, max_overflow=1)
         self._lines: list[Any] = []
         event.listen(self._engine, "connect", self._connected)
         self._name = self._engine.url.render_as_string(hide_password=True).split("@")[-1]
-        self._copy, self._tell = copy, tell
+        self._copy, self._tell, self._let_go = copy, tell, let_go
         self._fetched, self._known, self._tries = -1, "", Counter[str]()
         self._work, self._ends = threading.Event(), threading.Event()
         self._rounds = threading.Condition()
@@ -118,6 +120,18 @@ class Server:
         with self._rounds:
             self._rounds.wait_for(lambda: self._round > 0, most_s)
             return self.is_there
+
+    def settled(self, most_s: float) -> bool:
+        """Wait until nothing is on its way, if the server is there; whether it is so."""
+        end = time.monotonic() + most_s
+        with self._rounds:
+            while time.monotonic() < end and (self.is_there or not self._has_looked):
+                with self._copy.reading() as connection:
+                    if self.is_there and connection.execute(select(OUTBOX.c.id)).first() is None:
+                        return True
+                self._work.set()
+                self._rounds.wait(0.05)
+        return False
 
     def rows(self, query: Select[Any]) -> Sequence[Row[Any]]:
         """What is stored there. Raises :class:`ServerGone`."""
@@ -312,10 +326,15 @@ class Server:
                 self._leaves_traces |= bool(gone)
                 for row in gone:
                     table = SHARED[row.of_table]
-                    connection.execute(delete(table).where(table.c.id == row.id))
+                    if table in (PATIENT, SESSION):  # their files go before them
+                        connection.execute(update(table).where(table.c.id == row.id).values(erasing=1))
+                    else:
+                        connection.execute(delete(table).where(table.c.id == row.id))
                 while (part := pickle.load(file))[0]:
                     _put(connection, *part)
                 connection.execute(update(OWN).where(OWN.c.name == "step").values(value=str(seen)))
+        if gone:
+            self._let_go({row.id for row in gone if row.of_table in (PATIENT.name, SESSION.name)})
         # A number that is given and cannot be seen yet is of a change that is about to come: looked for again.
         self._fetched = max(seen, newest_deed)
         with suppress(DBAPIError), self._engine.begin() as there:

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import time
 import uuid
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from datetime import datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from sqlalchemy import Delete, Insert, Row, Select, Update, select
 
 from carpus.core.errors import (
     CarpusFault,
+    ErasureUnfinished,
     LogUnguarded,
     RegisterBusy,
     RegisterDamaged,
@@ -32,11 +33,14 @@ from carpus.core.records.staging import hold
 if TYPE_CHECKING:
     from carpus.core.records.server import Server
 
+T = TypeVar("T")
 SESSIONS_FOLDER = "sessions"
 MOST_ALONE_S = 60.0
 """To wait for another program that opens the store: one that brings a large one up to date takes long."""
 MOST_WAIT_S = 2.0
 """For the server's word on what somebody else may have changed too."""
+MOST_SAID = 100
+"""Signs of what is wrong with a row."""
 CONTESTED = ("patient", "correction", "exercise_set", "report_form")
 
 
@@ -61,6 +65,7 @@ class Store:
         make_private(folder)
         if not self.on_share:
             make_private(self.sessions_folder)
+        self._tell, self._unsound = tell, set[str]()
         self.told: list[CarpusFault] = []
         """What was found when the store was opened."""
         self._database = self._opened(folder / STORE_FILE)
@@ -74,7 +79,7 @@ class Store:
         if url:
             from carpus.core.records.server import Server
 
-            self._server = Server(url, self._database, tell)
+            self._server = Server(url, self._database, tell, self._let_go)
 
     def _opened(self, path: Path) -> Database:
         with _alone(path):  # two programs that meet a damaged one would each set aside what the other has just made
@@ -139,6 +144,18 @@ class Store:
         """Whether there is no server, or the copy is up to date with it; waits a moment when it was just opened."""
         return self._server is None or self._server.has_fetched(MOST_WAIT_S)
 
+    def sound(self, rows: Iterable[Row[Any]], read: Callable[[Row[Any]], T]) -> list[T]:
+        """What ``read`` makes of each row of one with an ``id``; a damaged one is left out, and told once."""
+        found = []
+        for row in rows:
+            try:
+                found.append(read(row))
+            except (ValueError, TypeError, KeyError, AttributeError, OverflowError) as cause:
+                if row.id not in self._unsound:
+                    self._unsound.add(row.id)
+                    self._tell(RegisterDamaged(self.folder / STORE_FILE, str(cause)[:MOST_SAID]))
+        return found
+
     def rows_there(self, query: Select[Any]) -> Sequence[Row[Any]]:
         """What the server has, of what is copied nowhere; this computer's own where there is none, or it is gone."""
         if self._server is not None:
@@ -150,6 +167,18 @@ class Store:
     def is_behind(self) -> bool:
         """Whether there is a server that does not answer."""
         return self._server is not None and not self._server.is_there
+
+    def settled(self, most_s: float) -> bool:
+        """Wait until the server has all of this computer and this one all of it; whether it is so. True without one."""
+        return self._server is None or self._server.settled(most_s)
+
+    def _let_go(self, gone_there: Collection[str]) -> None:
+        """What another computer erased goes here with its files."""
+        from carpus.core.records.erasure import go_on
+
+        left = go_on(self, gone_there)
+        if left:
+            self._tell(ErasureUnfinished(left[0].name, f"{len(left)}"))
 
     def own(self, *statements: Insert | Delete | Update) -> None:
         """Change what is of this computer alone."""

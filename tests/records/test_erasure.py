@@ -315,7 +315,7 @@ def test_an_erasure_that_is_cut_short_ends_at_the_next_start(
             raise KeyboardInterrupt
 
         with monkeypatch.context() as broken:
-            broken.setattr(erasure, "_go_on" if after == "mark" else "dropped", cut)
+            broken.setattr(erasure, "go_on" if after == "mark" else "dropped", cut)
             with pytest.raises(KeyboardInterrupt):
                 erasure.erase(house.store, plan, house.log)
         assert any(path.exists() for path in plan.files) == (after == "mark")
@@ -447,3 +447,18 @@ def test_what_another_program_still_reads_is_told_as_left(
         reader.rollback()
     erasure.finish_erasing(house.store, house.log)
     assert traces(folder, *NAMES) == []
+
+
+def test_an_erasure_goes_on_where_the_share_has_no_other_session(
+    tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "share").mkdir()
+    with opened(folder, sessions=tmp_path / "share") as house:
+        linden = house.patients.add(LINDEN)
+        measure(house, linden, T0)
+        monkeypatch.setattr(erasure, "_letters_to", lambda *_: 1 / 0)  # killed once the files are gone
+        with pytest.raises(ZeroDivisionError):
+            erase_patient(house, linden)
+        monkeypatch.undo()
+        erasure.finish_erasing(house.store, house.log)
+        assert house.store.rows(select(SESSION)) == []

@@ -109,3 +109,20 @@ def test_the_command_says_it_and_writes_a_table(tmp_path: Path, capsys: pytest.C
         (row,) = csv.DictReader(file)
     assert (row["who"], row["did"], row["facts"]) == ("AB", "backed_up", "sessions=7")
     assert main(["log", "--data-folder", str(tmp_path), "--output", str(table)]) == 1
+
+
+def test_the_command_makes_no_store_where_none_is(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    tmp_path.chmod(0o755)
+    for command in (["log"], ["erase", "Linden 42"]):
+        assert main([*command, "--data-folder", str(tmp_path)]) == 1
+        assert "no data folder" in capsys.readouterr().err
+    assert (list(tmp_path.iterdir()), tmp_path.stat().st_mode & 0o777) == ([], 0o755)
+
+
+def test_a_damaged_line_is_left_out_and_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with opened(tmp_path) as house:
+        house.store.own(insert(DEED).values(id="x", at_ns=0, facts="{"))
+        house.log.note("locked", "program")
+    assert main(["log", "--data-folder", str(tmp_path)]) == 0
+    said = capsys.readouterr()
+    assert ("     2  " in said.out, "left out" in said.err) == (True, True)

@@ -26,7 +26,7 @@ from carpus.core.errors import (
     ServerGone,
 )
 from carpus.core.output.report_content import RepetitionChoices
-from carpus.core.records import changes, erasure, of_sessions, server
+from carpus.core.records import changes, erasure, of_clinic, of_sessions, server
 from carpus.core.records.changes import PRACTICE, Change, dropped, new
 from carpus.core.records.changes import Row as Changed
 from carpus.core.records.log import read_log
@@ -475,3 +475,16 @@ def test_a_change_that_can_never_be_made_lets_the_others_pass(
         until(lambda: any(isinstance(one, ChangeRefused) for one in told))
         settled(house)
     assert count(there, "patient") == 1
+
+
+def test_what_others_erased_goes_here_with_its_files(tmp_path: Path, there: str) -> None:
+    with opened(tmp_path / "a", there) as a, opened(tmp_path / "b", there) as b:
+        linden = b.patients.add(LINDEN)
+        session_id = measure(b, linden, T0)
+        of_clinic.keep_place(b.store, "report", "/papers/Erika Mustermann")
+        (tmp_path / "b" / "records.damaged-20261009-120000.sqlite3").write_bytes(b"Linden 42")
+        until(lambda: bool(a.store.rows(select(SESSION.c.id).where(SESSION.c.id == session_id))))
+        settled(a)
+        erasure.erase(a.store, erasure.plan_patient(a.store, linden), a.log)
+        until(lambda: traces(tmp_path / "b", "Linden", "Erika", linden) == [])
+        assert b.files.take_in().patients_added == 0

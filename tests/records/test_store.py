@@ -19,19 +19,23 @@ import pytest
 from sqlalchemy import select, update
 
 from carpus.app.settings import default_data_folder
+from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import (
+    CarpusFault,
     ChangedMeanwhile,
     NameUnsuited,
     OutputNotWritable,
     PseudonymTaken,
+    RegisterDamaged,
     RegisterMissing,
     RegisterSetAside,
     RegisterUnreadable,
     SessionUnreadable,
 )
+from carpus.core.library.kept_sets import read_sets
 from carpus.core.names import name_of
 from carpus.core.output.report_content import RepetitionChoices
-from carpus.core.records import of_clinic, of_sessions, schema
+from carpus.core.records import of_clinic, of_patients, of_sessions, schema
 from carpus.core.records.changes import PRACTICE, new
 from carpus.core.records.database import STORE_FILE, set_aside
 from carpus.core.records.log import read_log
@@ -516,3 +520,24 @@ def test_two_programs_that_meet_a_damaged_store_lose_nothing_of_it(tmp_path: Pat
     assert sum(len(one.told) for one in stores) == 1, "one sets it aside, the others find the new one"
     for one in stores:
         one.close()
+
+
+def test_a_damaged_row_is_left_out_and_told_once(tmp_path: Path) -> None:
+    told: list[CarpusFault] = []
+    with opened(tmp_path, tell=told.append) as house:
+        linden = house.patients.add(LINDEN)
+        session_id = measure(house, linden, T0)
+        of_sessions.keep_choices(house.store, session_id, RepetitionChoices({0: "pain"}), 0)
+        for day in (9, 10, 11):
+            value = HandValue("WRIST_ROUND", "", "right", date(2026, 10, day), (17.0,), "")
+            of_patients.enter_by_hand(house.store, linden, [value])
+        measured = house.store.rows(select(schema.MEASURED.c.id).order_by(schema.MEASURED.c.entered_ns))
+        for row, damage in zip(measured, ({"tries": "[1"}, {"day": "yesterday"}), strict=False):
+            house.store.own(update(schema.MEASURED).where(schema.MEASURED.c.id == row.id).values(**damage))
+        house.store.own(update(schema.CORRECTION).values(edges_s="no"))
+        house.store.do([new(schema.EXERCISE_SET, "s", name="s", discs="wrist6", parts="[")])
+        for _ in range(2):
+            assert [one.day.day for one in of_patients.by_hand(house.store, linden)] == [11]
+            assert of_sessions.choices(house.store, session_id)[0] == RepetitionChoices()
+            assert read_sets(house.store) == ()
+    assert [type(one) for one in told] == [RegisterDamaged] * 4
