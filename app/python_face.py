@@ -8,7 +8,7 @@ for frame in carpus.track("recording", "clicks.json"):
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, replace
 from itertools import chain
 from pathlib import Path
@@ -23,6 +23,7 @@ from carpus.app.of_file import read_choices
 from carpus.app.sources import open_recording
 from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S, Compared
 from carpus.core.agreement.compared_files import compare_files
+from carpus.core.agreement.reference import ANGLE_NAMES
 from carpus.core.calibration.calibrate import calibrate
 from carpus.core.calibration.candidates import CandidateSettings, marker_candidates
 from carpus.core.calibration.clicks import read_clicks, write_clicks
@@ -34,8 +35,10 @@ from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CalibrationImpossible, RecordingEmpty, SettingsInvalid
 from carpus.core.formats.csv_tables import repetition_table, tables
 from carpus.core.formats.export import Exported, Wanted, export_sessions
+from carpus.core.formats.formats import FORMATS
 from carpus.core.formats.provenance import provenance
 from carpus.core.hand.protocols import protocol_named
+from carpus.core.hand.sites import SITES
 from carpus.core.output.exercises import EXERCISES
 from carpus.core.output.measures_table import measure_rows
 from carpus.core.output.report_content import SessionFigures, session_figures
@@ -175,8 +178,9 @@ def track(
     :class:`core.errors.CarpusFault` that says what is wrong with a file, and at once ``SettingsInvalid`` for a setting
     that is unknown or has a value that it cannot have.
     """
-    chosen = _chosen("carpus.track", filter, settings | {"dip": dip, "use_depth": use_depth, "profile": profile})
-    return _tracked(Path(path), clicks, replace(chosen, smooth=False))
+    where = "carpus.track"
+    chosen = _chosen(where, filter, settings | {"dip": dip, "use_depth": use_depth, "profile": profile})
+    return _tracked(_path(where, "path", path), _clicks(where, clicks), replace(chosen, smooth=False))
 
 
 def write_session(
@@ -195,23 +199,26 @@ def write_session(
 ) -> OpenedSession:
     """Track a stored recording into a session file that is new, as ``carpus track`` does; the session, opened.
 
-    ``exercise`` by its id (``WRIST_FE``) has its repetitions counted; the rest as in :func:`track`.
+    ``exercise`` by its id (``WRIST_FE``) has its repetitions counted; the papers' method does not look back, whatever
+    ``smooth`` says; the rest as in :func:`track`.
     """
     where = "carpus.write_session"
     _check(where, "smooth", smooth, bool)
+    _check(where, "subject_id", subject_id, str)
+    _check(where, "exercise", exercise, str)
     if exercise:
         _check(where, "exercise", exercise, Literal[*(known.id for known in EXERCISES)])
     chosen = _chosen(where, filter, settings | {"dip": dip, "use_depth": use_depth, "profile": profile})
-    told = clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(Path(clicks))
-    source = open_recording(Path(path), need_depth=chosen.paper is None and use_depth)
+    recorded, out, told = _path(where, "path", path), _path(where, "output", output), _clicks(where, clicks)
+    source = open_recording(recorded, need_depth=chosen.paper is None and use_depth)
     try:
         track_recording(
-            source, told, Path(output), replace(chosen, smooth=smooth), software_version=__version__,
-            subject_id=subject_id, exercise=exercise, path=Path(path),
+            source, told, out, replace(chosen, smooth=smooth and chosen.smooth), software_version=__version__,
+            subject_id=subject_id, exercise=exercise, path=recorded,
         )  # fmt: skip
     finally:
         source.close()
-    return open_session(output)
+    return open_session(out)
 
 
 def _chosen(where: str, method: str, wanted: Mapping[str, Any]) -> TrackSettings:
@@ -224,6 +231,23 @@ def _chosen(where: str, method: str, wanted: Mapping[str, Any]) -> TrackSettings
             raise SettingsInvalid(where, f"the papers' filter knows no {others[0]}")
         return TrackSettings(smooth=False, paper=PaperSettings.for_profile(wanted["profile"]))
     return TrackSettings(tracker=replace(known, **wanted))
+
+
+def _path(where: str, name: str, value: object) -> Path:
+    """A path as given. Raises :class:`SettingsInvalid` for what is none."""
+    if not isinstance(value, (str, Path)) or "\0" in str(value):
+        raise SettingsInvalid(where, f"{name} is {value!r}, a path expected")
+    return Path(value)
+
+
+def _clicks(where: str, clicks: str | Path | ProposedClicks) -> Clicks:
+    """Clicks as proposed or of a file. Raises :class:`SettingsInvalid` for what is neither, and the faults of both."""
+    return clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(_path(where, "clicks", clicks))
+
+
+def _listed(value: object) -> list[Any]:
+    """One or several; what is no collection, or a single text or path, is one."""
+    return list(value) if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) else [value]
 
 
 _KINDS: Mapping[Any, str] = {
@@ -251,7 +275,7 @@ def _check(
     number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
     expected = _KINDS.get(hint, f"a {getattr(hint, '__name__', hint)}")
     if get_origin(hint) is Literal:
-        fits, expected = value in get_args(hint), " or ".join(map(repr, get_args(hint)))
+        fits, expected = isinstance(value, str) and value in get_args(hint), " or ".join(map(repr, get_args(hint)))
     elif hint is float:
         fits = number
     else:
@@ -262,17 +286,33 @@ def _check(
         raise SettingsInvalid(where, f"{name} is {value!r}, {expected} expected")
 
 
+def _check_names(where: str, name: str, value: object, known: Sequence[str]) -> None:
+    """Raise :class:`SettingsInvalid` for what is no mapping from known names to texts, nor None."""
+    if value is None:
+        return
+    if not isinstance(value, Mapping):
+        raise SettingsInvalid(where, f"{name} is {value!r}, a mapping from name to name expected")
+    for ours, theirs in value.items():
+        _check(where, f"a name in {name}", ours, Literal[*known])
+        _check(where, f"{name}[{ours!r}]", theirs, str)
+
+
 def _check_picture(
     where: str, name: str, value: Any, kind: type, channels: tuple[int, ...], size: tuple[int, ...] = ()
 ) -> None:
     shape = getattr(value, "shape", ())
-    if getattr(value, "dtype", None) != kind or shape[2:] != channels or len(shape) < 2 or (size and shape != size):
+    if (
+        getattr(value, "dtype", None) != kind
+        or shape[2:] != channels
+        or len(shape) < 2
+        or 0 in shape
+        or (size and shape != size)
+    ):
         wanted = ", ".join(("H", "W", *map(str, channels))) if not size else "as large as the picture"
         raise SettingsInvalid(where, f"{name} is no recording and no picture ({wanted}) {kind.__name__}")
 
 
-def _tracked(path: Path, clicks: str | Path | ProposedClicks, chosen: TrackSettings) -> Iterator[HandFrame]:
-    told = clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(Path(clicks))
+def _tracked(path: Path, told: Clicks, chosen: TrackSettings) -> Iterator[HandFrame]:
     source = open_recording(path, need_depth=chosen.paper is None and chosen.tracker.use_depth)
     try:
         frames = source.frames()
@@ -340,8 +380,9 @@ def open_session(path: str | Path) -> OpenedSession:
     """A session file as values: header, calibration, times, status, motion, smoothed motion, markers, events; tables,
     measures and provenance when asked for. The file is never changed; that one of a data
     folder was opened stands in the log there. Read by a process of its own."""
-    session = reader.read_session(Path(path))
-    note("opened", Path(path), session.header.session_id)
+    named = _path("carpus.open_session", "path", path)
+    session = reader.read_session(named)
+    note("opened", named, session.header.session_id)
     return OpenedSession(**{field.name: getattr(session, field.name) for field in fields(Session)})
 
 
@@ -365,7 +406,7 @@ def propose_clicks(
     _check(where, "depth_unit_m", depth_unit_m, float, (1e-6, 1.0))
     markers = protocol_named(protocol)
     if isinstance(frame, (str, Path)):
-        source = open_recording(Path(frame), need_depth=False)
+        source = open_recording(_path(where, "frame", frame), need_depth=False)
         try:
             first, camera = next(source.frames(), None), camera or source.info.camera
         finally:
@@ -394,19 +435,22 @@ def propose_clicks(
 def export(
     sessions: str | Path | Sequence[str | Path],
     folder: str | Path,
-    formats: Sequence[str] = ("csv",),
+    formats: str | Sequence[str] = ("csv",),
     *,
     deidentified: bool = False,
 ) -> Exported:
     """Write sessions as csv, json, c3d, trc, mot, bids or h5 into a folder, in which nothing is overwritten.
 
     What could not be written stands in ``refused`` of the answer. Of sessions of a data folder it
-    stands in the log there. Raises ``ValueError`` for an unknown format.
+    stands in the log there. Raises ``SettingsInvalid`` for an unknown format.
     """
-    paths = [sessions] if isinstance(sessions, (str, Path)) else list(sessions)
-    wanted = [Wanted.stored(Path(path), read_choices) for path in paths]
-    chosen = [formats] if isinstance(formats, str) else list(formats)
-    done = export_sessions(wanted, Path(folder), chosen, software_version=__version__, deidentified=deidentified)
+    where = "carpus.export"
+    _check(where, "deidentified", deidentified, bool)
+    wanted = [Wanted.stored(_path(where, "sessions", path), read_choices) for path in _listed(sessions)]
+    into, chosen = _path(where, "folder", folder), _listed(formats)
+    for name in chosen:
+        _check(where, "formats", name, Literal[*FORMATS])
+    done = export_sessions(wanted, into, chosen, software_version=__version__, deidentified=deidentified)
     note_exported(done, deidentified=deidentified)
     return done
 
@@ -433,13 +477,17 @@ def compare(
     """
     where = "carpus.compare"
     _check(where, "smoothed", smoothed, bool)
+    _check(where, "radians", radians, bool | None)
+    _check_names(where, "columns", columns, ("time", *ANGLE_NAMES))
+    _check_names(where, "markers", markers, SITES)
     _check(where, "most_shift_s", most_shift_s, float, (0.0, FURTHEST_SHIFT_S))
     _check(where, "lag_s", lag_s, float | None, (-FURTHEST_SHIFT_S, FURTHEST_SHIFT_S))
     _check(where, "drift_percent", drift_percent, float, (-LARGEST_DRIFT_PERCENT, LARGEST_DRIFT_PERCENT))
+    ours, theirs = _path(where, "session", session), _path(where, "reference", reference)
     result = compare_files(
-        Path(session), Path(reference), columns=columns, markers=markers, radians=radians, smoothed=smoothed,
+        ours, theirs, columns=columns, markers=markers, radians=radians, smoothed=smoothed,
         most_shift_s=most_shift_s, lag_s=math.nan if lag_s is None else lag_s, drift=0.01 * drift_percent,
-        choices=read_choices(Path(session)),
+        choices=read_choices(ours),
     )  # fmt: skip
     return result.compared
 
@@ -447,5 +495,6 @@ def compare(
 def simulate(folder: str | Path, **options: Any) -> Truth:
     """A synthetic recording as a TUM folder, with clicks and truth beside it; ``options`` are those of
     :class:`core.simulation.spec.RecordingSpec`. Its true values."""
-    _check_fields("carpus.simulate", options, RecordingSpec)
-    return recording.simulate(RecordingSpec(**options), Path(folder))
+    where = "carpus.simulate"
+    _check_fields(where, options, RecordingSpec)
+    return recording.simulate(RecordingSpec(**options), _path(where, "folder", folder))

@@ -30,4 +30,4 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     """What there is, also what is loaded only when it is asked for."""
-    return sorted({*globals(), *__all__})
+    return sorted(__all__)

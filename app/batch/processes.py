@@ -20,7 +20,9 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import BinaryIO, NoReturn
 
 from carpus.app.batch.work import Outcome, Task, clear_leftovers, fault_of, work
+from carpus.core.errors import CarpusFault, OutputBusy
 from carpus.core.installing import is_packed
+from carpus.core.words import one_sentence
 
 Work = Callable[[Task], Outcome]
 TRIES = 3
@@ -81,14 +83,17 @@ class Children:
             child.hang_up()
         outcome = child.asked(task, do, limit_s)
         self._busy.discard(child)
-        if outcome is not None and child.tasks < _MOST_TASKS and not self.ended:
+        if outcome is not None and child.tasks < _MOST_TASKS and not (self.ended or child.was_late):
             self._idle.append(child)
             return outcome
         child.end()
         if outcome is not None:
             return outcome
-        with contextlib.suppress(OSError):
-            clear_leftovers(task.place.session)
+        try:
+            with contextlib.suppress(OSError):
+                clear_leftovers(task.place.session)
+        except CarpusFault as fault:  # of this recording alone
+            return fault_of(task.place, one_sentence(fault), may_pass=isinstance(fault, OutputBusy))
         if child.was_late:
             return fault_of(task.place, LATE.format(minutes=limit_s / 60.0))
         return fault_of(task.place, DIED, may_pass=True)
@@ -137,6 +142,7 @@ class _Child:
             return outcome
         finally:
             timer.cancel()
+            timer.join()  # it may be giving up at this moment
 
     def _give_up(self) -> None:
         self.was_late = True

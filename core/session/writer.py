@@ -152,7 +152,7 @@ class SessionWriter:
         writer = cls(file, path, part, layout, clock, beginning, fallback)
         try:
             writer._begin()
-        except CarpusFault:
+        except BaseException:
             writer._release()
             part.unlink(missing_ok=True)
             raise

@@ -7,12 +7,15 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import carpus
+from carpus.app.python_face import ProposedClicks
 from carpus.core.errors import CalibrationImpossible, SettingsInvalid
+from carpus.core.hand.protocols import protocol_named
 from carpus.core.session.reader import read_session
 
 ROOT = Path(__file__).parents[2]
@@ -95,13 +98,72 @@ def test_a_hand_an_exercise_and_a_choice_of_a_comparison_that_are_none_are_refus
         carpus.propose_clicks(folder, hand="middle")  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("wrong", [None, 5, b"x", [None], {}, "a\0b"])
+def test_what_is_no_path_is_one_sentence(wrong: Any, tmp_path: Path) -> None:
+    clicks = ProposedClicks("right", "wrist6", {name: [1.0, 2.0] for name in protocol_named("wrist6").markers}, {})
+    for call in (
+        lambda: carpus.open_session(wrong),
+        lambda: carpus.track(wrong, clicks),
+        lambda: carpus.track(tmp_path, wrong),
+        lambda: carpus.write_session(wrong, clicks, tmp_path / "x.h5"),
+        lambda: carpus.write_session(tmp_path, clicks, wrong),
+        lambda: carpus.export([wrong], tmp_path),
+        lambda: carpus.export([], wrong),
+        lambda: carpus.compare(wrong, "r.csv"),
+        lambda: carpus.compare("s.h5", wrong),
+        lambda: carpus.simulate(wrong),
+    ):
+        with pytest.raises(SettingsInvalid, match=", a path expected"):
+            call()
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("function", "wrong", "said"),
+    [
+        ("compare", {"radians": "no"}, "radians is 'no', True or False"),
+        ("compare", {"markers": ["a"]}, "markers is ['a'], a mapping"),
+        ("compare", {"markers": {"MCP9": "a"}}, "a name in markers is 'MCP9'"),
+        (
+            "compare",
+            {"columns": {"flexoin": "a"}},
+            "a name in columns is 'flexoin', 'time' or 'deviation' or 'flexion'",
+        ),
+        ("compare", {"columns": {"flexion": 2}}, "columns['flexion'] is 2, a text"),
+        ("compare", {"columns": 5}, "columns is 5"),
+        ("compare", {"columns": "flexion"}, "columns is 'flexion'"),
+        ("export", {"deidentified": "no"}, "deidentified is 'no', True or False"),
+        ("export", {"deidentified": None}, "deidentified is None"),
+        ("export", {"deidentified": ""}, "deidentified is ''"),
+        ("export", {"deidentified": 0}, "deidentified is 0"),
+        ("export", {"formats": "xyz"}, "formats is 'xyz', 'csv' or"),
+        ("export", {"formats": None}, "formats is None"),
+        ("export", {"formats": [5]}, "formats is 5"),
+        ("export", {"formats": [["csv"]]}, "formats is ['csv']"),
+        ("write_session", {"subject_id": 5}, "subject_id is 5, a text"),
+        ("write_session", {"exercise": None}, "exercise is None, a text"),
+        ("propose_clicks", {"hand": np.array(["right", "left"])}, "hand is array"),
+        ("propose_clicks", {"frame": np.zeros((0, 0, 3), dtype=np.uint8)}, "frame is no recording and no picture"),
+    ],
+)
+def test_a_wrong_value_is_one_sentence(function: str, wrong: dict[str, Any], said: str, tmp_path: Path) -> None:
+    usual: dict[str, dict[str, Any]] = {
+        "compare": {"session": "s.h5", "reference": "r.csv"}, "export": {"sessions": "s.h5", "folder": tmp_path},
+        "write_session": {"path": tmp_path, "clicks": "c.json", "output": tmp_path / "x.h5"},
+        "propose_clicks": {"frame": np.zeros((4, 4, 3), dtype=np.uint8)},
+    }  # fmt: skip
+    with pytest.raises(SettingsInvalid, match=re.escape(said)):
+        getattr(carpus, function)(**usual[function] | wrong)
+    assert not list(tmp_path.iterdir())
+
+
 def test_the_package_lists_its_functions() -> None:
     program = "import sys, carpus; print(*dir(carpus)); print('numpy' in sys.modules)"
     listed, loaded = subprocess.run(
         [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=True
     ).stdout.splitlines()
-    assert {"track", "write_session", "open_session", "simulate", "propose_clicks", "export", "compare"} <= set(
-        listed.split()
+    assert listed.split() == sorted(
+        ["__version__", "track", "write_session", "open_session", "simulate", "propose_clicks", "export", "compare"]
     )
     assert loaded == "False", "listing them loads nothing"
 
@@ -110,7 +172,9 @@ def test_the_papers_filter_in_python_is_that_of_the_command(folder: Path, tmp_pa
     frames = list(carpus.track(folder, folder / "calibration.json", filter="paper"))
     session = carpus.write_session(folder, folder / "calibration.json", tmp_path / "paper.h5", filter="paper")
     assert [frame.wrist.flexion_deg for frame in frames] == np.degrees(session.motion.angles_rad[:, 1]).tolist()
-    assert json.loads(session.header.parameters)["settings"]["paper"] is not None
+    settings = json.loads(session.header.parameters)["settings"]
+    assert settings["paper"] is not None
+    assert (settings["smooth"], session.smoothed) == (False, None), "the papers do not look back"
     assert np.isnan(frames[-1].wrist.angular_velocity_deg_s).all(), "white noise in the papers' model"
 
 
@@ -184,7 +248,7 @@ def test_export_and_compare_in_ten_lines(folder: Path, tmp_path: Path) -> None:
     given = carpus.compare(folder / "truth.h5", tmp_path / "truth.mot", lag_s=0.1, drift_percent=1.0).shift
     assert given is not None
     assert (given.reference_later_s, given.was_given, given.drift) == (0.1, True, pytest.approx(0.01))
-    with pytest.raises(ValueError, match="xls"):
+    with pytest.raises(SettingsInvalid, match="xls"):
         carpus.export(folder / "truth.h5", tmp_path / "other", ["xls"])
 
 

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from carpus.app.batch import work
+from carpus.app.batch import processes, work
 from carpus.app.batch.places import Place
 from carpus.app.batch.processes import DIED, cores, outcomes
-from carpus.app.batch.work import Task
+from carpus.app.batch.work import Outcome, Task
 from carpus.core.errors import OutputBusy
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.disk import part_path
@@ -48,6 +48,33 @@ def test_what_hangs_is_given_up_and_tidied(tmp_path: Path) -> None:
     (outcome,) = outcomes([task(tmp_path, "r0", "hangs")], 2, deadly, limit_s=6.0)
     assert "0.1 minutes" in outcome.said[0]
     assert not list(tmp_path.iterdir()), "half session and heartbeat are gone"
+
+
+def test_what_somebody_is_still_writing_is_the_fault_of_its_recording(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def busy(session: Path) -> None:
+        raise OutputBusy(session)
+
+    monkeypatch.setattr(processes, "clear_leftovers", busy)
+    monkeypatch.setattr(processes._Child, "asked", lambda *_: None)
+    children = processes.Children()
+    outcome = children.outcome(task(tmp_path, "r0"), 60.0, deadly)
+    children.end()
+    assert (outcome.result, outcome.may_pass) == ("fault", True)
+    assert "r0.h5" in outcome.said[0]
+
+
+def test_a_child_given_up_as_it_answers_takes_nothing_more(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def late(child: processes._Child, one: Task, *_: object) -> Outcome:
+        child._give_up()
+        return Outcome(one.place, "tracked")
+
+    monkeypatch.setattr(processes._Child, "asked", late)
+    children = processes.Children()
+    assert children.outcome(task(tmp_path, "r0"), 60.0, deadly).result == "tracked"
+    assert not children._idle
+    children.end()
 
 
 def test_only_what_may_pass_is_tried_again(tmp_path: Path) -> None:
