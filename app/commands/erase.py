@@ -7,9 +7,10 @@ import sys
 from pathlib import Path
 
 from carpus.app.commands.kept import initials
+from carpus.app.commands.progress import tell
 from carpus.app.of_file import data_folder_of
 from carpus.app.settings import load_sound_settings, sessions_folder
-from carpus.core.errors import CarpusFault, FolderMissing, PatientUnknown, RecordingMissing
+from carpus.core.errors import FolderMissing, PatientUnknown, RecordingMissing
 from carpus.core.known_names import known_names
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
@@ -48,8 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
         sessions=sessions_folder(settings) if of_clinic else None,
     )  # fmt: skip
     library.who = initials
-    faults: list[CarpusFault] = []
-    library.log_fault = faults.append
+    library.log_fault = tell
     try:
         library.store.settled(MOST_WAIT_S)  # what others have recorded of the patient goes too
         return _erase(library, arguments.what, path, arguments.for_good)

@@ -7,6 +7,7 @@ import csv
 import sys
 from pathlib import Path
 
+from carpus.app.commands.progress import tell
 from carpus.app.settings import load_sound_settings, sessions_folder
 from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, RegisterDamaged
 from carpus.core.private import private
@@ -45,7 +46,9 @@ def run(arguments: argparse.Namespace) -> int:
                   file=sys.stderr)  # fmt: skip
         deeds = read_log(store)
     for fault in faults:
-        if isinstance(fault, RegisterDamaged):
+        if not isinstance(fault, RegisterDamaged):
+            tell(fault)
+        else:
             print(f"carpus: a line is damaged and left out ({fault.detail}).", file=sys.stderr)
     rows = []
     for deed in deeds:

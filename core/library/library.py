@@ -100,8 +100,8 @@ class Library:
     ) -> None:
         self.folder = folder
         self.who: Callable[[], str] = lambda: ""
-        self.log_fault: Callable[[CarpusFault], None] = lambda _: None
         self._told: list[CarpusFault] = []
+        self.log_fault: Callable[[CarpusFault], None] = lambda fault: self._told.append(fault)
         self.error_limits = DEFAULT_LIMITS
         """The clinic's own from its test and retest, as far as it has any."""
         try:

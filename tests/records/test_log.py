@@ -14,12 +14,13 @@ from sqlalchemy import delete, insert, select, update
 from sqlalchemy.exc import DatabaseError
 
 from carpus.app.__main__ import main
-from carpus.core.errors import LogUnguarded, OutputNotWritable
+from carpus.core.errors import LogUnguarded, OutputNotWritable, ServerGone
+from carpus.core.library.library import Library
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import Log, fingerprint, read_log
 from carpus.core.records.schema import DEED
 from carpus.core.records.store import Store
-from tests.records.samples import opened, traces
+from tests.records.samples import opened, settled, traces
 
 
 def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path, url: str) -> None:
@@ -83,6 +84,7 @@ def test_no_identity_stands_in_it_whatever_a_damaged_file_says_it_is(tmp_path: P
     with opened(tmp_path, url) as house:
         for identity in said:
             house.log.note("recovered", "session", identity)
+        settled(house)
         assert len({one.subject for one in read_log(house.store)}) == len(said)
         assert traces(tmp_path, "Linden") == []
 
@@ -126,3 +128,10 @@ def test_a_damaged_line_is_left_out_and_told(tmp_path: Path, capsys: pytest.Capt
     assert main(["log", "--data-folder", str(tmp_path)]) == 0
     said = capsys.readouterr()
     assert ("     2  " in said.out, "left out" in said.err) == (True, True)
+
+
+def test_what_the_store_tells_before_anybody_listens_is_told_at_the_start(tmp_path: Path) -> None:
+    library = Library(tmp_path)
+    library.log_fault(ServerGone("records.clinic.example", "gone"))
+    assert [type(one) for one in library.recover()[1]] == [ServerGone]
+    library.close()
