@@ -284,6 +284,9 @@ def _check(
         fits, expected = False, f"from {limits[0]:g} to {limits[1]:g}"
     if not fits:
         raise SettingsInvalid(where, f"{name} is {value!r}, {expected} expected")
+    if isinstance(value, tuple):
+        for one in value:
+            _check(where, f"one of {name}", one, get_args(hint)[0])
 
 
 def _check_names(where: str, name: str, value: object, known: Sequence[str]) -> None:

@@ -16,6 +16,7 @@ from carpus.core.depth_sensor import SENSORS
 from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.protocols import protocol_named
+from carpus.core.limits import Limits, check_limits
 from carpus.core.types import Side
 
 RENDERER_VERSION = 5
@@ -47,7 +48,7 @@ class Stream(IntEnum):
     WORN = 13
 
 
-_LIMITS: Mapping[str, tuple[float, float]] = {
+_LIMITS: Limits = {
     "seed": (0, 2**63),
     "seconds": (0.001, 86400.0),
     "fps": (0.1, 240.0),
@@ -150,10 +151,7 @@ class RecordingSpec:
 
     def __post_init__(self) -> None:
         protocol_named(self.protocol)
-        for name, (low, high) in _LIMITS.items():
-            value = getattr(self, name)
-            if value is not None and not low <= value <= high:  # a NaN lies nowhere
-                raise SettingsInvalid("simulation", f"{name} = {value}, from {low:g} to {high:g}")
+        check_limits("simulation", self, _LIMITS)
         if self.hand not in ("right", "left"):
             raise SettingsInvalid("simulation", f"hand = {self.hand}")
         if self.sensor not in SENSORS:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+from carpus.core.limits import Limits, check_limits
 from carpus.core.tracking.association import AssociationSettings
 from carpus.core.tracking.consistency import ConsistencySettings
 from carpus.core.tracking.finger_settings import FingerSettings
@@ -64,6 +65,19 @@ class MeasurementNoise:
     depth_locks: float = 0.6
 
 
+_LIMITS: Limits = {
+    "shape_hidden": (0.0, 1.0),
+    "shape_news": (0.0, 1.0),
+    "shape_stale": (0.0, 1.0),
+    "mode_scales": (0.001, 1000.0),
+    "mode_dwell_s": (0.001, 3600.0),
+    "unseen_scale": (0.0, 1000.0),
+    "marker_radius_m": (0.0005, 0.1),
+    "lost_after_s": (0.0, 3600.0),
+    "rate_memory_s": (0.001, 3600.0),
+}
+
+
 @dataclass(frozen=True, slots=True)
 class TrackerSettings:
     """Defaults of the tracker; all of it is stored with every session.
@@ -106,6 +120,9 @@ class TrackerSettings:
     marker_radius_m: float = 0.006
     lost_after_s: float = 1.5
     rate_memory_s: float = 0.2
+
+    def __post_init__(self) -> None:
+        check_limits("tracker", self, _LIMITS)
 
     @property
     def motion_noise(self) -> MotionNoise:

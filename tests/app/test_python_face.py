@@ -64,6 +64,13 @@ def test_an_unknown_setting_is_named(folder: Path) -> None:
         ({"profile": "brsk"}, "profile is 'brsk', 'slow' or 'standard' or 'brisk' expected"),
         ({"filter": "papers"}, "filter is 'papers', 'default' or 'paper' expected"),
         ({"lost_after_s": "long"}, "lost_after_s is 'long'"),
+        ({"shape_hidden": 5.0}, "shape_hidden = 5.0, from 0 to 1"),
+        ({"lost_after_s": -1}, "lost_after_s = -1, from 0"),
+        ({"marker_radius_m": 0}, "marker_radius_m = 0, from 0.0005"),
+        ({"unseen_scale": -3}, "unseen_scale = -3, from 0"),
+        ({"mode_scales": ()}, "mode_scales = (), from 0.001"),
+        ({"mode_scales": ("a", "b")}, "one of mode_scales is 'a', a number expected"),
+        ({"mode_dwell_s": 0.0}, "mode_dwell_s = 0.0, from 0.001"),
         ({"filter": "paper", "dip": "free"}, "the papers' filter knows no dip"),
     ],
 )
