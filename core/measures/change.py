@@ -57,11 +57,6 @@ class Change:
         """Whether anything may be said at all."""
         return not self.obstacles
 
-    @property
-    def beyond_error(self) -> bool:
-        """Whether this may be called larger than measurement error."""
-        return self.comparable and abs(self.difference_rad) > self.limit_rad
-
 
 def change_limit_rad(angle_name: str) -> float:
     """Difference of two sessions' means above which it exceeds measurement error, for an angle of the session file.
@@ -77,22 +72,6 @@ def change_limit_rad(angle_name: str) -> float:
         if key in _LIMIT_DEG:
             return math.radians(_LIMIT_DEG[key])
     raise KeyError(angle_name)
-
-
-def minimal_detectable_change(first: tuple[float, ...], second: tuple[float, ...]) -> float:
-    """MDC95 from the same people measured twice: 2.77 SEM with SEM = sd(differences)/sqrt(2); unit of the values.
-
-    NaN for fewer than 10 people, as the reference asks.
-    """
-    if len(first) != len(second):
-        raise ValueError("each person needs both measurements")
-    n = len(first)
-    if n < 10:
-        return math.nan
-    differences = [b - a for a, b in zip(first, second, strict=True)]
-    mean = sum(differences) / n
-    sd = math.sqrt(sum((d - mean) ** 2 for d in differences) / (n - 1))
-    return MDC95_FACTOR * sd / math.sqrt(2.0)
 
 
 def change_between(before: MeasuredMean, after: MeasuredMean, angle_name: str) -> Change:

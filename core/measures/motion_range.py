@@ -46,13 +46,6 @@ class Figure:
         """Coefficient of variation, NaN below three repetitions or about a mean of zero."""
         return abs(self.spread_sd / self.mean) if self.mean else math.nan
 
-    @property
-    def error_sd(self) -> float:
-        """Standard deviation of the mean: the repetitions' spread averages out, the measurement's error may not."""
-        spread = self.spread_sd
-        between = 0.0 if math.isnan(spread) else spread**2 / len(self.values)
-        return math.sqrt(between + self.measurement_sd**2)
-
 
 @dataclass(frozen=True, slots=True)
 class MotionRange:

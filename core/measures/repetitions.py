@@ -153,7 +153,10 @@ def find_repetitions(angle: Signal) -> Exercise:
         first, last = run.part.start, run.part.stop - 1
         if not home.rests(run.turns[0]) and run.turns[0].turn not in marks:
             cut.append(between(first, marks[0] if marks else last, first))
-        if not home.rests(run.turns[-1]) and marks and marks[-1] < run.turns[-1].turn:
+        end, before = run.turns[-1], run.turns[-2]
+        # Who stops half way and stays there has not come back: what was seen ends in that repetition.
+        left = home.side is not None and end.high is not home.side and abs(end.value - before.value) >= least
+        if (left or not home.rests(end)) and marks and marks[-1] < run.turns[-1].turn:
             cut.append(between(marks[-1], last, last))
     return Exercise(tuple(whole), tuple(strokes), tuple(cut), unseen)
 

@@ -107,6 +107,7 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
     speed_sd = noise.speed_sd(pace.cutoff_hz)
     told = pace.cutoff_hz >= LOWEST_OF_JERKS_HZ and _PAUSE_IN_SDS * speed_sd <= STANDING_SHARE * moved.peak
     standing = moved.standing_s if told else None
+    smoothness = math.nan if smooth is None else sparc(smooth.whole, angle.rate_hz, LEAST_PEAK_RAD_S)
     return StrokeMeasures(
         stroke=stroke,
         arc_rad=arc,
@@ -117,12 +118,12 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
         peaks=_units(moved, angle.rate_hz, pace.cutoff_hz, speed_sd),
         pauses=math.nan if standing is None else float(len(standing)),
         pause_s=math.nan if standing is None else math.fsum(standing),
-        sparc=math.nan if smooth is None else sparc(smooth.whole, angle.rate_hz, LEAST_PEAK_RAD_S),
+        sparc=smoothness,
         ldlj=math.nan if jerk is None else log_dimensionless_jerk(jerk.whole, angle.rate_hz, LEAST_PEAK_RAD_S),
         peak_speed_sd_rad_s=speed_sd,
         onset_s=moved.onset_s,
         offset_s=moved.offset_s,
-        too_slow_to_be_smooth=smooth is None,
+        too_slow_to_be_smooth=math.isnan(smoothness),
     )
 
 

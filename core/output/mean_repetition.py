@@ -45,11 +45,6 @@ class MeanRepetition:
         """Whether there is anything to draw."""
         return bool(np.isfinite(self.mean_deg).any())
 
-    @property
-    def has_gaps(self) -> bool:
-        """Whether a part of the repetition was not seen."""
-        return bool(np.isnan(self.mean_deg).any())
-
 
 @dataclass(frozen=True, slots=True)
 class SeenAngles:

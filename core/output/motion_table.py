@@ -18,9 +18,6 @@ from carpus.core.output.range_rows import best_motion
 from carpus.core.session.values import Motion, Session
 from carpus.core.types import FloatArray
 
-PLANES = (("XY", 0, 1), ("ZX", 2, 0), ("ZY", 2, 1))
-"""The planes that the papers draw the path in: name, axis across, axis up."""
-
 
 @dataclass(frozen=True, slots=True)
 class Column:

@@ -14,7 +14,7 @@ LETTER_COUNTRIES = ("US", "CA")
 SECTIONS = ("table", "curves", "bars", "quality", "speed", "by_hand", "motion")
 """Parts of a session's report that may be left out. Who and when, the sentences, warnings, method, legal sentence and
 origin always stay; so does ``quality`` where something is not as it should be."""
-MOST_SENTENCES, MOST_SENTENCE = 60, 300
+MOST_SENTENCES = 60
 MOST_NAME, MOST_ADDRESS_LINES, MOST_ADDRESS = 60, 4, 80
 
 

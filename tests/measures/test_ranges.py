@@ -122,16 +122,6 @@ def test_arc_does_not_depend_on_the_neutral_but_the_ends_do() -> None:
     assert math.degrees(plain.maximum.mean - shifted.maximum.mean) == pytest.approx(15.0, abs=1e-6)
 
 
-def test_error_bar_combines_spread_and_measurement() -> None:
-    found = summary_of(exercise_deg([40.0, 50.0, 60.0]), sd_deg=2.0).range
-    expected = math.sqrt(100.0 / 3.0 + 2.0**2 + 2.0**2)
-    assert math.degrees(found.arc.error_sd) == pytest.approx(expected, abs=0.2)
-    two = summary_of(exercise_deg([40.0, 60.0]), sd_deg=2.0).range
-    assert math.isnan(two.arc.spread_sd)
-    assert math.isnan(two.arc.variation)
-    assert math.degrees(two.arc.error_sd) == pytest.approx(math.sqrt(8.0), abs=1e-6)
-
-
 def test_without_repetitions_the_whole_recording_is_one_range() -> None:
     found = summary_of(np.concatenate((np.zeros(60), min_jerk(0.0, 7.0, 1.0), np.full(60, 7.0)))).range
     assert found.repetitions == 0
@@ -145,7 +135,6 @@ def test_nothing_valid_is_unknown_not_zero() -> None:
     assert found.range.repetitions == 0
     assert math.isnan(found.range.arc.mean)
     assert math.isnan(found.range.arc.best)
-    assert math.isnan(found.range.arc.error_sd)
     assert math.isnan(Figure(np.empty(0), math.nan, math.nan).variation)
 
 

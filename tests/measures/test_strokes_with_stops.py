@@ -151,3 +151,13 @@ def test_a_tracked_patient_who_stops_is_not_called_smooth(
         assert math.isnan(other.sparc) or other.sparc == pytest.approx(one.sparc, abs=0.6)
         assert math.isnan(other.pauses) or abs(other.pauses - one.pauses) <= 1.0
     assert sum(math.isfinite(other.sparc) for _, other in known) >= (fewest if smoothed else min(fewest, 1))
+
+
+def test_what_has_no_smoothness_says_why() -> None:
+    time_s = np.arange(0.0, 22.0, 1 / 30)
+    value = np.radians(12.0) * (0.5 - 0.5 * np.cos(np.pi * np.clip((time_s - 1.0) / 10.0, 0.0, 2.0)))
+    angle = even_signal(time_s, value)
+    for stroke in find_repetitions(angle).strokes:
+        found = measure_stroke(angle, stroke)
+        assert found.too_slow_to_be_smooth == math.isnan(found.sparc)
+        assert found.too_slow_to_be_smooth

@@ -274,3 +274,11 @@ def test_a_gap_on_the_way_does_not_make_the_rest_part_of_a_repetition() -> None:
 def test_a_peak_that_a_gap_hides_has_no_time(hidden: tuple[float, float], known: bool) -> None:
     row = rows_of({0.0: 0.0, 1.0: 0.0, 2.0: 60.0, 3.0: 0.0, 4.0: 0.0, 5.0: 60.0, 6.0: 0.0, 7.0: 0.0}, hidden)[0]
     assert math.isfinite(row.peak_s) == known
+
+
+def test_who_stops_half_way_and_stays_has_a_repetition_that_does_not_count() -> None:
+    way = {0.0: 0.0, 1.0: 0.0, 2.0: 60.0, 3.0: 60.0, 4.0: 0.0, 5.0: 0.0}
+    for stop_deg in (22.0, 30.0, 40.0):
+        rows = rows_of(way | {6.0: stop_deg, 9.0: stop_deg})
+        assert [(row.counted, row.reason) for row in rows] == [(True, ""), (False, "cut_by_end")]
+    assert len(rows_of(way | {6.0: 12.0, 9.0: 12.0})) == 1, "too little to be on its way"
