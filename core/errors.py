@@ -158,10 +158,6 @@ class DriverFailed(CarpusFault):
     """The library of a camera died or no longer answers; it ran in a process of its own."""
 
 
-class PracticeBeingDrawn(CarpusFault):
-    """The movement of the practice patient is not drawn yet."""
-
-
 class CameraUnknown(CarpusFault):
     """No kind of camera has this name."""
 

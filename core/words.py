@@ -407,11 +407,6 @@ FAULTS: dict[type[CarpusFault], Words] = {
         _STORED,
         phrase("Unplug the camera, plug it in again and start once more."),
     ),
-    errors.PracticeBeingDrawn: Words(
-        phrase("The movement of the simulated hand is still being drawn."),
-        phrase("The hand rests until then."),
-        phrase("Wait a moment; it moves by itself."),
-    ),
     errors.CameraUnknown: Words(
         phrase("No kind of camera is called {subject} ({detail})."),
         _NOTHING_YET,

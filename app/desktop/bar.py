@@ -160,7 +160,10 @@ class Bar(QObject):
         lost = counters.dropped + counters.missing
         if lost:
             words = self.tr("{words}, {lost} lost").format(words=words, lost=lost)
-        self._shell.bar.camera.show_state("warn" if few else "good", words)
+        if self._now.source is not None and self._now.source.rests():
+            self._shell.bar.camera.show_state("warn", self.tr("Movement is being drawn"))
+        else:
+            self._shell.bar.camera.show_state("warn" if few else "good", words)
         minutes = counters.disk_minutes_left
         if minutes == minutes:
             state = "bad" if minutes < 10.0 else "warn" if minutes < 30.0 else "none"

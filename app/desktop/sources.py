@@ -22,7 +22,7 @@ from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.practice import PracticeSource
 from carpus.core.capture.source import FrameSource, is_simulated
-from carpus.core.errors import CarpusFault, PracticeBeingDrawn, RecordingEmpty, RegistrationAssumed
+from carpus.core.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
 from carpus.core.library.set_up import SetUp
 from carpus.core.pipeline.live import Listener, LiveSession
 from carpus.core.pipeline.measuring import SessionPlaces, SourceMeasuring
@@ -45,11 +45,13 @@ class OpenSource:
     """A source with its calibrator; ``measuring`` owns it and closes it.
 
     ``asks_registration``: nothing says whether the depth of this recording lies on its colours.
+    ``rests``: whether the simulated hand lies still because its movement is not drawn yet.
     """
 
     calibrator: HandCalibrator
     measuring: SourceMeasuring
     asks_registration: bool = False
+    rests: Callable[[], bool] = lambda: False
 
 
 class Sources:
@@ -111,14 +113,14 @@ class Sources:
         drawing.start()
         session.start()
 
-        def let_go() -> None:
-            patient.let_go()
-            if not patient.can_move:
-                session.notice(PracticeBeingDrawn())
-
-        return self._live(
-            session, take, set_up, on_recording=let_go, on_chosen=lambda chosen: drawing.choose(chosen.exercise.id)
+        opened = self._live(
+            session,
+            take,
+            set_up,
+            on_recording=patient.let_go,
+            on_chosen=lambda chosen: drawing.choose(chosen.exercise.id),
         )
+        return replace(opened, rests=lambda: not patient.can_move)
 
     def _recording(self, choice: SourceChoice, set_up: SetUp) -> OpenSource:
         told: list[CarpusFault] = []

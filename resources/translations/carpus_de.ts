@@ -6769,15 +6769,15 @@
     </message>
     <message>
         <source>The hand rests until then.</source>
-        <translation>Bis dahin ruht die Hand.</translation>
+        <translation type="vanished">Bis dahin ruht die Hand.</translation>
     </message>
     <message>
         <source>The movement of the simulated hand is still being drawn.</source>
-        <translation>Die Bewegung der simulierten Hand wird noch gezeichnet.</translation>
+        <translation type="vanished">Die Bewegung der simulierten Hand wird noch gezeichnet.</translation>
     </message>
     <message>
         <source>Wait a moment; it moves by itself.</source>
-        <translation>Warten Sie einen Moment; sie bewegt sich von selbst.</translation>
+        <translation type="vanished">Warten Sie einen Moment; sie bewegt sich von selbst.</translation>
     </message>
     <message>
         <source>Names are right</source>
@@ -6877,6 +6877,7 @@
     </message>
     <message>
         <source>not there now</source>
+        <translation type="unfinished">jetzt nicht da</translation>
         <translation>jetzt nicht da</translation>
     </message>
     <message>
@@ -7480,6 +7481,10 @@
     <message>
         <source>{words}, {lost} lost</source>
         <translation>{words}, {lost} verloren</translation>
+    </message>
+    <message>
+        <source>Movement is being drawn</source>
+        <translation>Bewegung wird gezeichnet</translation>
     </message>
     <message>
         <source>{time} of disk left</source>

@@ -6769,15 +6769,15 @@
     </message>
     <message>
         <source>The hand rests until then.</source>
-        <translation>Fino ad allora la mano riposa.</translation>
+        <translation type="vanished">Fino ad allora la mano riposa.</translation>
     </message>
     <message>
         <source>The movement of the simulated hand is still being drawn.</source>
-        <translation>Il movimento della mano simulata viene ancora disegnato.</translation>
+        <translation type="vanished">Il movimento della mano simulata viene ancora disegnato.</translation>
     </message>
     <message>
         <source>Wait a moment; it moves by itself.</source>
-        <translation>Attendere un momento; si muove da sola.</translation>
+        <translation type="vanished">Attendere un momento; si muove da sola.</translation>
     </message>
     <message>
         <source>Names are right</source>
@@ -6881,6 +6881,7 @@
     </message>
     <message>
         <source>not there now</source>
+        <translation type="unfinished">ora non c’è</translation>
         <translation>ora non c’è</translation>
     </message>
     <message>
@@ -7480,6 +7481,10 @@
     <message>
         <source>{words}, {lost} lost</source>
         <translation>{words}, {lost} perse</translation>
+    </message>
+    <message>
+        <source>Movement is being drawn</source>
+        <translation>Movimento in disegno</translation>
     </message>
     <message>
         <source>{time} of disk left</source>

@@ -129,6 +129,12 @@ def test_the_whole_journey_by_mouse(
     click(qtbot, journey.markers.primary)
     at(qtbot, desktop, "live")
     assert desktop.shell.sign.text == f"Simulated hand: this is not {name}, and does not count."
+    source = journey.now.source
+    assert source is not None
+    journey.now.source = replace(source, rests=lambda: True)
+    wait(qtbot, lambda: "drawn" in desktop.shell.bar.camera.text())
+    assert not journey.teller.busy, "a card would take Space from the recording"
+    journey.now.source = source
     click(qtbot, journey.live.main)
     wait(qtbot, lambda: journey.live.recording_state == "recording")
     wait(qtbot, lambda: desktop.shell.bar.pill.state == "recording")

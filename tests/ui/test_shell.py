@@ -229,6 +229,7 @@ def test_a_report_is_saved_in_the_background_and_replaces_only_when_asked(
         screen.save(str(tmp_path / "one"))
     path = Path(saved.args[0])
     assert path.name == "one.pdf"
+    assert screen.focusWidget() is screen.save_button, "Enter after saving does not print"
     assert path.read_bytes().startswith(b"%PDF")
     with qtbot.waitSignal(screen.told):
         screen.save(str(path))

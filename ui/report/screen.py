@@ -186,19 +186,26 @@ class ReportScreen(QWidget):
         if report is None:
             return
         target = Path(path if path.lower().endswith(".pdf") else f"{path}.pdf")
+        if self.window().focusWidget() is self.save_button:
+            self.setFocus(Qt.FocusReason.OtherFocusReason)  # a button that goes grey hands it to the next one: Print
         self.save_button.setEnabled(False)
         write: Callable[[], Path] = lambda: _written(report, target, replace_asked)  # noqa: E731
         self._background.run(write, lambda done: self._done(str(done)), self._failed, self)
 
     def _done(self, path: str) -> None:
-        self.save_button.setEnabled(True)
+        self._save_again()
         self._saved_path = path
         self._show_state("good", self.tr("Saved"), path)
         self.saved.emit(path)
 
     def _failed(self, fault: Exception) -> None:
-        self.save_button.setEnabled(True)
+        self._save_again()
         self.told.emit(fault)
+
+    def _save_again(self) -> None:
+        self.save_button.setEnabled(True)
+        if self.window().focusWidget() is self:
+            self.save_button.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _open(self) -> None:
         QDesktopServices.openUrl(QUrl.fromLocalFile(self._saved_path))
