@@ -44,7 +44,8 @@ class PatientShelf:
         row = _row(record)
         entries = self._library.sessions(patient_id)
         if not entries:
-            return PatientCard(row)
+            archived = any(one.patient_id == patient_id for one in Records(self._library).archived())
+            return PatientCard(row, has_sessions=archived)  # the way to the archive is the list of sessions
         picture = self._library.marker_picture(patient_id)
         real = [entry for entry in entries if not entry.simulated]
         if not real and patient_id != PRACTICE_PATIENT:

@@ -6877,7 +6877,6 @@
     </message>
     <message>
         <source>not there now</source>
-        <translation type="unfinished">jetzt nicht da</translation>
         <translation>jetzt nicht da</translation>
     </message>
     <message>

@@ -6881,7 +6881,6 @@
     </message>
     <message>
         <source>not there now</source>
-        <translation type="unfinished">ora non c’è</translation>
         <translation>ora non c’è</translation>
     </message>
     <message>

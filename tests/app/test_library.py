@@ -197,8 +197,12 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
     assert [line.session_id for line in stored.lines(heron)] == [one]
     library.recover()
     assert [line.session_id for line in stored.lines(heron)] == [one], "the files do not undo it"
+    records, cards = Records(library), PatientShelf(library)
+    records.archive_session(one)
+    assert stored.lines(heron) == []
+    assert cards.card(heron).has_sessions, "its list of sessions is the way to the archive"
+    records.bring_back(one)
     path.with_suffix(".markers.jpg").write_bytes(b"x")
-    records = Records(library)
     plan = records.plan_session(one)
     assert {file.name for file in plan.files} == {
         path.name, path.with_suffix(".markers.jpg").name,
