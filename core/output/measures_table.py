@@ -70,7 +70,7 @@ MEASURE_COLUMNS = {
     "mean sd best measurement_sd": "in the unit of the row; sd between repetitions, measurement_sd of one value",
     "count": "how many are in the mean",
     "at_least": "yes where the camera's view limits it: a lower bound",
-    "seen_share": "share of the frames in which it was seen",
+    "seen_share": "share of the frames in which it was seen, of joints; empty for the wrist",
     "inferred": "yes where an end joint that no disc measures is part of it",
     "camera_not_sure": "lengths, angles or both where a check of the camera near the session was out",
 }
@@ -145,10 +145,12 @@ def _rows(figures: SessionFigures, session: str) -> Iterator[MeasureRow]:
             *common, f"share of the usual TAM{f', {grade.grade}' if grade.grade else ''}", f"TAM{grade.finger}",
             "share", grade.share, math.nan, math.nan, math.nan, 1, grade.grade is None, math.nan, False,
         )  # fmt: skip
+    exercise = figures.exercise
+    name = exercise.joint or ("" if exercise.angle is None else WRIST_ANGLES[exercise.angle])
     for measure, unit, spread in trained:
         if spread.count:
             yield MeasureRow(
-                *common, measure, "trained angle", unit, spread.mean, spread.sd, spread.best, spread.measurement_sd,
+                *common, measure, name, unit, spread.mean, spread.sd, spread.best, spread.measurement_sd,
                 spread.count,
                 False, math.nan, False,
             )  # fmt: skip

@@ -35,6 +35,7 @@ def test_reach_and_grasp_has_its_time_speed_path_and_aperture_and_speaks_of_no_f
     assert not any(row.joint.startswith("TAM") for row in figures.joint_rows)
     assert "TAM" not in method(figures, 21, compared=False)
     assert {row.measure for row in measure_rows(figures, "s")} >= {"straightness", "largest aperture", "movement time"}
+    assert "trained angle" not in {row.of for row in measure_rows(figures, "s")}, "by its name, as in every table"
 
 
 def test_thumb_opposition_counts_touches_and_measures_the_thumb_s_own_way() -> None:
