@@ -28,6 +28,7 @@ def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path, url: str) -> No
         house.log.who = lambda: "AB"
         house.log.note("opened", "session", "0" * 32)
         house.log.note("erased", "patient", "1" * 32, files=3)
+        settled(house)
         before = read_log(house.store)
         mine = {"id": house.store.rows(select(DEED.c.id))[0].id, "at": "", "at_ns": 0, "facts": "{}"}
         again = insert(DEED).prefix_with("OR REPLACE").values(mine)
