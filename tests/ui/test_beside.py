@@ -43,8 +43,9 @@ def test_the_sentence_names_the_hand_that_moves_less(right: SessionFigures, left
     assert words["Extension"] == "less than the left, just beyond error"
     assert words["Peak speed"] == words["Side movement"] == "not judged: no error limit is known"
     assert facts_words(both) == (
-        "same exercise, same day, same set-up; Right: mean of 8 repetitions; number 7 left out: pain; "
-        "Left: mean of 9 repetitions"
+        "same exercise, same day, same set-up; "
+        "Right: mean of 8 repetitions; number 7 left out: pain; number 10 left out: the recording ended in it; "
+        "Left: mean of 9 repetitions; number 10 left out: the recording ended in it"
     )
 
 

@@ -52,7 +52,7 @@ STATES = (
     "report_own", "report_letter", "letter_sheet",
     "patient_view", "patient_view_goal", "patient_view_child", "patient_view_lost", "patient_view_rest",
     "exercise_sets", "exercise_goals", "live_large",
-    "settings", "settings_safe", "locked", "pin_change", "records_due", "records_log", "help",
+    "settings", "settings_safe", "settings_research", "locked", "pin_change", "records_due", "records_log", "help",
     "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",
     "markers_guided", "markers_ready_guided", "live_guided", "live_hand_guided", "review_guided", "report_guided",
     "board", "board_showing", "board_result", "board_poor", "card", "card_out", "card_none", "card_measuring",
