@@ -73,6 +73,7 @@ NO_CHOICE = {
         "detection/detector._SIMILARITY_BINS",
         "detection/stencil.WEDGES",
         "hand/back_surface.TABLE_ROWS",
+        "tracking/settings._LIMITS",
     },
     "axes and signs": {
         "calibration/calibrate._TOWARDS_CAMERA",

@@ -115,6 +115,7 @@ def test_the_folder_of_packages_is_what_apt_and_the_program_read(release: Module
     for version in ("1.2.0", "1.10.0~rc1"):
         root = tmp_path / version
         (root / "DEBIAN").mkdir(parents=True)
+        (root / "DEBIAN").chmod(0o755)  # dpkg-deb asks for it, and the umask may be the program's
         control = f"Package: carpus\nVersion: {version}\nArchitecture: all\nMaintainer: A <a@b>\nDescription: it\n"
         (root / "DEBIAN" / "control").write_text(control)
         packages.append(tmp_path / f"carpus_{version}_all.deb")

@@ -33,11 +33,11 @@ def data_folder(folder: Path) -> Path:
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    """Every file but the store, whose pages may be laid otherwise."""
+    """Every file but the store, whose pages may be laid otherwise, and its lock, which no back-up takes."""
     return {
         path.relative_to(folder).as_posix(): path.read_bytes()
         for path in folder.rglob("*")
-        if path.is_file() and ".sqlite3" not in path.name
+        if path.is_file() and ".sqlite3" not in path.name and path.suffix != ".lock"
     }
 
 
