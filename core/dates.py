@@ -1,8 +1,8 @@
-"""Moments of the day as they are stored: ISO 8601 with a zone."""
+"""Days and moments as they are stored: ISO 8601, moments with a zone."""
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
+from datetime import UTC, date, datetime
 
 _EARLIEST = datetime(2000, 1, 1, tzinfo=UTC)
 """No depth camera is older: an earlier time counts from when the camera was switched on."""
@@ -22,6 +22,14 @@ def is_moment(text: str) -> bool:
         return datetime.fromisoformat(text).utcoffset() is not None
     except ValueError:
         return False
+
+
+def day_of(text: str) -> date | None:
+    """The day that a text names, None for one that is none."""
+    try:
+        return date.fromisoformat(text)
+    except ValueError:
+        return None
 
 
 def iso(moment: datetime) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from datetime import date, datetime
 
 from PySide6.QtCore import QDate
@@ -162,6 +163,34 @@ def days_ago(when: date | datetime, today: date) -> str:
     if days < 0:
         return ""
     return {0: tr("today"), 1: tr("yesterday")}.get(days, tr("{days} days ago").format(days=days))
+
+
+def weeks_since(day: date, today: date) -> str:
+    """``13 weeks``, of less than one ``5 days``; empty for the future."""
+    days = (today - day).days
+    if days < 0:
+        return ""
+    weeks = days // 7
+    if weeks:
+        return tr("1 week") if weeks == 1 else tr("{count} weeks").format(count=weeks)
+    return tr("1 day") if days == 1 else tr("{count} days").format(count=days)
+
+
+def day_typed(text: str) -> date | None:
+    """A day as people type one, day before month: ``21.8.2026``, ``21/8/26``, ``2026-08-21``, or as Carpus writes it.
+
+    >>> day_typed("21.8.26"), day_typed("2026-08-21"), day_typed("31.2.2026"), day_typed("soon")
+    (datetime.date(2026, 8, 21), datetime.date(2026, 8, 21), None, None)
+    """
+    parts = [int(part) for part in re.split(r"[\s./-]+", text.strip().strip(".")) if part.isdecimal()]
+    if len(parts) == 3:
+        day, month, year = parts if parts[0] < 100 else reversed(parts)
+        try:
+            return date(year + 2000 if year < 100 else year, month, day)
+        except ValueError:
+            return None
+    typed = language.locale().toDate(text.strip(), day_format())
+    return date(typed.year(), typed.month(), typed.day()) if typed.isValid() else None
 
 
 def ordinal(number: int) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from datetime import datetime
+from datetime import date, datetime
 from typing import Literal, Protocol
 
 from carpus.core.by_hand.values import HandValue
@@ -18,26 +18,13 @@ from carpus.core.library.set_up import SetUp
 from carpus.core.output.camera_said import CameraSaid
 from carpus.core.output.report_content import RepetitionChoices, SessionFigures
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
+from carpus.core.records.values import AffectedSide, Dominance, Onset, PatientEntry
 from carpus.core.session.values import AngleOrder, Session
 from carpus.core.spot_answer import SpotAnswer
 from carpus.core.types import ByteImage, FloatArray, Frame, Side, TrackedFrame
 
-AffectedSide = Literal["right", "left", "both"]
-Dominance = Literal["right", "left", "both", "unknown"]
-
 
 # --- patients ---------------------------------------------------------------------------------------------
-@dataclass(frozen=True, slots=True)
-class PatientEntry:
-    """What a person types about a patient. ``name`` is optional and never leaves the register."""
-
-    pseudonym: str
-    side: AffectedSide
-    dominance: Dominance
-    note: str = ""
-    name: str = ""
-
-
 @dataclass(frozen=True, slots=True)
 class PatientRow:
     """One row of the list. ``name`` is searched and shown only on request."""
@@ -51,6 +38,10 @@ class PatientRow:
     session_count: int = 0
     note: str = ""
     name: str = ""
+    diagnosis: str = ""
+    onset: Onset = ""
+    onset_day: date | None = None
+    """Of the operation or injury, as in :class:`core.records.values.PatientEntry`."""
     result_count: int = 0
     """Results of all recordings; more than ``session_count`` where one was tracked again: it counts once."""
 
@@ -186,6 +177,14 @@ class PatientStore(Protocol):
         ...
 
     def change(self, patient_id: str, entry: PatientEntry) -> None: ...
+
+    def diagnoses(self) -> Sequence[str]:
+        """The clinic's own list, those of most patients first."""
+        ...
+
+    def list_diagnosis(self, words: str, *, listed: bool) -> None:
+        """Take one into the list, or out of it."""
+        ...
 
 
 # --- measuring --------------------------------------------------------------------------------------------

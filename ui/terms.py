@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from datetime import date
 
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.output.exercises import SIDES
@@ -41,6 +42,14 @@ def protocol_name(protocol: MarkerProtocol) -> str:
     if protocol.has_fingers:
         return tr("Some fingers · {count} markers").format(count=count)
     return tr("Wrist · {count} markers").format(count=count)
+
+
+def onset_words(onset: str, day: date | None) -> str:
+    """``operated on 21 Aug 2026``; empty without a day."""
+    if day is None:
+        return ""
+    pattern = tr("operated on {day}") if onset == "operation" else tr("injured on {day}")
+    return pattern.format(day=numbers.day_of_year(day))
 
 
 def exercise_instruction(exercise_id: str) -> str:

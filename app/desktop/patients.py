@@ -10,9 +10,9 @@ from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.output.report_content import SessionFigures, compare, compare_rows, unfair_reasons
-from carpus.core.records import values
-from carpus.core.records.values import PatientRecord
-from carpus.ui.ports import MOST_ROWS, PatientCard, PatientEntry, PatientRow, ResultLine, SessionRow
+from carpus.core.records import of_clinic
+from carpus.core.records.values import PatientEntry, PatientRecord
+from carpus.ui.ports import MOST_ROWS, PatientCard, PatientRow, ResultLine, SessionRow
 from carpus.ui.report.further_rows import main_words
 from carpus.ui.report.hand_rows import compared_figures
 from carpus.ui.report.tables import repetition_words
@@ -75,25 +75,24 @@ class PatientShelf:
 
     def add(self, entry: PatientEntry) -> str:
         """Enter a new patient."""
-        patient_id = self._library.patients.add(
-            values.PatientEntry(entry.pseudonym, entry.side, entry.dominance, note=entry.note, name=entry.name)
-        )
+        patient_id = self._library.patients.add(entry)
         self._library.note_patient("added", patient_id)
         return patient_id
 
     def change(self, patient_id: str, entry: PatientEntry) -> None:
         """Change what a person wrote; what the form does not show stays."""
         record = self._library.patients.one(patient_id)
-        new = replace(
-            record.entry,
-            pseudonym=entry.pseudonym,
-            side=entry.side,
-            dominance=entry.dominance,
-            note=entry.note,
-            name=entry.name,
-        )
+        new = replace(entry, age_band=record.entry.age_band)
         self._library.patients.change(patient_id, new, self._shown.pop(patient_id, record.version))
         self._library.note_patient("changed", patient_id)
+
+    def diagnoses(self) -> Sequence[str]:
+        """The clinic's own list."""
+        return of_clinic.diagnoses(self._library.store)
+
+    def list_diagnosis(self, words: str, *, listed: bool) -> None:
+        """Take one into the list, or out of it."""
+        of_clinic.list_diagnosis(self._library.store, words, listed=listed)
 
     def _first_alike(self, patient_id: str, last: SessionFigures) -> SessionFigures | None:
         """The first session of the same hand and exercise that the progress compares with; no more are read."""
@@ -112,17 +111,10 @@ class PatientShelf:
 def _row(record: PatientRecord) -> PatientRow:
     entry = record.entry
     return PatientRow(
-        record.patient_id,
-        entry.pseudonym,
-        entry.side,
-        entry.dominance,
-        record.last_exercise,
-        record.last_session,
-        record.session_count,
-        entry.note,
-        entry.name,
+        record.patient_id, entry.pseudonym, entry.side, entry.dominance, record.last_exercise, record.last_session,
+        record.session_count, entry.note, entry.name, entry.diagnosis, entry.onset, entry.onset_day,
         record.result_count,
-    )
+    )  # fmt: skip
 
 
 def _joint_results(first: SessionFigures | None, last: SessionFigures) -> Sequence[ResultLine]:

@@ -153,6 +153,7 @@ class Printing(QObject):
                 comment=stored.comment(session_id),
                 form=self._forms.form,
             )
+            report = replace(report, diagnosis=row.diagnosis, onset=row.onset, onset_day=row.onset_day)
             return report if self._research else replace(report, motion=None)
 
         def show(report: SessionReport) -> None:

@@ -11,9 +11,11 @@ PAPER_PT: dict[Paper, tuple[float, float]] = {"a4": (595.28, 841.89), "letter": 
 """Width and height in points."""
 LETTER_COUNTRIES = ("US", "CA")
 """Where Letter is the usual paper."""
-SECTIONS = ("table", "curves", "bars", "quality", "speed", "by_hand", "motion")
+SECTIONS = ("diagnosis", "table", "curves", "bars", "quality", "speed", "by_hand", "motion")
 """Parts of a session's report that may be left out. Who and when, the sentences, warnings, method, legal sentence and
 origin always stay; so does ``quality`` where something is not as it should be."""
+UNASKED_OUT = frozenset({"diagnosis"})
+"""Left out until the clinic wants it."""
 MOST_SENTENCES = 60
 MOST_NAME, MOST_ADDRESS_LINES, MOST_ADDRESS = 60, 4, 80
 
@@ -39,7 +41,7 @@ class ReportForm:
 
     letterhead: Letterhead = field(default_factory=Letterhead)
     paper: Paper = "a4"
-    left_out: frozenset[str] = frozenset()
+    left_out: frozenset[str] = UNASKED_OUT
     sentences: tuple[str, ...] = ()
 
     def has(self, section: str) -> bool:
@@ -57,4 +59,4 @@ def usual_paper(country: str) -> Paper:
 
 
 USUAL_FORM = ReportForm()
-"""No letterhead, A4, everything."""
+"""No letterhead, A4, everything but the diagnosis."""

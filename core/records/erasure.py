@@ -27,7 +27,7 @@ from carpus.core.records.log import Kind, Log
 from carpus.core.records.of_clinic import PLACE
 from carpus.core.records.of_sessions import MadeFile, made_from
 from carpus.core.records.patients import Patients
-from carpus.core.records.schema import OWN, PATIENT, RECIPIENT, SEEN, SESSION, SHARED
+from carpus.core.records.schema import DIAGNOSIS, OWN, PATIENT, RECIPIENT, SEEN, SESSION, SHARED
 from carpus.core.records.session_list import FilesOfSessions, SessionList, file_name, trials_of
 from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry
@@ -162,9 +162,9 @@ def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]
         *(delete(SEEN).where(SEEN.c.path == path) for path in [*paths, *(str(row.path) for row in rows)]),
         *(delete(SEEN).where(SEEN.c.reason.endswith(str(row.path), autoescape=True)) for row in rows),
     )
-    letters = _letters_to(store, names)
-    store.forget_waiting([*patients, *sessions, *(row.id for row in letters)])
-    change = [*(dropped(SESSION, one) for one in sessions), *(dropped(PATIENT, one) for one in patients), *letters]
+    naming = _naming(store, names)
+    store.forget_waiting([*patients, *sessions, *(row.id for row in naming)])
+    change = [*(dropped(SESSION, one) for one in sessions), *(dropped(PATIENT, one) for one in patients), *naming]
     if gone_there is None:
         store.do(change)
     else:
@@ -172,10 +172,13 @@ def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]
     return [] if store.leave_no_trace() else [store.folder / f"{STORE_FILE}-wal"]
 
 
-def _letters_to(store: Store, names: Sequence[str]) -> list[Row]:
-    """Letters that went to the patient, or about the patient, named no other."""
-    addresses = store.rows(select(RECIPIENT)) if names else ()
-    return [dropped(RECIPIENT, row.id) for row in addresses if any(name in folded(row.address) for name in names)]
+def _naming(store: Store, names: Sequence[str]) -> list[Row]:
+    """What belongs to the clinic and names one of these: an address of letters, a diagnosis of the clinic's list."""
+    found = []
+    for column in (RECIPIENT.c.address, DIAGNOSIS.c.words) if names else ():
+        rows = store.rows(select(column.table.c.id, column.label("said")))
+        found += [dropped(column.table, row.id) for row in rows if any(name in folded(row.said) for name in names)]
+    return found
 
 
 def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> set[Path]:

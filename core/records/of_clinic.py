@@ -1,17 +1,19 @@
-"""What belongs to the clinic and to no patient: to whom letters are written, the back-ups that were made, and where on
-this computer things were last opened and saved."""
+"""What belongs to the clinic and to no patient: to whom letters are written, the diagnoses to choose from, the back-ups
+that were made, and where on this computer things were last opened and saved."""
 
 from __future__ import annotations
 
 import time
 import uuid
+from collections import Counter
 from dataclasses import dataclass
 from datetime import datetime
 
 from sqlalchemy import delete, insert, select
 
-from carpus.core.records.changes import kept, new
-from carpus.core.records.schema import BACKUP, OWN, RECIPIENT, SESSION
+from carpus.core.names import folded
+from carpus.core.records.changes import dropped, kept, new
+from carpus.core.records.schema import BACKUP, DIAGNOSIS, OWN, PATIENT, RECIPIENT, SESSION
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import moment
 
@@ -30,6 +32,22 @@ def remember_recipient(store: Store, address: str) -> None:
     """Take down an address."""
     row_id = uuid.uuid5(uuid.NAMESPACE_OID, address).hex
     store.do([kept(RECIPIENT, row_id, address=address, used_s=time.time())])
+
+
+def diagnoses(store: Store) -> list[str]:
+    """The clinic's own list of diagnoses and operations, those of most patients first."""
+    had = Counter(folded(row.diagnosis) for row in store.rows(select(PATIENT.c.diagnosis)))
+    listed = {folded(row.words): str(row.words) for row in store.rows(select(DIAGNOSIS.c.words))}
+    return [words for _, words in sorted(listed.items(), key=lambda one: (-had[one[0]], one[0]))]
+
+
+def list_diagnosis(store: Store, words: str, *, listed: bool) -> None:
+    """Take a diagnosis into the clinic's list, or out of it; a patient who has it keeps it."""
+    same = [row.id for row in store.rows(select(DIAGNOSIS)) if folded(row.words) == folded(words)]
+    if listed and not same:
+        store.do([new(DIAGNOSIS, new_id(), words=words)])
+    elif same and not listed:
+        store.do([dropped(DIAGNOSIS, one) for one in same])
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from typing import Any
 
 from sqlalchemy import ColumnElement, Row, func, select
 
+from carpus.core.dates import day_of
 from carpus.core.names import folded
 from carpus.core.records.changes import PRACTICE, changed, new
 from carpus.core.records.pseudonyms import suggest_pseudonym
@@ -17,6 +18,7 @@ from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import (
     AGE_BANDS,
     DOMINANCES,
+    ONSETS,
     SIDES,
     PatientEntry,
     PatientRecord,
@@ -32,7 +34,8 @@ class Patients:
         self._store = store
 
     def listed(self, search: str = "", *, archived: bool = False, most: int | None = None) -> list[PatientRecord]:
-        """Patients whose pseudonym, name or note holds every word of ``search``; last session first, ``most`` of them.
+        """Patients whose pseudonym, name, diagnosis or note holds every word of ``search``; last session first,
+        ``most`` of them.
 
         Without those in the archive, unless ``archived``, and without archived sessions in the counts.
         """
@@ -115,7 +118,9 @@ def columns(entry: PatientEntry) -> dict[str, Any]:
     return {
         "pseudonym": own.pseudonym, "name": own.name, "side": own.side, "dominance": own.dominance,
         "age_band": own.age_band, "note": own.note, "folded": folded(own.pseudonym),
-        "search": folded(f"{own.pseudonym} {own.name} {own.note}"),
+        "diagnosis": own.diagnosis, "onset": own.onset,
+        "onset_day": own.onset_day.isoformat() if own.onset_day is not None else "",
+        "search": folded(f"{own.pseudonym} {own.name} {own.diagnosis} {own.note}"),
     }  # fmt: skip
 
 
@@ -123,6 +128,7 @@ def _record(row: Row[Any]) -> PatientRecord:
     entry = PatientEntry(
         row.pseudonym.strip() or "?", one_of(SIDES, row.side), one_of(DOMINANCES, row.dominance),
         one_of(AGE_BANDS, row.age_band), row.note, row.name,
+        row.diagnosis, one_of(ONSETS, row.onset), day_of(row.onset_day),
     )  # fmt: skip
     last = moment(row.last, row.last_s) if row.last else None
     return PatientRecord(row.id, entry, row.sessions, last, row.last_exercise, row.results, row.version)

@@ -56,12 +56,13 @@ PATIENT = _shared(
     "patient",
     Column("folded", Text, nullable=False, unique=True),
     _texts("pseudonym", "name", "side", "dominance", "age_band", "note", "search", "archived", "last", "last_exercise"),
-    _texts("former"),
+    _texts("former", "diagnosis", "onset", "onset_day"),
     _numbers("sessions", "results", "erasing", "takes_part"),
     _reals("added_s", "last_s"),
 )
 """``folded``: the pseudonym as it is compared. ``former``: earlier ones, each a line, which files may still
-bear. ``archived``: since when, empty in the lists. What is counted, and
+bear. ``onset``: whether ``onset_day`` is of an operation or an injury. ``archived``: since when, empty in the lists.
+What is counted, and
 ``last``, is of recordings that are in the lists and not simulated; it is worked out whenever a session changes."""
 Index("patient_last", PATIENT.c.last_s, PATIENT.c.added_s)
 Index(
@@ -107,6 +108,8 @@ GOAL = _shared(
 EXERCISE_SET = _shared("exercise_set", _texts("name", "discs", "parts"), _numbers("place", "gone"))
 REPORT_FORM = _shared("report_form", _texts("name", "address", "logo", "paper", "left_out", "sentences"))
 RECIPIENT = _shared("recipient", _texts("address"), _reals("used_s"))
+DIAGNOSIS = _shared("diagnosis", _texts("words"))
+"""The clinic's own list, to choose from; what a patient has stands with the patient."""
 MADE = _shared("made", _of("session"), _texts("path", "kind", "content"))
 """Files outside the data folder that were made from a session; ``content`` is not used."""
 BACKUP = _shared("backup", _texts("made", "place"), _numbers("sessions"), Column("size_bytes", _LONG, nullable=False))
@@ -135,7 +138,8 @@ OWN = _local("own", Column("name", Text, primary_key=True), Column("value", Text
 """Of this computer alone: how far it has read the server, where a person last opened and saved things."""
 
 COPIED = (
-    PATIENT, SESSION, COMMENT, CORRECTION, MEASURED, SET_UP, GOAL, EXERCISE_SET, REPORT_FORM, RECIPIENT, MADE, BACKUP,
+    PATIENT, SESSION, COMMENT, CORRECTION, MEASURED, SET_UP, GOAL, EXERCISE_SET, REPORT_FORM, RECIPIENT, DIAGNOSIS,
+    MADE, BACKUP,
 )  # fmt: skip
 """What every computer has a copy of, in an order in which no row comes before what it belongs to."""
 SHARED = {table.name: table for table in (*COPIED, DEED)}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime
+from datetime import UTC, date, datetime
 from pathlib import Path
 from typing import Literal, TypeVar
 
@@ -16,14 +16,17 @@ from carpus.core.types import Side
 
 AffectedSide = Literal["right", "left", "both"]
 Dominance = Literal["right", "left", "both", "unknown"]
+Onset = Literal["", "operation", "injury"]
 SIDES: tuple[AffectedSide, ...] = ("both", "right", "left")
+ONSETS: tuple[Onset, ...] = ("", "operation", "injury")
 DOMINANCES: tuple[Dominance, ...] = ("unknown", "right", "left", "both")
 AGE_BANDS = ("", "0-9", "10-19", "20-29", "30-39", "40-49", "50-59", "60-69", "70-79", "80 and over")
 
 
 @dataclass(frozen=True, slots=True)
 class PatientEntry:
-    """What a person writes down of a patient. ``name`` is optional and stays in the store."""
+    """What a person writes down of a patient. ``name`` is optional and stays in the store, as the diagnosis does, or
+    the operation, with the day of ``onset``."""
 
     pseudonym: str
     side: AffectedSide
@@ -31,6 +34,9 @@ class PatientEntry:
     age_band: str = ""
     note: str = ""
     name: str = ""
+    diagnosis: str = ""
+    onset: Onset = ""
+    onset_day: date | None = None
 
     def __post_init__(self) -> None:
         if not self.pseudonym.strip():
@@ -40,7 +46,9 @@ class PatientEntry:
 
     def as_kept(self) -> PatientEntry:
         """The same with names as they are kept. Raises :class:`NameUnsuited`."""
-        return replace(self, pseudonym=name_of(self.pseudonym), name=name_of(self.name))
+        return replace(
+            self, pseudonym=name_of(self.pseudonym), name=name_of(self.name), diagnosis=name_of(self.diagnosis)
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -2172,6 +2172,22 @@
         <translation>d. MMM yyyy</translation>
     </message>
     <message>
+        <source>1 week</source>
+        <translation>1 Woche</translation>
+    </message>
+    <message>
+        <source>{count} weeks</source>
+        <translation>{count} Wochen</translation>
+    </message>
+    <message>
+        <source>1 day</source>
+        <translation>1 Tag</translation>
+    </message>
+    <message>
+        <source>{count} days</source>
+        <translation>{count} Tage</translation>
+    </message>
+    <message>
         <source>{number}st</source>
         <translation>{number}.</translation>
     </message>
@@ -2393,7 +2409,7 @@
     </message>
     <message>
         <source>No camera needed</source>
-        <translation>Keine Kamera nötig</translation>
+        <translation type="vanished">Keine Kamera nötig</translation>
     </message>
     <message>
         <source>Simulated camera</source>
@@ -3352,6 +3368,10 @@
         <translation>Marker wurden von Hand berichtigt; das gemessene Ergebnis bleibt erhalten.</translation>
     </message>
     <message>
+        <source>{weeks} before</source>
+        <translation>{weeks} zuvor</translation>
+    </message>
+    <message>
         <source>Range of motion</source>
         <translation>Bewegungsumfang</translation>
     </message>
@@ -4042,6 +4062,14 @@
     <message>
         <source>Wrist · {count} markers</source>
         <translation>Handgelenk · {count} Marker</translation>
+    </message>
+    <message>
+        <source>operated on {day}</source>
+        <translation>operiert am {day}</translation>
+    </message>
+    <message>
+        <source>injured on {day}</source>
+        <translation>verletzt am {day}</translation>
     </message>
     <message>
         <source>Lift the back of the hand up, then let it drop as far as comfortable.</source>
@@ -9166,8 +9194,16 @@ Umschalt+F8 von der Seite</translation>
         <translation>Hand</translation>
     </message>
     <message>
+        <source>Diagnosis or operation</source>
+        <translation>Diagnose oder Operation</translation>
+    </message>
+    <message>
+        <source>Since</source>
+        <translation>Seit</translation>
+    </message>
+    <message>
         <source>Last exercise</source>
-        <translation>Letzte Übung</translation>
+        <translation type="vanished">Letzte Übung</translation>
     </message>
     <message>
         <source>Last session</source>
@@ -10145,6 +10181,22 @@ Umschalt+F8 von der Seite</translation>
         <translation>Unbekannt</translation>
     </message>
     <message>
+        <source>In the clinic’s &amp;list</source>
+        <translation>In der &amp;Liste der Klinik</translation>
+    </message>
+    <message>
+        <source>day month year</source>
+        <translation>Tag Monat Jahr</translation>
+    </message>
+    <message>
+        <source>Operation</source>
+        <translation>Operation</translation>
+    </message>
+    <message>
+        <source>Injury</source>
+        <translation>Verletzung</translation>
+    </message>
+    <message>
         <source>Close without saving</source>
         <translation>Schließen ohne Speichern</translation>
     </message>
@@ -10173,8 +10225,20 @@ Umschalt+F8 von der Seite</translation>
         <translation>Schreibt mit</translation>
     </message>
     <message>
+        <source>&amp;Diagnosis or operation (stays in this list, in no session)</source>
+        <translation>&amp;Diagnose oder Operation (nur in dieser Liste, in keiner Sitzung)</translation>
+    </message>
+    <message>
+        <source>&amp;Since</source>
+        <translation>&amp;Seit</translation>
+    </message>
+    <message>
+        <source>N&amp;ote (no names)</source>
+        <translation>N&amp;otiz (keine Namen)</translation>
+    </message>
+    <message>
         <source>N&amp;ote (no diagnosis, no names)</source>
-        <translation>N&amp;otiz (keine Diagnose, keine Namen)</translation>
+        <translation type="vanished">N&amp;otiz (keine Diagnose, keine Namen)</translation>
     </message>
     <message>
         <source>Archi&amp;ve or delete…</source>
@@ -10203,6 +10267,14 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Which hand writes?</source>
         <translation>Welche Hand schreibt?</translation>
+    </message>
+    <message>
+        <source>Since when? Day, month, year</source>
+        <translation>Seit wann? Tag, Monat, Jahr</translation>
+    </message>
+    <message>
+        <source>Operation or injury?</source>
+        <translation>Operation oder Verletzung?</translation>
     </message>
     <message>
         <source>A name has up to {count} letters: what goes beyond is not taken.</source>
@@ -10239,11 +10311,15 @@ Umschalt+F8 von der Seite</translation>
     <name>PatientsScreen</name>
     <message>
         <source>Name or exercise</source>
-        <translation>Name oder Übung</translation>
+        <translation type="vanished">Name oder Übung</translation>
     </message>
     <message>
         <source>Ctrl+F</source>
         <translation>Strg+F</translation>
+    </message>
+    <message>
+        <source>Name or diagnosis</source>
+        <translation>Name, Diagnose</translation>
     </message>
     <message>
         <source>New patient</source>
@@ -11013,6 +11089,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Parts of the report</source>
         <translation>Teile des Berichts</translation>
+    </message>
+    <message>
+        <source>Diagnosis or operation</source>
+        <translation>Diagnose oder Operation</translation>
     </message>
     <message>
         <source>Table</source>

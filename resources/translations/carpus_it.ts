@@ -2172,6 +2172,22 @@
         <translation>d MMM yyyy</translation>
     </message>
     <message>
+        <source>1 week</source>
+        <translation>1 settimana</translation>
+    </message>
+    <message>
+        <source>{count} weeks</source>
+        <translation>{count} settimane</translation>
+    </message>
+    <message>
+        <source>1 day</source>
+        <translation>1 giorno</translation>
+    </message>
+    <message>
+        <source>{count} days</source>
+        <translation>{count} giorni</translation>
+    </message>
+    <message>
         <source>{number}st</source>
         <translation>{number}ª</translation>
     </message>
@@ -2393,7 +2409,7 @@
     </message>
     <message>
         <source>No camera needed</source>
-        <translation>Nessuna telecamera necessaria</translation>
+        <translation type="vanished">Nessuna telecamera necessaria</translation>
     </message>
     <message>
         <source>Simulated camera</source>
@@ -3352,6 +3368,10 @@
         <translation>I marcatori sono stati corretti a mano; il risultato originale è conservato.</translation>
     </message>
     <message>
+        <source>{weeks} before</source>
+        <translation>{weeks} prima</translation>
+    </message>
+    <message>
         <source>Range of motion</source>
         <translation>Escursione articolare (ROM)</translation>
     </message>
@@ -4042,6 +4062,14 @@
     <message>
         <source>Wrist · {count} markers</source>
         <translation>Polso · {count} marcatori</translation>
+    </message>
+    <message>
+        <source>operated on {day}</source>
+        <translation>operato il {day}</translation>
+    </message>
+    <message>
+        <source>injured on {day}</source>
+        <translation>lesione del {day}</translation>
     </message>
     <message>
         <source>Lift the back of the hand up, then let it drop as far as comfortable.</source>
@@ -9166,8 +9194,16 @@ Maiusc+F8 di lato</translation>
         <translation>Mano</translation>
     </message>
     <message>
+        <source>Diagnosis or operation</source>
+        <translation>Diagnosi o intervento</translation>
+    </message>
+    <message>
+        <source>Since</source>
+        <translation>Da</translation>
+    </message>
+    <message>
         <source>Last exercise</source>
-        <translation>Ultimo esercizio</translation>
+        <translation type="vanished">Ultimo esercizio</translation>
     </message>
     <message>
         <source>Last session</source>
@@ -10145,6 +10181,22 @@ Maiusc+F8 di lato</translation>
         <translation>Non nota</translation>
     </message>
     <message>
+        <source>In the clinic’s &amp;list</source>
+        <translation>Nell’elen&amp;co della clinica</translation>
+    </message>
+    <message>
+        <source>day month year</source>
+        <translation>giorno mese anno</translation>
+    </message>
+    <message>
+        <source>Operation</source>
+        <translation>Intervento</translation>
+    </message>
+    <message>
+        <source>Injury</source>
+        <translation>Lesione</translation>
+    </message>
+    <message>
         <source>Close without saving</source>
         <translation>Chiudi senza salvare</translation>
     </message>
@@ -10173,8 +10225,20 @@ Maiusc+F8 di lato</translation>
         <translation>Scrive con</translation>
     </message>
     <message>
+        <source>&amp;Diagnosis or operation (stays in this list, in no session)</source>
+        <translation>&amp;Diagnosi o intervento (resta in questo elenco, in nessuna seduta)</translation>
+    </message>
+    <message>
+        <source>&amp;Since</source>
+        <translation>Da&amp;l</translation>
+    </message>
+    <message>
+        <source>N&amp;ote (no names)</source>
+        <translation>N&amp;ota (nessun nome)</translation>
+    </message>
+    <message>
         <source>N&amp;ote (no diagnosis, no names)</source>
-        <translation>N&amp;ota (niente diagnosi, niente nomi)</translation>
+        <translation type="vanished">N&amp;ota (niente diagnosi, niente nomi)</translation>
     </message>
     <message>
         <source>Archi&amp;ve or delete…</source>
@@ -10203,6 +10267,14 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Which hand writes?</source>
         <translation>Con quale mano scrive?</translation>
+    </message>
+    <message>
+        <source>Since when? Day, month, year</source>
+        <translation>Da quando? Giorno, mese, anno</translation>
+    </message>
+    <message>
+        <source>Operation or injury?</source>
+        <translation>Intervento o lesione?</translation>
     </message>
     <message>
         <source>A name has up to {count} letters: what goes beyond is not taken.</source>
@@ -10239,11 +10311,15 @@ Maiusc+F8 di lato</translation>
     <name>PatientsScreen</name>
     <message>
         <source>Name or exercise</source>
-        <translation>Nome o esercizio</translation>
+        <translation type="vanished">Nome o esercizio</translation>
     </message>
     <message>
         <source>Ctrl+F</source>
         <translation>Ctrl+F</translation>
+    </message>
+    <message>
+        <source>Name or diagnosis</source>
+        <translation>Nome o diagnosi</translation>
     </message>
     <message>
         <source>New patient</source>
@@ -11013,6 +11089,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Parts of the report</source>
         <translation>Parti della relazione</translation>
+    </message>
+    <message>
+        <source>Diagnosis or operation</source>
+        <translation>Diagnosi o intervento</translation>
     </message>
     <message>
         <source>Table</source>

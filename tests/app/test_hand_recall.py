@@ -14,7 +14,7 @@ from carpus.core.library.library import Library
 from carpus.core.library.set_up import MARKERS_SUFFIX
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import session_figures
-from carpus.ui.ports import PatientEntry
+from carpus.core.records.values import PatientEntry
 from tests.app.test_library import set_up, store
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 

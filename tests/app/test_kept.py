@@ -24,7 +24,7 @@ from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records.log import read_log
 from carpus.core.records.store import Store
-from carpus.ui.ports import PatientEntry
+from carpus.core.records.values import PatientEntry
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces
 
@@ -46,7 +46,7 @@ def deeds(folder: Path) -> list[tuple[str, str, str]]:
 
 def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path: Path) -> None:
     shelf, stored = PatientShelf(library), StoredSessions(library)
-    linden = shelf.add(PatientEntry("Linden 42", "right", "right", "a note", "Erika Mustermann"))
+    linden = shelf.add(PatientEntry("Linden 42", "right", "right", note="a note", name="Erika Mustermann"))
     shelf.change(linden, PatientEntry("Linden 43", "right", "right"))
     session = store(library, set_up(linden, "Linden 43"))
     store(library, set_up(PRACTICE_PATIENT, "Practice patient"))

@@ -23,10 +23,10 @@ from carpus.core.library.records import Records
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.ui.ports import PatientEntry
 from carpus.ui.sessions.listing import remark
 from tests.session.samples import CAMERA, make_calibration, make_frame
 

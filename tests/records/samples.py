@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import UTC, date, datetime
 from pathlib import Path
 
 from sqlalchemy import select
@@ -25,7 +25,10 @@ from tests.session.samples import CAMERA, make_calibration, make_frame
 
 LONG_S = 120.0
 T0 = datetime(2026, 10, 9, 9, 51, tzinfo=UTC)
-LINDEN = PatientEntry("Linden 42", "right", "left", "40-49", "flexor tendon", "Erika Mustermann")
+LINDEN = PatientEntry(
+    "Linden 42", "right", "left", "40-49", "flexor tendon", "Erika Mustermann", "Flexor tendon repair", "operation",
+    date(2026, 8, 21),
+)  # fmt: skip
 HERON = PatientEntry("Heron 17", "left", name="Otto Normal")
 
 

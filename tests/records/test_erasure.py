@@ -107,6 +107,7 @@ def fill(house: House, patient_id: str) -> list[str]:
     house.patients.let_take_part([*house.patients.taking_part(), patient_id])
     of_clinic.keep_place(house.store, entry.pseudonym[:2], f"/papers/{entry.name}")
     of_clinic.remember_recipient(house.store, f"{entry.name}\nOak Street 1")
+    of_clinic.list_diagnosis(house.store, f"as {entry.name}", listed=True)
     house.log.note("opened", "patient", patient_id)
     return sessions
 
@@ -121,7 +122,8 @@ def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) ->
         plan = erasure.plan_patient(house.store, linden)
         assert (plan.sessions, len(plan.files)) == (3, 11)
         erasure.erase(house.store, plan, house.log)
-        assert traces(folder, *NAMES, linden, *sessions) == [], "while it is open: also free pages and journals"
+        words = (*NAMES, LINDEN.diagnosis, LINDEN.diagnosis.casefold(), linden, *sessions)
+        assert traces(folder, *words) == [], "while it is open: also free pages and journals"
         assert house.names() == ["Heron 17"]
         (other,) = house.patients.listed()
         assert (other.entry, other.session_count) == (HERON, 3)
@@ -130,6 +132,7 @@ def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) ->
         ] * 3
         assert of_clinic.last_place(house.store, "He") == f"/papers/{HERON.name}"
         assert of_clinic.recipients(house.store) == [f"{HERON.name}\nOak Street 1"]
+        assert of_clinic.diagnoses(house.store) == [f"as {HERON.name}"], "what names nobody stays"
     assert traces(folder, *NAMES, linden, *sessions) == []
 
 
@@ -456,7 +459,7 @@ def test_an_erasure_goes_on_where_the_share_has_no_other_session(
     with opened(folder, sessions=tmp_path / "share") as house:
         linden = house.patients.add(LINDEN)
         measure(house, linden, T0)
-        monkeypatch.setattr(erasure, "_letters_to", lambda *_: 1 / 0)  # killed once the files are gone
+        monkeypatch.setattr(erasure, "_naming", lambda *_: 1 / 0)  # killed once the files are gone
         with pytest.raises(ZeroDivisionError):
             erase_patient(house, linden)
         monkeypatch.undo()

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from datetime import date, datetime, timedelta
 from pathlib import Path
 
@@ -39,6 +40,7 @@ from carpus.core.records import of_clinic, of_patients, of_sessions, schema
 from carpus.core.records.changes import PRACTICE, new
 from carpus.core.records.database import STORE_FILE, set_aside
 from carpus.core.records.log import read_log
+from carpus.core.records.of_clinic import diagnoses, list_diagnosis
 from carpus.core.records.patients import columns
 from carpus.core.records.pseudonyms import WORDS, suggest_pseudonym
 from carpus.core.records.retention import due
@@ -495,6 +497,23 @@ def test_the_first_version_is_read_and_its_script_is_what_the_tables_say(tmp_pat
     assert schema.VERSION == "1"
     for dialect in ("sqlite", "postgresql"):
         assert (VERSIONS / f"1.{dialect}.sql").read_text(encoding="utf-8") == schema.statements(dialect)
+
+
+def test_a_diagnosis_is_found_and_the_clinics_list_has_the_usual_ones_first(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
+        linden = house.patients.add(LINDEN)
+        house.patients.add(replace(HERON, diagnosis="wrist  sprain", onset="injury"))
+        for words in ("Mallet finger", "Wrist sprain", LINDEN.diagnosis, "wrist sprain"):
+            list_diagnosis(house.store, words, listed=True)
+        assert diagnoses(house.store) == [LINDEN.diagnosis, "Wrist sprain", "Mallet finger"]
+        assert (house.names("tendon repair"), house.names("SPRAIN")) == (["Linden 42"], ["Heron 17"])
+        list_diagnosis(house.store, "mallet FINGER", listed=False)
+        house.patients.change(linden, replace(LINDEN, diagnosis="", onset="", onset_day=None))
+        assert diagnoses(house.store) == ["Wrist sprain", LINDEN.diagnosis], "nobody has it now, and it stays listed"
+        assert house.names("repair") == []
+        house.store.own(update(schema.PATIENT).values(onset="fall", onset_day="soon"))
+        one = house.patients.one(linden).entry
+        assert (one.onset, one.onset_day) == ("", None), "what another program wrote is left out"
 
 
 def test_tracking_a_file_loads_no_database(tmp_path: Path) -> None:

@@ -32,6 +32,7 @@ from carpus.core.output.report_content import (
     session_figures,
 )
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
+from carpus.core.records.values import PatientEntry
 from carpus.core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec
@@ -42,7 +43,6 @@ from carpus.ui.ports import (
     FoundMarker,
     Judged,
     PatientCard,
-    PatientEntry,
     PatientRow,
     ProposedMarker,
     ResultLine,
@@ -397,9 +397,21 @@ def session(
     )
 
 
+WHY = {
+    "Heron 17": ("Flexor tendon repair", 7), "Quartz 08": ("Wrist sprain", 5),
+    "Maple 63": ("Thumb base joint replaced", 9), "Otter 29": ("Rheumatoid arthritis", 0),
+    "Linden 42": ("Wrist fracture, plate", 13), "Juniper 31": ("Forearm fracture, plate", 22),
+}  # fmt: skip
+
+
 def _rows() -> list[PatientRow]:
     def row(key: str, name: str, side: str, exercise: str, days: int, count: int) -> PatientRow:
-        return PatientRow(key, name, side, "right", exercise, NOW - timedelta(days=days), count)  # type: ignore[arg-type]
+        why, since = WHY.get(name, ("", 0))
+        day = (NOW - timedelta(weeks=since)).date() if since else None
+        return PatientRow(
+            key, name, side, "right", exercise, NOW - timedelta(days=days), count,  # type: ignore[arg-type]
+            diagnosis=why, onset="operation" if since else "", onset_day=day,
+        )  # fmt: skip
 
     return [
         row("heron", "Heron 17", "left", "FOREARM_PS", 1, 3),
@@ -419,6 +431,7 @@ class FakeStore:
         self.rows = list(_rows() if rows is None else rows)
         self.added: list[PatientEntry] = []
         self.in_archive: list[str] = []
+        self.listed = ["Wrist fracture, plate", "Wrist fracture, cast", "Flexor tendon repair"]
 
     def patients(self, search: str = "") -> list[PatientRow]:
         words = search.casefold().split()
@@ -447,15 +460,33 @@ class FakeStore:
         self.added.append(entry)
         key = f"new-{len(self.added)}"
         self.rows.insert(
-            0, PatientRow(key, entry.pseudonym, entry.side, entry.dominance, note=entry.note, name=entry.name)
+            0,
+            PatientRow(
+                key,
+                entry.pseudonym,
+                entry.side,
+                entry.dominance,
+                note=entry.note,
+                name=entry.name,
+                diagnosis=entry.diagnosis,
+                onset=entry.onset,
+                onset_day=entry.onset_day,
+            ),
         )
         return key
 
     def change(self, patient_id: str, entry: PatientEntry) -> None:
         place = next(k for k, row in enumerate(self.rows) if row.patient_id == patient_id)
         self.rows[place] = replace(
-            self.rows[place], pseudonym=entry.pseudonym, side=entry.side, dominance=entry.dominance
-        )
+            self.rows[place], pseudonym=entry.pseudonym, side=entry.side, dominance=entry.dominance,
+            diagnosis=entry.diagnosis, onset=entry.onset, onset_day=entry.onset_day,
+        )  # fmt: skip
+
+    def diagnoses(self) -> list[str]:
+        return list(self.listed)
+
+    def list_diagnosis(self, words: str, *, listed: bool) -> None:
+        self.listed = [*(one for one in self.listed if one != words), *([words] if listed else [])]
 
 
 class FakeCalibrator:

@@ -10,6 +10,7 @@ import ast
 import importlib
 import pkgutil
 from collections.abc import Callable, Iterator
+from datetime import date
 from pathlib import Path
 
 import numpy as np
@@ -46,6 +47,7 @@ from carpus.ui.review.reason import ReasonSheet
 from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
 from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.theme import Theme
+from tests.ui.fakes import FakeStore
 from tests.ui.gallery import ERASED_SESSION
 
 FIELDS = (QLineEdit, QPlainTextEdit, QComboBox, QSpinBox)
@@ -63,7 +65,7 @@ def _opened(kind: Callable[..., Sheet], answer: str, *begin: object, **named: ob
 
 
 def _patient(host: QWidget, theme: Theme) -> Opened:
-    sheet = PatientForm(host, theme, lambda: "Alder 51")
+    sheet = PatientForm(host, theme, FakeStore(), date.today)
     sheet.begin(None, frozenset())
     for choices in (sheet.side, sheet.dominance):
         choices.buttons()[0].click()

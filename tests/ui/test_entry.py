@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from datetime import date
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
+from carpus.core.records.values import PatientEntry
 from carpus.ui.patients.entry import MOST_LETTERS, PatientForm
-from carpus.ui.ports import PatientEntry
 from carpus.ui.theme import Theme
+from tests.ui.fakes import FakeStore
+
+TODAY = date(2026, 11, 20)
 
 
 @pytest.mark.parametrize("letters", [5, MOST_LETTERS, 3 * MOST_LETTERS])
@@ -18,7 +23,7 @@ def test_a_name_is_kept_whole_however_long_it_is(qtbot: QtBot, theme: Theme, let
     qtbot.addWidget(host)
     host.resize(1280, 800)
     host.show()
-    form = PatientForm(host, theme, lambda: "Fir 12")
+    form = PatientForm(host, theme, FakeStore(), lambda: TODAY)
     given: list[PatientEntry] = []
     form.accepted.connect(given.append)
     form.begin(PatientEntry("n" * letters, "left", "right"), frozenset())
@@ -34,7 +39,7 @@ def test_no_hand_is_chosen_by_itself(qtbot: QtBot, theme: Theme) -> None:
     host = QWidget()
     qtbot.addWidget(host)
     host.show()
-    form = PatientForm(host, theme, lambda: "Fir 12")
+    form = PatientForm(host, theme, FakeStore(), lambda: TODAY)
     given: list[PatientEntry] = []
     form.accepted.connect(given.append)
     form.begin(None, frozenset())
@@ -45,3 +50,36 @@ def test_no_hand_is_chosen_by_itself(qtbot: QtBot, theme: Theme) -> None:
     form.dominance.buttons()[2].click()
     qtbot.keyClick(form.name, Qt.Key.Key_Return)
     assert [(one.side, one.dominance) for one in given] == [("left", "unknown")]
+
+
+def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(qtbot: QtBot, theme: Theme) -> None:
+    host = QWidget()
+    qtbot.addWidget(host)
+    host.resize(1280, 800)
+    host.show()
+    store = FakeStore()
+    form = PatientForm(host, theme, store, lambda: TODAY)
+    given: list[PatientEntry] = []
+    form.accepted.connect(given.append)
+    form.begin(PatientEntry("Fir 12", "left", "right"), frozenset())
+    assert (form.listed.isVisible(), form.save.isEnabled()) == (False, True), "nobody must say why a patient comes"
+    qtbot.keyClicks(form.diagnosis, "Mallet  finger")
+    assert not form.listed.isChecked()
+    form.listed.click()
+    assert store.listed[-1] == "Mallet finger"
+    form.listed.click()
+    assert (form.listed.isChecked(), "Mallet finger" in store.listed) == (False, False)
+    for typed, asked in (("21.8.", "Since"), ("20.12.2026", "Since"), ("21.8.2026", "Operation or injury?")):
+        form.onset_day.setText(typed)
+        assert form.save.text().startswith(asked), typed
+        assert not form.save.isEnabled()
+    form.onset.buttons()[1].click()
+    assert form.since.text() == "13 weeks"
+    form.save.click()
+    assert given == [
+        PatientEntry("Fir 12", "left", "right", diagnosis="Mallet finger", onset="injury", onset_day=date(2026, 8, 21))
+    ]
+    form.begin(given[0], frozenset())
+    form.onset_day.clear()
+    form.save.click()
+    assert (given[1].onset, given[1].onset_day) == ("injury", None), "no date, no weeks"

@@ -108,7 +108,7 @@ def test_a_session_of_a_camera_that_was_out_says_so_everywhere(
 @pytest.mark.parametrize("earlier", [0, 1, 3])
 def test_the_card_says_that_a_recording_counts_once_where_one_was_tracked_again(theme: Theme, earlier: int) -> None:
     row = replace(FakeStore().rows[5], session_count=6, result_count=6 + earlier)
-    card = PatientCardView(theme)
+    card = PatientCardView(theme, NOW.date)
     card.show_card(PatientCard(row, has_sessions=True), camera_ready=True)
     assert (ONCE in said(card)) is (earlier > 0)
     if earlier:
@@ -178,7 +178,7 @@ def test_a_side_that_was_not_reached_lacks_something_wherever_it_is_shown(theme:
     assert before_after(item).count("lacks") == 2
     panel = next(panel for panel, key in place_panels(course, screen_style(theme), BOX, None) if key[1] == "extension")
     assert panel.scale.low < item.before_deg + 5.0
-    card = PatientCardView(theme)
+    card = PatientCardView(theme, NOW.date)
     line = ResultLine("extension", -20.0, 1.0, math.nan, "not_judged")
     card.show_card(PatientCard(FakeStore().rows[5], (line,), has_sessions=True), camera_ready=True)
     assert "lacks 20°" in said(card)

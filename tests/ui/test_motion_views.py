@@ -201,7 +201,7 @@ def test_the_list_of_sessions_says_of_a_reach_what_it_is_about() -> None:
 
 
 def test_the_card_says_of_a_reach_what_it_is_about(theme: Theme) -> None:
-    card = PatientCardView(theme)
+    card = PatientCardView(theme, NOW.date)
     row = FakeStore().rows[0]
     said = main_words(session_figures(hand_session(exercise="REACH_GRASP", motion="reach_grasp")))
     card.show_card(PatientCard(row, about=said), camera_ready=True)

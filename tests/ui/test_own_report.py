@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from datetime import date
+from datetime import date, timedelta
 from pathlib import Path
 
 import pytest
@@ -207,4 +207,14 @@ def test_the_comment_beside_the_preview_is_told_once_it_is_written(theme: Theme)
     shown = screen.shown
     assert isinstance(shown, SessionReport)
     assert shown.comment == "Before. Flexion not measured."
-    assert shown.form.left_out == {"bars"}
+    assert shown.form.left_out == {"bars", "diagnosis"}
+
+
+def test_a_diagnosis_is_printed_only_where_the_clinic_wants_it(tmp_path: Path) -> None:
+    """With the weeks that had passed on the day of the session."""
+    day = report().figures.when.date() - timedelta(weeks=13)
+    own = replace(report(), diagnosis="Wrist fracture, plate", onset="operation", onset_day=day)
+    asked = replace(own, form=replace(own.form, left_out=frozenset()))
+    for one, printed in ((own, False), (asked, True)):
+        said = words_of(write_session_report(one, tmp_path / f"{printed}.pdf"))
+        assert [words in said for words in ("Wrist fracture, plate", "13 weeks before")] == [printed, printed]

@@ -19,6 +19,7 @@ from carpus.ui.ports import MOST_ROWS
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeStore
+from tests.ui.geometry import shown_texts
 
 TODAY = date(2026, 11, 20)
 
@@ -61,12 +62,25 @@ def test_typing_narrows_the_list_by_name_real_name_and_exercise(
         ("lind", ["linden"]),
         ("rosa", ["linden"]),
         ("palm", ["heron", "juniper"]),
+        ("plate fracture", ["linden", "juniper"]),
         ("wrist side", ["quartz"]),
     ):
         screen.search.clear()
         qtbot.keyClicks(screen.search, typed)
         shown = [screen.list.rows.row(k).patient_id for k in range(screen.list.rows.rowCount())]
         assert shown == expected
+
+
+def test_why_a_patient_comes_and_since_when_stands_in_list_and_card(
+    qtbot: QtBot, screen: PatientsScreen, store: FakeStore
+) -> None:
+    assert cells(store.rows[5], TODAY)[2:4] == ("Wrist fracture, plate", "13 weeks")
+    assert cells(store.rows[3], TODAY)[2:4] == ("Rheumatoid arthritis", "")
+    screen.refresh("linden")
+    expected = {"Wrist fracture, plate", "operated on 21 Aug 2026", "13 weeks"}
+    qtbot.waitUntil(lambda: expected <= set(shown_texts(screen.card)), timeout=60_000)
+    screen.refresh("cobalt")
+    assert not any("weeks" in text for text in shown_texts(screen.card))
 
 
 def test_a_real_name_is_never_painted_in_the_list(store: FakeStore) -> None:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from datetime import date
+
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
@@ -16,12 +19,12 @@ from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text,
 from carpus.ui.controls.tooltip import plain_tooltip
 from carpus.ui.figures import figure_of, followed_name
 from carpus.ui.picture.photo import Photo
-from carpus.ui.ports import PatientCard, ResultLine
+from carpus.ui.ports import PatientCard, PatientRow, ResultLine
 from carpus.ui.theme import Theme
 from carpus.ui.tour.bubble import BubbleView
 from carpus.ui.verdicts import change_since_first, counted_once_words, verdict_token
 
-PHOTO_FROM_PX = 600
+PHOTO_FROM_PX, WHY_PX = 600, 100
 RECALL_BY_GUIDE_FROM_PX = 440
 
 
@@ -35,11 +38,14 @@ class PatientCardView(Card):
     sessions = Signal()
     edit = Signal()
 
-    def __init__(self, theme: Theme) -> None:
+    def __init__(self, theme: Theme, today: Callable[[], date]) -> None:
         super().__init__(theme, 24)
-        self._theme = theme
+        self._theme, self._today = theme, today
         self._name = ElidedText(theme, "", 28, SEMIBOLD)
         self._hand = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self._diagnosis = Text(theme, "", 16, SEMIBOLD, wrap=True)
+        self._since = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self._weeks = Text(theme, "", 16, SEMIBOLD)
         self._photo = Photo(theme)
         self._exercise = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self._last = Text(theme, "", 14, REGULAR, "text2", wrap=True)
@@ -65,8 +71,20 @@ class PatientCardView(Card):
         recall = QVBoxLayout()
         recall.setContentsMargins(0, 0, 0, 0)
         recall.setSpacing(0)
+        since = QHBoxLayout()
+        since.addWidget(self._since, 1)
+        since.addWidget(self._weeks)
+        why = Card(theme, 12, "sunken", "sunken")
+        why.body.setSpacing(2)
+        why.body.addWidget(self._diagnosis)
+        why.body.addLayout(since)
+        self._why = QWidget()
+        room = QVBoxLayout(self._why)
+        room.setContentsMargins(0, 0, 0, 12)
+        room.addWidget(why)
         for widget, gap in (
             (self._hand, 12),
+            (self._why, 0),
             (self._photo, 14),
             (self._exercise, 2),
             (self._last, 12),
@@ -110,8 +128,12 @@ class PatientCardView(Card):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Where there is little room the picture gives way to the results."""
-        self._photo.set_roomy(self.height() >= self._theme.px(PHOTO_FROM_PX))
+        self._fit_photo()
         self._make_room()
+
+    def _fit_photo(self) -> None:
+        needed_px = PHOTO_FROM_PX + (0 if self._why.isHidden() else WHY_PX)
+        self._photo.set_roomy(self.height() >= self._theme.px(needed_px))
 
     def show_card(self, card: PatientCard | None, camera_ready: bool) -> None:
         """Show one patient, or hide when none is chosen."""
@@ -126,6 +148,7 @@ class PatientCardView(Card):
         self._hand.setText(
             self.tr("Simulated: nothing counts") if practice else terms.affected_phrase(row.side, row.dominance)
         )
+        self._show_why(row)
         day = numbers.day_month(row.last_session) if row.last_session else ""
         self._photo.show_picture(card.marker_picture_rgb, self.tr("Markers as on {day}").format(day=day) if day else "")
         self._exercise.setText(terms.exercise_name(row.exercise) if row.exercise else self.tr("No session yet"))
@@ -146,6 +169,19 @@ class PatientCardView(Card):
         self.review_button.setEnabled(row.session_count > 0)
         self.progress_button.setEnabled(row.session_count > 0 or not practice)  # values by hand come first
         self.sessions_button.setEnabled(row.session_count > 0 or card.has_sessions)
+
+    def _show_why(self, row: PatientRow) -> None:
+        """Why the patient comes, and since when."""
+        shown, day = row.diagnosis, row.onset_day
+        for text, words in (
+            (self._diagnosis, shown),
+            (self._since, terms.onset_words(row.onset, day)),
+            (self._weeks, numbers.weeks_since(day, self._today()) if day is not None else ""),
+        ):
+            text.setText(words)
+            text.setVisible(bool(words))
+        self._why.setVisible(bool(shown or day))
+        self._fit_photo()
 
     def _start_words(self, practice: bool, same: bool, camera_ready: bool) -> str:
         if practice:

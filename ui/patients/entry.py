@@ -3,34 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from datetime import date
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QPlainTextEdit, QVBoxLayout, QWidget
+from PySide6.QtCore import QStringListModel, Qt, Signal
+from PySide6.QtWidgets import QCompleter, QHBoxLayout, QLineEdit, QPlainTextEdit, QVBoxLayout, QWidget
 
-from carpus.ui import terms
+from carpus.core.names import folded
+from carpus.core.records.values import PatientEntry
+from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.column import scroll_area
 from carpus.ui.controls.field import Choices, Labelled
 from carpus.ui.controls.host import host_of
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
-from carpus.ui.ports import PatientEntry
+from carpus.ui.controls.tick import Tick
+from carpus.ui.ports import PatientStore
 from carpus.ui.theme import Theme
 
 NOTE_HEIGHT_PX = 84
 MOST_LETTERS = 40
+MOST_DIAGNOSIS = 80
 
 
 class PatientForm(Sheet):
     """Emits ``accepted`` with the entry; Enter in any line accepts, Esc closes. ``removal_wanted`` of a patient who is
-    in the list."""
+    in the list. The clinic's list of diagnoses is changed at once."""
 
     accepted = Signal(PatientEntry)
     removal_wanted = Signal()
 
-    def __init__(self, host: QWidget, theme: Theme, suggest: Callable[[], str]) -> None:
+    def __init__(self, host: QWidget, theme: Theme, store: PatientStore, today: Callable[[], date]) -> None:
         super().__init__(host, theme, 560)
-        self._suggest = suggest
+        self._store, self._today = store, today
         self._fault = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self._title = Text(theme, "", 20, SEMIBOLD)
         self.name = QLineEdit()
@@ -38,7 +43,7 @@ class PatientForm(Sheet):
         self.name.inputRejected.connect(self._say_too_long)
         self.name.textEdited.connect(lambda _: self._fault.hide())
         another = Button(theme, self.tr("&Another"), "plain", height_px=40)
-        another.clicked.connect(lambda: self.name.setText(suggest()))
+        another.clicked.connect(lambda: self.name.setText(store.suggest_pseudonym()))
         name_row = QWidget()
         row = QHBoxLayout(name_row)
         row.setContentsMargins(0, 0, 0, 0)
@@ -51,6 +56,31 @@ class PatientForm(Sheet):
             [("right", self.tr("Right")), ("left", self.tr("Left")), ("unknown", self.tr("Not known"))],
         )  # fmt: skip
         self.real_name = QLineEdit()
+        self.diagnosis = QLineEdit()
+        self.diagnosis.setMaxLength(MOST_DIAGNOSIS)
+        self._known = QStringListModel(self)
+        completer = QCompleter(self._known, self.diagnosis)
+        completer.setFilterMode(Qt.MatchFlag.MatchContains)
+        completer.setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
+        self.diagnosis.setCompleter(completer)
+        self.listed = Tick(theme, self.tr("In the clinic’s &list"))
+        diagnosis_row = QWidget()
+        row = QHBoxLayout(diagnosis_row)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.diagnosis, 1)
+        row.addWidget(self.listed)
+        diagnosis_row.setFocusProxy(self.diagnosis)
+        self.onset_day = QLineEdit()
+        self.onset_day.setPlaceholderText(self.tr("day month year"))
+        self.onset = Choices(theme, [("operation", self.tr("Operation")), ("injury", self.tr("Injury"))])
+        self.since = Text(theme, "", 14, token="text2")
+        onset_row = QWidget()
+        row = QHBoxLayout(onset_row)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.onset_day, 1)
+        row.addWidget(self.onset)
+        row.addWidget(self.since)
+        onset_row.setFocusProxy(self.onset_day)
         self.note = QPlainTextEdit()
         self.note.setTabChangesFocus(True)
         self.note.setFixedHeight(theme.px(NOTE_HEIGHT_PX))
@@ -68,9 +98,16 @@ class PatientForm(Sheet):
         column.addWidget(Labelled(theme, self.tr("&Name in Carpus"), name_row))
         kept = self.tr("&Real name, if wanted (stays in this list, never in a session or report)")
         column.addWidget(Labelled(theme, kept, self.real_name))
-        column.addWidget(Labelled(theme, self.tr("Affected hand"), self.side))
-        column.addWidget(Labelled(theme, self.tr("Writes with"), self.dominance))
-        column.addWidget(Labelled(theme, self.tr("N&ote (no diagnosis, no names)"), self.note))
+        hands = QHBoxLayout()
+        hands.setSpacing(24)
+        hands.addWidget(Labelled(theme, self.tr("Affected hand"), self.side))
+        hands.addWidget(Labelled(theme, self.tr("Writes with"), self.dominance))
+        hands.addStretch(1)
+        column.addLayout(hands)
+        words = self.tr("&Diagnosis or operation (stays in this list, in no session)")
+        column.addWidget(Labelled(theme, words, diagnosis_row))
+        column.addWidget(Labelled(theme, self.tr("&Since"), onset_row))
+        column.addWidget(Labelled(theme, self.tr("N&ote (no names)"), self.note))
         self._scroll = scroll_area(self._fields)  # large text on a small screen: the fields scroll, the buttons stay
         self.body.addWidget(self._scroll)
         self.body.addWidget(self._fault)
@@ -84,8 +121,11 @@ class PatientForm(Sheet):
         buttons.addWidget(self.save)
         self.body.addLayout(buttons)
         self.save.clicked.connect(self._accept)
-        for chips in (self.side, self.dominance):
+        for chips in (self.side, self.dominance, self.onset):
             chips.chosen.connect(lambda _: self._judge())
+        self.onset_day.textChanged.connect(lambda _: self._judge())
+        self.diagnosis.textChanged.connect(lambda _: self._look_into_list())
+        self.listed.clicked.connect(self._list)
         self.set_default(self.save)
         cancel.clicked.connect(self.close_sheet)
         self._taken: frozenset[str] = frozenset()
@@ -98,11 +138,18 @@ class PatientForm(Sheet):
         self._words = self.tr("Add patient") if entry is None else self.tr("Keep changes")
         self.remove.setVisible(entry is not None)
         is_new = entry is None
-        entry = entry or PatientEntry(name or self._suggest(), "right", "unknown")
+        entry = entry or PatientEntry(name or self._store.suggest_pseudonym(), "right", "unknown")
         self.name.setMaxLength(max(MOST_LETTERS, len(entry.pseudonym)))  # a longer one of old is not cut
         self.name.setText(entry.pseudonym)
         self.side.choose(entry.side)
         self.dominance.choose(entry.dominance if entry.dominance != "both" else "unknown")
+        self._known.setStringList(list(self._store.diagnoses()))
+        self.diagnosis.setText(entry.diagnosis)
+        self._look_into_list()
+        self.onset_day.setText(numbers.day_of_year(entry.onset_day) if entry.onset_day is not None else "")
+        self.onset.choose_nothing()
+        if entry.onset:
+            self.onset.choose(entry.onset)
         if is_new:  # a hand that nobody chose would be a wrong record
             self.side.choose_nothing()
             self.dominance.choose_nothing()
@@ -117,10 +164,38 @@ class PatientForm(Sheet):
 
     def _judge(self) -> None:
         """What is still to be said stands on the button."""
-        no_side, no_dominance = self.side.value() is None, self.dominance.value() is None
-        words = self.tr("Which hand is affected?") if no_side else self.tr("Which hand writes?")
-        self.save.set_face(words if no_side or no_dominance else self._words)
-        self.save.setEnabled(not (no_side or no_dominance))
+        typed, day = self.onset_day.text().strip(), self._day()
+        self.since.setText(numbers.weeks_since(day, self._today()) if day is not None else "")
+        asked = ""
+        if self.side.value() is None:
+            asked = self.tr("Which hand is affected?")
+        elif self.dominance.value() is None:
+            asked = self.tr("Which hand writes?")
+        elif typed and day is None:
+            asked = self.tr("Since when? Day, month, year")
+        elif typed and self.onset.value() is None:
+            asked = self.tr("Operation or injury?")
+        self.save.set_face(asked or self._words)
+        self.save.setEnabled(not asked)
+
+    def _day(self) -> date | None:
+        """The day that is typed, where it is one and not to come."""
+        day = numbers.day_typed(self.onset_day.text())
+        return day if day is not None and day <= self._today() else None
+
+    def _why(self) -> str:
+        return " ".join(self.diagnosis.text().split())
+
+    def _look_into_list(self) -> None:
+        words = folded(self._why())
+        self.listed.setVisible(bool(words))
+        self.listed.setChecked(words in map(folded, self._known.stringList()))
+
+    def _list(self, wanted: bool) -> None:
+        """Into the clinic's list or out of it."""
+        self._store.list_diagnosis(self._why(), listed=wanted)
+        self._known.setStringList(list(self._store.diagnoses()))
+        self._look_into_list()
 
     def _say_too_long(self) -> None:
         """A letter, or the end of what was pasted, had no more room: never cut without a word."""
@@ -143,4 +218,10 @@ class PatientForm(Sheet):
         self.close_sheet()
         side, dominance = str(self.side.value()), str(self.dominance.value())
         note, real_name = self.note.toPlainText().strip(), " ".join(self.real_name.text().split())
-        self.accepted.emit(PatientEntry(name, side, dominance, note, real_name))  # type: ignore[arg-type]
+        self.accepted.emit(
+            PatientEntry(
+                name, side, dominance, note=note, name=real_name,  # type: ignore[arg-type]
+                diagnosis=self._why(),
+                onset=self.onset.value() or "", onset_day=self._day(),  # type: ignore[arg-type]
+            )
+        )  # fmt: skip

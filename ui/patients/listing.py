@@ -17,8 +17,11 @@ from carpus.ui.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.translate import tr
 
 ROW_PX = 56
-COLUMNS = (0.024, 0.238, 0.349, 0.633)
-"""Left edge of name, hand, exercise and last session as a share of the width; the count ends at the right."""
+COLUMNS = (0.024, 0.206, 0.3, 0.526, 0.645)
+LARGE_COLUMNS = (0.024, 0.235, 0.368, 0.65, 0.65)
+"""Left edge of name, hand, diagnosis, time since and last session as a share of the width; the count ends at the right.
+With large text the card alone says how long it is since."""
+LARGE_FROM = 1.25
 RIGHT_PAD_PX = 28
 
 
@@ -56,18 +59,24 @@ class PatientModel(QAbstractListModel):
         return row if role == Qt.ItemDataRole.UserRole else None
 
 
-def cells(row: PatientRow, today: date) -> tuple[str, str, str, str, str, str]:
-    """Name, hand, exercise, date, how long ago, number of sessions."""
+def cells(row: PatientRow, today: date) -> tuple[str, str, str, str, str, str, str]:
+    """Name, hand, diagnosis, how long since, date of the last session, how long ago, number of sessions."""
+    side = terms.side_name(row.side)
     if row.patient_id == PRACTICE_PATIENT:
-        hint = tr("Try everything without a patient")
-        return row.pseudonym, terms.side_name(row.side), tr("No camera needed"), hint, "", ""
+        return row.pseudonym, side, tr("Try everything without a patient"), "", "", "", ""
+    since = numbers.weeks_since(row.onset_day, today) if row.onset_day is not None else ""
     if row.last_session is None:
-        return row.pseudonym, terms.side_name(row.side), "", tr("No session yet"), "", ""
+        return row.pseudonym, side, row.diagnosis, since, tr("No session yet"), "", ""
     when = row.last_session
     return (
-        row.pseudonym, terms.side_name(row.side), terms.exercise_name(row.exercise), numbers.short_date(when),
-        numbers.days_ago(when, today), str(row.session_count),
+        row.pseudonym, side, row.diagnosis, since, numbers.short_date(when), numbers.days_ago(when, today),
+        str(row.session_count),
     )  # fmt: skip
+
+
+def columns(text_scale: float) -> tuple[float, ...]:
+    """The left edges for a size of text."""
+    return LARGE_COLUMNS if text_scale > LARGE_FROM else COLUMNS
 
 
 class RowPainter(QStyledItemDelegate):
@@ -108,15 +117,18 @@ class RowPainter(QStyledItemDelegate):
 
     def _paint_cells(self, painter: QPainter, box: QRectF, row: PatientRow) -> None:
         scale = self._theme.text_scale
-        name, hand, exercise, when, ago, count = cells(row, self._model.today())
-        edges = [box.left() + share * box.width() for share in COLUMNS]
-        faces = (font(16 * scale, MEDIUM), font(14 * scale), font(14 * scale))
-        for text, face, left, right in zip((name, hand, exercise), faces, edges[:3], edges[1:], strict=True):
-            self._text(painter, face, text, QRectF(left, box.top(), right - left - 8, box.height()), "text")
+        *texts, when, ago, count = cells(row, self._model.today())
         end = box.right() - RIGHT_PAD_PX
+        edges = [*(box.left() + share * box.width() for share in columns(scale)), end]
+        for number, text in enumerate(texts):
+            face = font(14 * scale) if number else font(16 * scale, MEDIUM)
+            last = next((later for later, one in enumerate([*texts, when]) if later > number and one), len(edges) - 1)
+            room = QRectF(edges[number], box.top(), edges[last] - edges[number] - 8, box.height())
+            if edges[number + 1] > edges[number]:
+                self._text(painter, face, text, room, "text")
         face = font(14 * scale)
         plain = not ago
-        room = QRectF(edges[3], box.top(), end - edges[3] - (0 if plain else 36), box.height())
+        room = QRectF(edges[4], box.top(), end - edges[4] - (0 if plain else 36), box.height())
         self._text(painter, face, when, room, "text2" if plain else "text")
         date_width = max(self._theme.px(92), QFontMetricsF(face).horizontalAdvance(when) + 10)
         beside = room.adjusted(date_width, 0, 0, 0)
@@ -149,11 +161,18 @@ class ListHeader(QWidget):
         painter = QPainter(self)
         painter.setFont(font(12 * self._theme.text_scale, MEDIUM))
         painter.setPen(self._theme.color("text2"))
-        flags = int(Qt.AlignmentFlag.AlignVCenter)
+        flags, metrics = int(Qt.AlignmentFlag.AlignVCenter), QFontMetricsF(painter.font())
         width = self._rows.viewport().width()
-        names = (self.tr("Patient"), self.tr("Hand"), self.tr("Last exercise"), self.tr("Last session"))
-        for name, share in zip(names, COLUMNS, strict=True):
-            painter.drawText(QRectF(share * width, 0, 200, self.height()), flags, name)
+        names = (
+            self.tr("Patient"), self.tr("Hand"), self.tr("Diagnosis or operation"), self.tr("Since"),
+            self.tr("Last session"),
+        )  # fmt: skip
+        shares = (*columns(self._theme.text_scale), 1.0)
+        for name, share, following in zip(names, shares[:-1], shares[1:], strict=True):
+            if following > share:
+                room = (following - share) * width - 8
+                words = metrics.elidedText(name, Qt.TextElideMode.ElideRight, room)
+                painter.drawText(QRectF(share * width, 0, room + 4, self.height()), flags, words)
         right = QRectF(0, 0, width - RIGHT_PAD_PX, self.height())
         painter.drawText(right, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), self.tr("Sessions"))
 

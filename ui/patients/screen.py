@@ -11,6 +11,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.records.values import PatientEntry
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import KeyCaps, Line
@@ -19,7 +20,7 @@ from carpus.ui.controls.text import MEDIUM, REGULAR, Text, heading
 from carpus.ui.patients.card import PatientCardView
 from carpus.ui.patients.entry import PatientForm
 from carpus.ui.patients.listing import ListHeader, PatientList
-from carpus.ui.ports import MOST_ROWS, PatientEntry, PatientRow, PatientStore
+from carpus.ui.ports import MOST_ROWS, PatientRow, PatientStore
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.welcome.panel import WelcomePanel
 
@@ -47,11 +48,11 @@ class PatientsScreen(QWidget):
         self._theme, self._store, self._today = theme, store, today
         self._rows: tuple[PatientRow, ...] = ()
         self._camera_ready = False
-        self.search = SearchField(theme, self.tr("Name or exercise"), self.tr("Ctrl+F"))
+        self.search = SearchField(theme, self.tr("Name or diagnosis"), self.tr("Ctrl+F"))
         self.new_button = Button(theme, self.tr("New patient"), icon="plus", hint=self.tr("Ctrl+N"))
         self.list = PatientList(theme, today)
         self.header = ListHeader(theme, self.list)
-        self.card = PatientCardView(theme)
+        self.card = PatientCardView(theme, today)
         self.day = Text(theme, "", 14, REGULAR, "text2")
         self._day_timer = QTimer(self)
         self._day_timer.setInterval(LOOK_AT_DAY_MS)
@@ -63,7 +64,7 @@ class PatientsScreen(QWidget):
         self.archive_button = Button(theme, "", "quiet", icon="archive", height_px=36)
         self.archive_button.hide()
         self._archived: tuple[str, ...] = ()
-        self.form = PatientForm(self, theme, store.suggest_pseudonym)
+        self.form = PatientForm(self, theme, store, today)
         self._changing = ""
         self._lay_out()
         self._connect()
@@ -184,7 +185,11 @@ class PatientsScreen(QWidget):
         self._changing = patient_id
         others = (other.pseudonym for other in self._rows if other is not row)
         taken = frozenset(name.casefold() for name in (*others, *self._archived))
-        self.form.begin(PatientEntry(row.pseudonym, row.side, row.dominance, row.note, row.name), taken)
+        entry = PatientEntry(
+            row.pseudonym, row.side, row.dominance, note=row.note, name=row.name, diagnosis=row.diagnosis,
+            onset=row.onset, onset_day=row.onset_day,
+        )  # fmt: skip
+        self.form.begin(entry, taken)
 
     def _store_entry(self, entry: PatientEntry) -> None:
         if self._changing:
@@ -283,5 +288,6 @@ class _Nobody(QWidget):
 
 
 def _matches(row: PatientRow, wanted: list[str]) -> bool:
-    text = f"{row.pseudonym} {row.name} {terms.exercise_name(row.exercise) if row.exercise else ''}".casefold()
+    exercise = terms.exercise_name(row.exercise) if row.exercise else ""
+    text = f"{row.pseudonym} {row.name} {row.diagnosis} {exercise}".casefold()
     return all(word in text for word in wanted)

@@ -73,6 +73,7 @@ class ReportPanel(QWidget):
         column.addSpacing(8)
         column.addWidget(Text(theme, self.tr("Parts of the report"), 16, SEMIBOLD))
         names = {
+            "diagnosis": self.tr("Diagnosis or operation"),
             "table": self.tr("Table"), "curves": self.tr("Curves and repetitions"), "bars": self.tr("Range as bars"),
             "quality": self.tr("How sure the figures are"), "speed": self.tr("Speed, pain, note"),
             "by_hand": self.tr("Entered by hand"), "motion": self.tr("Page of movement"),
@@ -105,6 +106,7 @@ class ReportPanel(QWidget):
         self.comment.setPlainText(report.comment)
         for name, tick in self.ticks.items():
             tick.setChecked(report.form.has(name))
+        self.ticks["diagnosis"].setVisible(bool(report.diagnosis or report.onset_day))
         self.ticks["bars"].setVisible(report.joints is None)
         self.ticks["by_hand"].setVisible(bool(report.by_hand))
         self.ticks["motion"].setVisible(report.motion is not None)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from datetime import date
 
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPicture
@@ -48,6 +49,10 @@ class SessionReport:
     pseudonym: str
     session_number: int = 0
     dominance: str = "unknown"
+    diagnosis: str = ""
+    onset: str = ""
+    onset_day: date | None = None
+    """Why the patient comes: printed only where the form has it."""
     therapist: str = ""
     previous: SessionFigures | None = None
     first: SessionFigures | None = None
@@ -168,6 +173,8 @@ def _paint_facts(page: Page, report: SessionReport, top: float) -> float:
     ]
     page.facts(pairs, top + 5, (0.0, 0.25, 0.44, 0.67, 0.81))
     width = page.right - page.left
+    if words := _diagnosis_words(report):
+        top = page.paragraph(words, page.left, top + 35, width, 8.5, MEDIUM) - 33
     for words in warnings(figures):
         top = page.paragraph(words, page.left, top + 35, width, 8.5, SEMIBOLD, "warn") - 33
     if said := corrected_words(figures):
@@ -175,6 +182,17 @@ def _paint_facts(page: Page, report: SessionReport, top: float) -> float:
         top = page.paragraph(f"{said} {kept}", page.left, top + 35, width, 8.5, MEDIUM, "text") - 33
     page.rule(top + 36)
     return top + 36
+
+
+def _diagnosis_words(report: SessionReport) -> str:
+    """``Wrist fracture, plate, operated on 21 Aug 2026, 13 weeks before``, where the clinic wants it."""
+    day = report.onset_day
+    if not report.form.has("diagnosis"):
+        return ""
+    parts = [report.diagnosis, inside(terms.onset_words(report.onset, day))]
+    if day is not None and (weeks := numbers.weeks_since(day, report.figures.when.date())):
+        parts.append(tr("{weeks} before").format(weeks=weeks))
+    return ", ".join(part for part in parts if part)
 
 
 TABLE_EDGES = (0.0, 0.143, 0.354, 0.467, 0.594, 0.690, 0.715)
