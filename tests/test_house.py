@@ -19,6 +19,7 @@ PROGRAM = ("app", "core", "ui")
 EXTRAS = ("cluster", "tables", "stream", "realsense", "mkv")
 """What is installed only when asked for; the code that needs it says so where it is missing."""
 BROUGHT_BY = {
+    "_cffi_backend": "cffi",
     "argon2": "argon2-cffi",
     "cv2": "opencv-python-headless",
     "yaml": "pyyaml",

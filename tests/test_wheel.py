@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 from carpus import __version__
+from carpus.core.kernels import build
 
 ROOT = Path(__file__).parents[1]
 PARTS = ("app", "core", "ui", "resources")
@@ -27,8 +28,8 @@ REVISION = "carpus/resources/revision.txt"
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Built as pip builds it, by the build hook of pyproject.toml."""
     folder = tmp_path_factory.mktemp("wheel")
-    build = f"from hatchling.build import build_wheel; print(build_wheel({str(folder)!r}))"
-    subprocess.run([sys.executable, "-c", build], cwd=ROOT, check=True, capture_output=True)
+    made = f"from hatchling.build import build_wheel; print(build_wheel({str(folder)!r}))"
+    subprocess.run([sys.executable, "-c", made], cwd=ROOT, check=True, capture_output=True)
     (path,) = folder.glob("*.whl")
     return path
 
@@ -45,7 +46,11 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def parts_of_the_checkout() -> set[str]:
     """Every file of the program, as it is called once installed."""
     files = (path for part in PARTS for path in (ROOT / part).rglob("*") if path.is_file())
-    return {f"carpus/{path.relative_to(ROOT)}" for path in files if "__pycache__" not in path.parts}
+    return {
+        f"carpus/{path.relative_to(ROOT)}"
+        for path in files
+        if "__pycache__" not in path.parts and not path.match("kernels-*")
+    }
 
 
 def test_a_wheel_holds_the_program_and_nothing_beside_it(wheel: Path) -> None:
@@ -54,13 +59,38 @@ def test_a_wheel_holds_the_program_and_nothing_beside_it(wheel: Path) -> None:
     program = {name for name in names if ".dist-info/" not in name}
     expected = parts_of_the_checkout()
     assert len(expected) > 300
-    assert program == expected | FACE | {REVISION}
+    kernels = {f"carpus/core/kernels/{path.name}" for path in build.built()}
+    assert kernels
+    assert program == expected | FACE | {REVISION} | kernels
+    assert "-py3-none-" in wheel.name
+    assert not wheel.name.endswith("-any.whl")
+
+
+def test_a_wheel_without_a_compiler_is_for_every_computer(tmp_path: Path) -> None:
+    """Of a checkout in which nothing is built yet; it then runs on NumPy alone."""
+    checkout = tmp_path / "checkout"
+    (checkout / "installer").mkdir(parents=True)
+    for name in ("pyproject.toml", "README.md", "LICENSE", "installer/in_the_wheel.py", ".gitignore"):
+        shutil.copy(ROOT / name, checkout / name)
+    shutil.copytree(ROOT / "carpus", checkout / "carpus", ignore=shutil.ignore_patterns("kernels-*", "__pycache__"))
+    build_it = f"from hatchling.build import build_wheel; print(build_wheel({str(tmp_path)!r}))"
+    environment = os.environ | {"PATH": str(tmp_path)}
+    subprocess.run([sys.executable, "-c", build_it], cwd=checkout, env=environment, check=True, capture_output=True)
+    (path,) = tmp_path.glob("*.whl")
+    assert path.name.endswith("-py3-none-any.whl")
+    site = tmp_path / "site"
+    with zipfile.ZipFile(path) as archive:
+        assert not [name for name in archive.namelist() if "/kernels-" in name]
+        archive.extractall(site)
+    ask = f"import sys; sys.path[:0] = [{str(site)!r}]; from carpus.core.kernels.choice import in_c; print(in_c())"
+    done = subprocess.run([sys.executable, "-P", "-c", ask], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert done.stdout == "None\n"
 
 
 def test_a_source_archive_holds_all_that_a_wheel_is_built_of(wheel: Path, tmp_path: Path) -> None:
     """The wheel that is built from it is the one that a checkout builds, though its parts are no links there."""
-    build = f"from hatchling.build import build_sdist; print(build_sdist({str(tmp_path)!r}))"
-    subprocess.run([sys.executable, "-c", build], cwd=ROOT, check=True, capture_output=True)
+    made = f"from hatchling.build import build_sdist; print(build_sdist({str(tmp_path)!r}))"
+    subprocess.run([sys.executable, "-c", made], cwd=ROOT, check=True, capture_output=True)
     (path,) = tmp_path.glob("*.tar.gz")
     with tarfile.open(path) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
@@ -147,6 +177,8 @@ def empty(tmp_path_factory: pytest.TempPathFactory) -> Path:
         if not name.startswith(("tests/", "resources/guide/")) and (path := ROOT / name).exists():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(path, folder / name, follow_symlinks=False)
+    for library in build.built():
+        shutil.copy(library, folder / "core/kernels")  # compiling them is another test's
     return folder
 
 

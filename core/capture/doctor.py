@@ -37,6 +37,7 @@ from carpus.core.errors import (
     OtherCamera,
 )
 from carpus.core.installing import how_to_install, is_packed
+from carpus.core.kernels.choice import NUMPY, VARIABLE, in_c
 from carpus.core.phrase import phrase
 from carpus.core.types import Frame
 from carpus.core.words import words_of
@@ -68,6 +69,7 @@ def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: floa
     """All findings, each as soon as it is known; the camera is opened for ``measure_s`` seconds at the end."""
     yield python_finding(sys.version_info[:3])
     yield packages_finding()
+    yield kernels_finding()
     yield window_finding()
     yield fonts_finding()
     yield data_folder_finding(data_folder)
@@ -122,6 +124,22 @@ def packages_finding(names: tuple[str, ...] = PACKAGES) -> Finding:
     if missing:
         return Finding(phrase("Packages"), "bad", "missing: " + ", ".join(missing), how_to_install(*missing))
     return Finding(phrase("Packages"), "good", ", ".join(known))
+
+
+def kernels_finding() -> Finding:
+    """Whether the costly steps run in C, or in NumPy at half the speed."""
+    if (kernels := in_c()) is not None:
+        return Finding(phrase("Kernels"), "good", phrase("in C, {level}", level=kernels.level))
+    if os.environ.get(VARIABLE) == NUMPY:
+        return Finding(
+            phrase("Kernels"), "warning", phrase("NumPy alone, as {name} asks", name=VARIABLE), f"unset {VARIABLE}"
+        )
+    return Finding(
+        phrase("Kernels"),
+        "warning",
+        phrase("NumPy alone, which takes twice the time"),
+        phrase("Install a C compiler (Debian: {packages}) and Carpus anew.", packages="gcc libc6-dev"),
+    )
 
 
 def window_finding() -> Finding:

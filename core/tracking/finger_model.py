@@ -27,7 +27,7 @@ from carpus.core.tracking.hand_geometry import (
     ray_joints_m,
 )
 from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD, constrained, outside_limits
-from carpus.core.tracking.kernel import Bank, mixed, switching
+from carpus.core.tracking.kernel import Bank, switching
 from carpus.core.tracking.motion import REFERENCE_DT_S
 from carpus.core.tracking.palm_state import POSE, PalmBelief
 from carpus.core.tracking.palm_view import View
@@ -201,7 +201,7 @@ class FingerModel:
         mean = (beliefs.probability[:, None] @ beliefs.mean)[:, 0]
         if dt_s >= self.settings.fingers.range_after_s:
             return self.anywhere(*beliefs.merged())
-        ahead = self.motion.predicted(mixed(beliefs, switch), dt_s, self.forgetting(mean, unseen_s, dt_s))
+        ahead = self.motion.predicted(beliefs, dt_s, self.forgetting(mean, unseen_s, dt_s), switch)
         if dt_s < self.settings.fingers.gap_s:
             return ahead
         return constrained(ahead, ahead.merged()[0][:, :SLOTS], self.settings.fingers.limits)

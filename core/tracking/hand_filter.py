@@ -21,7 +21,7 @@ from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.fingers import Fingers, FingerTrial
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_geometry import RAYS, JointMoment
-from carpus.core.tracking.kernel import Bank, carried, mixed
+from carpus.core.tracking.kernel import Bank, carried
 from carpus.core.tracking.motion import PalmMotion, palm_step, slowing, slowing_unseen, unseen_turns
 from carpus.core.tracking.operator_hints import NamedSpot
 from carpus.core.tracking.palm_association import Measurements, UpdatedPalm, associate_and_update, measurements_of
@@ -189,7 +189,7 @@ class HandFilter:
         settings, fresh = self._settings, 0.0
         if dt_s > 0.0:
             before, step = belief, palm_step(belief.rate_rad_s, self.motion, dt_s, self._unseen)
-            bank = carried(mixed(bank, self.motion.switch(belief.rate_rad_s, dt_s)), step, belief.value)
+            bank = carried(bank, step, belief.value, self.motion.switch(belief.rate_rad_s, dt_s))
             belief = replace(step.carries(belief, dt_s), covariance=bank.merged()[1][0])
             fresh = fresh_share(self.view.discs_cam_m(before), self.view.discs_cam_m(belief), self.view.camera)
         shares = shape_shares(settings.shape_news * max(fresh, settings.shape_stale))

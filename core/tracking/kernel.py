@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg.lapack import dpotrf, dtrtri
 
+from carpus.core.kernels.choice import NOTHING, in_c
 from carpus.core.types import FloatArray
 
 _LEAST_PROBABILITY = 1e-6
@@ -42,6 +43,11 @@ class Bank:
         """Mean (C, n) and covariance (C, n, n) over the modes."""
         if self.probability.shape[1] == 1:
             return self.mean[:, 0], self.covariance[:, 0]
+        if (kernels := in_c()) is not None:
+            chains, modes, n = self.mean.shape
+            out = np.empty((chains, n)), np.empty((chains, n, n))
+            kernels.merged(chains, modes, n, self.mean, self.covariance, self.probability, *out)
+            return out
         share = self.probability[:, None]
         mean = (share @ self.mean)[:, 0]
         apart = self.mean - mean[:, None]
@@ -76,8 +82,17 @@ def mixed(bank: Bank, switch: FloatArray) -> Bank:
     return Bank(mean, covariance, predicted)
 
 
-def predicted(bank: Bank, forward: FloatArray, noise: FloatArray) -> Bank:
-    """P <- F P F' + Q with ``forward`` (C, n, n) and ``noise`` (C, K, n, n)."""
+def predicted(bank: Bank, forward: FloatArray, noise: FloatArray, switch: FloatArray | None = None) -> Bank:
+    """P <- F P F' + Q with ``forward`` (C, n, n) and ``noise`` (C, K, n, n), the modes :func:`mixed` before
+    where there is a ``switch``."""
+    if (kernels := in_c()) is not None:
+        out = _like(bank)
+        kernels.predicted(
+            *bank.mean.shape, NOTHING if switch is None else switch, bank.mean, bank.covariance, bank.probability,
+            forward, noise, out.mean, out.covariance, out.probability,
+        )  # fmt: skip
+        return out
+    bank = bank if switch is None else mixed(bank, switch)
     forward = forward[:, None]
     mean = (forward @ bank.mean[..., None])[..., 0]
     covariance = forward @ bank.covariance @ np.swapaxes(forward, -1, -2)
@@ -97,9 +112,19 @@ class Carrying:
     settling: FloatArray
 
 
-def carried(bank: Bank, step: Carrying, nominal: FloatArray) -> Bank:
+def carried(bank: Bank, step: Carrying, nominal: FloatArray, switch: FloatArray | None = None) -> Bank:
     """The bank after the step, of errors from a ``nominal`` (n,) that moves with its first m numbers and else stays:
-    what of that a mode does not keep is an error of the mode."""
+    what of that a mode does not keep is an error of the mode. Its modes are :func:`mixed` before where there is a
+    ``switch``."""
+    if (kernels := in_c()) is not None:
+        out, (_, modes, n) = _like(bank), bank.mean.shape
+        kernels.carried(
+            modes, n, len(step.moving), step.settling.shape[1], NOTHING if switch is None else switch,
+            bank.mean, bank.covariance, bank.probability, step.moving, step.driven, step.kept, step.settling, nominal,
+            out.mean, out.covariance, out.probability,
+        )  # fmt: skip
+        return out
+    bank = bank if switch is None else mixed(bank, switch)
     mixing, first = len(step.moving), step.kept.shape[1] - step.settling.shape[1]
     mean = bank.mean * step.kept + (step.kept - 1.0) * nominal
     mean[..., :mixing] = bank.mean[..., :mixing] @ step.moving.T
@@ -111,6 +136,11 @@ def carried(bank: Bank, step: Carrying, nominal: FloatArray) -> Bank:
     covariance[..., :mixing, :mixing] = rows[..., :mixing] @ step.moving.T + step.driven
     covariance[..., first:, first:] += step.settling
     return Bank(mean, covariance, bank.probability)
+
+
+def _like(bank: Bank) -> Bank:
+    """A bank of the same shape, to be filled."""
+    return Bank(np.empty(bank.mean.shape), np.empty(bank.covariance.shape), np.empty(bank.probability.shape))
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,6 +193,16 @@ def corrected(
     ``shares`` of :func:`learning_shares`. Everything is taken in units of the noise, since pixels and metres differ by
     orders of magnitude.
     """
+    if (kernels := in_c()) is not None:
+        out, nis, dof = _like(bank), np.empty(len(bank.mean)), np.empty(len(bank.mean), dtype=np.int64)
+        residual = np.empty(measured.shape)
+        kernels.corrected(
+            *bank.mean.shape, measured.shape[1], bank.mean, bank.covariance, bank.probability,
+            line.value, line.slope, line.error, line.about, measured, variance, NOTHING if shared is None else shared,
+            *((NOTHING, NOTHING) if shares is None else shares),
+            out.mean, out.covariance, out.probability, nis, dof, residual,
+        )  # fmt: skip
+        return Update(out, nis, dof, residual)
     used = np.isfinite(measured)
     unit = np.where(used, 1.0 / np.sqrt(np.where(used, variance, 1.0)), 0.0)
     slope = line.slope * unit[..., None]

@@ -93,14 +93,16 @@ class RayMotion:
         self._modes = noise[0][:, None] * (self._scales**2)[:, None, None] + noise[1][:, None]
         self._dt_s = dt_s
 
-    def predicted(self, beliefs: Bank, dt_s: float, forgetting: Forgetting | None) -> Bank:
-        """The beliefs ``dt_s`` later."""
+    def predicted(
+        self, beliefs: Bank, dt_s: float, forgetting: Forgetting | None, switch: FloatArray | None = None
+    ) -> Bank:
+        """The beliefs ``dt_s`` later, their modes mixed before by ``switch`` (K, K)."""
         self._set_step(dt_s)
         if forgetting is None:
-            return predicted(beliefs, self._forward, self._modes)
+            return predicted(beliefs, self._forward, self._modes, switch)
         noise = self._modes.copy()
         self._spread(noise, forgetting)
-        return predicted(beliefs, self._fading(forgetting), noise)
+        return predicted(beliefs, self._fading(forgetting), noise, switch)
 
     def step(self, dt_s: float, scale: FloatArray, forgetting: Forgetting | None) -> tuple[FloatArray, FloatArray]:
         """Transition and noise (5, n, n) of a step with the noise's root scaled by ``scale`` (5,)."""

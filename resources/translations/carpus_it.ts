@@ -2564,10 +2564,6 @@
         <translation>{number} esclusa</translation>
     </message>
     <message>
-        <source>{number} passive</source>
-        <translation>{number} passiva</translation>
-    </message>
-    <message>
         <source>Place</source>
         <translation>Posizione</translation>
     </message>
@@ -3333,11 +3329,7 @@
     </message>
     <message>
         <source>{ordinal}, active</source>
-        <translation type="vanished">{ordinal}, attiva</translation>
-    </message>
-    <message>
-        <source>active and passive</source>
-        <translation>attiva e passiva</translation>
+        <translation>{ordinal}, attiva</translation>
     </message>
     <message>
         <source>right-handed</source>
@@ -3374,10 +3366,6 @@
     <message>
         <source>Range of motion</source>
         <translation>Escursione articolare (ROM)</translation>
-    </message>
-    <message>
-        <source>Active and passive</source>
-        <translation>Attivo e passivo</translation>
     </message>
     <message>
         <source>grey: repetitions; band: ± 1 sd of the angle</source>
@@ -3518,14 +3506,6 @@
     <message>
         <source>mean of {count} repetitions</source>
         <translation>media di {count} ripetizioni</translation>
-    </message>
-    <message>
-        <source>1 passive beside it</source>
-        <translation>accanto 1 passiva</translation>
-    </message>
-    <message>
-        <source>{count} passive beside it</source>
-        <translation>accanto {count} passive</translation>
     </message>
     <message>
         <source>not seen well enough</source>
@@ -4820,6 +4800,10 @@
         <translation>Tenere ferma la mano per mezzo secondo.</translation>
     </message>
     <message>
+        <source>Kernels</source>
+        <translation>Nuclei di calcolo</translation>
+    </message>
+    <message>
         <source>Lay it flat under the camera, all of it in the picture, about 60 cm away, in good light.</source>
         <translation>Metterlo piatto sotto la telecamera, tutto nell’immagine, a circa 60 cm, con buona luce.</translation>
     </message>
@@ -4906,6 +4890,14 @@
     <message>
         <source>Nothing was erased: {subject} is a link that leads elsewhere.</source>
         <translation>Non è stato eliminato nulla: {subject} è un collegamento che porta altrove.</translation>
+    </message>
+    <message>
+        <source>NumPy alone, as {name} asks</source>
+        <translation>solo NumPy, come chiede {name}</translation>
+    </message>
+    <message>
+        <source>NumPy alone, which takes twice the time</source>
+        <translation>solo NumPy, che impiega il doppio del tempo</translation>
     </message>
     <message>
         <source>Once the disk answers, start Carpus again: it finishes the recording.</source>
@@ -5804,6 +5796,10 @@
         <translation>hand {hand}</translation>
     </message>
     <message>
+        <source>in C, {level}</source>
+        <translation>in C, {level}</translation>
+    </message>
+    <message>
         <source>in colour, a depth picture of 16 bits is expected</source>
         <translation>a colori, attesa un’immagine di profondità a 16 bit</translation>
     </message>
@@ -6388,10 +6384,6 @@
         <translation>Nulla è perso; le sedute vicine a questo controllo dicono di non essere sicure.</translation>
     </message>
     <message>
-        <source>Together</source>
-        <translation>Insieme</translation>
-    </message>
-    <message>
         <source>± is the spread between repetitions.</source>
         <translation>± è la dispersione fra ripetizioni.</translation>
     </message>
@@ -6908,6 +6900,10 @@
         <translation>ASSH, somma della flessione attiva nel pugno</translation>
     </message>
     <message>
+        <source>Install a C compiler (Debian: {packages}) and Carpus anew.</source>
+        <translation>Installare un compilatore C (Debian: {packages}) e di nuovo Carpus.</translation>
+    </message>
+    <message>
         <source>The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions.</source>
         <translation>L’elenco dei pazienti era danneggiato ({detail}); uno nuovo contiene ciò che si è potuto leggere, e le sedute.</translation>
     </message>
@@ -7102,58 +7098,6 @@
     <message>
         <source>no change proven</source>
         <translation>nessun cambiamento dimostrato</translation>
-    </message>
-    <message>
-        <source>Each joint where it was bent most; ± is the spread between repetitions.</source>
-        <translation>Ogni articolazione nel punto di massima flessione; ± è la variazione tra le ripetizioni.</translation>
-    </message>
-    <message>
-        <source>{sign}: at least, the camera did not see the end of that movement.</source>
-        <translation>{sign}: almeno, la telecamera non ha visto la fine di quel movimento.</translation>
-    </message>
-    <message>
-        <source>{sign}: measured by hand that day, active / passive; never averaged with the rest.</source>
-        <translation>{sign}: misurato a mano quel giorno, attivo / passivo; mai in media con il resto.</translation>
-    </message>
-    <message>
-        <source>Active</source>
-        <translation>Attivo</translation>
-    </message>
-    <message>
-        <source>Passive</source>
-        <translation>Passivo</translation>
-    </message>
-    <message>
-        <source>Passive goes further</source>
-        <translation>Passivo va oltre</translation>
-    </message>
-    <message>
-        <source>By hand</source>
-        <translation>A mano</translation>
-    </message>
-    <message>
-        <source>Finger</source>
-        <translation>Dito</translation>
-    </message>
-    <message>
-        <source>within the error</source>
-        <translation>entro l’errore</translation>
-    </message>
-    <message>
-        <source>{gap} (error {limit})</source>
-        <translation>{gap} (errore {limit})</translation>
-    </message>
-    <message>
-        <source>{name}: {active} by itself, {passive} when helped. The {gap} between them are more than the error.</source>
-        <translation>{name}: {active} da solo, {passive} con aiuto. I {gap} di differenza superano l’errore.</translation>
-    </message>
-    <message>
-        <source>When helped it goes no further than the error of measurement.</source>
-        <translation>Con aiuto non va oltre l’errore di misura.</translation>
-    </message>
-    <message>
-        <source>Active and passive are shown, not judged: {why}.</source>
-        <translation>Attivo e passivo sono mostrati, non giudicati: {why}.</translation>
     </message>
 </context>
 <context>
@@ -9304,10 +9248,6 @@ Maiusc+F8 di lato</translation>
         <translation>Dolore {score} annotato</translation>
     </message>
     <message>
-        <source>Passive</source>
-        <translation>Passivo</translation>
-    </message>
-    <message>
         <source>Plug the camera in again</source>
         <translation>Ricollegare la telecamera</translation>
     </message>
@@ -9876,16 +9816,8 @@ Maiusc+F8 di lato</translation>
         <translation>Riposo</translation>
     </message>
     <message>
-        <source>Active from here</source>
-        <translation>Attivo da qui</translation>
-    </message>
-    <message>
-        <source>Passive from here</source>
-        <translation>Passivo da qui</translation>
-    </message>
-    <message>
         <source>Helped by hand</source>
-        <translation type="vanished">Aiuto con la mano</translation>
+        <translation>Aiuto con la mano</translation>
     </message>
 </context>
 <context>
@@ -10506,16 +10438,8 @@ Maiusc+F8 di lato</translation>
         <translation>riproduci</translation>
     </message>
     <message>
-        <source>Repetition…</source>
-        <translation>Ripetizione…</translation>
-    </message>
-    <message>
-        <source>Passive, or left out (X); [ and ] go to another</source>
-        <translation>Passiva, o esclusa (X); [ e ] vanno a un’altra</translation>
-    </message>
-    <message>
         <source>repetition</source>
-        <translation type="vanished">ripetizione</translation>
+        <translation>ripetizione</translation>
     </message>
     <message>
         <source>picture</source>
@@ -10643,7 +10567,7 @@ Maiusc+F8 di lato</translation>
     <name>ReasonSheet</name>
     <message>
         <source>It stays in the recording and on the curves, but counts no longer. The report says so.</source>
-        <translation type="vanished">Resta nella registrazione e sulle curve, ma non conta più. La relazione lo dice.</translation>
+        <translation>Resta nella registrazione e sulle curve, ma non conta più. La relazione lo dice.</translation>
     </message>
     <message>
         <source>pain</source>
@@ -10651,23 +10575,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>helped by hand</source>
-        <translation type="vanished">aiuto con la mano</translation>
-    </message>
-    <message>
-        <source>Passive: somebody else moved the hand. It counts apart, beside the active ones.</source>
-        <translation>Passiva: la mano è stata mossa da un’altra persona. Conta a parte, accanto a quelle attive.</translation>
-    </message>
-    <message>
-        <source>Passive</source>
-        <translation>Passivo</translation>
-    </message>
-    <message>
-        <source>Passive, and all after it</source>
-        <translation>Passiva, e tutte le seguenti</translation>
-    </message>
-    <message>
-        <source>Left out: it stays in the recording and on the curves, and counts no longer. The report says so.</source>
-        <translation>Esclusa: resta nella registrazione e nelle curve e non conta più. Il referto lo dice.</translation>
+        <translation>aiuto con la mano</translation>
     </message>
     <message>
         <source>other movement</source>
@@ -10686,12 +10594,8 @@ Maiusc+F8 di lato</translation>
         <translation>Tienila</translation>
     </message>
     <message>
-        <source>Is repetition {number} passive, or left out?</source>
-        <translation>La ripetizione {number} è passiva o esclusa?</translation>
-    </message>
-    <message>
         <source>Leave repetition {number} out?</source>
-        <translation type="vanished">Escludere la ripetizione {number}?</translation>
+        <translation>Escludere la ripetizione {number}?</translation>
     </message>
     <message>
         <source>Leave it out</source>

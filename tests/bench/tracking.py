@@ -129,7 +129,7 @@ class spied:  # noqa: N801  (read as a word)
         spy.watch(palm_association, "corrected", "update")
         spy.watch(hand_filter, "levelled_bank", "update")
         spy.watch(hand_filter, "recentred", "update")
-        for name in ("palm_step", "mixed", "carried"):
+        for name in ("palm_step", "carried"):
             spy.watch(hand_filter, name, "predict")
         spy.watch(hand_filter, "predicted_measurement", "forecast")
         spy.watch(hand_filter, "surface_measurement", "surface")

@@ -27,6 +27,7 @@ def test_everything_is_examined_with_a_camera_that_always_is_there(tmp_path: Pat
     assert list(findings) == [
         "Python",
         "Packages",
+        "Kernels",
         "Window",
         "Fonts",
         "Data folder",

@@ -131,8 +131,6 @@ def hand_session(
 class FakeHandSessions:
     """Five sessions of a fist that gets better; in the last one the thumb was covered for a while."""
 
-    hand_values: Sequence[HandValue] = ()
-
     def __init__(self, pictures: bool = True) -> None:
         days, shares = (35, 28, 21, 7, 0), (0.55, 0.62, 0.74, 0.86, 1.0)
         self.sessions: dict[str, Session] = {}
@@ -174,7 +172,7 @@ class FakeHandSessions:
         return [session_figures(stored, self.choices(key)) for key, stored in self.sessions.items()]
 
     def by_hand(self, patient_id: str) -> list[HandValue]:
-        return list(self.hand_values)
+        return []
 
     def export(self, session_id: str, folder: str) -> list[str]:
         return []

@@ -1,0 +1,118 @@
+"""Which kernels run: those in C where they were built for this source and this computer, else NumPy's functions.
+
+``CARPUS_KERNELS=numpy`` forces NumPy's, ``CARPUS_KERNELS=plain`` those in C that every processor runs. A function that
+has a kernel asks :func:`in_c` each time it is called.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import _cffi_backend  # cffi without its parser of C, which takes longer to load than all of NumPy
+import numpy as np
+
+from carpus.core.kernels.build import HERE, PLAIN, WIDE, digest, levels, library
+
+VARIABLE, NUMPY = "CARPUS_KERNELS", "numpy"
+
+_FFI = _cffi_backend.FFI()
+NOTHING = _FFI.NULL
+"""Stands for an array that is not given."""
+_BUFFERS = {
+    "d": _FFI.typeof("double[]"),
+    "f": _FFI.typeof("float[]"),
+    "B": _FFI.typeof("uint8_t[]"),
+    "?": _FFI.typeof("uint8_t[]"),
+    "H": _FFI.typeof("uint16_t[]"),
+    "i": _FFI.typeof("int32_t[]"),
+    "l": _FFI.typeof("int64_t[]"),
+    "q": _FFI.typeof("int64_t[]"),
+}
+_DECLARED = re.compile(r"^KERNEL int (\w+)\(([^;]*)\);", re.M)
+
+
+class Kernels:
+    """One library. ``level`` says which; every function that its header declares is an attribute, which takes arrays
+    and numbers and raises ``numpy.linalg.LinAlgError`` where a matrix is not positive definite."""
+
+    def __init__(self, path: Path, level: str) -> None:
+        """Raises ``OSError`` where the library cannot be loaded or is of another source."""
+        self.level = level
+        loaded = _cffi_backend.load_library(str(path), 0)
+        try:
+            told = loaded.load_function(_FFI.typeof("char *(*)(void)"), "kernels_digest")()
+            if _FFI.string(told).decode() != path.name.split("-")[1]:
+                raise OSError(f"{path.name} is of another source")
+            declared = _DECLARED.findall((HERE / "kernels.h").read_text(encoding="utf-8"))
+            for name, arguments in declared:
+                setattr(self, name, _called(loaded.load_function(_FFI.typeof(f"int (*)({arguments})"), name)))
+            self._wide = loaded.load_function(_FFI.typeof("int (*)(void)"), "kernels_run_wide")
+        except AttributeError as fault:
+            raise OSError(str(fault)) from fault
+        self._library = loaded  # as long as its functions
+
+    @property
+    def processor_is_wide(self) -> bool:
+        """Whether this processor runs the wide level."""
+        return bool(self._wide())
+
+    def __getattr__(self, name: str) -> Callable[..., None]:
+        raise AttributeError(f"no kernel {name}")
+
+
+def _called(function: Any) -> Callable[..., None]:
+    """A function of arrays, each of the type that its header declares, and numbers."""
+    of_array, buffers, array = _FFI.from_buffer, _BUFFERS, np.ndarray
+
+    def as_c(value: Any) -> Any:
+        return of_array(buffers[value.dtype.char], np.ascontiguousarray(value)) if isinstance(value, array) else value
+
+    def call(*arguments: Any) -> None:
+        try:
+            status = function(*[of_array(buffers[x.dtype.char], x) if x.__class__ is array else x for x in arguments])
+        except (TypeError, ValueError, BufferError):  # one that is not there, or not stored row by row
+            status = function(*[as_c(x) for x in arguments])
+        if status:
+            raise np.linalg.LinAlgError("Matrix is not positive definite")
+
+    return call
+
+
+def _loaded(asked: str) -> Kernels | None:
+    if asked == NUMPY:
+        return None
+    made_of = digest()
+    try:
+        plain = Kernels(library(PLAIN, made_of), PLAIN)
+    except OSError:
+        return None
+    if asked != PLAIN and WIDE in levels() and plain.processor_is_wide:
+        try:
+            return Kernels(library(WIDE, made_of), WIDE)
+        except OSError:
+            return plain
+    return plain
+
+
+_chosen: Kernels | None = _loaded(os.environ.get(VARIABLE, ""))
+
+
+def in_c() -> Kernels | None:
+    """The kernels in C that run here; None where NumPy's functions do."""
+    return _chosen
+
+
+@contextmanager
+def forced(asked: str) -> Iterator[Kernels | None]:
+    """Other kernels for a while, of this whole process: what the variable can ask for."""
+    global _chosen
+    before, _chosen = _chosen, _loaded(asked)
+    try:
+        yield _chosen
+    finally:
+        _chosen = before

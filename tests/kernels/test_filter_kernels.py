@@ -1,0 +1,109 @@
+"""The filter's step in C against NumPy's."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carpus.core.kernels import choice
+from carpus.core.tracking import kernel
+from carpus.core.tracking.kernel import Bank, Carrying, Line, learning_shares, switching
+from carpus.core.types import FloatArray
+from tests.kernels.pairs import LEVELS, both
+
+SIZES = [(1, 8, 54, 18), (5, 2, 21, 9), (1, 1, 54, 3), (2, 3, 5, 2)]
+"""Chains, modes, numbers, measured: the palm's and the digits', one mode, and none that a vector holds."""
+
+
+def covariances(rng: np.random.Generator, *shape: int) -> FloatArray:
+    root = rng.normal(size=(*shape, shape[-1]))
+    return np.asarray(root @ np.swapaxes(root, -1, -2) / shape[-1] + np.eye(shape[-1]))
+
+
+def bank_of(rng: np.random.Generator, chains: int, modes: int, n: int) -> Bank:
+    probability = rng.uniform(0.1, 1.0, size=(chains, modes))
+    return Bank(
+        rng.normal(size=(chains, modes, n)),
+        covariances(rng, chains, modes, n),
+        probability / probability.sum(axis=1, keepdims=True),
+    )
+
+
+def line_of(rng: np.random.Generator, chains: int, n: int, m: int) -> Line:
+    slope = rng.normal(size=(chains, m, n)) * (rng.uniform(size=(chains, m, n)) < 0.4)
+    return Line(rng.normal(size=(chains, m)), slope, covariances(rng, chains, m), rng.normal(size=(chains, n)))
+
+
+@pytest.mark.parametrize(("chains", "modes", "n", "m"), SIZES)
+@pytest.mark.parametrize("unseen", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("extras", [False, True])
+def test_correction(chains: int, modes: int, n: int, m: int, unseen: float, extras: bool) -> None:
+    rng = np.random.default_rng(7)
+    bank, line = bank_of(rng, chains, modes, n), line_of(rng, chains, n, m)
+    measured = np.where(rng.uniform(size=(chains, m)) < unseen, np.nan, rng.normal(size=(chains, m)))
+    variance = np.where(np.isnan(measured), np.nan, rng.uniform(1e-6, 2.0, size=(chains, m)))
+    shared = covariances(rng, chains, m) if extras else None
+    shares = learning_shares(n, slice(1, 3), 0.3) if extras else None
+    found = both(lambda: kernel.corrected(bank, line, measured, variance, shared, shares))
+    assert (found.dof == np.isfinite(measured).sum(axis=1)).all()
+
+
+@pytest.mark.parametrize(("chains", "modes", "n", "m"), SIZES)
+@pytest.mark.parametrize("switches", [False, True])
+def test_prediction_and_merging(chains: int, modes: int, n: int, m: int, switches: bool) -> None:
+    rng = np.random.default_rng(8)
+    bank = bank_of(rng, chains, modes, n)
+    switch = switching(modes, 0.5, 0.033) if switches else None
+    forward, noise = np.eye(n) + 0.1 * rng.normal(size=(chains, n, n)), covariances(rng, chains, modes, n)
+    both(lambda: kernel.predicted(bank, forward, noise, switch))
+    both(bank.merged)
+    assert m
+
+
+@pytest.mark.parametrize("modes", [1, 8])
+@pytest.mark.parametrize("switches", [False, True])
+def test_carrying(modes: int, switches: bool) -> None:
+    rng = np.random.default_rng(9)
+    bank = bank_of(rng, 1, modes, 54)
+    step = Carrying(
+        np.eye(12) + 0.1 * rng.normal(size=(12, 12)),
+        covariances(rng, modes, 12),
+        np.where(np.arange(54) < 12, 1.0, rng.uniform(0.0, 1.0, size=(modes, 54))),
+        covariances(rng, modes, 21),
+    )
+    nominal, switch = rng.normal(size=54), switching(modes, 0.5, 0.033) if switches else None
+    both(lambda: kernel.carried(bank, step, nominal, switch))
+
+
+def test_arrays_that_are_not_stored_row_by_row_are_read_as_they_are() -> None:
+    rng = np.random.default_rng(10)
+    bank, line = bank_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
+    turned = Line(line.value, np.asfortranarray(line.slope[0])[None], line.error[:, ::-1, ::-1], line.about)
+    both(lambda: kernel.corrected(bank, turned, np.ones((1, 8))[:, ::2], np.ones((1, 4))))
+
+
+@pytest.mark.parametrize("how", [choice.NUMPY, *LEVELS])
+def test_no_correction_by_what_is_no_covariance(how: str) -> None:
+    rng = np.random.default_rng(11)
+    bank, line = bank_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
+    bad = Line(line.value, line.slope, line.error - 1e3 * np.eye(4), line.about)
+    with choice.forced(how), pytest.raises(np.linalg.LinAlgError):
+        kernel.corrected(bank, bad, np.ones((1, 4)), np.ones((1, 4)))
+
+
+@pytest.mark.parametrize("how", [choice.NUMPY, *LEVELS])
+def test_what_is_unknown_of_a_line_is_unknown_after_it(how: str) -> None:
+    rng = np.random.default_rng(11)
+    bank, line = bank_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
+    bad = Line(line.value, line.slope, np.where(np.eye(4) > 0.0, np.nan, line.error), line.about)
+    with choice.forced(how):
+        assert np.isnan(kernel.corrected(bank, bad, np.ones((1, 4)), np.ones((1, 4))).bank.mean).all()
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_an_array_of_another_type_is_refused(level: str) -> None:
+    rng = np.random.default_rng(12)
+    bank = bank_of(rng, 1, 2, 6)
+    narrow = Bank(bank.mean.astype(np.float32), bank.covariance, bank.probability)
+    with choice.forced(level), pytest.raises(TypeError):
+        narrow.merged()
