@@ -46,6 +46,20 @@ def pytest_configure() -> None:
     QtBot.waitSignal.__kwdefaults__["timeout"] = _PATIENCE_MS
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """What is made once for a file or folder is made in one process: else each process makes it again."""
+    for item in items:
+        made = getattr(item, "_fixtureinfo", None)
+        places = [
+            fixture.baseid
+            for fixtures in (made.name2fixturedefs.values() if made else ())
+            for fixture in fixtures
+            if fixture.scope in ("module", "package") and fixture.baseid.startswith("tests/")
+        ]
+        if places and item.get_closest_marker("xdist_group") is None:
+            item.add_marker(pytest.mark.xdist_group(min(places, key=len)))
+
+
 @pytest.fixture(autouse=True, scope="session")
 def window_application(qapp: QApplication) -> QApplication:
     """There from the start: a test that prints a report without a window would make a lesser one, and there is only

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields, replace
 from datetime import date, datetime, timedelta, timezone
 from functools import lru_cache
 from pathlib import Path
@@ -342,6 +342,25 @@ class FakeMeasuring:
         self.closed = True
 
 
+def made_once(make: Callable[..., Session]) -> Callable[..., Session]:
+    """Makes each session once; whoever would change an array that other tests see too is stopped."""
+
+    @lru_cache(maxsize=64)
+    def one(*values: object, **named: object) -> Session:
+        made = make(*values, **named)
+        for part in (made, made.motion, made.markers, made.quality):
+            for array in (getattr(part, field.name) for field in fields(part)):
+                if isinstance(array, np.ndarray):
+                    array.flags.writeable = False
+        return made
+
+    def hashable(value: object) -> object:
+        return tuple(value) if isinstance(value, list) else value
+
+    return lambda *values, **named: one(*map(hashable, values), **{key: hashable(v) for key, v in named.items()})
+
+
+@made_once
 def session(
     when: datetime = NOW,
     scale: float = 1.0,
@@ -395,6 +414,17 @@ def session(
         complete=True,
         recovered="",
     )
+
+
+_FIGURES: dict[tuple[int, str], tuple[Session, SessionFigures]] = {}
+
+
+def figures_once(made: Session, choices: RepetitionChoices) -> SessionFigures:
+    """Its figures, computed once."""
+    key = id(made), repr(choices)
+    if key not in _FIGURES:
+        _FIGURES[key] = made, session_figures(made, choices)
+    return _FIGURES[key][1]
 
 
 WHY = {
@@ -610,7 +640,7 @@ class FakeSessions:
         return self.sessions[session_id]
 
     def figures_of(self, session_id: str) -> SessionFigures:
-        return session_figures(self.session(session_id), self.choices(session_id))
+        return figures_once(self.session(session_id), self.choices(session_id))
 
     def picture(self, session_id: str, row: int) -> ByteImage | None:
         if not self.pictures:
@@ -632,7 +662,7 @@ class FakeSessions:
         return camera_said(session.header.parameters)
 
     def history(self, patient_id: str) -> list[SessionFigures]:
-        return [session_figures(stored, self.choices(key)) for key, stored in self.sessions.items()]
+        return [figures_once(stored, self.choices(key)) for key, stored in self.sessions.items()]
 
     def by_hand(self, patient_id: str) -> list[HandValue]:
         return list(self.hand_values)

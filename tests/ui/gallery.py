@@ -102,6 +102,7 @@ SIZES = ((1280, 800), (1920, 1080))
 STEPS = ("Exercise", "Camera", "Markers", "Measure")
 TABS = ("Sessions", "Review", "Progress", "Report")
 TODAY = date(2026, 11, 20)
+TICK_FRAMES = 6
 LOST = Words(
     "The camera sends no more pictures.",
     "Everything recorded so far is stored on this computer.",
@@ -168,6 +169,7 @@ class Gallery:
         for _ in range(3):
             self.application.processEvents()
             while self.background.busy:
+                self.background.wait()
                 self.application.processEvents()
 
     def place(self, steps: int = -1, tab: int = -1, where: str = "Right hand", camera: str = "Camera ready") -> None:
@@ -371,8 +373,10 @@ class Gallery:
         screen.tick()
         screen.toggle_recording()
         self.settle()
-        for _ in range(round(30 * seconds) - 1):
-            feed.step()
+        left = round(30 * seconds) - 1
+        while left > 0:  # some at a time, as a busy window looks
+            feed.step(min(left, TICK_FRAMES))
+            left -= TICK_FRAMES
             screen.tick()
         feed.picture_number = None
         feed.step()

@@ -11,17 +11,15 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.by_hand.values import HandValue
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.sites import joint_angle_names
-from carpus.core.output.camera_said import CameraSaid, camera_said
-from carpus.core.output.report_content import RepetitionChoices, SessionFigures, session_figures
+from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import ByteImage
 from carpus.ui.ports import StoredResult
-from tests.ui.fakes import FPS, NOW, calibration
+from tests.ui.fakes import FPS, NOW, FakeSessions, calibration, made_once
 
 SECONDS = 40.0
 JOINT_SD_DEG = 2.0
@@ -40,6 +38,7 @@ def simulated_hand(motion: str = "fist", seconds: float = SECONDS, side: str = "
     return SimulatedPictures(spec)
 
 
+@made_once
 def hand_session(
     when: datetime = NOW,
     share: float = 1.0,
@@ -128,7 +127,7 @@ def hand_session(
     )  # fmt: skip
 
 
-class FakeHandSessions:
+class FakeHandSessions(FakeSessions):
     """Five sessions of a fist that gets better; in the last one the thumb was covered for a while."""
 
     def __init__(self, pictures: bool = True) -> None:
@@ -144,38 +143,11 @@ class FakeHandSessions:
         self.results: list[StoredResult] = []
         self.pictures = pictures
 
-    def session(self, session_id: str) -> Session:
-        return self.sessions[session_id]
-
-    def figures_of(self, session_id: str) -> SessionFigures:
-        return session_figures(self.session(session_id), self.choices(session_id))
-
     def picture(self, session_id: str, row: int) -> ByteImage | None:
         if not self.pictures:
             return None
         pictures = simulated_hand(side=self.sessions[session_id].header.hand)
         return pictures.sensed(row, pictures.clean(row))[0]
-
-    def results_of(self, session_id: str) -> list[StoredResult]:
-        return list(self.results)
-
-    def choices(self, session_id: str) -> RepetitionChoices:
-        return self.kept.get(session_id, RepetitionChoices())
-
-    def keep_choices(self, session_id: str, choices: RepetitionChoices) -> None:
-        self.kept[session_id] = choices
-
-    def camera(self, session: Session) -> CameraSaid:
-        return camera_said(session.header.parameters)
-
-    def history(self, patient_id: str) -> list[SessionFigures]:
-        return [session_figures(stored, self.choices(key)) for key, stored in self.sessions.items()]
-
-    def by_hand(self, patient_id: str) -> list[HandValue]:
-        return []
-
-    def export(self, session_id: str, folder: str) -> list[str]:
-        return []
 
 
 def without_hidden(session: Session) -> Session:
