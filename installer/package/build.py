@@ -104,8 +104,11 @@ def pack(python: Path) -> Path:
 
 def try_start(folder: Path) -> None:
     """Start what was packed, and let it make a store: what is read as a file, not imported, may be missing."""
-    with tempfile.TemporaryDirectory() as data:
-        run(folder / ("carpus.exe" if WINDOWS else "carpus"), "log", env=os.environ | {"CARPUS_DATA": data})
+    with tempfile.TemporaryDirectory() as made:
+        data, place = Path(made, "data"), Path(made, "backup")
+        data.mkdir()
+        program = folder / ("carpus.exe" if WINDOWS else "carpus")
+        run(program, "backup", place, env=os.environ | {"CARPUS_DATA": str(data)})
 
 
 def write_archive(folder: Path, name: str) -> Path:
