@@ -16,6 +16,7 @@ from carpus.core.formats.formats import FORMATS, Writer
 from carpus.core.formats.new_output import new_text
 from carpus.core.formats.provenance import LEGAL, provenance
 from carpus.core.formats.take import Take, about
+from carpus.core.output.repetition_rows import PASSIVE
 from carpus.core.output.report_content import RepetitionChoices, session_figures
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.session.values import Session
@@ -128,7 +129,8 @@ def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version
     if nobody is not None:
         session = nobody.session(session)
         if choices is not None:  # a reason is a person's own words
-            choices = replace(choices, left_out=dict.fromkeys(choices.left_out, "left out"), not_counted_reason="")
+            kept = {n: why if why in ("", PASSIVE) else "left out" for n, why in choices.left_out.items()}
+            choices = replace(choices, left_out=kept, not_counted_reason="")
         name = nobody.name(session.header)
     base, number = name, 1
     while name in names:  # sessions of several folders may share a name

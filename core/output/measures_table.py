@@ -64,7 +64,8 @@ MEASURE_COLUMNS = {
     "of the joint. arc is a size; speeds, times, units, pauses and smoothness are of single strokes, one way, where "
     "the table of repetitions has both ways together; of a whole finger (TAM) total active motion, flexion and "
     "extension deficit",
-    "of": "of which angle, joint, disc or finger",
+    "of": 'of which angle, joint, disc or finger; with ", passive" of the repetitions in which somebody else moved the '
+    "hand: they are in no other row",
     "positive": "what a larger figure means, the same for mean, best and every column of the row",
     "estimate": "filter or smoother: of whose angles; the smoother's where it ran",
     "mean sd best measurement_sd": "in the unit of the row; sd between repetitions, measurement_sd of one value",
@@ -97,7 +98,7 @@ def positive_of(angle: str) -> str:
 
 def _positive(row: MeasureRow) -> str:
     if row.measure in ("largest", "smallest"):
-        return positive_of(row.of)
+        return positive_of(row.of.partition(",")[0])
     words = {
         "flexion": "flexed", "extension": "extended", "radial": "radial", "ulnar": "ulnar", "supination": "supinated",
         "pronation": "pronated", "extension deficit": "further from straight", "smoothness": "smoother",
@@ -123,6 +124,12 @@ def _rows(figures: SessionFigures, session: str) -> Iterator[MeasureRow]:
         yield MeasureRow(
             *common, _measure(row), row.joint or WRIST_ANGLES[row.angle], "deg", row.mean_deg, row.sd_deg, row.best_deg,
             row.measurement_sd_deg, row.count, row.limited, row.seen_share, row.inferred,
+        )  # fmt: skip
+    helped = figures.passive
+    for row in () if helped is None else (*helped.rows, *helped.joint_rows):
+        yield MeasureRow(
+            *common, _measure(row), f"{row.joint or WRIST_ANGLES[row.angle]}, passive", "deg", row.mean_deg,
+            row.sd_deg, row.best_deg, row.measurement_sd_deg, row.count, row.limited, row.seen_share, row.inferred,
         )  # fmt: skip
     trained: tuple[tuple[str, str, Spread], ...] = (
         ("peak speed", "deg/s", figures.peak_speed), ("smoothness", "SPARC", figures.smoothness),

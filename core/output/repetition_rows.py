@@ -31,11 +31,18 @@ HIDDEN: Unmeasured = "hidden"
 """Why a repetition does not count that was not seen well enough to be measured."""
 
 
+PASSIVE = "passive"
+"""Why a repetition counts apart: somebody else moved the hand. Also the event since which that was so."""
+ACTIVE = "active"
+"""The event since which the hand moved by itself again."""
+
+
 @dataclass(frozen=True, slots=True)
 class RepetitionChoices:
     """A person's corrections, by the number of the repetition as found (from 0).
 
-    ``left_out`` reasons in words; ``edges_s`` start and end in seconds after the first frame; ``not_counted``: the
+    ``left_out`` reasons in words, :data:`PASSIVE` for one that was helped, empty for one that counts whatever was said
+    while it was measured; ``edges_s`` start and end in seconds after the first frame; ``not_counted``: the
     whole session is shown, and compared with none.
     """
 
@@ -57,17 +64,20 @@ class Trained:
     tracked: Signal
     looked_back: bool
     range_of: Callable[[Sequence[Repetition]], MotionRange]
+    passive_s: tuple[tuple[float, float], ...] = ()
+    """Stretches of which was said, while they were measured, that somebody else moves the hand."""
 
 
 @dataclass(frozen=True, slots=True)
 class Measured:
     """One repetition: ``window`` over which its range is measured, holds included, its strokes, and its row with times
-    after the first frame; ``unmeasured`` why it cannot count."""
+    after the first frame; ``unmeasured`` why it cannot count, ``left_out`` why a person does not let it."""
 
     window: Repetition
     unmeasured: Unmeasured
     strokes: tuple[StrokeMeasures, ...]
     row: RepetitionRow
+    left_out: str = ""
 
 
 def repetitions_of(session: Session) -> Repetitions:
@@ -118,12 +128,12 @@ def trained_angle(
     exercise: Exercise, signals: Sequence[Signal], tracks: Mapping[str, JointTrack], session: Session
 ) -> Trained | None:
     """None where no angle is trained, or nothing was seen of it."""
-    looked_back = session.smoothed is not None
+    looked_back, passive_s = session.smoothed is not None, passive_stretches(session)
     track = tracks.get(exercise.joint)
     if track is not None and track.known:
         return Trained(
             exercise.joint, find_repetitions(track.tracked), track.seen, track.seen_sd, track.tracked, looked_back,
-            lambda some: joint_range(track, some),
+            lambda some: joint_range(track, some), passive_s,
         )  # fmt: skip
     if exercise.angle is None or not len(signals[exercise.angle].time_s):
         return None
@@ -131,8 +141,17 @@ def trained_angle(
     angle, smooth = signal.column(0), low_pass(signal, HIGHEST_CUTOFF_HZ).column(0)
     return Trained(
         WRIST_ANGLES[exercise.angle], find_repetitions(angle), angle, signal.column(1), angle, looked_back,
-        lambda some: motion_range(smooth, signal.column(1), tuple(some), smoothed=looked_back),
+        lambda some: motion_range(smooth, signal.column(1), tuple(some), smoothed=looked_back), passive_s,
     )  # fmt: skip
+
+
+def passive_stretches(session: Session) -> tuple[tuple[float, float], ...]:
+    """From when to when somebody else moved the hand, as was said while it was measured: seconds after the first
+    frame, the last to the end."""
+    start_s = float(session.timestamp_s[0]) if len(session) else 0.0
+    said = [(one.time_s - start_s, one.kind) for one in session.events if one.kind in (PASSIVE, ACTIVE)]
+    ends = [*(time_s for time_s, _ in said[1:]), math.inf]
+    return tuple((time_s, end_s) for (time_s, kind), end_s in zip(said, ends, strict=False) if kind == PASSIVE)
 
 
 def measured_repetitions(trained: Trained, choices: RepetitionChoices) -> tuple[Measured, ...]:
@@ -143,9 +162,15 @@ def measured_repetitions(trained: Trained, choices: RepetitionChoices) -> tuple[
     ]
     every = sorted((*trained.found.repetitions, *trained.found.cut), key=lambda rep: rep.start_s)
     return tuple(
-        _measured(trained, rep, strokes, choices.edges_s.get(number), choices.left_out.get(number, ""))
+        _measured(trained, rep, strokes, choices.edges_s.get(number), choices.left_out.get(number, _said(trained, rep)))
         for number, rep in enumerate(every)
     )
+
+
+def _said(trained: Trained, rep: Repetition) -> str:
+    """How a repetition was moved as was said while it was measured, by its middle."""
+    middle_s = 0.5 * (rep.start_s + rep.end_s)
+    return PASSIVE if any(start <= middle_s < end for start, end in trained.passive_s) else ""
 
 
 def _measured(
@@ -191,6 +216,7 @@ def _measured(
             counted=not left_out and not why,
             reason=left_out or why,
         ),
+        left_out,
     )
 
 

@@ -39,7 +39,9 @@ from carpus.core.output.further_measures import (
 from carpus.core.output.joint_content import joint_rows, joint_tracks
 from carpus.core.output.range_rows import RangeRow, RowKey, best_motion, is_total, range_row
 from carpus.core.output.repetition_rows import (
+    ACTIVE,
     HIDDEN,
+    PASSIVE,
     Measured,
     Unmeasured,
     measured_repetitions,
@@ -92,6 +94,11 @@ class ShownRepetition:
     reason: str
     unmeasured: Unmeasured = ""
     row: RepetitionRow | None = None
+
+    @property
+    def helped(self) -> bool:
+        """Whether it counts among those in which somebody else moved the hand."""
+        return self.reason == PASSIVE and not self.unmeasured
 
     @property
     def counts(self) -> bool:
@@ -241,6 +248,8 @@ class SessionFigures:
     """Which camera it was measured with, and its calibration."""
     corrected: CorrectedFrom | None = None
     """Since when it stands with markers that a person put right; None as measured."""
+    passive: SessionFigures | None = None
+    """The same of the repetitions in which somebody else moved the hand; None without any. Never in the others."""
 
     @property
     def study(self) -> RetestStudy | None:
@@ -370,7 +379,7 @@ def session_figures(
     trained = trained_angle(exercise, signals, tracks, session)
     found = trained.found if trained is not None else FoundExercise((), ())
     measured = measured_repetitions(trained, choices) if trained is not None else ()
-    repetitions = _shown(measured, choices)
+    repetitions = _shown(measured)
     counted = tuple(one.window for one in measured if one.row.counted)
     angles: tuple[int, ...] = FREE_ORDER if exercise.angle is None else (exercise.angle,)
     all_left_out = not counted and any(one.is_whole for one in repetitions)
@@ -444,7 +453,18 @@ def session_figures(
         error_limits=error_limits,
         camera=camera_said(session.header.parameters),
         corrected=corrected_from(session),
+        passive=_of_passive(session, choices, measured, error_limits),
     )
+
+
+def _of_passive(
+    session: Session, choices: RepetitionChoices, measured: Sequence[Measured], error_limits: ErrorLimits
+) -> SessionFigures | None:
+    """The figures of what was helped alone: all else is left out of them."""
+    if not any(one.left_out == PASSIVE and not one.unmeasured for one in measured):
+        return None
+    others = {n: "" if one.left_out == PASSIVE else one.left_out or ACTIVE for n, one in enumerate(measured)}
+    return session_figures(session, replace(choices, left_out=others), error_limits)
 
 
 def data_digest(session: Session) -> str:
@@ -590,16 +610,16 @@ def _same_recording(one: SessionFigures, other: SessionFigures) -> bool:
     return bool(one.recording_id) and one.recording_id == other.recording_id
 
 
-def _shown(measured: Sequence[Measured], choices: RepetitionChoices) -> tuple[ShownRepetition, ...]:
+def _shown(measured: Sequence[Measured]) -> tuple[ShownRepetition, ...]:
     return tuple(
         ShownRepetition(
             one.row.start_s if math.isfinite(one.row.start_s) else one.window.start_s,
             one.row.end_s if math.isfinite(one.row.end_s) else one.window.end_s,
-            choices.left_out.get(number, ""),
+            one.left_out,
             one.unmeasured,
             one.row,
         )
-        for number, one in enumerate(measured)
+        for one in measured
     )
 
 

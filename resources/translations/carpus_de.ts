@@ -2564,6 +2564,10 @@
         <translation>{number} aus</translation>
     </message>
     <message>
+        <source>{number} passive</source>
+        <translation>{number} passiv</translation>
+    </message>
+    <message>
         <source>Place</source>
         <translation>Ort</translation>
     </message>
@@ -3329,7 +3333,11 @@
     </message>
     <message>
         <source>{ordinal}, active</source>
-        <translation>{ordinal}, aktiv</translation>
+        <translation type="vanished">{ordinal}, aktiv</translation>
+    </message>
+    <message>
+        <source>active and passive</source>
+        <translation>aktiv und passiv</translation>
     </message>
     <message>
         <source>right-handed</source>
@@ -3366,6 +3374,10 @@
     <message>
         <source>Range of motion</source>
         <translation>Bewegungsumfang</translation>
+    </message>
+    <message>
+        <source>Active and passive</source>
+        <translation>Aktiv und passiv</translation>
     </message>
     <message>
         <source>grey: repetitions; band: ± 1 sd of the angle</source>
@@ -3506,6 +3518,14 @@
     <message>
         <source>mean of {count} repetitions</source>
         <translation>Mittel aus {count} Wiederholungen</translation>
+    </message>
+    <message>
+        <source>1 passive beside it</source>
+        <translation>daneben 1 passive</translation>
+    </message>
+    <message>
+        <source>{count} passive beside it</source>
+        <translation>daneben {count} passive</translation>
     </message>
     <message>
         <source>not seen well enough</source>
@@ -6388,6 +6408,10 @@
         <translation>Nichts ist verloren; Sitzungen nahe dieser Prüfung sagen, dass sie unsicher sind.</translation>
     </message>
     <message>
+        <source>Together</source>
+        <translation>Zusammen</translation>
+    </message>
+    <message>
         <source>± is the spread between repetitions.</source>
         <translation>± ist die Streuung zwischen Wiederholungen.</translation>
     </message>
@@ -7098,6 +7122,58 @@
     <message>
         <source>Install it with the pip of Carpus’s own environment; in a checkout that is “.venv/bin/pip”.</source>
         <translation type="vanished">Installieren Sie es mit dem pip der eigenen Umgebung von Carpus; in einem Checkout ist das „.venv/bin/pip“.</translation>
+    </message>
+    <message>
+        <source>Each joint where it was bent most; ± is the spread between repetitions.</source>
+        <translation>Jedes Gelenk dort, wo es am meisten gebeugt war; ± ist die Streuung zwischen den Wiederholungen.</translation>
+    </message>
+    <message>
+        <source>{sign}: at least, the camera did not see the end of that movement.</source>
+        <translation>{sign}: mindestens, die Kamera sah das Ende dieser Bewegung nicht.</translation>
+    </message>
+    <message>
+        <source>{sign}: measured by hand that day, active / passive; never averaged with the rest.</source>
+        <translation>{sign}: an diesem Tag von Hand gemessen, aktiv / passiv; nie mit dem Übrigen gemittelt.</translation>
+    </message>
+    <message>
+        <source>Active</source>
+        <translation>Aktiv</translation>
+    </message>
+    <message>
+        <source>Passive</source>
+        <translation>Passiv</translation>
+    </message>
+    <message>
+        <source>Passive goes further</source>
+        <translation>Passiv geht weiter</translation>
+    </message>
+    <message>
+        <source>By hand</source>
+        <translation>Von Hand</translation>
+    </message>
+    <message>
+        <source>Finger</source>
+        <translation>Finger</translation>
+    </message>
+    <message>
+        <source>within the error</source>
+        <translation>innerhalb des Fehlers</translation>
+    </message>
+    <message>
+        <source>{gap} (error {limit})</source>
+        <translation>{gap} (Fehler {limit})</translation>
+    </message>
+    <message>
+        <source>{name}: {active} by itself, {passive} when helped. The {gap} between them are more than the error.</source>
+        <translation>{name}: {active} von selbst, {passive} mit Hilfe. Die {gap} dazwischen sind mehr als der Fehler.</translation>
+    </message>
+    <message>
+        <source>When helped it goes no further than the error of measurement.</source>
+        <translation>Mit Hilfe geht es nicht weiter als der Messfehler.</translation>
+    </message>
+    <message>
+        <source>Active and passive are shown, not judged: {why}.</source>
+        <translation>Aktiv und passiv werden gezeigt, nicht beurteilt: {why}.</translation>
     </message>
 </context>
 <context>
@@ -9248,6 +9324,10 @@ Umschalt+F8 von der Seite</translation>
         <translation>Schmerz {score} vermerkt</translation>
     </message>
     <message>
+        <source>Passive</source>
+        <translation>Passiv</translation>
+    </message>
+    <message>
         <source>Plug the camera in again</source>
         <translation>Schließen Sie die Kamera wieder an</translation>
     </message>
@@ -9816,8 +9896,16 @@ Umschalt+F8 von der Seite</translation>
         <translation>Pause</translation>
     </message>
     <message>
+        <source>Active from here</source>
+        <translation>Aktiv ab hier</translation>
+    </message>
+    <message>
+        <source>Passive from here</source>
+        <translation>Passiv ab hier</translation>
+    </message>
+    <message>
         <source>Helped by hand</source>
-        <translation>Von Hand geholfen</translation>
+        <translation type="vanished">Von Hand geholfen</translation>
     </message>
 </context>
 <context>
@@ -10438,8 +10526,16 @@ Umschalt+F8 von der Seite</translation>
         <translation>abspielen</translation>
     </message>
     <message>
+        <source>Repetition…</source>
+        <translation>Wiederholung…</translation>
+    </message>
+    <message>
+        <source>Passive, or left out (X); [ and ] go to another</source>
+        <translation>Passiv oder weggelassen (X); [ und ] gehen zu einer anderen</translation>
+    </message>
+    <message>
         <source>repetition</source>
-        <translation>Wiederholung</translation>
+        <translation type="vanished">Wiederholung</translation>
     </message>
     <message>
         <source>picture</source>
@@ -10567,7 +10663,7 @@ Umschalt+F8 von der Seite</translation>
     <name>ReasonSheet</name>
     <message>
         <source>It stays in the recording and on the curves, but counts no longer. The report says so.</source>
-        <translation>Sie bleibt in der Aufnahme und auf den Kurven, zählt aber nicht mehr. Der Bericht sagt es.</translation>
+        <translation type="vanished">Sie bleibt in der Aufnahme und auf den Kurven, zählt aber nicht mehr. Der Bericht sagt es.</translation>
     </message>
     <message>
         <source>pain</source>
@@ -10575,7 +10671,23 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>helped by hand</source>
-        <translation>von Hand geholfen</translation>
+        <translation type="vanished">von Hand geholfen</translation>
+    </message>
+    <message>
+        <source>Passive: somebody else moved the hand. It counts apart, beside the active ones.</source>
+        <translation>Passiv: Jemand anders hat die Hand bewegt. Sie zählt für sich, neben den aktiven.</translation>
+    </message>
+    <message>
+        <source>Passive</source>
+        <translation>Passiv</translation>
+    </message>
+    <message>
+        <source>Passive, and all after it</source>
+        <translation>Passiv, und alle danach</translation>
+    </message>
+    <message>
+        <source>Left out: it stays in the recording and on the curves, and counts no longer. The report says so.</source>
+        <translation>Weggelassen: Sie bleibt in der Aufnahme und in den Kurven und zählt nicht mehr. Der Bericht sagt es.</translation>
     </message>
     <message>
         <source>other movement</source>
@@ -10594,8 +10706,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Doch behalten</translation>
     </message>
     <message>
+        <source>Is repetition {number} passive, or left out?</source>
+        <translation>Ist Wiederholung {number} passiv oder weggelassen?</translation>
+    </message>
+    <message>
         <source>Leave repetition {number} out?</source>
-        <translation>Wiederholung {number} auslassen?</translation>
+        <translation type="vanished">Wiederholung {number} auslassen?</translation>
     </message>
     <message>
         <source>Leave it out</source>

@@ -2564,6 +2564,10 @@
         <translation>{number} esclusa</translation>
     </message>
     <message>
+        <source>{number} passive</source>
+        <translation>{number} passiva</translation>
+    </message>
+    <message>
         <source>Place</source>
         <translation>Posizione</translation>
     </message>
@@ -3329,7 +3333,11 @@
     </message>
     <message>
         <source>{ordinal}, active</source>
-        <translation>{ordinal}, attiva</translation>
+        <translation type="vanished">{ordinal}, attiva</translation>
+    </message>
+    <message>
+        <source>active and passive</source>
+        <translation>attiva e passiva</translation>
     </message>
     <message>
         <source>right-handed</source>
@@ -3366,6 +3374,10 @@
     <message>
         <source>Range of motion</source>
         <translation>Escursione articolare (ROM)</translation>
+    </message>
+    <message>
+        <source>Active and passive</source>
+        <translation>Attivo e passivo</translation>
     </message>
     <message>
         <source>grey: repetitions; band: ± 1 sd of the angle</source>
@@ -3506,6 +3518,14 @@
     <message>
         <source>mean of {count} repetitions</source>
         <translation>media di {count} ripetizioni</translation>
+    </message>
+    <message>
+        <source>1 passive beside it</source>
+        <translation>accanto 1 passiva</translation>
+    </message>
+    <message>
+        <source>{count} passive beside it</source>
+        <translation>accanto {count} passive</translation>
     </message>
     <message>
         <source>not seen well enough</source>
@@ -6384,6 +6404,10 @@
         <translation>Nulla è perso; le sedute vicine a questo controllo dicono di non essere sicure.</translation>
     </message>
     <message>
+        <source>Together</source>
+        <translation>Insieme</translation>
+    </message>
+    <message>
         <source>± is the spread between repetitions.</source>
         <translation>± è la dispersione fra ripetizioni.</translation>
     </message>
@@ -7098,6 +7122,58 @@
     <message>
         <source>no change proven</source>
         <translation>nessun cambiamento dimostrato</translation>
+    </message>
+    <message>
+        <source>Each joint where it was bent most; ± is the spread between repetitions.</source>
+        <translation>Ogni articolazione nel punto di massima flessione; ± è la variazione tra le ripetizioni.</translation>
+    </message>
+    <message>
+        <source>{sign}: at least, the camera did not see the end of that movement.</source>
+        <translation>{sign}: almeno, la telecamera non ha visto la fine di quel movimento.</translation>
+    </message>
+    <message>
+        <source>{sign}: measured by hand that day, active / passive; never averaged with the rest.</source>
+        <translation>{sign}: misurato a mano quel giorno, attivo / passivo; mai in media con il resto.</translation>
+    </message>
+    <message>
+        <source>Active</source>
+        <translation>Attivo</translation>
+    </message>
+    <message>
+        <source>Passive</source>
+        <translation>Passivo</translation>
+    </message>
+    <message>
+        <source>Passive goes further</source>
+        <translation>Passivo va oltre</translation>
+    </message>
+    <message>
+        <source>By hand</source>
+        <translation>A mano</translation>
+    </message>
+    <message>
+        <source>Finger</source>
+        <translation>Dito</translation>
+    </message>
+    <message>
+        <source>within the error</source>
+        <translation>entro l’errore</translation>
+    </message>
+    <message>
+        <source>{gap} (error {limit})</source>
+        <translation>{gap} (errore {limit})</translation>
+    </message>
+    <message>
+        <source>{name}: {active} by itself, {passive} when helped. The {gap} between them are more than the error.</source>
+        <translation>{name}: {active} da solo, {passive} con aiuto. I {gap} di differenza superano l’errore.</translation>
+    </message>
+    <message>
+        <source>When helped it goes no further than the error of measurement.</source>
+        <translation>Con aiuto non va oltre l’errore di misura.</translation>
+    </message>
+    <message>
+        <source>Active and passive are shown, not judged: {why}.</source>
+        <translation>Attivo e passivo sono mostrati, non giudicati: {why}.</translation>
     </message>
 </context>
 <context>
@@ -9248,6 +9324,10 @@ Maiusc+F8 di lato</translation>
         <translation>Dolore {score} annotato</translation>
     </message>
     <message>
+        <source>Passive</source>
+        <translation>Passivo</translation>
+    </message>
+    <message>
         <source>Plug the camera in again</source>
         <translation>Ricollegare la telecamera</translation>
     </message>
@@ -9816,8 +9896,16 @@ Maiusc+F8 di lato</translation>
         <translation>Riposo</translation>
     </message>
     <message>
+        <source>Active from here</source>
+        <translation>Attivo da qui</translation>
+    </message>
+    <message>
+        <source>Passive from here</source>
+        <translation>Passivo da qui</translation>
+    </message>
+    <message>
         <source>Helped by hand</source>
-        <translation>Aiuto con la mano</translation>
+        <translation type="vanished">Aiuto con la mano</translation>
     </message>
 </context>
 <context>
@@ -10438,8 +10526,16 @@ Maiusc+F8 di lato</translation>
         <translation>riproduci</translation>
     </message>
     <message>
+        <source>Repetition…</source>
+        <translation>Ripetizione…</translation>
+    </message>
+    <message>
+        <source>Passive, or left out (X); [ and ] go to another</source>
+        <translation>Passiva, o esclusa (X); [ e ] vanno a un’altra</translation>
+    </message>
+    <message>
         <source>repetition</source>
-        <translation>ripetizione</translation>
+        <translation type="vanished">ripetizione</translation>
     </message>
     <message>
         <source>picture</source>
@@ -10567,7 +10663,7 @@ Maiusc+F8 di lato</translation>
     <name>ReasonSheet</name>
     <message>
         <source>It stays in the recording and on the curves, but counts no longer. The report says so.</source>
-        <translation>Resta nella registrazione e sulle curve, ma non conta più. La relazione lo dice.</translation>
+        <translation type="vanished">Resta nella registrazione e sulle curve, ma non conta più. La relazione lo dice.</translation>
     </message>
     <message>
         <source>pain</source>
@@ -10575,7 +10671,23 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>helped by hand</source>
-        <translation>aiuto con la mano</translation>
+        <translation type="vanished">aiuto con la mano</translation>
+    </message>
+    <message>
+        <source>Passive: somebody else moved the hand. It counts apart, beside the active ones.</source>
+        <translation>Passiva: la mano è stata mossa da un’altra persona. Conta a parte, accanto a quelle attive.</translation>
+    </message>
+    <message>
+        <source>Passive</source>
+        <translation>Passivo</translation>
+    </message>
+    <message>
+        <source>Passive, and all after it</source>
+        <translation>Passiva, e tutte le seguenti</translation>
+    </message>
+    <message>
+        <source>Left out: it stays in the recording and on the curves, and counts no longer. The report says so.</source>
+        <translation>Esclusa: resta nella registrazione e nelle curve e non conta più. Il referto lo dice.</translation>
     </message>
     <message>
         <source>other movement</source>
@@ -10594,8 +10706,12 @@ Maiusc+F8 di lato</translation>
         <translation>Tienila</translation>
     </message>
     <message>
+        <source>Is repetition {number} passive, or left out?</source>
+        <translation>La ripetizione {number} è passiva o esclusa?</translation>
+    </message>
+    <message>
         <source>Leave repetition {number} out?</source>
-        <translation>Escludere la ripetizione {number}?</translation>
+        <translation type="vanished">Escludere la ripetizione {number}?</translation>
     </message>
     <message>
         <source>Leave it out</source>

@@ -668,6 +668,16 @@ class FakeSessions:
         return list(self.hand_values)
 
 
+def hand_values_today() -> list[HandValue]:
+    """What a goniometer said on the day of the last session, of the wrist and of a finger that the camera lost."""
+    said = (("FLEXION", 48.0, 60.0), ("EXTENSION", 40.0, 52.0), ("PIP4_FLEXION", 70.0, 90.0))
+    return [
+        HandValue(name, way, "right", NOW.date(), (value,), by="M. K.")
+        for name, active, passive in said
+        for way, value in (("active", active), ("passive", passive))
+    ]
+
+
 def hand_values() -> list[HandValue]:
     """What somebody measured by hand on three days, in the order in which it was entered."""
     found = []

@@ -25,6 +25,7 @@ from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.library.exercise_sets import USUAL_SETS
 from carpus.core.measures.error_limits import DEFAULT_LIMITS
 from carpus.core.output.joint_content import joint_curves
+from carpus.core.output.repetition_rows import PASSIVE
 from carpus.core.output.report_content import RepetitionChoices, session_curves, session_figures
 from carpus.core.output.report_form import Letterhead, ReportForm
 from carpus.core.session.values import Session
@@ -89,6 +90,7 @@ from tests.ui.fakes import (
     FakeStore,
     compared,
     hand_values,
+    hand_values_today,
     picture,
     restated_statements,
     retest_plan,
@@ -547,6 +549,31 @@ class Gallery:
         screen.seek(12.0)
         self.settle()
         screen.end()
+
+    def review_passive(self) -> None:
+        """Three of nine repetitions were passive, and the goniometer was at hand."""
+        kept, hand_values = self.sessions.kept, self.sessions.hand_values
+        self.sessions.kept = {"session-7": RepetitionChoices({6: PASSIVE, 7: PASSIVE, 8: PASSIVE})}
+        self.sessions.hand_values = hand_values_today()
+        self.review()
+        self.sessions.kept, self.sessions.hand_values = kept, hand_values
+
+    def review_passive_hand(self) -> None:
+        self.place(tab=1, camera="Saved 11:37")
+        store = FakeHandSessions()
+        store.kept = {"hand-7": RepetitionChoices(dict.fromkeys((3, 4, 5), PASSIVE))}
+        store.hand_values = hand_values_today()
+        screen = ReviewScreen(self.theme, self.keys, self.background, store)
+        self.show(screen)
+        screen.begin("linden", "hand-7")
+        self.settle()
+        screen.end()
+
+    def review_reason(self) -> None:
+        self.review()
+        screen = self._guided(ReviewScreen)
+        screen.reason.begin(4)
+        self.settle()
 
     def review_hand_finger(self) -> None:
         self.review_hand(4)
@@ -1038,7 +1065,8 @@ class Gallery:
             "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved",
             "live_disk_full", "live_note", "patient_view", "patient_view_goal", "patient_view_child",
             "patient_view_lost", "patient_view_rest", "exercise_sets", "exercise_goals",
-            "live_pain", "live_camera_lost", "review", "review_hand",
+            "live_pain", "live_camera_lost", "review", "review_hand", "review_passive",
+            "review_passive_hand", "review_reason",
             "review_path", "review_speeds", "review_zyz", "review_hand_finger",
             "review_reach", "review_opposition", "review_finger_ways",
             "correct", "correct_spots", "agreement", "agreement_curves", "agreement_goniometer", "agreement_hand",

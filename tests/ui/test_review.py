@@ -130,6 +130,25 @@ def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
     assert "mean of 9 repetitions" in screen.count.text()
 
 
+def test_a_repetition_and_all_after_it_are_passive_by_mouse(
+    qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
+) -> None:
+    assert screen.figures is not None
+    screen.go_to_repetition(7)
+    qtbot.mouseClick(screen.player.repetition, Qt.MouseButton.LeftButton)
+    assert screen.reason.isVisible()
+    qtbot.mouseClick(screen.reason.passive_on, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: "session-7" in store.kept)
+    assert set(store.kept["session-7"].left_out.items()) >= {(7, "passive"), (8, "passive")}
+    assert screen.count.text().startswith("mean of 7 repetitions; 2 passive beside it")
+    assert screen.ways_table.isVisible()
+    assert [row[0] for row in screen.ways_table.rows] == ["Whole arc", "Flexion", "Extension"]
+    screen.go_to_repetition(7)
+    key(qtbot, screen, Qt.Key.Key_X)
+    qtbot.waitUntil(lambda: store.kept["session-7"].left_out[7] == "")
+    assert screen.figures.repetitions[7].counts
+
+
 def test_comma_and_full_stop_move_the_nearer_edge(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
     assert screen.figures is not None
     screen.go_to_repetition(2)

@@ -17,9 +17,11 @@ SECOND_DIGIT_MS = 700
 
 
 class NoteSheet(Sheet):
-    """One line; Enter keeps it with the time of the picture."""
+    """One line; Enter keeps it with the time of the picture. ``moved`` says who moves the hand from now on: whether
+    somebody else does."""
 
     kept = Signal(str)
+    moved = Signal(bool)
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 720, low=True)
@@ -39,19 +41,24 @@ class NoteSheet(Sheet):
             self.tr("Stopped for pain"),
             self.tr("Strap loosened"),
             self.tr("Rest"),
-            self.tr("Helped by hand"),
         ):
             button = Button(theme, words, "plain", height_px=36)
             button.clicked.connect(lambda _=False, words=words: self._keep(words))
             quick.addWidget(button)
+        self._passive = False
+        self.way = Button(theme, "", "plain", height_px=36)
+        self.way.clicked.connect(self._change_way)
+        quick.addWidget(self.way)
         quick.addStretch(1)
         self.card.body.addLayout(quick)
         keep.clicked.connect(lambda: self._keep(self.line.text()))
         close.clicked.connect(self.close_sheet)
         self.set_default(keep)
 
-    def begin(self) -> None:
-        """Open empty."""
+    def begin(self, *, passive: bool = False) -> None:
+        """Open empty; ``passive`` whether somebody else moves the hand now."""
+        self._passive = passive
+        self.way.set_face(self.tr("Active from here") if passive else self.tr("Passive from here"))
         self.line.clear()
         self.open(self.line)
 
@@ -59,6 +66,10 @@ class NoteSheet(Sheet):
         self.close_sheet()
         if words.strip():
             self.kept.emit(words.strip())
+
+    def _change_way(self) -> None:
+        self.close_sheet()
+        self.moved.emit(not self._passive)
 
 
 class PainSheet(Sheet):

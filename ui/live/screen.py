@@ -15,6 +15,7 @@ from carpus.core.hand.protocols import PROTOCOLS
 from carpus.core.library.exercise_sets import next_part
 from carpus.core.library.set_up import SetUp
 from carpus.core.measures.validity import LARGEST_SD_RAD
+from carpus.core.output.repetition_rows import ACTIVE, PASSIVE
 from carpus.core.pipeline.live_values import LiveCounters, TrackedView
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.background import Background
@@ -95,7 +96,7 @@ class LiveScreen(QWidget):
         self._view: TrackedView | None = None
         self._overlay_on = True
         self._camera_lost = False
-        self._stopping = False
+        self._stopping = self._passive = False
         self._tick = 0
         self._ticked_at_s, self._ticked_cpu_s = -math.inf, 0.0
         self._drawing_ms: float | None = 0.0
@@ -192,9 +193,10 @@ class LiveScreen(QWidget):
         whole.addWidget(bar)
 
     def _connect(self, keys: Keys) -> None:
-        self.note.clicked.connect(self.note_sheet.begin)
+        self.note.clicked.connect(lambda: self.note_sheet.begin(passive=self._passive))
         self.pain.clicked.connect(self.pain_sheet.begin)
         self.note_sheet.kept.connect(lambda words: self._add_event("note", words))
+        self.note_sheet.moved.connect(self._keep_way)
         self.pain_sheet.kept.connect(self._keep_pain)
         self.pause.clicked.connect(self.toggle_pause)
         self.main.clicked.connect(self.toggle_recording)
@@ -336,7 +338,8 @@ class LiveScreen(QWidget):
 
     def _started(self) -> None:
         assert self._set_up is not None
-        self._stopping = False
+        self._stopping = self._passive = False
+        self._show_way()
         self._started_at_s = time.monotonic()
         self._count = RunningCount(self._set_up.exercise, self._set_up.protocol)
         self.history.set_home()
@@ -480,6 +483,15 @@ class LiveScreen(QWidget):
         """Store it, and let the button say so until the next one."""
         if self._add_event("pain", str(score)):
             self.pain.set_face(self.tr("Pain {score} noted").format(score=score), icon="check")
+
+    def _keep_way(self, passive: bool) -> None:
+        """Who moves the hand from now on; the button says so while it is not the patient."""
+        if self._add_event(PASSIVE if passive else ACTIVE, ""):
+            self._passive = passive
+            self._show_way()
+
+    def _show_way(self) -> None:
+        self.note.set_face(self.tr("Passive") if self._passive else self.tr("Note"))
 
     def _add_event(self, kind: str, text: str) -> bool:
         return self._measuring is not None and self._measuring.feed.add_event(kind, text)

@@ -25,9 +25,11 @@ NUMBERS_ABOVE = 10.0
 """Design pixels between the numbers of repetitions and their panel."""
 
 
-def left_out(number: int) -> str:
-    """What stands at a repetition that does not count."""
-    return tr("{number} out").format(number=number)
+def repetition_words(number: int, repetition: ShownRepetition) -> str:
+    """What stands at a repetition: its number, and why where it does not count."""
+    if repetition.helped:
+        return tr("{number} passive").format(number=number)
+    return str(number) if repetition.counts else tr("{number} out").format(number=number)
 
 
 class Mark(Protocol):
@@ -248,7 +250,7 @@ class Repetitions:
         baseline = panel.box.top() - NUMBERS_ABOVE * style.unit
         taken = -math.inf
         for number, repetition in enumerate(self.shown):
-            text = str(number + 1) if repetition.counts else left_out(number + 1)
+            text = repetition_words(number + 1, repetition)
             middle = float(panel.x(0.5 * (repetition.start_s + repetition.end_s)))
             width = metrics.horizontalAdvance(text)
             if not panel.box.left() <= middle <= panel.box.right():

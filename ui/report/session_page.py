@@ -23,6 +23,7 @@ from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.icons import paint_mark, paint_state
 from carpus.ui.plot.session import SessionPlot, paint_session
 from carpus.ui.plot.style import CURVE_TOKENS
+from carpus.ui.report.active_passive import active_passive
 from carpus.ui.report.hand_part import paint_finger_curves, paint_finger_table, paint_wrist_line
 from carpus.ui.report.hand_rows import compared_figures, hand_summary
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
@@ -89,7 +90,7 @@ def _paint_all(page: Page, report: SessionReport) -> float:
     y = page.paragraph(said, page.left, y + 5, page.right - page.left, 10.0, SEMIBOLD)
     if report.joints is None:
         if report.form.has("table"):
-            y = _paint_table(page, report, y + 7)
+            y = _paint_active_passive(page, report, _paint_table(page, report, y + 7))
         if report.form.has("curves"):
             y = _paint_curves(page, report, y + 8)
         if report.form.has("bars"):
@@ -97,6 +98,7 @@ def _paint_all(page: Page, report: SessionReport) -> float:
     else:
         if report.form.has("table"):
             y = paint_finger_table(page, report.figures, report.previous, report.other_hand, y + 7)
+            y = _paint_active_passive(page, report, y)
             y = paint_wrist_line(page, report.figures, y + 7)
         below = painted_on_nothing(
             page,
@@ -156,9 +158,9 @@ def what_words(report: SessionReport) -> str:
 
 def _paint_facts(page: Page, report: SessionReport, top: float) -> float:
     figures = report.figures
-    session = tr("active")
+    session = tr("active") if figures.passive is None else tr("active and passive")
     if report.session_number:
-        session = tr("{ordinal}, active").format(ordinal=numbers.ordinal(report.session_number))
+        session = f"{numbers.ordinal(report.session_number)}, {session}"
     handed = {"right": tr("right-handed"), "left": tr("left-handed"), "both": tr("both-handed")}.get(
         report.dominance, ""
     )
@@ -214,6 +216,32 @@ def _paint_table(page: Page, report: SessionReport, top: float) -> float:
         size = min(7.5, 7.5 * (page.right - page.left) / page.width_of(source, 7.5))
         page.text(source, page.left, baseline + 4.0, size, REGULAR, "text2")
     return baseline + 4.5
+
+
+def _paint_active_passive(page: Page, report: SessionReport, top: float) -> float:
+    """Active and passive beside each other, with what was measured by hand, where there is more than the first."""
+    found = active_passive(report.figures, report.by_hand if report.form.has("by_hand") else ())
+    if found is None:
+        return top
+    width = page.right - page.left
+    y = top + 18 + page.title(tr("Active and passive"), top + 18)
+    if found.said:
+        y = page.paragraph(found.said, page.left, y, width, 9.0, MEDIUM)
+    step = width / (len(found.heads) + 0.4)
+    lines = max(head.count("\n") for head in found.heads) + 1
+    for number, cells in enumerate((found.heads, *found.rows)):
+        baseline, weight = y + 11, MEDIUM if not number else REGULAR
+        for column, cell in enumerate(cells):
+            left = page.left + (column + (0.4 if column else 0.0)) * step
+            room = (1.4 if not column else 1.0) * step - 4.0
+            for line, words in enumerate(cell.split("\n")):
+                size = 8.0 if not number else 9.0
+                while size > 5.0 and page.width_of(words, size, weight) > room:
+                    size -= 0.25
+                page.text(words, left, baseline + 9.5 * line, size, weight, "text2" if not number else "text")
+        y = baseline + 3.5 + (9.5 * (lines - 1) if not number else 0.0)
+        page.rule(y)
+    return page.paragraph(found.note, page.left, y + 2, width, 7.5, REGULAR, "text2") if found.note else y
 
 
 def _paint_row(

@@ -80,6 +80,8 @@ def repetition_words(figures: SessionFigures) -> str:
         counted = figures.counted
         words = tr("1 repetition") if counted == 1 else tr("mean of {count} repetitions").format(count=counted)
     parts = [words]
+    if helped := sum(repetition.helped for repetition in figures.repetitions):
+        parts.append(tr("1 passive beside it") if helped == 1 else tr("{count} passive beside it").format(count=helped))
     unmeasured = {
         "hidden": tr("not seen well enough"),
         "cut_by_start": tr("the recording began in it"),
@@ -87,7 +89,7 @@ def repetition_words(figures: SessionFigures) -> str:
         "cut_by_end": tr("the recording ended in it"),
     }
     for number, repetition in enumerate(figures.repetitions, 1):
-        if not repetition.counts:
+        if not (repetition.counts or repetition.helped):
             reason = repetition.reason or unmeasured[repetition.unmeasured]
             parts.append(tr("number {number} left out: {reason}").format(number=number, reason=reason))
     return _with_unseen(parts, figures)

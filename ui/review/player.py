@@ -25,6 +25,7 @@ class Player(Card):
     play_toggled = Signal()
     sought = Signal(float)
     view_chosen = Signal(str)
+    repetition_wanted = Signal()
 
     def __init__(self, theme: Theme, *, plays: bool = True) -> None:
         """``plays``: whether it can be played, not only stepped through."""
@@ -47,9 +48,10 @@ class Player(Card):
         ):  # fmt: skip
             self.view.addItem(words, value)
         self.view_key = KeyCaps(theme, [("V", "")])
-        self.hints = KeyCaps(theme, [(self.tr("Space"), self.tr("play")), ("[ ]", self.tr("repetition"))])
-        self.few_hints = KeyCaps(theme, [(self.tr("Space"), self.tr("play"))])
-        self.few_hints.hide()
+        self.hints = KeyCaps(theme, [(self.tr("Space"), self.tr("play"))])
+        self.repetition = Button(theme, self.tr("Repetition…"), "quiet", hint="X", height_px=40)
+        self.repetition.setToolTip(self.tr("Passive, or left out (X); [ and ] go to another"))
+        self.repetition.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.time = Text(theme, "", 14, MEDIUM)
         self.scrubber = Scrubber(theme)
         row = QHBoxLayout()
@@ -65,21 +67,22 @@ class Player(Card):
         row.addWidget(self.view_key)
         row.addSpacing(12)
         row.addWidget(self.hints)
-        row.addWidget(self.few_hints)
+        row.addWidget(self.repetition)
         row.addStretch(1)
         row.addWidget(self.time)
         row.addSpacing(8)
         row.addWidget(self.scrubber, 6)
         row.addSpacing(8)
-        if plays:
-            row.addWidget(KeyCaps(theme, [("← →", self.tr("picture"))]))
-        for shown in (self.play, self.speed, self.view, self.view_key, self.hints):
+        self.picture_hint = KeyCaps(theme, [("← →", self.tr("picture"))])
+        row.addWidget(self.picture_hint)
+        for shown in (self.play, self.speed, self.view, self.view_key, self.hints, self.repetition, self.picture_hint):
             shown.setVisible(plays)
         self.body.addLayout(row)
         self.back.clicked.connect(lambda: self.stepped.emit(-1))
         self.on.clicked.connect(lambda: self.stepped.emit(1))
         self.play.clicked.connect(self.play_toggled)
         self.speed.clicked.connect(self._next_speed)
+        self.repetition.clicked.connect(self.repetition_wanted)
         self.view.currentIndexChanged.connect(lambda _: self.view_chosen.emit(self.view.currentData()))
         self.scrubber.sought.connect(self.sought)
         self._show_speed()
@@ -102,11 +105,6 @@ class Player(Card):
             self.view.setCurrentIndex(0)
         for shown in (self.view, self.view_key):
             shown.setVisible(on and self._plays)
-
-    def show_tight(self, tight: bool) -> None:
-        """Large text: fewer hints."""
-        self.hints.setVisible(not tight)
-        self.few_hints.setVisible(tight)
 
     def show_session(self, end_s: float, repetitions: Sequence[ShownRepetition], current: int) -> None:
         """Length and repetitions."""

@@ -1,10 +1,11 @@
-"""Why a repetition is left out: one of a few reasons, or a few words."""
+"""What a repetition is, if it does not count: passive, or left out for one of a few reasons or a few words."""
 
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
+from carpus.core.output.repetition_rows import PASSIVE
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
@@ -12,9 +13,9 @@ from carpus.ui.theme import Theme
 
 
 class ReasonSheet(Sheet):
-    """Emits ``kept`` with the reason."""
+    """Emits ``kept`` with the reason, and whether it is that of all repetitions after it as well."""
 
-    kept = Signal(str)
+    kept = Signal(str, bool)
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 560)
@@ -22,11 +23,24 @@ class ReasonSheet(Sheet):
         body = self.card.body
         body.setSpacing(12)
         body.addWidget(self._title)
-        words = self.tr("It stays in the recording and on the curves, but counts no longer. The report says so.")
+        words = self.tr("Passive: somebody else moved the hand. It counts apart, beside the active ones.")
+        body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
+        helped = QHBoxLayout()
+        self.passive = Button(theme, self.tr("Passive"), "plain", height_px=40)
+        self.passive.clicked.connect(lambda: self._keep(PASSIVE))
+        self.passive_on = Button(theme, self.tr("Passive, and all after it"), "plain", height_px=40)
+        self.passive_on.clicked.connect(lambda: self._keep(PASSIVE, and_after=True))
+        helped.addWidget(self.passive)
+        helped.addWidget(self.passive_on)
+        helped.addStretch(1)
+        body.addLayout(helped)
+        words = self.tr(
+            "Left out: it stays in the recording and on the curves, and counts no longer. The report says so."
+        )
         body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
         quick = QHBoxLayout()
         self.buttons: list[Button] = []
-        for reason in (self.tr("pain"), self.tr("helped by hand"), self.tr("other movement"), self.tr("trial")):
+        for reason in (self.tr("pain"), self.tr("other movement"), self.tr("trial")):
             button = Button(theme, reason, "plain", height_px=40)
             button.clicked.connect(lambda _=False, reason=reason: self._keep(reason))
             quick.addWidget(button)
@@ -49,7 +63,7 @@ class ReasonSheet(Sheet):
 
     def begin(self, number: int) -> None:
         """Ask about a repetition, counted from 1."""
-        self._title.setText(self.tr("Leave repetition {number} out?").format(number=number))
+        self._title.setText(self.tr("Is repetition {number} passive, or left out?").format(number=number))
         self.line.clear()
         self._written("")
         self.open()
@@ -59,7 +73,7 @@ class ReasonSheet(Sheet):
         self._take.setEnabled(bool(text.strip()))
         self.set_default(self._take if text.strip() else self._close)
 
-    def _keep(self, reason: str) -> None:
+    def _keep(self, reason: str, *, and_after: bool = False) -> None:
         if reason:
             self.close_sheet()
-            self.kept.emit(reason)
+            self.kept.emit(reason, and_after)

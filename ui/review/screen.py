@@ -12,10 +12,12 @@ from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 
+from carpus.core.by_hand.values import HandValue, of_session
 from carpus.core.output.camera_said import UNKNOWN_CAMERA, CameraSaid
 from carpus.core.output.exercises import FLEXION, SIDES
 from carpus.core.output.joint_content import JointCurves, joint_curves
 from carpus.core.output.motion_curves import MotionCurves, motion_curves
+from carpus.core.output.repetition_rows import PASSIVE
 from carpus.core.output.report_content import (
     Curves,
     RepetitionChoices,
@@ -48,6 +50,7 @@ from carpus.ui.plot.session_view import EDGES_S, CurveView
 from carpus.ui.plot.ways import finger_ways, wrist_way
 from carpus.ui.plot.ways_view import WaysView
 from carpus.ui.ports import SessionStore, StoredResult
+from carpus.ui.report.active_passive import active_passive
 from carpus.ui.report.further_rows import FIRST, further_rows, further_title
 from carpus.ui.report.hand_rows import column_heads, finger_rows, limits_words
 from carpus.ui.report.main_figure import main_figure
@@ -60,6 +63,7 @@ from carpus.ui.review.reason import ReasonSheet
 from carpus.ui.review.results import ResultChoice
 from carpus.ui.review.skeleton import modelled_px, paint_palm, paint_skeleton, paint_trails
 from carpus.ui.review.table import RangeTable
+from carpus.ui.review.words_table import WordsTable
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
 from carpus.ui.translate import inside
@@ -83,6 +87,7 @@ class Reviewed:
     history: Sequence[SessionFigures]
     camera: CameraSaid
     results: Sequence[StoredResult] = ()
+    by_hand: Sequence[HandValue] = ()
 
 
 class ReviewScreen(QWidget):
@@ -108,6 +113,7 @@ class ReviewScreen(QWidget):
         self._history: Sequence[SessionFigures] = ()
         self._partner: SessionFigures | None = None
         self._camera = UNKNOWN_CAMERA
+        self._by_hand: Sequence[HandValue] = ()
         self._curves: Curves | None = None
         self._joints: JointCurves | None = None
         self._motion: MotionCurves | None = None
@@ -126,6 +132,9 @@ class ReviewScreen(QWidget):
         self.table = RangeTable(theme)
         self.hand_table = HandTable(theme)
         self.further = FurtherTable(theme)
+        self.ways_said = Text(theme, "", 16, SEMIBOLD, wrap=True)
+        self.ways_table = WordsTable(theme)
+        self.ways_note = Text(theme, "", 12, REGULAR, "text2", wrap=True)
         self.limits = Text(theme, "", 12, REGULAR, "text2", wrap=True)
         fingers: list[tuple[object, str]] = [(0, self.tr("All fingers"))]
         fingers += [(finger, finger_name(str(finger))) for finger in FINGERS]
@@ -170,7 +179,8 @@ class ReviewScreen(QWidget):
         right = QVBoxLayout()
         right.setSpacing(8)
         right.addWidget(self.finger)
-        for hidden in (self.finger, self.hand_table, self.limits, self.further):
+        both = (self.ways_said, self.ways_table, self.ways_note)
+        for hidden in (self.finger, self.hand_table, self.limits, self.further, *both):
             hidden.hide()  # until a session of the whole hand is shown
         right.addWidget(self.curves, 1)
         right.addWidget(self.ways, 1)
@@ -193,7 +203,8 @@ class ReviewScreen(QWidget):
         below = self._below = QVBoxLayout(tables)
         below.setContentsMargins(0, 0, 0, 0)
         below.setSpacing(4)
-        for widget in (self.table, self.hand_table, self.further, self.limits, self.notes, self.results):
+        both = (self.ways_said, self.ways_table, self.ways_note)
+        for widget in (self.table, self.hand_table, *both, self.further, self.limits, self.notes, self.results):
             below.addWidget(widget)
         below.addStretch(1)
         self._scroll.setWidget(tables)
@@ -220,7 +231,6 @@ class ReviewScreen(QWidget):
         self.bubble.give_room(self.height() >= LEAST_SCREEN_PX * self._theme.text_scale)
         tight = is_tight(self, self._theme)
         self.curves.show_single(tight)
-        self.player.show_tight(tight)
         self.report_button.set_face(self.report_button.text(), hint="" if tight else "Ctrl+P")
         self.export_button.set_face(self.export_button.text(), hint="" if tight else "Ctrl+E")
         self.again_button.set_face(self.again_button.text(), icon="" if tight else "plus")
@@ -241,6 +251,9 @@ class ReviewScreen(QWidget):
         if self._is_hand:  # always more than there is room for: its place is known before it is read
             self._scroll.setFixedHeight(round(max(min(most, room), fewest)))
             return
+        for shown in (self.ways_said, self.ways_table, self.ways_note):
+            if not shown.isHidden():
+                needed += shown.sizeHint().height() + self._below.spacing()
         if self.further.rows:
             needed += self.further.sizeHint().height() + self._below.spacing()
         if self.results.buttons:
@@ -260,6 +273,7 @@ class ReviewScreen(QWidget):
         self.player.stepped.connect(self.step)
         self.player.play_toggled.connect(self.toggle_play)
         self.player.view_chosen.connect(lambda _: self._refresh())
+        self.player.repetition_wanted.connect(self.toggle_left_out)
         self.reason.kept.connect(self._leave_out)
         self.report_button.clicked.connect(lambda: self.report.emit(self._session_id))
         self.export_button.clicked.connect(lambda: self.export.emit(self._session_id))
@@ -301,7 +315,8 @@ class ReviewScreen(QWidget):
         def read() -> Reviewed:
             session, choices = store.session(session_id), store.choices(session_id)
             history, camera = store.history(patient_id), store.camera(session)
-            return Reviewed(session, choices, history, camera, tuple(store.results_of(session_id)))
+            by_hand = of_session(store.by_hand(patient_id), session.header.hand, session.header.when.date())
+            return Reviewed(session, choices, history, camera, tuple(store.results_of(session_id)), by_hand)
 
         self._background.run(read, self._show, self.told.emit, self)
         self.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -335,7 +350,7 @@ class ReviewScreen(QWidget):
         if session.header.session_id != self._session_id:
             return  # another one was asked for meanwhile
         self._session, self._choices, self._history = session, reviewed.choices, reviewed.history
-        self._camera = reviewed.camera
+        self._camera, self._by_hand = reviewed.camera, reviewed.by_hand
         self._curves = session_curves(session)
         self._joints = joint_curves(session)
         self._motion = motion_curves(session)
@@ -394,6 +409,7 @@ class ReviewScreen(QWidget):
             self.hand_table.show_rows(column_heads(figures, previous, other), finger_rows(figures, previous, other))
             self.limits.setText(limits_words(figures))
             self.picture.update()
+        self._show_active_passive(figures)
         rows = further_rows(figures, previous)
         day = numbers.day_beside(previous.when, figures.when) if previous is not None else ""
         self.further.show_rows(further_title(figures), day, rows)
@@ -416,6 +432,20 @@ class ReviewScreen(QWidget):
         counts = self.tr("Let it count again") if figures.not_counted else self.tr("Do not count")
         self.count_button.set_face(counts)
         self._fit()
+
+    def _show_active_passive(self, figures: SessionFigures) -> None:
+        """The table of what was active, passive and measured by hand, where there is more than the first."""
+        found = active_passive(figures, self._by_hand)
+        if found is not None:
+            self.ways_said.setText(found.said)
+            self.ways_table.show_rows(found.heads, found.rows)
+            self.ways_note.setText(found.note)
+        for place, widget in enumerate((self.ways_said, self.ways_table, self.ways_note)):
+            self._below.removeWidget(widget)  # what was done both ways is the first to be read
+            self._below.insertWidget(place if figures.passive is not None else place + 2, widget)
+        self.ways_table.setVisible(found is not None)
+        self.ways_said.setVisible(found is not None and bool(found.said))
+        self.ways_note.setVisible(found is not None and bool(found.note))
 
     def _show_partner(self, figures: SessionFigures) -> None:
         """What the session is best held against; without one the button says so."""
@@ -553,11 +583,13 @@ class ReviewScreen(QWidget):
 
     # --- corrections --------------------------------------------------------------------------------------
     def toggle_left_out(self) -> None:
-        """Leave the current repetition out (asks why), or take it back."""
+        """Leave the current repetition out or let it count as passive (asks which), or take that back."""
         if self.figures is None or self._current < 0:
             return
-        if self._current in self._choices.left_out:
+        if reason := self.figures.repetitions[self._current].reason:
             reasons = {n: words for n, words in self._choices.left_out.items() if n != self._current}
+            if reason == PASSIVE:  # also where that was said while it was measured
+                reasons[self._current] = ""
             self._choose(replace(self._choices, left_out=reasons))
         else:
             self.reason.begin(self._current + 1)
@@ -568,8 +600,10 @@ class ReviewScreen(QWidget):
             self._choose(replace(self._choices, not_counted=not self._choices.not_counted))
             self.arrived.emit()
 
-    def _leave_out(self, reason: str) -> None:
-        reasons = {**self._choices.left_out, self._current: reason}
+    def _leave_out(self, reason: str, and_after: bool = False) -> None:
+        assert self.figures is not None
+        last = len(self.figures.repetitions) if and_after else self._current + 1
+        reasons = {**self._choices.left_out, **dict.fromkeys(range(self._current, last), reason)}
         self._choose(replace(self._choices, left_out=reasons))
 
     def _take_edges(self, number: int, start_s: float, end_s: float) -> None:

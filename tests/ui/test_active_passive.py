@@ -1,0 +1,95 @@
+"""Active and passive range in one session: apart in every figure, beside each other in the table and on the page."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.output.measures_table import measure_rows
+from carpus.core.output.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
+from carpus.core.output.report_content import SessionFigures, session_figures
+from carpus.core.session.values import Event, Session
+from carpus.ui.report.active_passive import BY_HAND, active_passive
+from carpus.ui.report.pdf import write_session_report
+from tests.ui.fakes import hand_values_today, session
+from tests.ui.hand_fakes import FakeHandSessions
+from tests.ui.test_report_pdf import words_of
+
+HELPED_S = 35.0
+
+
+def helped_session(*events: tuple[float, str]) -> Session:
+    """Of nine repetitions the first ones go six tenths as far as those after :data:`HELPED_S`."""
+    made = session()
+    share = np.where(made.timestamp_s - made.timestamp_s[0] < HELPED_S, 0.6, 1.0)
+    motion = replace(made.motion, angles_rad=made.motion.angles_rad * share[:, None])
+    start_s = float(made.timestamp_s[0])
+    said = tuple(Event(start_s + time_s, kind, "") for time_s, kind in events)
+    return replace(made, motion=motion, events=said)
+
+
+def mean_of(figures: SessionFigures | None) -> float:
+    assert figures is not None
+    row = figures.row("flexion", 1)
+    assert row is not None
+    return row.mean_deg
+
+
+def test_what_was_said_to_be_passive_counts_apart_and_never_as_active() -> None:
+    figures = session_figures(helped_session((HELPED_S, PASSIVE)))
+    helped = [number for number, one in enumerate(figures.repetitions) if one.helped]
+    assert figures.passive is not None
+    assert figures.counted >= 3
+    assert figures.passive.counted == len(helped) >= 3
+    assert figures.counted + len(helped) == len([one for one in figures.repetitions if not one.unmeasured])
+    assert mean_of(figures) < 0.75 * mean_of(figures.passive)
+    left_out = RepetitionChoices(dict.fromkeys(helped, "pain"))
+    assert mean_of(figures) == mean_of(session_figures(helped_session(), left_out)), "as if it had been left out"
+    rows = {row.of for row in measure_rows(figures, "s")}
+    assert {"flexion", "flexion, passive"} <= rows
+
+
+def test_a_person_has_the_last_word_and_active_again_ends_a_stretch() -> None:
+    made = helped_session((HELPED_S, PASSIVE))
+    helped = [number for number, one in enumerate(session_figures(made).repetitions) if one.helped]
+    taken_back = session_figures(made, RepetitionChoices({helped[0]: ""}))
+    assert taken_back.repetitions[helped[0]].counts
+    assert session_figures(helped_session((0.0, PASSIVE), (0.5, ACTIVE))).passive is None
+    everything = session_figures(helped_session((0.0, PASSIVE)))
+    assert everything.counted == 0
+    assert not everything.rows, "nothing was active"
+    assert everything.passive is not None
+    assert active_passive(everything, ()) is not None
+
+
+def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
+    figures = session_figures(helped_session((HELPED_S, PASSIVE)))
+    found = active_passive(figures, hand_values_today())
+    assert found is not None
+    flexion = next(row for row in found.rows if row[0] == "Flexion")
+    assert flexion[4] == f"{BY_HAND} 48° / 60°"
+    assert f"{mean_of(figures):.0f}°" in flexion[1]
+    assert f"{mean_of(figures.passive):.0f}°" in flexion[2]
+    assert "error" in flexion[3]
+    assert "when helped" in found.said
+    assert active_passive(session_figures(session()), ()) is None, "one way alone has no table"
+
+
+def test_beside_at_least_stands_what_the_goniometer_said() -> None:
+    figures = session_figures(FakeHandSessions().session("hand-7"))
+    found = active_passive(figures, hand_values_today())
+    assert found is not None
+    ring = next(row for row in found.rows if row[0] == "Ring")
+    assert f"{BY_HAND} 70° / 90°" in ring
+    assert any(cell.startswith("≥") for row in found.rows for cell in row)
+    assert not any(head.endswith("passive") for head in found.heads), "nothing was passive: no column of it"
+
+
+def test_the_report_prints_both_and_what_was_measured_by_hand(tmp_path: Path) -> None:
+    path = write_session_report(helped_session((HELPED_S, PASSIVE)), tmp_path / "both.pdf", by_hand=hand_values_today())
+    words = words_of(path)
+    assert "Active and passive" in words
+    assert f"{BY_HAND} 48° / 60°" in words
+    assert "passive beside it" in words

@@ -1,0 +1,157 @@
+"""Active and passive range beside each other, with what a person measured of the same; for the screen and the page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import compress
+
+from carpus.core.by_hand.measures import MEASURES
+from carpus.core.by_hand.values import HandValue
+from carpus.core.output.range_rows import RangeRow, RowKey, is_total
+from carpus.core.output.report_content import Comparison, SessionFigures, compare_rows
+from carpus.ui import numbers, terms
+from carpus.ui.by_hand.names import value_words
+from carpus.ui.figures import FINGERS, Figure, Row, figure_of
+from carpus.ui.marker_words import finger_name
+from carpus.ui.report.hand_rows import AT_LEAST, has_totals, range_words
+from carpus.ui.report.tables import mean_words, turned
+from carpus.ui.translate import inside, tr
+from carpus.ui.verdicts import reason_words
+
+BY_HAND = "\N{WHITE SQUARE}"
+"""Before what a person measured, here as in every chart."""
+_JOINTS: tuple[Row, ...] = ("knuckle", "middle", "end")
+
+
+@dataclass(frozen=True, slots=True)
+class ActivePassive:
+    """A table in words: a sentence, heads (two lines each) and rows; columns without content are not in it."""
+
+    said: str
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    note: str
+
+
+def active_passive(figures: SessionFigures, by_hand: Sequence[HandValue]) -> ActivePassive | None:
+    """The table of a session; None where nothing was passive and nothing of it was measured by hand that day."""
+    if figures.passive is None and not _is_beside(figures, by_hand):
+        return None
+    heads, rows = (_of_fingers if figures.joint_rows or _helped_joints(figures) else _of_wrist)(figures, by_hand)
+    known = [column == 0 or any(row[column] for row in rows) for column in range(len(heads))]
+    note = []
+    if figures.joint_rows:
+        note.append(tr("Each joint where it was bent most; ± is the spread between repetitions."))
+    if any(AT_LEAST in cell for row in rows for cell in row):
+        note.append(tr("{sign}: at least, the camera did not see the end of that movement.").format(sign=AT_LEAST))
+    if _is_beside(figures, by_hand):
+        said = tr("{sign}: measured by hand that day, active / passive; never averaged with the rest.")
+        note.append(said.format(sign=BY_HAND))
+    shown = tuple(tuple(compress(row, known)) for row in rows if any(row[1:]))
+    return ActivePassive(_sentence(figures), tuple(compress(heads, known)), shown, " ".join(note))
+
+
+def _helped_joints(figures: SessionFigures) -> tuple[RangeRow, ...]:
+    return () if figures.passive is None else figures.passive.joint_rows
+
+
+def _is_beside(figures: SessionFigures, by_hand: Sequence[HandValue]) -> bool:
+    """Whether a person measured any of what the table shows."""
+    return any(_by_hand(row.key, by_hand) for row in (*figures.rows, *figures.joint_rows))
+
+
+def _by_hand(key: RowKey, by_hand: Sequence[HandValue]) -> str:
+    """``□ 70° / 90°``: active and passive, of the same figure."""
+    measure = next((one for one in MEASURES if one.figure == key), None)
+    if measure is None:
+        return ""
+    found = {value.way: value_words(measure, value.value) for value in by_hand if value.measure == measure.id}
+    both = " / ".join(found.get(way, numbers.UNKNOWN) for way in measure.ways)
+    return f"{BY_HAND} {both}" if found else ""
+
+
+def _of_wrist(figures: SessionFigures, by_hand: Sequence[HandValue]) -> tuple[list[str], list[list[str]]]:
+    helped = figures.passive
+    heads = [tr("Movement"), tr("Active"), tr("Passive"), tr("Passive goes further"), tr("By hand")]
+    gaps = {} if helped is None else {_key(item): item for item in compare_rows(figures, helped, helped.rows)}
+    keys = dict.fromkeys(row.key for row in (*figures.rows, *(() if helped is None else helped.rows)))
+    rows = []
+    for key in keys:
+        several = key[1] == "arc" and figures.exercise.angle is None
+        name = terms.arc_name(key[2]) if several else terms.movement_name(key[1])
+        cells = [_words(one.row(key[1], key[2])) if one is not None else "" for one in (figures, helped)]
+        rows.append([name, *cells, _gap(gaps.get(key)), _by_hand(key, by_hand)])
+    return heads, rows
+
+
+def _of_fingers(figures: SessionFigures, by_hand: Sequence[HandValue]) -> tuple[list[str], list[list[str]]]:
+    heads = [tr("Finger")]
+    for name in (tr("Knuckle"), tr("Middle joint"), tr("End joint")):
+        heads += [f"{name}\n{words}" for words in (tr("active"), tr("passive"), BY_HAND)]
+    heads += [f"{tr('Together')}\n{words}" for words in (tr("active"), tr("passive"))] if has_totals(figures) else []
+    rows = []
+    for finger in FINGERS:
+        cells = [finger_name(str(finger))]
+        for joint in _JOINTS:
+            of = "" if finger == 1 and joint == "middle" else Figure(finger, joint).joint  # a thumb has none
+            key: RowKey = (of, "flexion", -1)
+            cells += [_of_joint(one, key) if of else "" for one in (figures, figures.passive)]
+            cells.append(_by_hand(key, by_hand) if of else "")
+        if has_totals(figures):
+            cells += [_of_joint(one, (f"TAM{finger}", "arc", -1)) for one in (figures, figures.passive)]
+        rows.append(cells)
+    return heads, rows
+
+
+def _of_joint(figures: SessionFigures | None, key: RowKey) -> str:
+    row = None if figures is None else figures.row(key[1], -1, key[0])
+    return range_words(row, spread=not is_total(key[0])) if row is not None and row.count else ""
+
+
+def _words(row: RangeRow | None) -> str:
+    if row is None:
+        return ""
+    words = mean_words(row if row.mean_deg >= 0.0 else turned(row))
+    if row.mean_deg < 0.0:
+        words = f"\N{MINUS SIGN}{words}"
+    return f"{AT_LEAST}{numbers.NARROW_GAP}{words}" if row.limited else words
+
+
+def _key(item: Comparison) -> RowKey:
+    return item.joint, item.movement, item.angle
+
+
+def _gap(item: Comparison | None) -> str:
+    """``21° (error 10°)``; a gap within the error is none."""
+    if item is None:
+        return ""
+    if item.verdict == "not_judged":
+        return tr("not judged: {why}").format(why=reason_words(item.reasons))
+    if item.verdict != "improved":
+        return tr("within the error")
+    limit = numbers.degrees(item.limit_deg)
+    return tr("{gap} (error {limit})").format(gap=numbers.degrees(item.shown_difference_deg), limit=limit)
+
+
+def _sentence(figures: SessionFigures) -> str:
+    """The largest gap beyond error, in a sentence; empty where nothing was passive."""
+    helped = figures.passive
+    if helped is None:
+        return ""
+    bent = [row for row in helped.joint_rows if row.movement == "flexion" and row.joint.endswith("_flexion")]
+    rows = bent if helped.joint_rows else helped.rows
+    gaps = compare_rows(figures, helped, rows)
+    beyond = [item for item in gaps if item.verdict == "improved"]
+    if beyond:
+        most = max(beyond, key=lambda item: item.difference_deg)
+        name = figure_of(most.joint).long_name if most.joint else terms.movement_name(most.movement)
+        words = tr("{name}: {active} by itself, {passive} when helped. The {gap} between them are more than the error.")
+        return words.format(
+            name=name, active=numbers.degrees(most.before_deg), passive=numbers.degrees(most.after_deg),
+            gap=numbers.degrees(most.shown_difference_deg),
+        )  # fmt: skip
+    if any(item.verdict != "not_judged" for item in gaps):
+        return tr("When helped it goes no further than the error of measurement.")
+    why = reason_words([reason for item in gaps for reason in item.reasons])
+    return tr("Active and passive are shown, not judged: {why}.").format(why=inside(why)) if why else ""
