@@ -13,7 +13,7 @@ from carpus.ui.translate import tr
 
 DEFAULT_KEYS = {
     "help": "F1", "settings": "Ctrl+,", "lock": "Ctrl+L", "search": "Ctrl+F", "new_patient": "Ctrl+N",
-    "report": "Ctrl+P",
+    "report": "Ctrl+P", "home_sheet": "Ctrl+H",
     "export": "Ctrl+E", "back": "Esc", "quit": "Ctrl+Q",
     "record": "Space", "note": "F5", "pain": "F6", "pause": "F7", "overlay": "F8", "whole_picture": "F9",
     "patient_view": "Shift+F11", "large_view": "F11",
@@ -77,7 +77,8 @@ def action_words(name: str) -> str:
     """What a key does, for the help and the settings."""
     words = {
         "help": tr("Help"), "settings": tr("Settings"), "lock": tr("Lock"), "search": tr("Search for a patient"),
-        "new_patient": tr("New patient"), "report": tr("Report"), "export": tr("Export"),
+        "new_patient": tr("New patient"), "report": tr("Report"), "home_sheet": tr("Sheet for home"),
+            "export": tr("Export"),
         "back": tr("Go back"), "quit": tr("Close Carpus"), "note": tr("Note"),
         "record": tr("Record, and stop and review"),
         "pain": tr("Pain score"), "pause": tr("Pause and go on"),

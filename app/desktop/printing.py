@@ -24,6 +24,7 @@ from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.formats.new_output import plain_cell
 from carpus.core.output.camera_said import CameraSaid
+from carpus.core.output.goals import Goals
 from carpus.core.output.report_content import Progress, RepetitionChoices, SessionFigures
 from carpus.core.output.report_form import ReportForm
 from carpus.core.private import private
@@ -31,6 +32,8 @@ from carpus.core.session.values import Session
 from carpus.ui.background import Background
 from carpus.ui.export.sheet import ExportSheet
 from carpus.ui.report.beside_page import BesideReport
+from carpus.ui.report.home_page import HomeReport, own_way
+from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.letter_sheet import LetterSheet
 from carpus.ui.report.pdf import progress_report, session_report
@@ -53,6 +56,8 @@ class Printable(Protocol):
     def history(self, patient_id: str) -> Sequence[SessionFigures]: ...
 
     def by_hand(self, patient_id: str) -> Sequence[HandValue]: ...
+
+    def goals(self, patient_id: str) -> Goals: ...
 
     def recipients(self) -> Sequence[str]: ...
 
@@ -116,6 +121,9 @@ class Printing(QObject):
         self.letter = LetterSheet(window, theme)
         self.letter.wanted.connect(self._write_letter)
         screen.letter_wanted.connect(self._ask_letter)
+        self.home = HomeSheet(window, theme)
+        self.home.wanted.connect(self._write_home)
+        screen.home_wanted.connect(lambda report: self.home.begin(report, self._today()))
         self._stop = threading.Event()
         self._exported = ""
         self.formats = ExportSheet(window, theme)
@@ -186,6 +194,20 @@ class Printing(QObject):
         name = row.name if named else ""
         letter = LetterReport(report, recipient, self._today(), name, language)
         self._screen.begin(letter, self._places.folder("reports"))
+
+    def _write_home(self, home: HomeReport) -> None:
+        """Show the sheet to take home, with the patient's own way where there is something good to say."""
+        row, stored = self._now.patient, self._stored
+        if row is None:
+            return
+
+        def gather() -> HomeReport:
+            history, goals = stored.history(row.patient_id), stored.goals(row.patient_id)
+            return replace(home, way=own_way(home.report.figures, history, goals))
+
+        self._background.run(
+            gather, lambda made: self._screen.begin(made, self._places.folder("reports")), self._tell.fault, self
+        )
 
     def _listed(self, ask: Callable[[], T]) -> T | None:
         """What the list of addresses says; a fault of it is told."""

@@ -1556,6 +1556,10 @@
         <translation>Notiz</translation>
     </message>
     <message>
+        <source>Sheet for home</source>
+        <translation>Blatt für zu Hause</translation>
+    </message>
+    <message>
         <source>Go back</source>
         <translation>Zurück</translation>
     </message>
@@ -7175,6 +7179,74 @@
         <source>Active and passive are shown, not judged: {why}.</source>
         <translation>Aktiv und passiv werden gezeigt, nicht beurteilt: {why}.</translation>
     </message>
+    <message>
+        <source>You are holding what you reached.</source>
+        <translation>Sie halten, was Sie erreicht haben.</translation>
+    </message>
+    <message>
+        <source>You have reached our goal.</source>
+        <translation>Sie haben unser Ziel erreicht.</translation>
+    </message>
+    <message>
+        <source>More than half of the way is done.</source>
+        <translation>Mehr als die Hälfte des Weges ist geschafft.</translation>
+    </message>
+    <message>
+        <source>You come further than at the start.</source>
+        <translation>Sie kommen weiter als am Anfang.</translation>
+    </message>
+    <message>
+        <source>Your hand at home</source>
+        <translation>Ihre Hand zu Hause</translation>
+    </message>
+    <message>
+        <source>Tick a box when all rounds of the day are done.</source>
+        <translation>Ein Kästchen ankreuzen, wenn alle Runden des Tages geschafft sind.</translation>
+    </message>
+    <message>
+        <source>Turn the palm up, then down. The elbow stays at your side.</source>
+        <translation>Die Handfläche nach oben drehen, dann nach unten. Der Ellbogen bleibt am Körper.</translation>
+    </message>
+    <message>
+        <source>once</source>
+        <translation>einmal</translation>
+    </message>
+    <message>
+        <source>{count} times</source>
+        <translation>{count}-mal</translation>
+    </message>
+    <message>
+        <source>once a day</source>
+        <translation>einmal am Tag</translation>
+    </message>
+    <message>
+        <source>{count} times a day</source>
+        <translation>{count}-mal am Tag</translation>
+    </message>
+    <message>
+        <source>dashed: at the start; full line: today</source>
+        <translation>gestrichelt: am Anfang; durchgezogen: heute</translation>
+    </message>
+    <message>
+        <source>dashed: at the start; full line: today; green: our goal</source>
+        <translation>gestrichelt: am Anfang; durchgezogen: heute; grün: unser Ziel</translation>
+    </message>
+    <message>
+        <source>our goal</source>
+        <translation>unser Ziel</translation>
+    </message>
+    <message>
+        <source>See you again</source>
+        <translation>Wir sehen uns wieder</translation>
+    </message>
+    <message>
+        <source>Notes, or what to ask next time</source>
+        <translation>Notizen, oder was Sie nächstes Mal fragen möchten</translation>
+    </message>
+    <message>
+        <source>It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.</source>
+        <translation>Es darf ziehen, aber nicht wehtun. Tut es nach einer Stunde noch weh, das nächste Mal weniger machen und uns anrufen.</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -9118,6 +9190,57 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Save the cards</source>
         <translation>Karten speichern</translation>
+    </message>
+</context>
+<context>
+    <name>HomeSheet</name>
+    <message>
+        <source>Sheet for home</source>
+        <translation>Blatt für zu Hause</translation>
+    </message>
+    <message>
+        <source>One page for the patient, without figures or diagnosis. Up to {count} exercises.</source>
+        <translation>Eine Seite für den Patienten, ohne Zahlen und Diagnose. Bis zu {count} Übungen.</translation>
+    </message>
+    <message>
+        <source>Times</source>
+        <translation>Wie oft</translation>
+    </message>
+    <message>
+        <source>Rounds a day</source>
+        <translation>Runden am Tag</translation>
+    </message>
+    <message>
+        <source>Next appointment</source>
+        <translation>Nächster Termin</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Uhrzeit</translation>
+    </message>
+    <message>
+        <source>No appointment yet: a line to write on</source>
+        <translation>Noch kein Termin: eine Zeile zum Schreiben</translation>
+    </message>
+    <message>
+        <source>A line for the patient, no names</source>
+        <translation>Eine Zeile für den Patienten, keine Namen</translation>
+    </message>
+    <message>
+        <source>Language of the patient</source>
+        <translation>Sprache des Patienten</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Show the sheet</source>
+        <translation>Das Blatt zeigen</translation>
     </message>
 </context>
 <context>
@@ -11168,6 +11291,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Letter to the doctor…</source>
         <translation>Arztbrief…</translation>
+    </message>
+    <message>
+        <source>Sheet for home…</source>
+        <translation>Blatt für zu Hause…</translation>
     </message>
     <message>
         <source>Back to the report</source>

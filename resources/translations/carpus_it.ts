@@ -1556,6 +1556,10 @@
         <translation>Nota</translation>
     </message>
     <message>
+        <source>Sheet for home</source>
+        <translation>Foglio per casa</translation>
+    </message>
+    <message>
         <source>Go back</source>
         <translation>Indietro</translation>
     </message>
@@ -7175,6 +7179,74 @@
         <source>Active and passive are shown, not judged: {why}.</source>
         <translation>Attivo e passivo sono mostrati, non giudicati: {why}.</translation>
     </message>
+    <message>
+        <source>You are holding what you reached.</source>
+        <translation>Lei mantiene ciò che ha raggiunto.</translation>
+    </message>
+    <message>
+        <source>You have reached our goal.</source>
+        <translation>Ha raggiunto il nostro obiettivo.</translation>
+    </message>
+    <message>
+        <source>More than half of the way is done.</source>
+        <translation>Più di metà della strada è fatta.</translation>
+    </message>
+    <message>
+        <source>You come further than at the start.</source>
+        <translation>Arriva più lontano che all’inizio.</translation>
+    </message>
+    <message>
+        <source>Your hand at home</source>
+        <translation>La Sua mano a casa</translation>
+    </message>
+    <message>
+        <source>Tick a box when all rounds of the day are done.</source>
+        <translation>Segnare una casella quando tutti i giri del giorno sono fatti.</translation>
+    </message>
+    <message>
+        <source>Turn the palm up, then down. The elbow stays at your side.</source>
+        <translation>Girare il palmo in su, poi in giù. Il gomito resta al fianco.</translation>
+    </message>
+    <message>
+        <source>once</source>
+        <translation>una volta</translation>
+    </message>
+    <message>
+        <source>{count} times</source>
+        <translation>{count} volte</translation>
+    </message>
+    <message>
+        <source>once a day</source>
+        <translation>una volta al giorno</translation>
+    </message>
+    <message>
+        <source>{count} times a day</source>
+        <translation>{count} volte al giorno</translation>
+    </message>
+    <message>
+        <source>dashed: at the start; full line: today</source>
+        <translation>tratteggiata: all’inizio; continua: oggi</translation>
+    </message>
+    <message>
+        <source>dashed: at the start; full line: today; green: our goal</source>
+        <translation>tratteggiata: all’inizio; continua: oggi; verde: il nostro obiettivo</translation>
+    </message>
+    <message>
+        <source>our goal</source>
+        <translation>obiettivo</translation>
+    </message>
+    <message>
+        <source>See you again</source>
+        <translation>Ci rivediamo</translation>
+    </message>
+    <message>
+        <source>Notes, or what to ask next time</source>
+        <translation>Note, o che cosa chiedere la prossima volta</translation>
+    </message>
+    <message>
+        <source>It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.</source>
+        <translation>Può tirare, ma non deve far male. Se dopo un’ora fa ancora male, la prossima volta fare meno e chiamarci.</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -9118,6 +9190,57 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Save the cards</source>
         <translation>Salva le schede</translation>
+    </message>
+</context>
+<context>
+    <name>HomeSheet</name>
+    <message>
+        <source>Sheet for home</source>
+        <translation>Foglio per casa</translation>
+    </message>
+    <message>
+        <source>One page for the patient, without figures or diagnosis. Up to {count} exercises.</source>
+        <translation>Una pagina per il paziente, senza cifre né diagnosi. Fino a {count} esercizi.</translation>
+    </message>
+    <message>
+        <source>Times</source>
+        <translation>Quante volte</translation>
+    </message>
+    <message>
+        <source>Rounds a day</source>
+        <translation>Giri al giorno</translation>
+    </message>
+    <message>
+        <source>Next appointment</source>
+        <translation>Prossimo appuntamento</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Ora</translation>
+    </message>
+    <message>
+        <source>No appointment yet: a line to write on</source>
+        <translation>Ancora nessun appuntamento: una riga per scrivere</translation>
+    </message>
+    <message>
+        <source>A line for the patient, no names</source>
+        <translation>Una riga per il paziente, senza nomi</translation>
+    </message>
+    <message>
+        <source>Language of the patient</source>
+        <translation>Lingua del paziente</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Show the sheet</source>
+        <translation>Mostra il foglio</translation>
     </message>
 </context>
 <context>
@@ -11168,6 +11291,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Letter to the doctor…</source>
         <translation>Lettera al medico…</translation>
+    </message>
+    <message>
+        <source>Sheet for home…</source>
+        <translation>Foglio per casa…</translation>
     </message>
     <message>
         <source>Back to the report</source>

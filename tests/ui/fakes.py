@@ -37,7 +37,7 @@ from carpus.core.session.values import Event, MarkerSeries, QualitySeries, Sessi
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.spot_answer import SpotAnswer
-from carpus.core.types import ByteImage, Detections, Frame, Moment, TrackedFrame, TrackStatus
+from carpus.core.types import ByteImage, Detections, Frame, Moment, Side, TrackedFrame, TrackStatus
 from carpus.ui.ports import (
     MOST_ROWS,
     FoundMarker,
@@ -53,6 +53,8 @@ from carpus.ui.ports import (
     VerdictLimits,
     Words,
 )
+from carpus.ui.report.home_page import HomeReport, HomeTask, OwnWay
+from carpus.ui.report.pdf import session_report
 from tests.moments import with_moment
 
 FPS = 30.0
@@ -666,6 +668,16 @@ class FakeSessions:
 
     def by_hand(self, patient_id: str) -> list[HandValue]:
         return list(self.hand_values)
+
+
+def home_report(language: str = "", side: Side = "right", names: Sequence[str] = ("WRIST_FE",)) -> HomeReport:
+    """The sheet for home of the last session, with an appointment in a week and a goal."""
+    store = FakeSessions()
+    made = session_report(store.session("session-7"), history=store.history("linden"), pseudonym="Linden 42")
+    made = replace(made, figures=replace(made.figures, side=side))
+    tasks = tuple(HomeTask(exercise_named(name), 10, 3) for name in names)
+    way = OwnWay((date(2026, 10, 2), date(2026, 11, 6), NOW.date()), (25.0, 36.0, 47.0), 60.0, True)
+    return HomeReport(made, tasks, NOW.date(), date(2026, 11, 27), "11:30", "", way, language)
 
 
 def hand_values_today() -> list[HandValue]:

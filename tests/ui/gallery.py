@@ -61,6 +61,7 @@ from carpus.ui.records.lock_sheet import LockSheet
 from carpus.ui.records.pin_sheet import PinSheet
 from carpus.ui.records.ports import ErasureFacts, ListedRecord, LoggedDeed
 from carpus.ui.report.beside_page import BesideReport
+from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.letter_sheet import LetterSheet
 from carpus.ui.report.pdf import progress_report, session_report
@@ -91,6 +92,7 @@ from tests.ui.fakes import (
     compared,
     hand_values,
     hand_values_today,
+    home_report,
     picture,
     restated_statements,
     retest_plan,
@@ -759,6 +761,19 @@ class Gallery:
         screen.begin(LetterReport(made, "Dr Anna Doctor\nVienna", TODAY, "Maria Muster"), "")
         self.settle()
 
+    def report_home(self) -> None:
+        self.place(tab=3, camera="")
+        screen = ReportScreen(self.theme, self.keys, self.background)
+        self.show(screen)
+        screen.begin(home_report(), "")
+        self.settle()
+
+    def home_sheet(self) -> None:
+        self.report_own()
+        sheet = self._over(HomeSheet(self.shell.stage, self.theme))
+        sheet.begin(session_report(self.sessions.session("session-7")), TODAY)
+        self.settle()
+
     def letter_sheet(self) -> None:
         self.report_own()
         sheet = self._over(LetterSheet(self.shell.stage, self.theme))
@@ -1075,7 +1090,8 @@ class Gallery:
             "retest", "retest_empty", "retest_people",
             "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
             "progress", "progress_by_hand", "progress_hand", "by_hand", "report", "report_hand",
-            "report_progress", "report_own", "report_letter", "letter_sheet",
+            "report_progress", "report_own", "report_letter", "letter_sheet", "report_home",
+            "home_sheet",
             "settings", "settings_safe", "settings_research", "locked", "pin_change", "records_due", "records_log",
             "help",
             "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",

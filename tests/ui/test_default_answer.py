@@ -41,13 +41,14 @@ from carpus.ui.records.lock_sheet import LockSheet
 from carpus.ui.records.passphrase_sheet import PassphraseSheet
 from carpus.ui.records.pin_sheet import PinSheet
 from carpus.ui.records.ports import ListedRecord
+from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_sheet import LetterSheet
 from carpus.ui.retest.people_sheet import PeopleSheet
 from carpus.ui.review.reason import ReasonSheet
 from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
 from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.theme import Theme
-from tests.ui.fakes import FakeStore
+from tests.ui.fakes import NOW, FakeStore, home_report
 from tests.ui.gallery import ERASED_SESSION
 
 FIELDS = (QLineEdit, QPlainTextEdit, QComboBox, QSpinBox)
@@ -70,6 +71,12 @@ def _patient(host: QWidget, theme: Theme) -> Opened:
     for choices in (sheet.side, sheet.dominance):
         choices.buttons()[0].click()
     return sheet, "Add patient"
+
+
+def _home(host: QWidget, theme: Theme) -> Opened:
+    sheet = HomeSheet(host, theme)
+    sheet.begin(home_report().report, NOW.date())
+    return sheet, "Show the sheet"
 
 
 def _card(host: QWidget, theme: Theme) -> Opened:
@@ -103,6 +110,7 @@ SHEETS: dict[type[Sheet], Callable[[QWidget, Theme], Opened]] = {
     PassphraseSheet: _opened(PassphraseSheet, "Seal it", print, seals=True),
     LockSheet: _opened(LockSheet, "Unlock", "", stored=True),
     PinSheet: _opened(PinSheet, "Keep this PIN", is_set=True),
+    HomeSheet: _home,
     LetterSheet: _opened(LetterSheet, "Show the letter", ["Dr A"], has_name=True),
     PeopleSheet: _opened(PeopleSheet, "These take part", [("a", "P01", 2)], []),
     ReasonSheet: _opened(ReasonSheet, "Keep it in", 3),

@@ -8,8 +8,11 @@ from datetime import date, timedelta
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QImage, QPageSize
 from PySide6.QtPrintSupport import QPrinter
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import ChangedMeanwhile
 from carpus.core.library.clinic_form import form_in, keep_form, read_form
@@ -17,17 +20,20 @@ from carpus.core.output.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhea
 from carpus.core.records.store import Store
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
-from carpus.ui.language import LANGUAGES
+from carpus.ui.language import LANGUAGES, speaking
+from carpus.ui.patient.words import task_words
+from carpus.ui.report.home_page import own_way
+from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.logo import LogoRefused, logo_png
 from carpus.ui.report.paper import SIZES, print_on, printer_for
 from carpus.ui.report.pdf import session_report, write_letter, write_session_report
-from carpus.ui.report.screen import ReportScreen
+from carpus.ui.report.screen import ReportScreen, suggested_name
 from carpus.ui.report.sentences import filled
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.theme import Theme
-from tests.ui.fakes import FakeSessions
+from tests.ui.fakes import FakeSessions, home_report
 from tests.ui.hand_fakes import FakeHandSessions
 from tests.ui.test_report_pdf import tool, words_of
 
@@ -181,6 +187,69 @@ def test_a_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, t
         boxes = tool("pdftotext", "-bbox", str(path), "-")
         assert max(float(y) for y in re.findall(r'yMax="([\d.]+)"', boxes)) <= 792.0 - 28.0
         assert max(float(x) for x in re.findall(r'xMax="([\d.]+)"', boxes)) <= 612.0 - 28.0
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("names", [("WRIST_FE",), ("FIST_COMPOSITE", "THUMB_OPP", "FOREARM_PS")])
+def test_the_sheet_for_home_is_one_page_in_the_patients_language(
+    language: str, names: tuple[str, ...], tmp_path: Path
+) -> None:
+    path = write_letter(home_report(language, "left", names), tmp_path / "home.pdf")
+    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    words = words_of(path)
+    with speaking(language):
+        said = [task_words(name) for name in names]
+    assert all(one in words for one in said)
+    told = {"en": "More than half of the way is done.", "de": "Mehr als die Hälfte", "it": "Più di metà"}[language]
+    assert told in words
+    assert "11:30" in words
+    assert "Linden 42" in words
+    assert not re.search(r"\d\s?°", words), "no degrees for the patient"
+    drawn = tool("pdftocairo", "-svg", str(path), "-")
+    assert drawn.count("<path") > 60, "the exercises are drawings, not pictures of screens"
+    assert "<image" not in drawn
+
+
+def test_the_sheet_for_home_has_no_bad_news() -> None:
+    store = FakeSessions()
+    history, goals = store.history("linden"), {("WRIST_FE", "right"): (60.0, -50.0)}
+    last = next(one for one in history if one.session_id == "session-7")
+    way = own_way(last, history, goals)  # type: ignore[arg-type]
+    assert way is not None
+    assert way.further
+    assert way.goal_deg == 60.0
+    assert len(way.days) == len(way.values_deg) >= 2
+    assert own_way(last, [last], {}) is None, "one session is no way"
+    worse = replace(last, rows=tuple(replace(row, mean_deg=0.3 * row.mean_deg) for row in last.rows))
+    assert own_way(worse, history, {}) is None
+
+
+def test_the_sheet_for_home_asks_in_the_window_and_goes_back(qtbot: QtBot, theme: Theme) -> None:
+    host = QWidget()
+    qtbot.addWidget(host)
+    host.resize(1000, 760)
+    host.show()
+    sheet, asked = HomeSheet(host, theme), []
+    sheet.wanted.connect(asked.append)
+    sheet.begin(report(), date(2026, 11, 20))
+    for name in ("FIST_COMPOSITE", "THUMB_OPP"):
+        sheet.ticks[name].click()
+    assert not sheet.ticks["FIST_HOOK"].isEnabled(), "there is room for three"
+    qtbot.keyClick(sheet, Qt.Key.Key_Return)
+    assert [task.exercise.id for task in asked[0].tasks] == ["WRIST_FE", "FIST_COMPOSITE", "THUMB_OPP"]
+    assert asked[0].again == date(2026, 11, 27)
+    background = Background()
+    screen = ReportScreen(theme, Keys(), background)
+    qtbot.addWidget(screen)
+    wanted = []
+    screen.home_wanted.connect(wanted.append)
+    screen.begin(asked[0].report, "")
+    screen.home_button.click()
+    assert wanted == [asked[0].report]
+    screen.begin(asked[0], "")
+    assert suggested_name(asked[0]).endswith("_wrist-fe_home.pdf")
+    screen.back_button.click()
+    assert screen.shown == asked[0].report
 
 
 def test_a_letter_names_nobody_unless_asked(tmp_path: Path) -> None:

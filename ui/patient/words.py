@@ -64,6 +64,11 @@ def then_words(exercise_id: str, scene: Scene, audience: Audience) -> str:
     return tr("then: {task}").format(task=inside(task)) if task else ""
 
 
+def task_words(exercise_id: str) -> str:
+    """What an exercise asks of an adult: ``Bend your hand down``."""
+    return _task(exercise_id, 1, child=False)
+
+
 def _task(exercise_id: str, aim: int, child: bool) -> str:
     adult_words, child_words = {
         "WRIST_FE": ((tr("Bend your hand down"), tr("Lift your hand up")), (tr("Down"), tr("Up"))),

@@ -9,13 +9,14 @@ from carpus.ui.language import speaking
 from carpus.ui.report.beside_page import BesideReport, paint_beside_page
 from carpus.ui.report.comment_page import comment_pages, paint_comment_page
 from carpus.ui.report.framed import paint_framed
+from carpus.ui.report.home_page import HomeReport, paint_home_page
 from carpus.ui.report.letter_page import LetterReport, paint_letter_page
 from carpus.ui.report.motion_page import paint_motion_page
 from carpus.ui.report.page import Page
 from carpus.ui.report.progress_page import ProgressReport, paint_progress_page
 from carpus.ui.report.session_page import SessionReport, paint_session_page
 
-Report = SessionReport | ProgressReport | BesideReport | LetterReport
+Report = SessionReport | ProgressReport | BesideReport | LetterReport | HomeReport
 
 
 def pages_of(report: Report) -> list[Callable[[Page], None]]:
@@ -28,6 +29,8 @@ def pages_of(report: Report) -> list[Callable[[Page], None]]:
         paints = [lambda page: paint_beside_page(page, report)]
     elif isinstance(report, LetterReport):
         paints = [lambda page: paint_letter_page(page, report)]
+    elif isinstance(report, HomeReport):
+        paints = [lambda page: paint_home_page(page, report)]
     else:
         paints = [lambda page: paint_session_page(page, report)]
         if report.motion is not None and report.form.has("motion"):

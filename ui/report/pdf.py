@@ -35,6 +35,7 @@ from carpus.core.session.values import Session
 from carpus.ui.fonts import load_fonts
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.hand_rows import followed_keys, followed_kinds
+from carpus.ui.report.home_page import HomeReport
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import Page
 from carpus.ui.report.pages import Report, pages_of
@@ -130,8 +131,8 @@ def write_beside_report(report: BesideReport, output_path: Path) -> Path:
     return _write(output_path, report, TITLE)
 
 
-def write_letter(letter: LetterReport, output_path: Path) -> Path:
-    """Write the one page of a letter; faults as :func:`write_session_report`."""
+def write_letter(letter: LetterReport | HomeReport, output_path: Path) -> Path:
+    """Write the one page of a letter or of a sheet for home; faults as :func:`write_session_report`."""
     return _write(output_path, letter, TITLE)
 
 

@@ -19,6 +19,7 @@ from carpus.ui.controls.column import RING_PX, scrolled
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.keys import Keys, bind
 from carpus.ui.report.beside_page import BesideReport
+from carpus.ui.report.home_page import HomeReport
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import Page
 from carpus.ui.report.pages import Report, pages_of
@@ -33,11 +34,12 @@ WIDEST_PX = 980
 
 
 class ReportScreen(QWidget):
-    """Preview and saving. ``saved`` carries the path; ``letter_wanted`` the report that a letter is to be made of;
-    ``told`` a fault."""
+    """Preview and saving. ``saved`` carries the path; ``letter_wanted`` and ``home_wanted`` the report that a
+    letter or a sheet for home is to be made of; ``told`` a fault."""
 
     saved = Signal(str)
     letter_wanted = Signal(object)
+    home_wanted = Signal(object)
     told = Signal(object)
 
     def __init__(self, theme: Theme, keys: Keys, background: Background) -> None:
@@ -53,6 +55,7 @@ class ReportScreen(QWidget):
         self.open_button = Button(theme, self.tr("Open the PDF"), "plain")
         self.print_button = Button(theme, self.tr("Print…"), "plain")
         self.letter_button = Button(theme, self.tr("Letter to the doctor…"), "plain")
+        self.home_button = Button(theme, self.tr("Sheet for home…"), "plain", hint="Ctrl+H")
         self.back_button = Button(theme, self.tr("Back to the report"), "quiet")
         self.panel = ReportPanel(theme)
         self.state = StateText(theme, 16, SEMIBOLD, 20)
@@ -63,10 +66,12 @@ class ReportScreen(QWidget):
         self.print_button.clicked.connect(self.print_out)
         self.panel.changed.connect(self._show_changed)
         self.letter_button.clicked.connect(self._ask_letter)
+        self.home_button.clicked.connect(self._ask_home)
         self.back_button.clicked.connect(self._to_report)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
         bind(self, keys, "report", self.save_button.click)
+        bind(self, keys, "home_sheet", self.home_button.click)
 
     def _lay_out(self) -> None:
         self._scroll = QScrollArea()
@@ -82,6 +87,7 @@ class ReportScreen(QWidget):
         card.body.addWidget(self.save_button)
         card.body.addWidget(self.print_button)
         card.body.addWidget(self.letter_button)
+        card.body.addWidget(self.home_button)
         card.body.addWidget(self.back_button)
         card.body.addWidget(self.open_button)
         self.pages = Text(self._theme, "", 14, REGULAR, "text2", wrap=True)
@@ -113,7 +119,8 @@ class ReportScreen(QWidget):
         self._saved_path = ""
         self.panel.setVisible(isinstance(report, SessionReport))
         self.letter_button.setVisible(isinstance(report, SessionReport))
-        self.back_button.setVisible(isinstance(report, LetterReport))
+        self.home_button.setVisible(isinstance(report, SessionReport))
+        self.back_button.setVisible(isinstance(report, LetterReport | HomeReport))
         if isinstance(report, SessionReport):
             self.panel.begin(report)
         self._show_pages(report)
@@ -164,8 +171,12 @@ class ReportScreen(QWidget):
         if isinstance(self._report, SessionReport):
             self.letter_wanted.emit(self._report)
 
+    def _ask_home(self) -> None:
+        if isinstance(self._report, SessionReport):
+            self.home_wanted.emit(self._report)
+
     def _to_report(self) -> None:
-        if isinstance(self._report, LetterReport):
+        if isinstance(self._report, LetterReport | HomeReport):
             self.begin(self._report.report, self._folder)
 
     def print_out(self) -> None:
@@ -213,10 +224,11 @@ class ReportScreen(QWidget):
 
 def suggested_name(report: Report) -> str:
     """``Linden-42_2026-11-20_15-29_wrist-fe_report.pdf``: the made-up name, when, and what was done."""
-    if isinstance(report, SessionReport | LetterReport):
+    if isinstance(report, SessionReport | LetterReport | HomeReport):
         figures = report.figures if isinstance(report, SessionReport) else report.report.figures
         what = figures.exercise.id.lower().replace("_", "-")
-        name, kind = report.pseudonym.replace(" ", "-"), "report" if isinstance(report, SessionReport) else "letter"
+        name = report.pseudonym.replace(" ", "-")
+        kind = {SessionReport: "report", LetterReport: "letter", HomeReport: "home"}[type(report)]
         return f"{name}_{figures.when:%Y-%m-%d_%H-%M}_{what}_{kind}.pdf"
     if isinstance(report, BesideReport):
         when, kind = max(figures.when for figures in report.sessions), "side-by-side"
@@ -233,7 +245,7 @@ def _written(report: Report, target: Path, replace_asked: bool) -> Path:
             write_session_report(report, place)
         elif isinstance(report, BesideReport):
             write_beside_report(report, place)
-        elif isinstance(report, LetterReport):
+        elif isinstance(report, LetterReport | HomeReport):
             write_letter(report, place)
         else:
             write_progress_report(report, place)
