@@ -17,6 +17,7 @@ from carpus.core.detection.blobs import Outline, blob_depths, outlines, refined_
 from carpus.core.detection.components import Components, components
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.stencil import Stencil, packed, stencil_for, unpacked, window_pixels
+from carpus.core.kernels.choice import NOTHING, Kernels, in_c
 from carpus.core.types import ByteImage, Detections, FloatArray, Frame
 
 _SIMILARITY_BINS = 16
@@ -108,6 +109,8 @@ class Detector:
         own, rough_px = blobs.label[fits], blobs.centre_px[fits]
         radius_px = median(blobs.radius_px[fits].tolist())
         stencil = stencil_for(radius_px, settings.stencil, self._camera.sensor.edge_px)
+        if (kernels := in_c()) is not None:
+            return self._measured(kernels, frame, region, hsv, labels, own, rough_px, stencil)
         pixels, inside, middle = window_pixels(stencil, rough_px, labels.shape)
         outline = outlines(labels.reshape(-1).take(pixels), own, inside, stencil)
         similarity, skin_share = self._likeness(packed(hsv).take(pixels), outline, stencil)
@@ -123,10 +126,41 @@ class Detector:
             depth, depth_sd = blob_depths(
                 raw.take(pixels[:, stencil.near]), core, frame.depth_unit_m, settings, self._camera.sensor
             )
-        keep = (similarity >= self._looks.least_similarity) & (skin_share >= settings.skin_share)
-        if keep.all():
-            return Detections(centre, depth, depth_sd, area, similarity)
-        return Detections(centre[keep], depth[keep], depth_sd[keep], area[keep], similarity[keep])
+        return self._kept(Detections(centre, depth, depth_sd, area, similarity), skin_share)
+
+    def _kept(self, blobs: Detections, skin_share: FloatArray) -> Detections:
+        """Those that look like a disc and lie on skin."""
+        return blobs.only(
+            (blobs.similarity >= self._looks.least_similarity) & (skin_share >= self._settings.skin_share)
+        )
+
+    def _measured(
+        self,
+        kernels: Kernels,
+        frame: Frame,
+        region: Region,
+        hsv: ByteImage,
+        labels: NDArray[np.uint16],
+        own: NDArray[np.uint16],
+        rough_px: FloatArray,
+        stencil: Stencil,
+    ) -> Detections:
+        """All of it in C, where sums are of double precision."""
+        settings, sensor, count, raw = self._settings, self._camera.sensor, own.size, frame.depth_raw
+        centre, (area, similarity, skin_share, depth, depth_sd) = np.empty((count, 2)), np.empty((5, count))
+        kernels.blobs_measured(
+            count, own, rough_px, region.left, region.top, *labels.shape, labels, hsv,
+            frame.color_rgb.shape[1], frame.color_rgb, NOTHING if raw is None else raw, raw is not None,
+            frame.depth_unit_m, stencil.row.size, stencil.row, stencil.column, stencil.reach,
+            stencil.core.stop, stencil.near.stop, stencil.rim.start, stencil.rim.stop, stencil.wedge, stencil.pick,
+            self._cell, self._is_skin, self._reference.size, self._reference,
+            settings.paper_low, settings.paper_high, settings.fewest_rim, settings.fewest_core,
+            settings.depth_iqr_m, settings.depth_valid_share, settings.fewest_readings,
+            settings.edge_step_m, settings.edge_sd_m, settings.slope_share,
+            sensor.reading.fixed_m, sensor.reading.square_per_m, sensor.patch_px, sensor.averages,
+            centre, area, similarity, skin_share, depth, depth_sd,
+        )  # fmt: skip
+        return self._kept(Detections(centre, depth, depth_sd, area, similarity), skin_share)
 
     def _likeness(self, hsv: NDArray[np.uint32], outline: Outline, stencil: Stencil) -> tuple[FloatArray, FloatArray]:
         """Bhattacharyya coefficient (B,) of each blob's colours to the reference; share (B,) of skin in its rim.

@@ -96,7 +96,7 @@ def _stencil(quarters: int, settings: StencilSettings, edge_px: int) -> Stencil:
         distance <= reach,
         first(max(edge_px, core)),
         rim,
-        is_seen.astype(np.float32),
+        np.ascontiguousarray(is_seen, dtype=np.float32),
         np.arange(row.size) * WEDGES + apart.argmin(axis=0),
         np.stack((np.ones(row.size), column, row), axis=1).astype(np.float32),
     )

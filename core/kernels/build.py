@@ -20,7 +20,16 @@ HERE = Path(__file__).resolve().parent
 SUFFIX = ".shared"
 """Not the system's own: Python would take it for a module, and PyInstaller for a library to be looked into."""
 # No -ffast-math: NaN means "unknown" here and must stay so.
-_FLAGS = ("-std=gnu11", "-O3", "-fno-wrapv", "-fno-math-errno", "-fno-trapping-math", "-fvisibility=hidden", "-shared")
+_FLAGS = (
+    "-std=gnu11",
+    "-O3",
+    "-fno-wrapv",
+    "-fno-math-errno",
+    "-fno-trapping-math",
+    "-fopenmp-simd",
+    "-fvisibility=hidden",
+    "-shared",
+)
 _WIDE_FLAGS = ("-mavx2", "-mfma", "-ffp-contract=fast")
 PLAIN, WIDE = "plain", "wide"
 """For every processor of this kind; and for those of x86-64 with AVX2 and FMA, on which it takes half the time."""

@@ -32,4 +32,42 @@ KERNEL int merged(
     int chains, int modes, int size, const double *mean, const double *covariance, const double *probability,
     double *whole_mean, double *whole);
 
+/* palm.c */
+KERNEL int palm_line(
+    const double *value, const double *covariance, const double *rotation, const double *palm, const double *hidden,
+    const double *image, const double *shift, const double *rotation_w0_cam, double fx, double fy, double cx, double cy,
+    double floor, double mean_middle, double mean_other, double spread_middle, double spread_other, double scale,
+    double *out_value, double *out_slope, double *out_error);
+KERNEL int palm_expected(
+    int modes, const double *covariance, const double *mean, const double *probability, const double *value,
+    const double *slope, const double *error, double *out_mean, double *out_covariance);
+KERNEL int recentred(
+    int modes, const double *mean, const double *covariance, const double *probability, const double *value,
+    const double *rotation, double *out_mean, double *out_covariance, double *out_value, double *out_rotation);
+KERNEL int log_odds(
+    int markers, int blobs, const double *expected, const double *covariance, const double *measured,
+    const double *variance, double prior, double depth_range, double outlier, double gate2, double impossible,
+    double *out, uint8_t *with_depth);
+
+/* surface.c */
+KERNEL int surface_fit(
+    int count, const double *pixel, const double *depth, double fx, double fy, double cx, double cy,
+    const double *rotation_w0_cam,
+    const double *translation, const double *belief_rotation, const double *value, int rows, int columns,
+    const double *plane, const double *to_node, const double *middle, int steps, double huber, double most, int least,
+    double share_in, double reading_per_m, double reading_fixed, double reading_square, double stays_fixed,
+    double stays_square, double stays_px, double patch, int averages, double turn_sd, double up_sd, double goes_on,
+    double *used, double *out_value, double *out_covariance, double *out_slope);
+
+/* detection.c */
+KERNEL int blobs_measured(
+    int blobs, const uint16_t *own, const double *rough, int left, int top, int height, int width,
+    const uint16_t *labels, const uint8_t *hsv, int whole_width, const uint8_t *color, const uint16_t *raw, int has_depth,
+    double unit_m, int pixels, const int64_t *row, const int64_t *column, const uint8_t *reach, int core, int near,
+    int rim_from, int rim_to, const float *wedge, const int64_t *pick, const uint8_t *cell, const uint8_t *is_skin,
+    int cells, const double *reference, double low, double high, double fewest_rim, double fewest_core, double iqr_m,
+    double valid_share, double fewest_readings, double edge_step, double edge_sd, double slope_share, double fixed_m,
+    double square_per_m, double patch, int averages, double *centre, double *area, double *similarity,
+    double *skin_share, double *depth, double *depth_sd);
+
 #endif

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.assignment import linear_sum_assignment
+from carpus.core.kernels.choice import in_c
 from carpus.core.types import FloatArray
 
 IMPOSSIBLE = -1e9
@@ -67,6 +68,16 @@ def log_odds(
     ``noise_variance`` (D, 3). A disc whose depth is of something before or behind it is still that disc,
     with the chance ``depth_outlier``.
     """
+    prior = math.log(settings.prior_marker / settings.prior_clutter * resolution_px2 / (2.0 * math.pi))
+    by_depth, gate2 = math.log(settings.depth_range_m / math.sqrt(2.0 * math.pi)), settings.gate_sd**2
+    if (kernels := in_c()) is not None:
+        shape = len(predicted), len(measured)
+        value, with_depth = np.empty(shape), np.empty(shape, dtype=np.bool_)
+        kernels.log_odds(
+            *shape, predicted, covariance, measured, noise_variance, prior, by_depth, math.log(depth_outlier), gate2,
+            IMPOSSIBLE, value, with_depth,
+        )  # fmt: skip
+        return LogOdds(value, with_depth)
     # Innovations u, v, z and their variances s (each (M, D)) in turn given those before, the depth last: an L D L'
     # decomposition of the sum of covariance and noise, written out. The first two are those of the pixel alone.
     u, v, z = measured.T[:, None] - predicted.T[..., None]
@@ -83,11 +94,9 @@ def log_odds(
     z2 = z * z / s_z
     full2 = flat2 + z2
     has_depth = np.isfinite(measured[:, 2])
-    prior = math.log(settings.prior_marker / settings.prior_clutter * resolution_px2 / (2.0 * math.pi))
     flat = prior - 0.5 * (flat2 + np.log(s_u * s_v))
-    full = flat + math.log(settings.depth_range_m / math.sqrt(2.0 * math.pi)) - 0.5 * (z2 + np.log(s_z))
+    full = flat + by_depth - 0.5 * (z2 + np.log(s_z))
     flat += math.log(depth_outlier) * has_depth
-    gate2 = settings.gate_sd**2
     flat[flat2 > gate2] = IMPOSSIBLE
     full[~(full2 <= gate2)] = IMPOSSIBLE  # and where there is no depth
     return LogOdds(np.maximum(full, flat), has_depth & (full >= flat))

@@ -14,6 +14,7 @@ from scipy.linalg.lapack import dtrtrs
 
 from carpus.core import so3
 from carpus.core.camera import Camera
+from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.kernel import Bank, Line
 from carpus.core.tracking.palm_state import (
     PALM_DISCS,
@@ -29,6 +30,7 @@ from carpus.core.types import FloatArray
 
 _DISC = np.arange(PALM_DISCS)
 _FLOOR = 1e-14
+_ABOUT = np.zeros((1, SIZE))
 _COMPONENTS = 3 * PALM_DISCS
 _AXIS = np.arange(3)
 _OF_DISC = 3 * _DISC[:, None, None] + _AXIS[:, None]  # (6, 3, 1): each disc's own u, v, z
@@ -76,6 +78,20 @@ class View:
 def sight(belief: PalmBelief, view: View, spread: Spread) -> Line:
     """The line of a belief about the palm: ``value`` (1, 18), ``slope`` (1, 18, n) about the belief's own mean."""
     weights = weights_for(POSE.size, spread)
+    if (kernels := in_c()) is not None:
+        line = Line(
+            np.empty((1, _COMPONENTS)),
+            np.empty((1, _COMPONENTS, SIZE)),
+            np.empty((1, _COMPONENTS, _COMPONENTS)),
+            _ABOUT,
+        )
+        camera = view.camera
+        kernels.palm_line(
+            belief.value, belief.covariance, belief.rotation_w2_w0, view.palm_m, view.hidden, *view._w0_image,
+            view.rotation_w0_cam, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, _FLOOR, *weights.numbers,
+            line.value, line.slope, line.error,
+        )  # fmt: skip
+        return line
     root = belief.covariance[POSE[:, None], POSE]
     root.reshape(-1)[:: POSE.size + 1] += _FLOOR
     make_roots(root[None])
@@ -104,7 +120,7 @@ def sight(belief: PalmBelief, view: View, spread: Spread) -> Line:
     )
     slope[2::3, SHAPE] -= view.hidden
     value[2::3] -= view.hidden @ belief.value[SHAPE]
-    return Line(value[None], slope[None], error[None], np.zeros((1, SIZE)))
+    return Line(value[None], slope[None], error[None], _ABOUT)
 
 
 def _by_camera_place(camera: Camera, image: FloatArray) -> FloatArray:
@@ -120,6 +136,18 @@ def _by_camera_place(camera: Camera, image: FloatArray) -> FloatArray:
 
 def recentred(nominal: PalmBelief, bank: Bank) -> tuple[PalmBelief, Bank]:
     """The nominal belief moved to the bank's mean and given its covariance; the bank as errors from there."""
+    if (kernels := in_c()) is not None:
+        error, covariance, value, rotation = (
+            np.empty(bank.mean.shape),
+            np.empty((SIZE, SIZE)),
+            np.empty(SIZE),
+            np.empty((3, 3)),
+        )
+        kernels.recentred(
+            bank.mean.shape[1], bank.mean, bank.covariance, bank.probability, nominal.value, nominal.rotation_w2_w0,
+            error, covariance, value, rotation,
+        )  # fmt: skip
+        return PalmBelief(rotation, value, covariance), Bank(error, bank.covariance, bank.probability)
     mean, covariance = bank.merged()
     apart = bank.mean - mean[:, None]
     # The turns are measured from another rotation now: log(Exp(-m) Exp(e)) to second order.

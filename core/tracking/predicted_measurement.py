@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.finger_model import ray_view
 from carpus.core.tracking.hand_geometry import DISCS, RAYS, PalmInBody
 from carpus.core.tracking.kernel import Bank, Line
@@ -149,12 +150,17 @@ def predicted_measurement(
 ) -> PredictedMeasurement:
     """What to expect of a bank of errors about ``nominal``, whose covariance is that of the whole bank."""
     line = sight(nominal, view, spread)
+    if (kernels := in_c()) is not None:
+        mean, own = np.empty((PALM_DISCS, 3)), np.empty((PALM_DISCS, 3, 3))
+        kernels.palm_expected(
+            bank.mean.shape[1], nominal.covariance, bank.mean, bank.probability, line.value, line.slope, line.error,
+            mean, own,
+        )  # fmt: skip
+        return PredictedMeasurement(nominal, bank, line, mean, own, view, spread, shares, digits, order)
     slope = line.slope[0]
-    mean = line.value[0] + slope @ (bank.probability[0] @ bank.mean[0])
+    mean = (line.value[0] + slope @ (bank.probability[0] @ bank.mean[0])).reshape(PALM_DISCS, 3)
     # A line: what it makes of the whole bank's covariance is that of what it makes of the modes.
     whole = slope @ nominal.covariance @ slope.T
     whole += line.error[0]
     own = whole.reshape(PALM_DISCS, 3, PALM_DISCS, 3)[_DISC, :, _DISC, :]
-    return PredictedMeasurement(
-        nominal, bank, line, mean.reshape(PALM_DISCS, 3), own, view, spread, shares, digits, order
-    )
+    return PredictedMeasurement(nominal, bank, line, mean, own, view, spread, shares, digits, order)

@@ -13,6 +13,7 @@ import numpy as np
 
 from carpus.core import so3
 from carpus.core.hand.back_surface import BackSurface
+from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.kernel import Bank, Line, corrected
 from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmBelief
 from carpus.core.tracking.palm_view import View
@@ -66,6 +67,21 @@ def surface_measurement(
     belief: PalmBelief, samples: SurfaceSamples, surface: BackSurface, view: View, settings: SurfaceSettings
 ) -> SurfaceMeasurement | None:
     """Fit the surface to the readings, from the belief's pose on; None where too few lie on it."""
+    if (kernels := in_c()) is not None:
+        camera, sensor, used = view.camera, view.camera.sensor, np.empty(1)
+        found = SurfaceMeasurement(np.empty(3), np.empty((3, 3)), np.empty((3, SIZE)), 0)
+        kernels.surface_fit(
+            len(samples.depth_m), samples.pixel, samples.depth_m,
+            camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px,
+            view.rotation_w0_cam, view.translation_w0_cam_m, belief.rotation_w2_w0, belief.value,
+            *surface.height_m.shape, surface._plane, surface._to_node, surface.middle_m,
+            settings.steps, settings.huber_m, settings.most_m, settings.least, settings.shared, settings.reading_per_m,
+            sensor.reading.fixed_m, sensor.reading.square_per_m, sensor.stays.fixed_m, sensor.stays.square_per_m,
+            sensor.stays_px, sensor.patch_px, sensor.averages, settings.turn_sd_rad, settings.up_sd_m, settings.goes_on,
+            used, found.value, found.covariance, found.slope,
+        )  # fmt: skip
+        count = int(used[0])
+        return None if count < settings.least else replace(found, count=count)
     in_camera = view.camera.back_project(samples.pixel, samples.depth_m)
     in_w0 = np.ones((len(in_camera), 4))
     in_w0[:, :3] = (in_camera - view.translation_w0_cam_m) @ view.rotation_w0_cam

@@ -28,6 +28,11 @@ class Weights:
     covariance: FloatArray
     scale: float
 
+    @property
+    def numbers(self) -> tuple[float, float, float, float, float]:
+        """Of ``mean`` the centre's and the others', of ``covariance`` likewise, and ``scale``."""
+        return self.mean.item(0), self.mean.item(1), self.covariance.item(0), self.covariance.item(1), self.scale
+
 
 @lru_cache(maxsize=64)
 def weights_for(dimension: int, spread: Spread) -> Weights:

@@ -36,7 +36,7 @@ def both(step: Callable[[], Any], nearest: float = 1e-9) -> Any:
         for one, other in zip(numbers(found), numbers(expected), strict=True):
             assert one.shape == other.shape
             assert one.dtype == other.dtype
-            np.testing.assert_allclose(one, other, rtol=nearest, atol=nearest * _size(other))
+            np.testing.assert_allclose(one, other, rtol=nearest, atol=nearest * _size(other) + 1e-15)
     return expected
 
 

@@ -1,0 +1,109 @@
+"""What the camera should see of the palm, its names' odds and the surface of its back, in C against NumPy."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from carpus.core import so3
+from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
+from carpus.core.hand.back_surface import BackSurface
+from carpus.core.tracking.association import AssociationSettings, log_odds
+from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.palm_state import BACK, RELIEF, SIZE, TURN, PalmBelief
+from carpus.core.tracking.palm_view import View, recentred, sight
+from carpus.core.tracking.predicted_measurement import predicted_measurement
+from carpus.core.tracking.surface_fit import SurfaceSettings, surface_measurement
+from carpus.core.tracking.unscented import Spread
+from carpus.core.types import FloatArray, SurfaceSamples
+from tests.kernels.pairs import both
+from tests.kernels.test_filter_kernels import covariances
+from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
+from tests.tracking.test_palm_filter import moving
+from tests.tracking.test_surface_fit import place_on
+from tests.tracking.test_surface_fit import surface as surface_of_a_hand
+
+surface = surface_of_a_hand
+
+
+def view_of(rng: np.random.Generator, sensor: DepthSensor = PRIMESENSE) -> View:
+    turned = FROM_ABOVE @ so3.exp(0.2 * rng.normal(size=3))
+    return View(replace(CAMERA, sensor=sensor), turned, MIDDLE_M, RIGHT_PALM_M, 0.3 * rng.normal(size=(6, 18)))
+
+
+def bank_about(belief: PalmBelief, rng: np.random.Generator, modes: int) -> Bank:
+    probability = rng.uniform(0.1, 1.0, size=(1, modes))
+    return Bank(
+        0.01 * rng.normal(size=(1, modes, SIZE)),
+        belief.covariance * rng.uniform(0.5, 2.0, size=(1, modes, 1, 1)),
+        probability / probability.sum(),
+    )
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("modes", [1, 8])
+def test_sight_and_what_is_expected(seed: int, modes: int) -> None:
+    rng = np.random.default_rng(seed)
+    belief, view = moving(seed), view_of(rng)
+    both(lambda: sight(belief, view, Spread()))
+    bank = bank_about(belief, rng, modes)
+
+    def expected() -> tuple[FloatArray, FloatArray]:
+        predicted = predicted_measurement(belief, bank, view, Spread())
+        return predicted.mean, predicted.covariance
+
+    both(expected)
+    both(lambda: recentred(belief, bank))
+
+
+def test_a_palm_that_is_not_known_at_all_is_no_covariance() -> None:
+    belief = moving()
+    broken = replace(belief, covariance=-belief.covariance)
+    for level in ("numpy", "plain", "wide"):
+        with pytest.raises(np.linalg.LinAlgError):
+            _sight_by(level, broken)
+
+
+def _sight_by(level: str, belief: PalmBelief) -> None:
+    from carpus.core.kernels import choice
+
+    with choice.forced(level):
+        sight(belief, view_of(np.random.default_rng(0)), Spread())
+
+
+@pytest.mark.parametrize("blobs", [0, 1, 25])
+def test_odds_of_names(blobs: int) -> None:
+    rng = np.random.default_rng(4)
+    scale = np.array([1.0, 1.0, 0.003])
+    covariance = covariances(rng, 6, 3) * scale[:, None] * scale
+    expected = rng.normal(size=(6, 3)) * [20.0, 20.0, 0.01] + [320.0, 240.0, 0.7]
+    measured = expected[rng.integers(0, 6, blobs)] + rng.normal(size=(blobs, 3)) * 3.0 * scale
+    measured[1::4, 2] = np.nan
+    measured[2::4, 2] += 0.2
+    variance = np.broadcast_to([0.04, 0.04, 1e-6], (blobs, 3)).copy()
+    found = both(lambda: log_odds(expected, covariance, measured, variance, 3e5, 1e-4, AssociationSettings()))
+    assert blobs < 25 or (found.with_depth.any() and not found.with_depth.all())
+
+
+@pytest.mark.parametrize("sensor", [PRIMESENSE, D435, AZURE_KINECT], ids=lambda sensor: sensor.name)
+@pytest.mark.parametrize("seed", range(2))
+def test_surface(surface: BackSurface, sensor: DepthSensor, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    rotation, position = so3.exp(rng.normal(0.0, 0.1, 3)), rng.normal(0.0, 0.005, 3)
+    belief = moving(seed)
+    belief.value[RELIEF], belief.value[BACK] = 0.01 * rng.normal(size=(2, 3))
+    belief.value[:3] = position
+    belief = replace(belief, rotation_w2_w0=rotation @ so3.exp(0.01 * rng.normal(size=3)))
+    view = View(replace(CAMERA, sensor=sensor), FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, np.zeros((6, 18)))
+    samples = place_on(rotation, position)
+    for every in (7, 8, 900):  # an odd and an even number of readings, and too few
+        some = SurfaceSamples(samples.pixel[::every], samples.depth_m[::every] + 1e-3 * rng.normal(size=1))
+        found = both(lambda some=some: surface_measurement(belief, some, surface, view, SurfaceSettings()))
+        assert (found is None) == (every == 900)
+    assert belief.value[TURN].any() == False  # noqa: E712
+    away = SurfaceSamples(samples.pixel[::9] + 1e4, samples.depth_m[::9])
+    assert both(lambda: surface_measurement(belief, away, surface, view, SurfaceSettings())) is None
+    none = SurfaceSamples(np.empty((0, 2)), np.empty(0))
+    assert both(lambda: surface_measurement(belief, none, surface, view, SurfaceSettings())) is None
