@@ -57,7 +57,7 @@ def run(link: Connection) -> None:
 
 
 def _questions() -> dict[str, Callable[..., Any]]:
-    from carpus.core.session import given, opened, recovery
+    from carpus.core.session import opened, rewriting
 
     return {
         "session": opened.read_session,
@@ -67,9 +67,9 @@ def _questions() -> dict[str, Callable[..., Any]]:
         "raw_depth_unit_m": opened.raw_depth_unit_m,
         "raw_some": opened.read_raw_some,
         "raw_color": opened.read_raw_color,
-        "recover": recovery.finish_part,
+        "recover": rewriting.finish_part,
         "verify": opened.verify,
-        "give": given.given,
+        "give": rewriting.given,
     }
 
 

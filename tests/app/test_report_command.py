@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 from carpus.app import python_face
+from carpus.app.__main__ import main
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records.of_sessions import add_comment, keep_choices
 from carpus.core.session.reader import read_outline
@@ -139,7 +140,9 @@ def test_several_sessions_make_a_progress_report(sessions: list[Path], tmp_path:
     assert "Progress report" in words(tmp_path / "course.pdf")
 
 
-def test_what_cannot_be_done_is_one_line_and_leaves_nothing(sessions: list[Path], tmp_path: Path) -> None:
+def test_what_cannot_be_done_is_one_line_and_leaves_nothing(
+    sessions: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     taken = tmp_path / "taken.pdf"
     taken.write_bytes(b"mine")
     no_session = tmp_path / "no.h5"
@@ -151,13 +154,14 @@ def test_what_cannot_be_done_is_one_line_and_leaves_nothing(sessions: list[Path]
         ("report", sessions[0], "--output", tmp_path / "no folder" / "a.pdf"),
     ]
     for arguments in wrong:
-        done = carpus(*arguments)
-        assert done.returncode == 1
-        assert done.stderr.startswith("carpus: ")
-        assert len(done.stderr.splitlines()) == 1
+        assert main(list(map(str, arguments))) == 1
+        said = capsys.readouterr().err
+        assert said.startswith("carpus: ")
+        assert len(said.splitlines()) == 1
     assert taken.read_bytes() == b"mine"
     assert not (tmp_path / "a.pdf").exists()
-    assert carpus("report", sessions[0]).returncode == 2
+    with pytest.raises(SystemExit, match="2"):
+        main(["report", str(sessions[0])])
 
 
 def test_without_a_display_the_window_says_so_and_what_shows_the_way() -> None:
