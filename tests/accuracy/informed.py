@@ -13,7 +13,6 @@ from dataclasses import replace
 import numpy as np
 
 from carpus.core.hand import clinical_angles
-from carpus.core.simulation.measurements import MeasurementSequence
 from carpus.core.tracking.kernel import Bank, carried, mixed
 from carpus.core.tracking.motion import PalmMotion, palm_step, slowing
 from carpus.core.tracking.palm_association import Measurements, update
@@ -27,6 +26,7 @@ from carpus.core.types import FloatArray, Side, TrackStatus
 from tests.accuracy.runs import INFORMED, Estimate, Mode, Run, degrees_between
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.sequences import LEAST_DISCS, measured_and_errors, scored_frames
+from tests.simulation.measurements import MeasurementSequence
 from tests.tracking.hands import RIGID
 
 

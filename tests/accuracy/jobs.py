@@ -11,13 +11,13 @@ from dataclasses import dataclass
 from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
-from carpus.core.simulation.measurements import measurement_sequence
 from tests.accuracy.carpus import run_on_blobs, run_on_pictures
 from tests.accuracy.informed import informed_run
 from tests.accuracy.runs import UNTROUBLED, Mode, Run
 from tests.accuracy.scenarios import REPORT_SEEDS, Scenario
 from tests.accuracy.sequences import without_false
 from tests.accuracy.simplest import simplest_run
+from tests.simulation.measurements import measurement_sequence
 
 BLOB_SECONDS, PICTURE_SECONDS = 8.0, 7.0
 

@@ -23,7 +23,6 @@ from carpus.core.papers.neutral import as_written
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.papers.tracker import PaperTracker
 from carpus.core.pipeline.track import from_neutral
-from carpus.core.simulation.measurements import MeasurementSequence, measurement_sequence
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
 from tests.accuracy.carpus import measured_hand
@@ -35,6 +34,7 @@ from tests.accuracy.runs import degrees_between, longest_s
 from tests.accuracy.scenarios import TROUBLE, WRIST, Scenario
 from tests.accuracy.sequences import longest_untracked_s, scored_frames, true_names, wrongly_taken
 from tests.accuracy.soft import SOFT_HAND, SOFT_WRIST
+from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 
 Series = Callable[[TrackedFrame], FloatArray]
 

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.session.reader import read_detections
-from carpus.core.simulation.measurements import MeasurementSequence
 from carpus.core.simulation.truth import Truth
 from carpus.core.types import Detections, FloatArray
+from tests.simulation.measurements import MeasurementSequence
 
 OWN_PX = 6.0
 """A blob's middle further than this from a disc's is not that disc's, even half covered."""

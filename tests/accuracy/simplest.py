@@ -19,13 +19,13 @@ from carpus.core.camera import Camera
 from carpus.core.capture.tum import TumFolder
 from carpus.core.hand.clinical_angles import angles_from_rotation
 from carpus.core.hand.wrist_frame import wrist_axes
-from carpus.core.simulation.measurements import MeasurementSequence
 from carpus.core.simulation.recording import clicks_of
 from carpus.core.so3 import nearest_rotation
 from carpus.core.types import FloatArray, Frame, TrackStatus
 from tests.accuracy.runs import SIMPLEST, Estimate, Mode, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.sequences import OWN_PX, longest_untracked_s, scored_frames
+from tests.simulation.measurements import MeasurementSequence
 
 REACH_PX = 25.0
 """A marker's blob is not looked for further than this from its last place."""

@@ -15,12 +15,12 @@ from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.measures.reach import find_reaches
 from carpus.core.measures.signals import even_signal, low_pass
 from carpus.core.output.exercises import exercise_named
-from carpus.core.simulation.measurements import measurement_sequence
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
 from carpus.core.types import Side
 from tests.accuracy.carpus import measured_hand
+from tests.simulation.measurements import measurement_sequence
 
 
 def spec_of(exercise: str, side: Side = "right") -> RecordingSpec:

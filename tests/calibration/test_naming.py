@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from carpus.core.calibration.naming import NamingSettings, propose_names
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.hand.protocols import HAND21, WRIST6
-from carpus.core.simulation.measurements import measurement_sequence
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import Detections, FloatArray, Side
+from tests.simulation.measurements import measurement_sequence
 
 IntArray = NDArray[np.int64]
 SETTINGS = NamingSettings()

@@ -10,13 +10,13 @@ import numpy as np
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.pipeline.track import from_neutral, learnt_from
 from carpus.core.session.values import Motion, motion_of
-from carpus.core.simulation.measurements import measurement_sequence
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import FloatArray
 from tests.accuracy.carpus import measured_hand
+from tests.simulation.measurements import measurement_sequence
 
 
 @dataclass(frozen=True)

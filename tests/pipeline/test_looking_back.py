@@ -23,13 +23,13 @@ from carpus.core.pipeline.looking_back_process import NICER, run
 from carpus.core.pipeline.pieces import PieceByPiece, TrackedHand
 from carpus.core.pipeline.track import from_neutral, learnt_from
 from carpus.core.session.values import Motion, motion_of
-from carpus.core.simulation.measurements import MeasurementSequence, measurement_sequence
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.smoother_record import KeptSteps
 from carpus.core.tracking.tracker import Tracker
 from tests.accuracy.carpus import measured_hand
 from tests.pipeline.live_fakes import wait_until
+from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 
 PIECE_S, LAG_S = 1.5, 1.0
 BEGIN = 40

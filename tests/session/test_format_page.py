@@ -6,9 +6,9 @@ import dataclasses
 from importlib import resources
 
 from carpus.core.session import schema
-from carpus.core.session.format_page import format_page
 from carpus.core.session.schema import ALL_FIELDS, SMOOTHED_FIELDS
 from carpus.core.types import Moment, TrackedFrame
+from tests.session.format_page import format_page
 
 
 def test_the_page_in_the_repository_is_the_schema_s() -> None:

@@ -15,7 +15,6 @@ import pytest
 
 from carpus.core.capture.tum import TumFolder
 from carpus.core.errors import OutputExists
-from carpus.core.simulation.measurements import measurement_sequence
 from carpus.core.simulation.recording import (
     TRUTH_FILE,
     _rendering_processes,
@@ -28,6 +27,7 @@ from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.trouble import covered_discs, false_blobs, frame_times
 from carpus.core.simulation.truth import truth_of
+from tests.simulation.measurements import measurement_sequence
 
 SPEC = RecordingSpec(
     seed=21, hand="left", motion="mixed", seconds=1.2, false_blobs=2, hidden_share=0.2, dropped_share=0.15, fps=15.0

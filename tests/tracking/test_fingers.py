@@ -10,7 +10,6 @@ import pytest
 
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.protocols import HAND21
-from carpus.core.simulation.measurements import MeasurementSequence, measurement_sequence
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.finger_model import seat_of
 from carpus.core.tracking.finger_settings import FingerSettings
@@ -27,6 +26,7 @@ from carpus.core.types import Detections, FloatArray, TrackedFrame, TrackStatus
 from tests.accuracy.carpus import measured_hand
 from tests.accuracy.hand21 import HandRun, HandScenario, run_on_blobs
 from tests.accuracy.hand21_table import JOINT_GROUPS, figures
+from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 
 SPEC = RecordingSpec(
     seed=61, protocol="hand21", motion="fist", seconds=4.5, speed_hz=0.4, false_blobs=3.0, hidden_share=0.1

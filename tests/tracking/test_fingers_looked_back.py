@@ -11,7 +11,6 @@ import pytest
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.sites import joint_angle_names
 from carpus.core.pipeline.track import from_neutral, learnt_from
-from carpus.core.simulation.measurements import MeasurementSequence, measurement_sequence
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.finger_smoother import FingerWalk, _Filtered
 from carpus.core.tracking.hand_geometry import RAYS, SLOTS
@@ -21,6 +20,7 @@ from carpus.core.tracking.smoother import Smoother
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import FloatArray
 from tests.accuracy.carpus import measured_hand
+from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 
 RECORDED_S, PIECE_S, LAG_S = 2.0, 2.0, 1.5
 SPEC = RecordingSpec(seed=77, protocol="hand21", motion="fist", seconds=9.0, range_share=0.5, hand_length_mm=185.0)

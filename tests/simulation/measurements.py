@@ -1,7 +1,7 @@
 """Measurements without pictures: true projections and depths with the noise that the detector has on pictures.
 
 Thousands of frames a second, for statistics over many recordings. The constants were fitted to the detector's
-results on rendered pictures by :func:`core.simulation.noise_fit.fitted_noise`.
+results on rendered pictures by :func:`tests.simulation.noise_fit.fitted_noise`.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from carpus.core.simulation.sensor import depth_scale
 from carpus.core.simulation.spec import RecordingSpec, Stream
 from carpus.core.simulation.trouble import LEAST_FOUND_M, covered_discs, false_blobs, frame_times, passing_thing
 from carpus.core.simulation.truth import Truth, protocol_rows, truth_of
-from carpus.core.simulation.visibility import coarse_visibility
 from carpus.core.types import Detections, FloatArray
+from tests.simulation.visibility import coarse_visibility
 
 CENTER_SD_PX = {"bright": 0.018, "normal": 0.04, "dim": 0.1}
 """Of a blob's centre, per axis, independent from frame to frame."""

@@ -1,6 +1,6 @@
-"""Fits the noise of :mod:`core.simulation.measurements` to what the detector makes of rendered pictures.
+"""Fits the noise of :mod:`tests.simulation.measurements` to what the detector makes of rendered pictures.
 
-``python -c "from carpus.core.simulation.noise_fit import fitted_noise; print(fitted_noise())"`` (some minutes).
+``python -c "from tests.simulation.noise_fit import fitted_noise; print(fitted_noise())"`` (some minutes).
 """
 
 from __future__ import annotations
