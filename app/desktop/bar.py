@@ -66,6 +66,7 @@ class Bar(QObject):
         if place == "live" and set_up is not None:
             words.append(terms.exercise_name(set_up.exercise.id))
         own = {
+            "clinic": self.tr("Clinic"),
             "retest": self.tr("Test and retest"), "board": self.tr("Camera calibration"), "card": self.tr("Check card")
         }  # fmt: skip
         name = own.get(place, self._now.name)

@@ -23,6 +23,7 @@ from carpus.app.desktop.camera_care import CameraCare
 from carpus.app.desktop.camera_watch import CameraWatch
 from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.checking import Checking
+from carpus.app.desktop.clinic import Clinic
 from carpus.app.desktop.comparing import Comparing
 from carpus.app.desktop.correcting import Correcting, Moments
 from carpus.app.desktop.courses import CourseRun, KeptSets
@@ -54,6 +55,7 @@ from carpus.ui.by_hand.screen import ByHandScreen
 from carpus.ui.camera_calibration.screen import BoardScreen
 from carpus.ui.check_card.screen import CardScreen
 from carpus.ui.check_card.standing_words import bar_words, card_words, session_words, unsure_words
+from carpus.ui.clinic.screen import ClinicScreen
 from carpus.ui.correct.results_sheet import ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.help.screen import HelpScreen
@@ -150,6 +152,7 @@ class Journey(QObject):
         self._beside_background = Background()  # its own: what the list still reads holds up no picture
         self.beside_screen = BesideScreen(theme, keys, self._beside_background, library)
         self.retest = RetestScreen(theme, keys)
+        self.clinic = ClinicScreen(theme, keys)
         self.board = BoardScreen(theme, keys)
         self.card = CardScreen(theme, keys)
         self._corrections = Corrections(library)
@@ -196,6 +199,10 @@ class Journey(QObject):
             self._shell, self.retest, self.way, tell, library, places, self.background, theme=theme,
             today=self._parts.today,
         )  # fmt: skip
+        self.clinic_weeks = Clinic(
+            self._shell, self.clinic, self.way, tell, library, places, self.background,
+            after_days=lambda: self.settings.report.retest_days, today=self._parts.today,
+        )  # fmt: skip
         cameras, is_demo = self._parts.cameras, self._parts.is_demo
         self.care = CameraCare(self, cameras, self.background, _now)
         self.calibrating = Calibrating(
@@ -239,6 +246,7 @@ class Journey(QObject):
         )
         put("beside", Stop(self.beside_screen, first(self.beside_screen), self._up_from_beside, self.beside_screen.end))
         put("retest", Stop(self.retest, self.retest.first, self._to_patient))
+        put("clinic", Stop(self.clinic, self.clinic.first, self._to_patient))
         put("board", Stop(self.board, self.board.first, self._up_from_board, self.calibrating.leave, while_aside=True))
         put("card", Stop(self.card, self.card.first, self._up_from_card, self.checking.leave, while_aside=True))
         put("help", Stop(self.help, lambda: self.help.text, self._to_patient))
@@ -267,6 +275,8 @@ class Journey(QObject):
         self.patients.review.connect(self.viewing.review_newest)
         self.patients.progress.connect(self.viewing.open_progress)
         self.patients.sessions.connect(self.viewing.open_sessions)
+        self.patients.clinic_wanted.connect(self.clinic_weeks.show)
+        self.clinic_weeks.opened.connect(self.show_patients)
         self.setting_up.ready.connect(self.measuring.begin)
         self.setting_up.closing.connect(self._source_closes)
         self.way.arrived.connect(self._meet_camera)

@@ -6,7 +6,7 @@ from typing import Literal
 
 Place = Literal[
     "patients", "exercise", "camera", "markers", "live", "sessions", "review", "progress", "report", "correct",
-    "agreement", "beside", "retest", "by_hand", "board", "card", "help", "settings",
+    "agreement", "beside", "retest", "clinic", "by_hand", "board", "card", "help", "settings",
 ]  # fmt: skip
 STEPS: tuple[Place, ...] = ("exercise", "camera", "markers", "live")
 """The set-up, in order; the top bar counts them."""

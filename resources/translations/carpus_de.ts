@@ -2796,8 +2796,108 @@
         <translation>Vorher (Hersteller)</translation>
     </message>
     <message>
+        <source>{first} to {last}</source>
+        <translation>{first} bis {last}</translation>
+    </message>
+    <message>
+        <source>No session this week</source>
+        <translation>Keine Sitzung in dieser Woche</translation>
+    </message>
+    <message>
+        <source>1 session</source>
+        <translation>1 Sitzung</translation>
+    </message>
+    <message>
+        <source>{count} sessions</source>
+        <translation>{count} Sitzungen</translation>
+    </message>
+    <message>
+        <source>1 patient</source>
+        <translation>1 Patient</translation>
+    </message>
+    <message>
+        <source>{count} patients</source>
+        <translation>{count} Patienten</translation>
+    </message>
+    <message>
+        <source>{sessions} of {patients}</source>
+        <translation>{sessions} mit {patients}</translation>
+    </message>
+    <message>
+        <source>{count} weeks before</source>
+        <translation>{count} Wochen davor</translation>
+    </message>
+    <message>
+        <source>Week</source>
+        <translation>Woche</translation>
+    </message>
+    <message>
+        <source>Usual</source>
+        <translation>Üblich</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>Alle</translation>
+    </message>
+    <message>
+        <source>no initials</source>
+        <translation>ohne Kürzel</translation>
+    </message>
+    <message>
         <source>What</source>
         <translation>Was</translation>
+    </message>
+    <message>
+        <source>Patient</source>
+        <translation>Patient</translation>
+    </message>
+    <message>
+        <source>Last test</source>
+        <translation>Letzte Messung</translation>
+    </message>
+    <message>
+        <source>With</source>
+        <translation>Bei</translation>
+    </message>
+    <message>
+        <source>Overdue</source>
+        <translation>Überfällig</translation>
+    </message>
+    <message>
+        <source>in 1 day</source>
+        <translation>in 1 Tag</translation>
+    </message>
+    <message>
+        <source>in {count} days</source>
+        <translation>in {count} Tagen</translation>
+    </message>
+    <message>
+        <source>1 day overdue</source>
+        <translation>seit 1 Tag fällig</translation>
+    </message>
+    <message>
+        <source>{count} days overdue</source>
+        <translation>seit {count} Tagen fällig</translation>
+    </message>
+    <message>
+        <source>Carpus clinic</source>
+        <translation>Carpus Klinik</translation>
+    </message>
+    <message>
+        <source>Counts and dates only</source>
+        <translation>Nur Anzahl und Datum</translation>
+    </message>
+    <message>
+        <source>The clinic</source>
+        <translation>Die Klinik</translation>
+    </message>
+    <message>
+        <source>Due for a re-test</source>
+        <translation>Zur Nachmessung fällig</translation>
+    </message>
+    <message>
+        <source>Nobody is overdue</source>
+        <translation>Niemand ist überfällig</translation>
     </message>
     <message>
         <source>Now</source>
@@ -7562,6 +7662,10 @@
 <context>
     <name>Bar</name>
     <message>
+        <source>Clinic</source>
+        <translation>Klinik</translation>
+    </message>
+    <message>
         <source>Test and retest</source>
         <translation>Wiederholungstest</translation>
     </message>
@@ -8471,6 +8575,44 @@
     <message>
         <source>Leave it as it is</source>
         <translation>So lassen</translation>
+    </message>
+</context>
+<context>
+    <name>Clinic</name>
+    <message>
+        <source>Save page</source>
+        <translation>Seite speichern</translation>
+    </message>
+</context>
+<context>
+    <name>ClinicScreen</name>
+    <message>
+        <source>Week before</source>
+        <translation>Woche davor</translation>
+    </message>
+    <message>
+        <source>Week after</source>
+        <translation>Woche danach</translation>
+    </message>
+    <message>
+        <source>Save page…</source>
+        <translation>Seite speichern…</translation>
+    </message>
+    <message>
+        <source>The clinic</source>
+        <translation>Die Klinik</translation>
+    </message>
+    <message>
+        <source>Counts and dates only: no measured value leaves a patient’s own record. Therapists stand in the order in which they joined and are never ranked.</source>
+        <translation>Nur Anzahl und Datum: Kein Messwert verlässt die Akte eines Patienten. Therapeuten stehen in der Reihenfolge, in der sie dazukamen, und werden nie gereiht.</translation>
+    </message>
+    <message>
+        <source>Due for a re-test: {count}</source>
+        <translation>Zur Nachmessung fällig: {count}</translation>
+    </message>
+    <message>
+        <source>Nobody is overdue</source>
+        <translation>Niemand ist überfällig</translation>
     </message>
 </context>
 <context>
@@ -10471,6 +10613,14 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Ctrl+N</source>
         <translation>Strg+N</translation>
+    </message>
+    <message>
+        <source>Clinic…</source>
+        <translation>Klinik…</translation>
+    </message>
+    <message>
+        <source>Sessions by day and therapist, and who is due for a re-test</source>
+        <translation>Sitzungen je Tag und Therapeut, und wer zur Nachmessung fällig ist</translation>
     </message>
     <message>
         <source>Patients</source>

@@ -2796,8 +2796,108 @@
         <translation>Prima (produttore)</translation>
     </message>
     <message>
+        <source>{first} to {last}</source>
+        <translation>da {first} a {last}</translation>
+    </message>
+    <message>
+        <source>No session this week</source>
+        <translation>Nessuna seduta questa settimana</translation>
+    </message>
+    <message>
+        <source>1 session</source>
+        <translation>1 seduta</translation>
+    </message>
+    <message>
+        <source>{count} sessions</source>
+        <translation>{count} sedute</translation>
+    </message>
+    <message>
+        <source>1 patient</source>
+        <translation>1 paziente</translation>
+    </message>
+    <message>
+        <source>{count} patients</source>
+        <translation>{count} pazienti</translation>
+    </message>
+    <message>
+        <source>{sessions} of {patients}</source>
+        <translation>{sessions} di {patients}</translation>
+    </message>
+    <message>
+        <source>{count} weeks before</source>
+        <translation>{count} settimane prima</translation>
+    </message>
+    <message>
+        <source>Week</source>
+        <translation>Settimana</translation>
+    </message>
+    <message>
+        <source>Usual</source>
+        <translation>Abituale</translation>
+    </message>
+    <message>
+        <source>All</source>
+        <translation>Tutti</translation>
+    </message>
+    <message>
+        <source>no initials</source>
+        <translation>senza sigla</translation>
+    </message>
+    <message>
         <source>What</source>
         <translation>Che cosa</translation>
+    </message>
+    <message>
+        <source>Patient</source>
+        <translation>Paziente</translation>
+    </message>
+    <message>
+        <source>Last test</source>
+        <translation>Ultima misura</translation>
+    </message>
+    <message>
+        <source>With</source>
+        <translation>Con</translation>
+    </message>
+    <message>
+        <source>Overdue</source>
+        <translation>In ritardo</translation>
+    </message>
+    <message>
+        <source>in 1 day</source>
+        <translation>tra 1 giorno</translation>
+    </message>
+    <message>
+        <source>in {count} days</source>
+        <translation>tra {count} giorni</translation>
+    </message>
+    <message>
+        <source>1 day overdue</source>
+        <translation>da 1 giorno</translation>
+    </message>
+    <message>
+        <source>{count} days overdue</source>
+        <translation>da {count} giorni</translation>
+    </message>
+    <message>
+        <source>Carpus clinic</source>
+        <translation>Carpus clinica</translation>
+    </message>
+    <message>
+        <source>Counts and dates only</source>
+        <translation>Solo numeri e date</translation>
+    </message>
+    <message>
+        <source>The clinic</source>
+        <translation>La clinica</translation>
+    </message>
+    <message>
+        <source>Due for a re-test</source>
+        <translation>Da rimisurare</translation>
+    </message>
+    <message>
+        <source>Nobody is overdue</source>
+        <translation>Nessuno è in ritardo</translation>
     </message>
     <message>
         <source>Now</source>
@@ -7562,6 +7662,10 @@
 <context>
     <name>Bar</name>
     <message>
+        <source>Clinic</source>
+        <translation>Clinica</translation>
+    </message>
+    <message>
         <source>Test and retest</source>
         <translation>Test e retest</translation>
     </message>
@@ -8471,6 +8575,44 @@
     <message>
         <source>Leave it as it is</source>
         <translation>Lascia così</translation>
+    </message>
+</context>
+<context>
+    <name>Clinic</name>
+    <message>
+        <source>Save page</source>
+        <translation>Salva pagina</translation>
+    </message>
+</context>
+<context>
+    <name>ClinicScreen</name>
+    <message>
+        <source>Week before</source>
+        <translation>Settimana prima</translation>
+    </message>
+    <message>
+        <source>Week after</source>
+        <translation>Settimana dopo</translation>
+    </message>
+    <message>
+        <source>Save page…</source>
+        <translation>Salva pagina…</translation>
+    </message>
+    <message>
+        <source>The clinic</source>
+        <translation>La clinica</translation>
+    </message>
+    <message>
+        <source>Counts and dates only: no measured value leaves a patient’s own record. Therapists stand in the order in which they joined and are never ranked.</source>
+        <translation>Solo numeri e date: nessun valore misurato lascia la cartella del paziente. I terapisti stanno nell’ordine in cui sono arrivati e non sono mai classificati.</translation>
+    </message>
+    <message>
+        <source>Due for a re-test: {count}</source>
+        <translation>Da rimisurare: {count}</translation>
+    </message>
+    <message>
+        <source>Nobody is overdue</source>
+        <translation>Nessuno è in ritardo</translation>
     </message>
 </context>
 <context>
@@ -10471,6 +10613,14 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Ctrl+N</source>
         <translation>Ctrl+N</translation>
+    </message>
+    <message>
+        <source>Clinic…</source>
+        <translation>Clinica…</translation>
+    </message>
+    <message>
+        <source>Sessions by day and therapist, and who is due for a re-test</source>
+        <translation>Sedute per giorno e terapista, e chi deve ripetere la misura</translation>
     </message>
     <message>
         <source>Patients</source>

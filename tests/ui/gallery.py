@@ -39,6 +39,7 @@ from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.camera_calibration.screen import BoardScreen
 from carpus.ui.check_card.screen import CardScreen
 from carpus.ui.check_card.values import CameraChecks
+from carpus.ui.clinic.screen import ClinicScreen
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
@@ -89,6 +90,7 @@ from tests.ui.fakes import (
     FakeSessions,
     FakeShelf,
     FakeStore,
+    clinic,
     compared,
     hand_values,
     hand_values_today,
@@ -761,6 +763,13 @@ class Gallery:
         screen.begin(LetterReport(made, "Dr Anna Doctor\nVienna", TODAY, "Maria Muster"), "")
         self.settle()
 
+    def clinic(self) -> None:
+        self.place(where="")
+        screen = ClinicScreen(self.theme, self.keys)
+        self.show(screen)
+        screen.show_week(clinic())
+        self.settle()
+
     def report_home(self) -> None:
         self.place(tab=3, camera="")
         screen = ReportScreen(self.theme, self.keys, self.background)
@@ -1091,7 +1100,7 @@ class Gallery:
             "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
             "progress", "progress_by_hand", "progress_hand", "by_hand", "report", "report_hand",
             "report_progress", "report_own", "report_letter", "letter_sheet", "report_home",
-            "home_sheet",
+            "home_sheet", "clinic",
             "settings", "settings_safe", "settings_research", "locked", "pin_change", "records_due", "records_log",
             "help",
             "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",

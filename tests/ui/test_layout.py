@@ -51,7 +51,7 @@ STATES = (
     "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
     "progress", "progress_by_hand", "progress_hand", "by_hand", "report", "report_hand", "report_progress",
     "report_own", "report_letter", "letter_sheet", "report_home",
-    "home_sheet",
+    "home_sheet", "clinic",
     "patient_view", "patient_view_goal", "patient_view_child", "patient_view_lost", "patient_view_rest",
     "exercise_sets", "exercise_goals", "live_large",
     "settings", "settings_safe", "settings_research", "locked", "pin_change", "records_due", "records_log", "help",

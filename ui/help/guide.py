@@ -24,7 +24,7 @@ PAGE_OF_PLACE = {
     "sessions": "sessions", "review": "figures", "progress": "figures", "report": "figures",
     "by_hand": "figures", "correct": "correct",
     "agreement": "checking", "beside": "sessions", "retest": "checking", "board": "cameracheck", "card": "cameracheck",
-    "settings": "data",
+    "clinic": "data", "settings": "data",
 }  # fmt: skip
 """What F1 opens on each screen."""
 _MARK = re.compile(r"\*\*(.+?)\*\*")

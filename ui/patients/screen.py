@@ -32,7 +32,8 @@ LIST_KEYS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageD
 
 class PatientsScreen(QWidget):
     """Signals carry the patient's identity; ``start`` keeps the last set-up, ``set_up`` asks for another;
-    ``erase_wanted`` a patient to be archived or erased. ``archive_wanted`` asks for those who are in the archive."""
+    ``erase_wanted`` a patient to be archived or erased. ``archive_wanted`` asks for those who are in the
+    archive, ``clinic_wanted`` for the clinic's page."""
 
     start = Signal(str)
     set_up = Signal(str)
@@ -41,6 +42,7 @@ class PatientsScreen(QWidget):
     sessions = Signal(str)
     erase_wanted = Signal(str)
     archive_wanted = Signal()
+    clinic_wanted = Signal()
 
     def __init__(self, theme: Theme, store: PatientStore, today: Callable[[], date]) -> None:
         """``today`` is asked each time: the program may stand open for days."""
@@ -61,6 +63,8 @@ class PatientsScreen(QWidget):
         self.notice_place = QVBoxLayout()
         self.welcome: WelcomePanel | None = None
         self._nobody = _Nobody(theme)
+        self.clinic_button = Button(theme, self.tr("Clinic…"), "quiet", height_px=36)
+        self.clinic_button.setToolTip(self.tr("Sessions by day and therapist, and who is due for a re-test"))
         self.archive_button = Button(theme, "", "quiet", icon="archive", height_px=36)
         self.archive_button.hide()
         self._archived: tuple[str, ...] = ()
@@ -75,6 +79,8 @@ class PatientsScreen(QWidget):
         title = QHBoxLayout()
         title.addWidget(heading(theme, self.tr("Patients")))
         title.addStretch(1)
+        title.addWidget(self.clinic_button, 0, Qt.AlignmentFlag.AlignBottom)
+        title.addSpacing(8)
         title.addWidget(self.day, 0, Qt.AlignmentFlag.AlignBottom)
         finding = QHBoxLayout()
         finding.setSpacing(GAP_PX)
@@ -138,6 +144,7 @@ class PatientsScreen(QWidget):
         self.card.edit.connect(lambda: self.change_patient(self._chosen_id()))
         self.form.accepted.connect(self._store_entry)
         self.archive_button.clicked.connect(self.archive_wanted)
+        self.clinic_button.clicked.connect(self.clinic_wanted)
         self.form.removal_wanted.connect(lambda: self.erase_wanted.emit(self._changing))
 
     def look_at_day(self) -> None:

@@ -227,9 +227,15 @@ def _paint_active_passive(page: Page, report: SessionReport, top: float) -> floa
     y = top + 18 + page.title(tr("Active and passive"), top + 18)
     if found.said:
         y = page.paragraph(found.said, page.left, y, width, 9.0, MEDIUM)
-    step = width / (len(found.heads) + 0.4)
-    lines = max(head.count("\n") for head in found.heads) + 1
-    for number, cells in enumerate((found.heads, *found.rows)):
+    y = paint_words(page, found.heads, found.rows, y)
+    return page.paragraph(found.note, page.left, y + 2, width, 7.5, REGULAR, "text2") if found.note else y
+
+
+def paint_words(page: Page, heads: Sequence[str], rows: Sequence[Sequence[str]], top: float) -> float:
+    """A table of words in even columns, the first one wider, smaller where a word is too long; the lower edge."""
+    y, step = top, (page.right - page.left) / (len(heads) + 0.4)
+    lines = max(head.count("\n") for head in heads) + 1
+    for number, cells in enumerate((heads, *rows)):
         baseline, weight = y + 11, MEDIUM if not number else REGULAR
         for column, cell in enumerate(cells):
             left = page.left + (column + (0.4 if column else 0.0)) * step
@@ -241,7 +247,7 @@ def _paint_active_passive(page: Page, report: SessionReport, top: float) -> floa
                 page.text(words, left, baseline + 9.5 * line, size, weight, "text2" if not number else "text")
         y = baseline + 3.5 + (9.5 * (lines - 1) if not number else 0.0)
         page.rule(y)
-    return page.paragraph(found.note, page.left, y + 2, width, 7.5, REGULAR, "text2") if found.note else y
+    return y
 
 
 def _paint_row(

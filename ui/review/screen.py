@@ -39,6 +39,7 @@ from carpus.ui.controls.column import ScrolledColumn
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Text
 from carpus.ui.controls.tooltip import plain_tooltip
+from carpus.ui.controls.words_table import WordsTable
 from carpus.ui.figures import FINGERS, figure_of
 from carpus.ui.keys import Keys, bind
 from carpus.ui.marker_words import finger_name
@@ -63,7 +64,6 @@ from carpus.ui.review.reason import ReasonSheet
 from carpus.ui.review.results import ResultChoice
 from carpus.ui.review.skeleton import modelled_px, paint_palm, paint_skeleton, paint_trails
 from carpus.ui.review.table import RangeTable
-from carpus.ui.review.words_table import WordsTable
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
 from carpus.ui.translate import inside

@@ -1,0 +1,136 @@
+"""What the head of a clinic asks of the store: sessions by day and therapist, and who is due for a re-test.
+
+Counts and dates alone: no measured value is read. A recording counts once, however often it was tracked; what was
+archived, simulated or practised does not.
+"""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import date, timedelta
+from typing import Any
+
+from sqlalchemy import Row, select
+
+from carpus.core.records.changes import PRACTICE
+from carpus.core.records.schema import PATIENT, SESSION
+from carpus.core.records.store import Store
+from carpus.core.records.values import moment
+from carpus.core.types import Side
+
+WEEKS = 8
+"""So many weeks beside each other, the one asked for last."""
+FEWEST_WEEKS = 4
+"""With fewer weeks before nothing is called usual."""
+SOON_DAYS = 7
+GONE_DAYS = 182
+"""Who was not here for half a year has finished, and is nobody's to remind of."""
+
+
+@dataclass(frozen=True, slots=True)
+class Counted:
+    """Sessions of one therapist, by initials, empty for nobody's: ``days`` Monday to Sunday of the week, ``weeks`` of
+    the last ones, the week asked for at the end; ``usual`` the median of those before, NaN where there are too few."""
+
+    by: str
+    days: tuple[int, ...]
+    weeks: tuple[int, ...]
+    usual: float
+
+
+@dataclass(frozen=True, slots=True)
+class DueTest:
+    """A patient's newest exercise and hand; ``overdue_days`` below 0 where there is time left."""
+
+    patient_id: str
+    pseudonym: str
+    exercise: str
+    hand: Side
+    last: date
+    by: str
+    overdue_days: int
+
+
+@dataclass(frozen=True, slots=True)
+class ClinicWeek:
+    """One week; ``therapists`` in the order in which they joined, never by how much they did. ``due`` longest first."""
+
+    monday: date
+    everybody: Counted
+    therapists: tuple[Counted, ...]
+    patients: int
+    due: tuple[DueTest, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Seen:
+    day: date
+    by: str
+    patient_id: str
+    pseudonym: str
+    exercise: str
+    hand: Side
+
+
+def clinic_week(store: Store, day: date, today: date, after_days: int) -> ClinicWeek:
+    """The week that has ``day`` in it; a re-test is due ``after_days`` after the last session, as of ``today``."""
+    monday = day - timedelta(days=day.weekday())
+    seen = _seen(store)
+    names = tuple(dict.fromkeys(one.by for one in seen))
+    of_week = [one for one in seen if monday <= one.day < monday + timedelta(days=7)]
+    every = (_counted(name, [one for one in seen if one.by == name], monday) for name in names)
+    return ClinicWeek(
+        monday,
+        _counted("", seen, monday),
+        tuple(one for one in every if any(one.weeks)),
+        len({one.patient_id for one in of_week}),
+        _due(seen, today, after_days),
+    )
+
+
+def _seen(store: Store) -> list[_Seen]:
+    """Every recording that counts, in order of time."""
+    wanted = (
+        SESSION.c.recording_id, SESSION.c.recorded, SESSION.c.recorded_s, SESSION.c.by, SESSION.c.exercise,
+        SESSION.c.hand, PATIENT.c.id, PATIENT.c.pseudonym,
+    )  # fmt: skip
+    query = (
+        select(*wanted)
+        .join(PATIENT, PATIENT.c.id == SESSION.c.patient_id)
+        .where(SESSION.c.archived == "", SESSION.c.erasing == 0, SESSION.c.simulated == 0)
+        .where(PATIENT.c.id != PRACTICE, PATIENT.c.archived == "", PATIENT.c.erasing == 0)
+        .order_by(SESSION.c.recorded_s, SESSION.c.created_s)
+    )
+    first: dict[str, Row[Any]] = {}
+    for row in store.rows(query):
+        first.setdefault(row.recording_id, row)
+    return [
+        _Seen(moment(row.recorded, row.recorded_s).date(), row.by, row.id, row.pseudonym, row.exercise, row.hand)
+        for row in first.values()
+    ]
+
+
+def _counted(by: str, seen: Sequence[_Seen], monday: date) -> Counted:
+    days = Counter((one.day - monday).days for one in seen)
+    weeks = Counter((one.day - monday).days // 7 for one in seen)
+    last = tuple(weeks[number] for number in range(1 - WEEKS, 1))
+    here = [count for count in last[:-1] if count]  # a week away is no usual week
+    usual = float(statistics.median(here)) if len(here) >= FEWEST_WEEKS else math.nan
+    return Counted(by, tuple(days[day] for day in range(7)), last, usual)
+
+
+def _due(seen: Sequence[_Seen], today: date, after_days: int) -> tuple[DueTest, ...]:
+    newest = {one.patient_id: one for one in seen}
+    due = [
+        DueTest(
+            one.patient_id, one.pseudonym, one.exercise, one.hand, one.day, one.by,
+            (today - one.day).days - after_days,
+        )
+        for one in newest.values()
+        if (today - one.day).days <= GONE_DAYS
+    ]  # fmt: skip
+    return tuple(sorted((one for one in due if one.overdue_days >= -SOON_DAYS), key=lambda one: -one.overdue_days))

@@ -1,0 +1,79 @@
+"""The clinic's page: the table, a patient opened by mouse and by keyboard, the page read back."""
+
+from __future__ import annotations
+
+from datetime import timedelta
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from carpus.app import compose
+from carpus.app.settings import RecordingSettings, Settings
+from carpus.core.library.library import Library
+from carpus.ui.clinic.screen import ClinicScreen
+from carpus.ui.clinic.words import write_clinic_page
+from carpus.ui.keys import Keys
+from carpus.ui.theme import Theme
+from tests.records.samples import LINDEN, T0, record
+from tests.ui.fakes import clinic
+from tests.ui.test_report_pdf import words_of
+
+
+def test_a_patient_is_opened_from_the_list_and_weeks_are_turned(qtbot: QtBot, theme: Theme) -> None:
+    screen = ClinicScreen(theme, Keys())
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    week = clinic()
+    screen.show_week(week)
+    patients, weeks, pages = [], [], []
+    screen.patient.connect(patients.append)
+    screen.week.connect(weeks.append)
+    screen.page.connect(lambda: pages.append(True))
+    qtbot.mouseClick(screen.due.buttons[1], Qt.MouseButton.LeftButton)
+    qtbot.keyClick(screen.due.buttons[0], Qt.Key.Key_Return)
+    assert patients == [week.due[1].patient_id, week.due[0].patient_id]
+    qtbot.mouseClick(screen.before, Qt.MouseButton.LeftButton)
+    assert weeks == [week.monday - timedelta(days=7)]
+    screen.save.click()
+    assert pages
+    (everybody, first, *_) = screen.sessions.rows
+    assert everybody[0] == "All"
+    assert [int(cell) for cell in everybody[1:8] if cell.isdigit()] == [count for count in week.everybody.days if count]
+    assert first[0] == week.therapists[0].by
+
+
+def test_the_page_says_the_same(tmp_path: Path) -> None:
+    week = clinic()
+    words = words_of(write_clinic_page(tmp_path / "clinic.pdf", week))
+    assert f"{sum(week.everybody.days)} sessions of {week.patients} patients" in words
+    assert all(one.pseudonym in words for one in week.due)
+    assert "16 days overdue" in words
+    assert "°" not in words, "no measured value"
+
+
+def test_in_the_window_from_the_patients_to_who_is_due_and_back(
+    qtbot: QtBot, qapp: QApplication, tmp_path: Path
+) -> None:
+    library = Library(tmp_path / "data")
+    linden = library.patients.add(LINDEN)
+    path = library.index.new_path(linden, LINDEN.pseudonym, "WRIST_FE", "right", T0)
+    library.index.enter(record(path, LINDEN.pseudonym, T0), linden, "AB")
+    library.close()
+    settings = Settings(recording=RecordingSettings(folder=str(tmp_path / "data")))
+    today = (T0 + timedelta(days=30)).date()
+    desktop = compose.compose(qapp, settings, settings_folder=tmp_path / "settings", today=today)
+    journey = desktop.journey
+    try:
+        desktop.show()
+        qtbot.mouseClick(journey.patients.clinic_button, Qt.MouseButton.LeftButton)
+        qtbot.waitUntil(lambda: journey.place == "clinic", timeout=60_000)
+        assert journey.clinic.due.rows[0][-1] == "2 days overdue"
+        qtbot.keyClick(journey.clinic.due.buttons[0], Qt.Key.Key_Return)
+        assert journey.place == "patients"
+        assert journey.patients.card.isVisible()
+    finally:
+        desktop.close()
+        qtbot.waitUntil(lambda: not journey.background.busy, timeout=60_000)
