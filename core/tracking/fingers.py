@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -32,11 +33,13 @@ from carpus.core.tracking.joint_association import is_jointly_compatible
 from carpus.core.tracking.kernel import Bank
 from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.predicted_measurement import PredictedDigits
-from carpus.core.tracking.ray_filter import SEEN, RayPoints, forecast, spread_points
+from carpus.core.tracking.ray_filter import RATES, RAY_SIZE, SEEN, RayPoints, forecast, spread_points
 from carpus.core.tracking.ray_search import in_reach, search_rays
 from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.soft_tissue import DigitSpeeds
 from carpus.core.types import FloatArray, SurfaceSamples
 
+_RATE, _THUMB_BASE = np.arange(RAY_SIZE)[RATES], slice(0, 2)
 _UV = 3 * np.arange(DISCS)[:, None] + np.arange(2)
 
 
@@ -135,6 +138,16 @@ class Fingers:
 
     def _take(self, beliefs: Bank, merged: tuple[FloatArray, FloatArray]) -> None:
         self._beliefs, (self._mean, self._covariance) = beliefs, merged
+
+    @property
+    def speeds(self) -> DigitSpeeds:
+        """How fast the thumb turns at its base and the fingers at their knuckles, root mean square; a joint that
+        nothing shows may turn as fast as its rate is unsure."""
+        unsure = np.where(self._unseen_s > 0.0, self._covariance[:, _RATE, _RATE], 0.0)
+        square = self._mean[:, _RATE] ** 2 + unsure
+        thumb, fingers = square[0, _THUMB_BASE].mean(), square[1:, FLEXION].mean()
+        fastest = self._settings.tissue.fastest_rad_s
+        return DigitSpeeds(min(math.sqrt(thumb), fastest), min(math.sqrt(fingers), fastest))
 
     @property
     def known(self) -> Bank:

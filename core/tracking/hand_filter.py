@@ -44,7 +44,14 @@ from carpus.core.tracking.reacquire import Facing, FoundPalm, find_palm
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.shape_learning import fresh_share, hidden_by_calibration, shape_covariance, shape_shares
-from carpus.core.tracking.soft_tissue import always_pushed, resting_or_moving, settled_covariance
+from carpus.core.tracking.soft_tissue import (
+    NO_DIGITS,
+    DigitSpeeds,
+    always_pushed,
+    moved_by_joints,
+    resting_or_moving,
+    settled_covariance,
+)
 from carpus.core.tracking.surface_fit import calibrated_covariance, levelled_bank, surface_measurement
 from carpus.core.types import Detections, FloatArray
 
@@ -127,8 +134,9 @@ class HandFilter:
             hidden_by_calibration(calibration, settings.shape_hidden),
         )
         self.readout = Readout(calibration, settings.readout, camera, settings.marker_radius_m)
-        # Blobs alone do not tell tissue that rests from a hand that moves.
-        tissue = always_pushed(settings.tissue) if self._surface is None else resting_or_moving(settings.tissue)
+        # Blobs alone do not tell tissue that rests from a hand that moves; joints that are seen tell when it moves.
+        seen = moved_by_joints if self.fingers is not None else resting_or_moving
+        tissue = (always_pushed if self._surface is None else seen)(settings.tissue)
         self.motion = PalmMotion(
             settings.motion_noise, tissue, np.array(settings.mode_scales), settings.unseen_scale, settings.mode_dwell_s
         )
@@ -188,8 +196,9 @@ class HandFilter:
     def _predicted(self, belief: PalmBelief, bank: Bank, dt_s: float) -> PredictedMeasurement:
         settings, fresh = self._settings, 0.0
         if dt_s > 0.0:
-            before, step = belief, palm_step(belief.rate_rad_s, self.motion, dt_s, self._unseen)
-            bank = carried(bank, step, belief.value, self.motion.switch(belief.rate_rad_s, dt_s))
+            before, speeds = belief, self._digit_speeds
+            step = palm_step(belief.rate_rad_s, self.motion, dt_s, self._unseen, speeds)
+            bank = carried(bank, step, belief.value, self.motion.switch(belief.rate_rad_s, dt_s, speeds))
             belief = replace(step.carries(belief, dt_s), covariance=bank.merged()[1][0])
             fresh = fresh_share(self.view.discs_cam_m(before), self.view.discs_cam_m(belief), self.view.camera)
         shares = shape_shares(settings.shape_news * max(fresh, settings.shape_stale))
@@ -263,7 +272,13 @@ class HandFilter:
         fingers = None
         if self.fingers is not None and posterior.fingers is not None:
             fingers = self.fingers.accept(posterior.fingers, scan.timestamp_s, scan.dt_s)
-        return FilterStep(scan.timestamp_s, belief, posterior.bank.probability[0], linked, unseen), fingers
+        probability, speeds = posterior.bank.probability[0], self._digit_speeds
+        return FilterStep(scan.timestamp_s, belief, probability, linked, unseen, speeds), fingers
+
+    @property
+    def _digit_speeds(self) -> DigitSpeeds:
+        """How fast the digits move now, where the tissue goes by it."""
+        return NO_DIGITS if self.fingers is None or not self.motion.tissue.follows_joints else self.fingers.speeds
 
     def finger_start(self, timestamp_s: float) -> FingerStart | None:
         """What is believed of the fingers now, for smoothing over the frames to come."""

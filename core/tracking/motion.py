@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from carpus.core import so3
 from carpus.core.tracking.kernel import Carrying, switching
 from carpus.core.tracking.palm_state import MOVING, POSITION, RATE, SIZE, SKIN, SOFT, TURN, VELOCITY, PalmBelief
-from carpus.core.tracking.soft_tissue import CUP, HOME, STILL, TissueModes
+from carpus.core.tracking.soft_tissue import HOME, NO_DIGITS, STILL, DigitSpeeds, TissueModes
 from carpus.core.types import FloatArray
 
 REFERENCE_DT_S = 1.0 / 30.0
@@ -80,9 +80,9 @@ class PalmMotion:
     def modes(self) -> int:
         return self.scale_of.size
 
-    def switch(self, rate_rad_s: FloatArray, dt_s: float) -> FloatArray:
+    def switch(self, rate_rad_s: FloatArray, dt_s: float, digits: DigitSpeeds = NO_DIGITS) -> FloatArray:
         """Probability (K, K) to go from row to column mode in ``dt_s``, of a hand that turns at ``rate_rad_s`` (3,)."""
-        tissue = self.tissue.switch(float(np.linalg.norm(rate_rad_s)), dt_s)
+        tissue = self.tissue.switch(float(np.linalg.norm(rate_rad_s)), dt_s, digits)
         out: FloatArray = tissue[self.tissue_of[:, None], self.tissue_of]
         motion, resting = switching(self.scales.size, self.dwell_s, dt_s), self.scales.size * self.tissue.resting
         out[:resting, :resting] *= np.repeat(
@@ -98,29 +98,37 @@ class PalmMotion:
         out[: self.scales.size * self.tissue.resting] /= self.scales.size
         return out
 
-    def tissue_noise(self, went_over: FloatArray, dt_s: float) -> FloatArray:
+    def tissue_noise(
+        self, went_over: FloatArray, rate_rad_s: FloatArray, dt_s: float, digits: DigitSpeeds = NO_DIGITS
+    ) -> FloatArray:
         """What pushes the tissue (r, r) in a step that went from row to column mode with these probabilities (K, K),
         seen as one that keeps all it has: coming home is a push as well."""
         tissue = self.tissue
         joint = np.zeros((tissue.count, tissue.count))
         np.add.at(joint, (self.tissue_of[:, None], self.tissue_of), went_over)
-        pushed = tissue.pushed(tissue.kept(dt_s))
+        pushed = tissue.pushed(tissue.kept(dt_s, float(np.linalg.norm(rate_rad_s)), digits))
         if tissue.count == 1:
             return np.asarray(pushed[0])
         skin = slice(0, SKIN.stop - SKIN.start)
         pushed[STILL, skin, skin] *= tissue.creep
         pushed[HOME] = pushed[STILL]
         came_home = float(joint[:, HOME].sum() - joint[HOME, HOME])
-        return np.asarray(np.tensordot(joint.sum(axis=0), pushed, 1) + came_home * tissue.settled[CUP])
+        return np.asarray(np.tensordot(joint.sum(axis=0), pushed, 1) + came_home * tissue.settled[-1])
 
 
-def palm_step(rate_rad_s: FloatArray, motion: PalmMotion, dt_s: float, unseen: FloatArray | None = None) -> PalmStep:
-    """The step of ``dt_s`` of a palm that turns at ``rate_rad_s`` (3,); ``unseen`` (3, 3) projects on the turns in W2
-    that nothing showed."""
+def palm_step(
+    rate_rad_s: FloatArray,
+    motion: PalmMotion,
+    dt_s: float,
+    unseen: FloatArray | None = None,
+    digits: DigitSpeeds = NO_DIGITS,
+) -> PalmStep:
+    """The step of ``dt_s`` of a palm that turns at ``rate_rad_s`` (3,) while its ``digits`` move; ``unseen`` (3, 3)
+    projects on the turns in W2 that nothing showed."""
     noise, tissue, scales = motion.noise, motion.tissue, motion.scale_of
     turn = rate_rad_s * dt_s
     turned, on_the_way = so3.exp(turn), so3.right_jacobian(turn)
-    soft = tissue.kept(dt_s)
+    soft = tissue.kept(dt_s, float(np.linalg.norm(rate_rad_s)), digits)
     kept = np.ones((motion.modes, SIZE))
     kept[:, SOFT] = soft[motion.tissue_of]
     moving = np.eye(MOVING.stop)

@@ -16,6 +16,7 @@ import numpy as np
 from carpus.core.tracking.motion import PalmMotion, palm_step
 from carpus.core.tracking.palm_state import MOVING, SIZE, SOFT, TURN, PalmBelief
 from carpus.core.tracking.smoother import Passage, Smoother
+from carpus.core.tracking.soft_tissue import NO_DIGITS, DigitSpeeds
 from carpus.core.types import FloatArray
 
 
@@ -24,7 +25,7 @@ class FilterStep:
     """One step of the filter: the corrected belief (None when lost), how it was predicted, when.
 
     ``probability`` (K,) of the modes after it; ``linked`` False where the track began anew; ``unseen`` (3, 3)
-    turns that nothing had shown before the step.
+    turns that nothing had shown before the step; ``digits`` how fast the thumb and fingers moved after it.
     """
 
     timestamp_s: float
@@ -32,6 +33,7 @@ class FilterStep:
     probability: FloatArray
     linked: bool
     unseen: FloatArray | None = None
+    digits: DigitSpeeds = NO_DIGITS
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +54,8 @@ class PalmWalk:
             if now.belief is None or later is None or dt_s is None:
                 later = now.probability
                 continue
-            joint = now.probability[:, None] * self.motion.switch(now.belief.rate_rad_s, max(dt_s, 0.0))
+            switch = self.motion.switch(now.belief.rate_rad_s, max(dt_s, 0.0), now.digits)
+            joint = now.probability[:, None] * switch
             joint *= later / np.maximum(joint.sum(axis=0), 1e-300)
             out[frame], later = joint, joint.sum(axis=1)
         object.__setattr__(self, "went_over", out)
@@ -69,13 +72,14 @@ class PalmWalk:
 
     def passage(self, frame: int, now: PalmBelief, later: PalmBelief, dt_s: float) -> Passage:
         after = self.steps[frame + 1]
-        step = palm_step(now.rate_rad_s, self.motion, dt_s, after.unseen)
+        digits = self.steps[frame].digits
+        step = palm_step(now.rate_rad_s, self.motion, dt_s, after.unseen, digits)
         joint = self.went_over[frame]
         assert joint is not None
         forward, noise = np.eye(SIZE), np.zeros((SIZE, SIZE))
         forward[MOVING, MOVING] = step.moving
         noise[MOVING, MOVING] = np.tensordot(joint.sum(axis=0), step.driven, 1)
-        noise[SOFT, SOFT] = self.motion.tissue_noise(joint, dt_s)
+        noise[SOFT, SOFT] = self.motion.tissue_noise(joint, now.rate_rad_s, dt_s, digits)
         apart = step.carries(now, dt_s).error_to(later)
         return Passage(now.covariance[None], forward[None], noise[None], apart[None], later.covariance[None])
 

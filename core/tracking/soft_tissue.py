@@ -3,8 +3,10 @@
 Tissue rests most of the time, and moves as fingers, thumb or wrist do: what it does is a mode of the filter. *Home* it
 lies as calibrated; *still* what was displaced stays where it is; as it moves, a part of it is pushed at random (an
 Ornstein-Uhlenbeck process): knuckles *glide*, the arch *cups*, the skin of *thumb* or *wrist* is drawn along. What no
-picture tells of it stays uncertain, and widens the angles' standard deviation instead of turning the hand. Where only
-blobs are seen tissue cannot be told from bone, and all of it is pushed all the time.
+picture tells of it stays uncertain, and widens the angles' standard deviation instead of turning the hand. Where the
+fingers are seen nobody needs to guess when tissue moves: home or not, it is pushed as far as the joints beneath it
+turn, all of it at once, as in a grasp. Where only blobs are seen tissue cannot be told from bone, and all of it is
+pushed all the time.
 
 Sizes from clinical reference 2 and 10: skin over knuckles glides 2 to 6 mm, mostly along
 the ray; metacarpals 4 and 5 flex by 20 and 27 degrees at most, tied to each other; the wrist's and thumb's skin 2 to 5.
@@ -14,6 +16,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,7 +26,7 @@ from carpus.core.types import FloatArray
 LOOSE = np.array([4, 5])
 """MCP4 and MCP5, whose metacarpals flex."""
 HOME, STILL, GLIDE, CUP, THUMB, WRIST = range(6)
-"""Modes of the tissue: the first two are rest."""
+"""Modes of the tissue: the first two are rest. Where joints say when it moves there is one beside home."""
 _MOVING = np.array([GLIDE, CUP, THUMB, WRIST])
 _WRIST_DISC, _CMC1 = 0, 1
 _KNUCKLES = range(2, 6)
@@ -49,6 +52,9 @@ class SoftTissue:
     ``turning_rad_s``; a motion ends after ``dwell_s``, with the chance ``homing_share`` at home; what is displaced goes
     home at ``homing_per_s``, and home ends without a motion at ``home_ends_per_s``. Just calibrated, each other
     mode has the chance ``elsewhere_at_start``.
+
+    Where the fingers are seen a displacement lasts as long as the joints beneath it turn by ``lasts_rad``, or creeps
+    away as looking back, and home ends at ``leaving_per_rad``; no joint is taken to turn faster than ``fastest_rad_s``.
 
     ``relief_*`` scatter of the surface's turn about X and Y and height, and how long that lasts: home it is what the
     depth's errors make of it as they change with the place in the picture.
@@ -78,11 +84,25 @@ class SoftTissue:
     homing_per_s: float = 0.3
     home_ends_per_s: float = 0.01
     elsewhere_at_start: float = 0.02
+    lasts_rad: float = 1.5
+    leaving_per_rad: float = 0.3
+    fastest_rad_s: float = 4.0
     relief_home: tuple[float, float, float] = (0.010, 0.005, 0.00015)
     relief_home_s: float = 1.0
     relief_still: tuple[float, float, float] = (0.015, 0.009, 0.0004)
     relief_still_s: float = 4.0
     relief_moving: tuple[float, float, float] = (0.015, 0.012, 0.0008)
+
+
+class DigitSpeeds(NamedTuple):
+    """How fast, in rad/s, the thumb turns at its base and the fingers at their knuckles; zero where nobody sees
+    them."""
+
+    thumb: float = 0.0
+    fingers: float = 0.0
+
+
+NO_DIGITS = DigitSpeeds()
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +111,8 @@ class TissueModes:
     ``settled`` (J, r, r), each number over ``lasts_s`` (J, r); ``rates`` (J, J) per second of going over from row to
     column, that to the wrist's by how fast the hand turns, in ``turning_rad_s``; looking back, resting skin is pushed
     ``creep`` times as much, and all is ``widens`` times as unsure; ``elsewhere`` is the chance of each mode but home of
-    tissue just calibrated."""
+    tissue just calibrated. Where joints are told, each number lasts besides for ``lasts_rad`` of them, and home ends at
+    ``leaving_per_rad``."""
 
     settled: FloatArray
     lasts_s: FloatArray
@@ -101,23 +122,37 @@ class TissueModes:
     creep: float = 1.0
     widens: float = 1.0
     elsewhere: float = 0.0
+    lasts_rad: float = np.inf
+    leaving_per_rad: float = 0.0
 
     @property
     def count(self) -> int:
         return len(self.settled)
 
-    def kept(self, dt_s: float) -> FloatArray:
-        """Share (J, r) of each number that is left after ``dt_s``."""
-        return np.asarray(np.exp(-dt_s / self.lasts_s))
+    @property
+    def follows_joints(self) -> bool:
+        return bool(np.isfinite(self.lasts_rad))
+
+    def kept(self, dt_s: float, turning_rad_s: float, digits: DigitSpeeds) -> FloatArray:
+        """Share (J, r) of each number that is left after ``dt_s``, of a hand that turns so fast."""
+        fading = dt_s / self.lasts_s
+        if self.follows_joints:
+            speed = np.full(_SOFT, max(turning_rad_s, *digits))
+            speed[_OF_WRIST], speed[_OF_THUMB], speed[_OF_KNUCKLES] = turning_rad_s, digits.thumb, digits.fingers
+            fading += dt_s / self.lasts_rad * speed
+        return np.asarray(np.exp(-fading))
 
     def pushed(self, kept: FloatArray) -> FloatArray:
         """Noise (J, r, r) of a step that keeps so much."""
         return np.asarray(self.settled * (1.0 - kept[:, :, None] * kept[:, None, :]))
 
-    def switch(self, turning_rad_s: float, dt_s: float) -> FloatArray:
-        """Probability (J, J) to go from row to column mode in ``dt_s``."""
+    def switch(self, turning_rad_s: float, dt_s: float, digits: DigitSpeeds) -> FloatArray:
+        """Probability (J, J) to go from row to column mode in ``dt_s``, of a hand that turns so fast."""
         rates = self.rates
-        if self.count > 1:
+        if self.follows_joints:
+            rates = rates.copy()
+            rates[HOME, 1:] += self.leaving_per_rad * max(turning_rad_s, *digits)
+        elif self.count > 1:
             rates = rates.copy()
             rates[: self.resting, WRIST] *= 0.2 + min(turning_rad_s / self.turning_rad_s, 3.0)
         total = rates.sum(axis=1)
@@ -143,25 +178,39 @@ def always_pushed(tissue: SoftTissue) -> TissueModes:
 
 
 @lru_cache(maxsize=8)
+def moved_by_joints(tissue: SoftTissue) -> TissueModes:
+    """Two modes, home or not; elsewhere it moves as the joints beneath it do."""
+    settled = np.repeat(_scatter(tissue)[None], 2, axis=0)
+    lasts_s = np.full((2, _SOFT), tissue.creeps_s)
+    lasts_s[1, _RELIEF] = tissue.relief_still_s
+    settled[HOME], lasts_s[HOME] = _at_home(tissue)
+    rates = np.array([[0.0, tissue.home_ends_per_s], [tissue.homing_per_s, 0.0]])
+    return TissueModes(
+        settled,
+        lasts_s,
+        rates,
+        2,
+        tissue.turning_rad_s,
+        elsewhere=tissue.elsewhere_at_start,
+        lasts_rad=tissue.lasts_rad,
+        leaving_per_rad=tissue.leaving_per_rad,
+    )
+
+
+@lru_cache(maxsize=8)
 def resting_or_moving(tissue: SoftTissue) -> TissueModes:
     """The six modes."""
     settled = np.repeat(_scatter(tissue)[None], 6, axis=0)
     lasts_s = np.full((6, _SOFT), tissue.rests_s)
-    settled[HOME] = tissue.home_m**2 * np.eye(_SOFT)
-    lasts_s[HOME] = _AT_ONCE_S
     settled[GLIDE, : _RELIEF.start, : _RELIEF.start] -= _cupping(tissue)
     for modes, numbers in (((GLIDE, CUP), _OF_KNUCKLES), ((THUMB,), _OF_THUMB), ((WRIST,), _OF_WRIST)):
         lasts_s[list(modes), numbers] = tissue.lasts_s
     lasts_s[_MOVING, _RELIEF] = tissue.lasts_s
-    at_rest = (tissue.relief_still, tissue.relief_still_s)
     # The thumb's skin does not lie on the surface that is measured.
-    for mode, (sd, relief_s) in (
-        (HOME, (tissue.relief_home, tissue.relief_home_s)),
-        (STILL, at_rest),
-        (THUMB, at_rest),
-    ):
-        settled[mode, _RELIEF, _RELIEF] = np.diag(sd) ** 2
-        lasts_s[mode, _RELIEF] = relief_s
+    for mode in (STILL, THUMB):
+        settled[mode, _RELIEF, _RELIEF] = np.diag(tissue.relief_still) ** 2
+        lasts_s[mode, _RELIEF] = tissue.relief_still_s
+    settled[HOME], lasts_s[HOME] = _at_home(tissue)
     rates = np.zeros((6, 6))
     rates[:GLIDE, _MOVING] = tissue.leaving_per_s / len(_MOVING)
     rates[STILL, HOME], rates[HOME, STILL] = tissue.homing_per_s, tissue.home_ends_per_s
@@ -171,6 +220,13 @@ def resting_or_moving(tissue: SoftTissue) -> TissueModes:
     return TissueModes(
         settled, lasts_s, rates, 2, tissue.turning_rad_s, creep, tissue.looked_back, tissue.elsewhere_at_start
     )
+
+
+def _at_home(tissue: SoftTissue) -> tuple[FloatArray, FloatArray]:
+    """Covariance (r, r) of what lies as calibrated, and how long it lasts (r,)."""
+    settled, lasts_s = tissue.home_m**2 * np.eye(_SOFT), np.full(_SOFT, _AT_ONCE_S)
+    settled[_RELIEF, _RELIEF], lasts_s[_RELIEF] = np.diag(tissue.relief_home) ** 2, tissue.relief_home_s
+    return settled, lasts_s
 
 
 @lru_cache(maxsize=8)

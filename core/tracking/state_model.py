@@ -64,13 +64,16 @@ PALM_STATE = (
     ),
     StatePart(
         "skin", SKIN, "m", "x, y, z by which each disc has left that place for now",
-        (), "s exp(-dt / tau), tau by mode", "what keeps the mode's stationary covariance",
-        ("SoftTissue.lasts_s", "SoftTissue.rests_s", "soft_tissue.resting_or_moving"),
+        (), "s exp(-dt / tau), tau by mode; s exp(-dt / tau - path / lambda) by the path of joints that are seen",
+        "what keeps the mode's stationary covariance",
+        ("SoftTissue.lasts_s", "SoftTissue.rests_s", "SoftTissue.lasts_rad", "soft_tissue.resting_or_moving",
+         "soft_tissue.moved_by_joints"),
     ),
     StatePart(
         "relief", RELIEF, "rad, rad, m", "turn about X and Y and height by which the back has left its shape for now",
         (), "s exp(-dt / tau), tau by mode", "what keeps the mode's stationary covariance",
-        ("SoftTissue.relief_still_s", "SoftTissue.relief_home_s", "soft_tissue.resting_or_moving"),
+        ("SoftTissue.relief_still_s", "SoftTissue.relief_home_s", "soft_tissue.resting_or_moving",
+         "soft_tissue.moved_by_joints"),
     ),
 )  # fmt: skip
 

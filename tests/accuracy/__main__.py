@@ -8,13 +8,16 @@ from __future__ import annotations
 import argparse
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeVar
 
-from tests.accuracy import badly, cameras, check_cards, hand21_table, papers, readings_table, second
-from tests.accuracy.hand21 import ROWS, HandScenario
+from tests.accuracy import badly, cameras, check_cards, hand21_table, papers, readings_table, second, short_table
+from tests.accuracy.hand21 import ROWS, HandRun, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
+from tests.accuracy.pages import marked
+from tests.accuracy.readings_table import ReadRow
 from tests.accuracy.robustness import robustness_verdicts
+from tests.accuracy.runs import Run
 from tests.accuracy.scenarios import GROUPS, Scenario
 from tests.accuracy.sensors import SENSOR_HAND, SENSOR_WRIST
 from tests.accuracy.soft import SOFT_HAND, SOFT_WRIST
@@ -48,7 +51,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument("--pictures", type=int, default=1, help="rendered recordings a row; 0: simulated ones of all")
     parser.add_argument("--quick", action="store_true", help=f"{SEEDS} seeds and no pictures")
-    parser.add_argument("--markdown", action="store_true", help="the table of the README instead")
+    parser.add_argument(
+        "--markdown",
+        action="store_true",
+        help="tables for the pages, where python -m tests.accuracy.pages FILE puts them",
+    )
     parser.add_argument("--processes", type=int, default=2)
     options = parser.parse_args(arguments)
     seeds, pictures = (SEEDS, 0) if options.quick else (options.seeds, options.pictures)
@@ -58,21 +65,29 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"no row of {options.group} is named like {options.only}", file=sys.stderr)
         return 2
     begin = time.monotonic()
+    read: list[ReadRow] = []
     if wrist:
-        print(_wrist_report(wrist, seeds, pictures, options.processes, as_markdown=options.markdown))
+        told, some = _wrist_report(wrist, seeds, pictures, options.processes, as_markdown=options.markdown)
+        read += some
+        print(told, flush=True)
     if hand:
-        print()
-        print(hand21_table.report(hand, seeds, pictures, options.processes, as_markdown=options.markdown))
+        hands = hand21_table.all_hand_runs(hand21_table.hand_jobs(hand, seeds, pictures), options.processes)
+        read += hand21_table.read_rows(hands, hand)
+        told = "\n".join(_hand_tables(hands, hand)) if options.markdown else hand21_table.report(hands, hand)
+        print("", told, sep="\n", flush=True)
     if options.group == "papers":
         print("", papers.report(options.only, seeds, options.processes, as_markdown=options.markdown), sep="\n")
     if options.group == "camera" and pictures:
         for group in (cameras, check_cards):
             print("", group.report(options.only, max(seeds // 2, 1), as_markdown=options.markdown), sep="\n")
     if options.group in ("all", "badly") and pictures and not options.only:
-        print("", badly.report(pictures), sep="\n")
+        print("", marked("badly", badly.report(pictures)), sep="\n", flush=True)
     if judged:
-        print()
-        print(second.report(judged, pictures, options.processes, as_markdown=options.markdown))
+        told, some = second.report(judged, pictures, options.processes, as_markdown=options.markdown)
+        read += some
+        print("", told, sep="\n")
+    if options.group == "all" and pictures and not options.only:
+        print("", marked("short", short_table.markdown(_kinds(read))), sep="\n")
     print(f"{time.monotonic() - begin:.0f} s", file=sys.stderr)
     return 0
 
@@ -85,18 +100,67 @@ def _named(rows: Mapping[str, tuple[_Row, ...]], group: str, only: str) -> list[
 
 def _wrist_report(
     scenarios: Sequence[Scenario], seeds: int, pictures: int, processes: int, *, as_markdown: bool
-) -> str:
-    """Run these rows and tell."""
+) -> tuple[str, list[ReadRow]]:
+    """Run these rows and tell; also what is read off them."""
     runs = all_runs(jobs_for(scenarios, seeds, pictures), processes)
     rows = list(rows_of(runs, scenarios))
-    form, read_form = (markdown, readings_table.markdown) if as_markdown else (terminal, readings_table.terminal)
-    lines = [form(rows), "", read_form(read_rows(rows))]
+    read = read_rows(rows)
+    as_text = [terminal(rows), "", readings_table.terminal(read)]
+    lines = list(_wrist_tables(runs, scenarios)) if as_markdown else as_text
     promised = [row for row in scenarios if row not in (*SOFT_WRIST, *SENSOR_WRIST)]
     names = {row.name for row in promised}
     kept = [run for run in runs if run.scenario in names]
     lines += ["", "Synthetic: simulated hands before a simulated camera. What was promised:"] if kept else []
     lines += [str(verdict) for verdict in (*verdicts(kept, promised), *robustness_verdicts(kept, promised))]
-    return "\n".join(lines)
+    return "\n".join(lines), read
+
+
+def _wrist_tables(runs: Sequence[Run], scenarios: Sequence[Scenario]) -> Iterator[str]:
+    """The two tables of every group of rows."""
+    for group, every in WRIST_ROWS.items():
+        some = [row for row in scenarios if row in every]
+        if rows := list(rows_of(runs, some)):
+            yield from (marked(group, markdown(rows)), "")
+            yield from (marked(f"{group} read", readings_table.markdown(read_rows(rows))), "")
+
+
+def _hand_tables(runs: Sequence[HandRun], scenarios: Sequence[HandScenario]) -> Iterator[str]:
+    """The same of the whole hand."""
+    for group, every in HAND_ROWS.items():
+        name = "hand" if group == "hand" else f"{group} hand"
+        some = [row for row in scenarios if row in every]
+        if some:
+            yield from (marked(name, hand21_table.markdown(runs, some)), "")
+            yield from (marked(f"{name} read", readings_table.markdown(hand21_table.read_rows(runs, some))), "")
+
+
+def _kinds(read: Sequence[ReadRow]) -> list[tuple[str, list[ReadRow]]]:
+    """The rendered rows of a run by the kind of hand."""
+
+    def of(*names: str) -> list[ReadRow]:
+        return [row for row in read if row.name in names]
+
+    def first(*groups: Sequence[Scenario]) -> list[ReadRow]:
+        return of(*(f"{row.name} (pictures)" for group in groups for row in group))
+
+    def hands(group: Sequence[HandScenario]) -> list[ReadRow]:
+        return of(*(f"21 discs, {row.name} (pictures): {part}" for row in group for part in ("wrist", "joints")))
+
+    def judged(protocol: str, *, rigid: bool) -> list[ReadRow]:
+        rows = [row.name for row in second.ROWS if row.protocol == protocol and row.rigid is rigid]
+        return of(*(f"second: {name}{part}" for name in rows for part in ("", ", joints")))
+
+    return [
+        ("rigid hands, 6 discs: exercises, reaching, fast", first(WRIST_ROWS["wrist"])),
+        ("rigid hands, 6 discs: in trouble", first(WRIST_ROWS["trouble"])),
+        ("rigid hands, 21 discs", hands(HAND_ROWS["hand"])),
+        ("soft hands, 6 discs", first(SOFT_WRIST)),
+        ("soft hands, 21 discs", hands(SOFT_HAND)),
+        ("second patient, rigid, 6 discs", judged("wrist6", rigid=True)),
+        ("second patient, soft, 6 discs", judged("wrist6", rigid=False)),
+        ("second patient, rigid, 21 discs", judged("hand21", rigid=True)),
+        ("second patient, soft, 21 discs", judged("hand21", rigid=False)),
+    ]
 
 
 if __name__ == "__main__":

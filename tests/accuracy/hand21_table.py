@@ -266,12 +266,7 @@ def hand_verdicts(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> Iter
             yield Verdict(f"{row.name}: {name} of the discs at most {limit:g} mm", f"{value:.2f}", bool(value <= limit))
 
 
-def report(rows: Sequence[HandScenario], seeds: int, pictures: int, processes: int, *, as_markdown: bool) -> str:
-    """Run these rows and tell."""
-    runs = all_hand_runs(hand_jobs(rows, seeds, pictures), processes)
-    read = read_rows(runs, rows)
-    if as_markdown:
-        return "\n\n".join((markdown(runs, rows), readings_table.markdown(read)))
-    return "\n".join(
-        [terminal(runs, rows), "", readings_table.terminal(read), "", *map(str, hand_verdicts(runs, rows))]
-    )
+def report(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> str:
+    """What became of these rows, for the terminal."""
+    read = readings_table.terminal(read_rows(runs, rows))
+    return "\n".join([terminal(runs, rows), "", read, "", *map(str, hand_verdicts(runs, rows))])

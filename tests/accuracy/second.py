@@ -27,6 +27,7 @@ from carpus.core.session.reader import read_detections, read_session
 from carpus.core.types import FloatArray, TrackStatus
 from tests.accuracy import readings_table
 from tests.accuracy.hand21 import ANGLES, BENT_RAD, JOINT_GROUPS, seen_joints, with_end_joints
+from tests.accuracy.pages import marked
 from tests.accuracy.readings import AT_NEUTRAL_RAD, Reading, reading_in
 from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
 from tests.accuracy.runs import degrees_between
@@ -138,8 +139,8 @@ def rows_named(only: str) -> list[Row]:
     return [row for row in ROWS if only.lower() in f"second: {row.name}".lower()]
 
 
-def report(rows: Sequence[Row], recordings: int, processes: int, *, as_markdown: bool) -> str:
-    """Run ``recordings`` of each of these rows and tell."""
+def report(rows: Sequence[Row], recordings: int, processes: int, *, as_markdown: bool) -> tuple[str, list[ReadRow]]:
+    """Run ``recordings`` of each of these rows and tell; also what is read off them."""
     jobs = [
         (row, _clickable_seed(row, SECOND_SEEDS + 50 * ROWS.index(row) + i)) for row in rows for i in range(recordings)
     ]
@@ -149,9 +150,9 @@ def report(rows: Sequence[Row], recordings: int, processes: int, *, as_markdown:
     runs, faults = [run for run in done if isinstance(run, SecondRun)], [run for run in done if isinstance(run, str)]
     read = list(_read_rows(runs, rows))
     if as_markdown:
-        return "\n".join([readings_table.markdown(read), *faults])
+        return "\n".join([marked("second", readings_table.markdown(read)), *faults]), read
     head = "The second patient, for judging only (rendered pictures):"
-    return "\n".join([head, readings_table.terminal(read), *_others(runs, rows), *faults])
+    return "\n".join([head, readings_table.terminal(read), *_others(runs, rows), *faults]), read
 
 
 def _clickable_seed(row: Row, seed: int) -> int:

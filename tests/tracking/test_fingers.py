@@ -102,6 +102,16 @@ def frames_of(hidden: dict[int, tuple[int, ...]], count: int = 60) -> tuple[list
     ], seen
 
 
+def test_fingers_that_rest_are_slow_and_fingers_out_of_sight_may_be_fast() -> None:
+    seen, settings = sequence(), TrackerSettings()
+    hand, _ = measured_hand(seen, CalibrationSettings())
+    assert hand.calibration is not None
+    fingers = Fingers(hand.calibration, seen.truth.camera, settings)
+    assert fingers.speeds == (0.0, 0.0)
+    fingers.begin_anywhere()
+    assert 0.5 < min(fingers.speeds) <= max(fingers.speeds) <= settings.tissue.fastest_rad_s
+
+
 def weighed(place_m: float, off_px: tuple[float, float], own: FingerSettings) -> tuple[FingerTrial, FloatArray]:
     """The fingers of the first picture on a palm known to ``place_m``, their discs off to the sides in turn, and how
     far they go on from neutral (5, n)."""

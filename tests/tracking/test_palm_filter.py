@@ -33,8 +33,10 @@ from carpus.core.tracking.soft_tissue import (
     CUP,
     HOME,
     STILL,
+    DigitSpeeds,
     SoftTissue,
     always_pushed,
+    moved_by_joints,
     resting_or_moving,
     settled_covariance,
 )
@@ -43,6 +45,7 @@ from carpus.core.types import FloatArray
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
 MOTION = PalmMotion(MotionNoise(), always_pushed(SoftTissue()), np.array([0.5, 4.0]))
+FOLLOWING = PalmMotion(MotionNoise(), moved_by_joints(SoftTissue()), np.array([0.5, 4.0]))
 RESTING = PalmMotion(MotionNoise(), resting_or_moving(SoftTissue()), np.array([0.5, 4.0]))
 NO_HIDDEN = np.zeros((6, 18))
 VIEW = View(CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, NO_HIDDEN)
@@ -159,6 +162,41 @@ def test_rest_is_seldom_left_and_motions_are_short() -> None:
     assert switch[moves][:, ~moves].sum(axis=1).min() > 0.05
     assert RESTING.at_rest.sum() == pytest.approx(1.0)
     assert RESTING.at_rest[RESTING.tissue_of == HOME].sum() > 0.8
+
+
+def pushed_by(digits: DigitSpeeds, turning_rad_s: float, seconds: float) -> FloatArray:
+    """Standard deviation (21,) of tissue away from home that nothing was wrong with, after joints turned so long."""
+    rate, bank = np.array([0.0, turning_rad_s, 0.0]), Bank.alike(np.zeros((1, SIZE)), 1e-12 * np.eye(SIZE)[None], 4)
+    for _ in range(round(60 * seconds)):
+        bank = carried(bank, palm_step(rate, FOLLOWING, 1.0 / 60.0, None, digits), np.zeros(SIZE))
+    away = np.flatnonzero(FOLLOWING.tissue_of != HOME)[0]
+    assert np.linalg.eigvalsh(bank.covariance[0, away][SKIN, SKIN]).min() > 0.0
+    return np.asarray(np.sqrt(np.diagonal(bank.covariance[0, away])[np.r_[SKIN, RELIEF]]))
+
+
+def test_where_fingers_are_seen_tissue_moves_as_far_as_the_joints_beneath_it() -> None:
+    settled = np.sqrt(np.diagonal(settled_covariance(SoftTissue()))[np.r_[SKIN, RELIEF]])
+    rest = pushed_by(DigitSpeeds(), 0.0, 2.0) / settled
+    assert rest[:18].max() < 0.15, "while they rest it creeps, and no more"
+    bent = pushed_by(DigitSpeeds(fingers=1.5), 0.0, 1.0) / settled
+    assert bent[6:18] == pytest.approx(0.93, abs=0.02), "90 degrees of the knuckles take the skin over them anywhere"
+    assert bent[:6] == pytest.approx(rest[:6], rel=0.5), "and neither the wrist's nor the thumb's"
+    slowly = pushed_by(DigitSpeeds(fingers=0.5), 0.0, 3.0) / settled
+    assert slowly[6:18] == pytest.approx(bent[6:18], abs=0.01), "it matters how far, not how fast"
+    assert (pushed_by(DigitSpeeds(thumb=1.5), 0.0, 1.0) / settled)[3:6].min() > 0.9
+    assert (pushed_by(DigitSpeeds(), 1.5, 1.0) / settled)[:3].min() > 0.9
+
+
+def test_skin_leaves_home_while_joints_turn() -> None:
+    rest, grasp = (FOLLOWING.switch(np.zeros(3), 1.0 / 30.0, digits) for digits in (DigitSpeeds(), DigitSpeeds(0, 2)))
+    for switch in (rest, grasp):
+        assert switch.sum(axis=1) == pytest.approx(1.0)
+        assert switch.min() >= 0.0
+    home = FOLLOWING.tissue_of == HOME
+    assert grasp[home][:, ~home].sum() > 20.0 * rest[home][:, ~home].sum()
+    assert grasp[~home][:, home].sum() == pytest.approx(rest[~home][:, home].sum())
+    assert FOLLOWING.at_rest.sum() == pytest.approx(1.0)
+    assert FOLLOWING.at_rest[home].sum() > 0.9
 
 
 def test_what_came_after_tells_when_tissue_moved() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -10,7 +12,7 @@ from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_step
 from carpus.core.tracking.palm_state import MOVING, PALM_DISCS, SIZE
 from carpus.core.tracking.ray_filter import RAY_SIZE, RayMotion
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import resting_or_moving
+from carpus.core.tracking.soft_tissue import SoftTissue, TissueModes, moved_by_joints, resting_or_moving
 from carpus.core.tracking.state_model import (
     DIGIT_MEASUREMENTS,
     DIGIT_STATE,
@@ -44,9 +46,10 @@ def moved_by(forward: FloatArray, parts: tuple[StatePart, ...]) -> dict[str, tup
     }
 
 
-def test_the_palm_moves_as_told() -> None:
+@pytest.mark.parametrize("tissue", [resting_or_moving, moved_by_joints])
+def test_the_palm_moves_as_told(tissue: Callable[[SoftTissue], TissueModes]) -> None:
     settings = TrackerSettings()
-    motion = PalmMotion(MotionNoise(), resting_or_moving(settings.tissue), np.array(settings.mode_scales))
+    motion = PalmMotion(MotionNoise(), tissue(settings.tissue), np.array(settings.mode_scales))
     step = palm_step(np.array([0.3, -0.2, 0.5]), motion, 0.03)
     moving = tuple(part for part in PALM_STATE if part.rows.stop <= MOVING.stop)
     assert moved_by(step.moving, moving) == {part.name: part.moved_by for part in moving}
