@@ -80,7 +80,7 @@ NO_CHOICE = {
         "hand/anatomy_prior._DOWN",
         "hand/ray_fitting._DOWN",
         "tracking/finger_depth._DOWN",
-        "tracking/digit_association._BENDS",
+        "tracking/digit_association.BENDS",
         "tracking/hand_geometry._DOWN",
         "tracking/hand_geometry._FINGER_PHASES",
         "tracking/hand_geometry._FINGER_TURNS",

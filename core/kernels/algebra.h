@@ -74,6 +74,19 @@ static inline void product(
                     to[1] = t[q];
                 }
         }
+        for (; j + LANES <= last; j += LANES) {
+            lanes s[4] = {{0}};
+            for (int k = 0; k < z; k++) {
+                const lanes x = *(const lanes *)(of[k] + j);
+                for (int q = 0; q < 4; q++)
+                    s[q] += own[4 * k + q] * x;
+            }
+            for (int q = 0; q < 4; q++)
+                if (q < here) {
+                    lanes *to = (lanes *)(out + (size_t)(i + q) * out_wide + j);
+                    *to = how & ADD ? (lanes)(*to + s[q]) : s[q];
+                }
+        }
         for (; j < last; j++) {
             double s[4] = {0.0};
             for (int k = 0; k < z; k++)

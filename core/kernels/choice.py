@@ -67,14 +67,22 @@ class Kernels:
 
 def _called(function: Any) -> Callable[..., None]:
     """A function of arrays, each of the type that its header declares, and numbers."""
-    of_array, buffers, array = _FFI.from_buffer, _BUFFERS, np.ndarray
+    of_array, buffers, array, usual = _FFI.from_buffer, _BUFFERS, np.ndarray, np.dtype(np.float64)
+    doubles = buffers["d"]
 
     def as_c(value: Any) -> Any:
         return of_array(buffers[value.dtype.char], np.ascontiguousarray(value)) if isinstance(value, array) else value
 
     def call(*arguments: Any) -> None:
         try:
-            status = function(*[of_array(buffers[x.dtype.char], x) if x.__class__ is array else x for x in arguments])
+            status = function(
+                *[
+                    (of_array(doubles, x) if x.dtype is usual else of_array(buffers[x.dtype.char], x))
+                    if x.__class__ is array
+                    else x
+                    for x in arguments
+                ]
+            )
         except (TypeError, ValueError, BufferError):  # one that is not there, or not stored row by row
             status = function(*[as_c(x) for x in arguments])
         if status:

@@ -33,6 +33,12 @@ KERNEL int merged(
     double *whole_mean, double *whole);
 
 /* palm.c */
+KERNEL int palm_ahead(
+    int modes, int tissues, int resting, int scales, double dt, const double *scale_of, const int64_t *tissue_of,
+    const double *settled, const double *between, const double *soft, double dwell, double push,
+    double turning, double unseen_scale, const double *unseen, const double *mean, const double *covariance,
+    const double *probability, const double *value, const double *rotation, double *out_mean, double *out_covariance,
+    double *out_probability, double *out_value, double *out_rotation, double *whole);
 KERNEL int palm_line(
     const double *value, const double *covariance, const double *rotation, const double *palm, const double *hidden,
     const double *image, const double *shift, const double *rotation_w0_cam, double fx, double fy, double cx, double cy,
@@ -48,6 +54,13 @@ KERNEL int log_odds(
     int markers, int blobs, const double *expected, const double *covariance, const double *measured,
     const double *variance, double prior, double depth_range, double outlier, double gate2, double impossible,
     double *out, uint8_t *with_depth);
+KERNEL int wrist_read(
+    const double *axes, const double *sensitivity, const double *place, const double *value, const double *rotation,
+    const double *covariance, const double *start, const double *stays, double side, double undefined_below,
+    double *position, double *shown, double *rate, double *angles, double *sd, double *zyz);
+KERNEL int adapted_factors(
+    int markers, const double *factor, const double *residual, const uint8_t *measured, double weight, double least,
+    double most, double *out);
 
 /* surface.c */
 KERNEL int surface_fit(
@@ -69,5 +82,31 @@ KERNEL int blobs_measured(
     double valid_share, double fewest_readings, double edge_step, double edge_sd, double slope_share, double fixed_m,
     double square_per_m, double patch, int averages, double *centre, double *area, double *similarity,
     double *skin_share, double *depth, double *depth_sd);
+
+/* digits.c */
+KERNEL int rays_spread(
+    const double *mean, const double *covariance, const double *roots, double floor, double scale, double *disc_m,
+    double *unroot, double *along, double *by_constants, double *normal);
+KERNEL int rays_forecast(
+    const double *disc_m, const double *unroot, const double *along, const double *by_constants, const double *covariance,
+    const double *rotation, const double *translation, double fx, double fy, double cx, double cy, double mean_middle,
+    double mean_other, double spread_middle, double spread_other, double scale, double *out_value, double *out_slope,
+    double *out_error, double *out_spread, double *centre_m, double *by_place);
+KERNEL int rays_scene(
+    const double *covariance, const double *line_spread, const double *centre_m, const double *by_place,
+    const double *normal, const double *rotation, const double *translation, const double *pose_covariance,
+    const double *bends, const double *visible, double dt_s, double shown_s, double hidden_s, double steepest,
+    double steepest_sd, double least_seen, double most_seen, double least_facing, double fx, double *shift,
+    double *out_spread, double *out_visible, double *tilt, double *facing_m2);
+KERNEL int digits_measured(
+    int blobs, const int64_t *taken, const uint8_t *with_depth, const double *value, const double *blob_variance,
+    const double *area_px, const double *whole_px, const double *expected, const double *noise_factor, double whole_from,
+    double shade_share, double radius_m, double fx, double crowded_radii, double crowded_px, double pixel_sd,
+    double skin_px, double *measured, double *variance);
+KERNEL int rays_read(
+    const double *mean, const double *covariance, const double *slope, const double *centre_m, const double *by_place,
+    const double *roots, const double *rotation, const double *translation, const double *turn_covariance, double fx,
+    double fy, double across_m, double depth_stays, double share, double narrow2, int coupled, double *inherited,
+    double *centres, double *disc_cam);
 
 #endif

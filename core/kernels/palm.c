@@ -130,6 +130,108 @@ int palm_expected(
     return 0;
 }
 
+/* Jr of one turn, as so3.right_jacobian has it. */
+static void right_jacobian(const double *turn, double *out)
+{
+    const double x = turn[0], y = turn[1], z = turn[2], angle2 = x * x + y * y + z * z;
+    double b = 0.5 - angle2 / 24.0, c = 1.0 / 6.0 - angle2 / 120.0;
+    if (!(angle2 < 1e-6)) {
+        const double angle = sqrt(angle2);
+        b = (1.0 - cos(angle)) / angle2;
+        c = (angle - sin(angle)) / (angle2 * angle);
+    }
+    const double d = 1.0 - c * angle2;
+    out[0] = d + c * x * x, out[1] = c * x * y + b * z, out[2] = c * x * z - b * y;
+    out[3] = c * x * y - b * z, out[4] = d + c * y * y, out[5] = c * y * z + b * x;
+    out[6] = c * x * z + b * y, out[7] = c * y * z - b * x, out[8] = d + c * z * z;
+}
+
+int palm_ahead(
+    int modes, int tissues, int resting, int scales, double dt, const double *scale_of, const int64_t *tissue_of,
+    const double *settled, const double *between, const double *soft, double dwell, double push,
+    double turning, double unseen_scale, const double *unseen, const double *mean, const double *covariance,
+    const double *probability, const double *value, const double *rotation, double *out_mean, double *out_covariance,
+    double *out_probability, double *out_value, double *out_rotation, double *whole)
+{
+    enum { SOFT = SIZE - SKIN, MOVING = SHAPE };
+    double change[modes * modes];
+    double kept[modes * SIZE], driven[modes * MOVING * MOVING], settling[modes * SOFT * SOFT];
+    double moving[MOVING * MOVING] = {0.0}, turn[3], turned[9], jr[9], across[9], middle[SIZE];
+    for (int k = 0; k < 3; k++)
+        turn[k] = value[RATE + k] * dt;
+    turn_matrix(turn, turned);
+    right_jacobian(turn, jr);
+
+    /* Which mode follows which: of motion and of tissue at once, as long as that rests. */
+    const int at_rest = scales * resting;
+    const double leave = 1.0 - exp(-dt / dwell);
+    for (int i = 0; i < modes; i++)
+        for (int j = 0; j < modes; j++) {
+            double chance = between[tissue_of[i] * tissues + tissue_of[j]];
+            if (j < at_rest && i >= at_rest)
+                chance /= scales;
+            else if (j < at_rest && scales > 1)
+                chance *= i / resting == j / resting ? 1.0 - leave : leave / (scales - 1);
+            change[i * modes + j] = chance;
+        }
+
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            moving[(TURN + i) * MOVING + TURN + j] = turned[3 * j + i];
+            moving[(TURN + i) * MOVING + RATE + j] = dt * jr[3 * i + j];
+        }
+    for (int k = 0; k < 3; k++) {
+        moving[(POSITION + k) * (MOVING + 1)] = moving[(VELOCITY + k) * (MOVING + 1)] = 1.0;
+        moving[(RATE + k) * (MOVING + 1)] = 1.0;
+        moving[(POSITION + k) * MOVING + VELOCITY + k] = dt;
+    }
+    double on_the_way[9], along[9], unseen_way[9];
+    times33t(jr, jr, on_the_way);
+    if (unseen) {
+        times33(jr, unseen, along);
+        times33t(along, along, unseen_way);
+    }
+    memset(driven, 0, sizeof driven);
+    for (int k = 0; k < modes; k++) {
+        const double by = scale_of[k] * scale_of[k], *own = soft + tissue_of[k] * SOFT;
+        const double *rest = settled + tissue_of[k] * SOFT * SOFT;
+        double *pushed = driven + k * MOVING * MOVING, *left = kept + k * SIZE;
+        for (int i = 0; i < 3; i++) {
+            pushed[(POSITION + i) * (MOVING + 1)] = by * (push * dt * dt * dt / 3.0);
+            pushed[(POSITION + i) * MOVING + VELOCITY + i] = by * (push * dt * dt / 2.0);
+            pushed[(VELOCITY + i) * MOVING + POSITION + i] = by * (push * dt * dt / 2.0);
+            pushed[(VELOCITY + i) * (MOVING + 1)] = by * (push * dt);
+        }
+        double more = unseen_scale * unseen_scale - by;
+        more = unseen && more > 0.0 ? more : 0.0;
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) {
+                const int at = 3 * i + j;
+                double *both = pushed + (TURN + i) * MOVING, *rate = pushed + (RATE + i) * MOVING;
+                both[TURN + j] = turning * dt * dt * dt / 3.0 * (by * on_the_way[at] + (more ? more * unseen_way[at] : 0.0));
+                across[at] = turning * dt * dt / 2.0 * (by * jr[at] + (more ? more * along[at] : 0.0));
+                both[RATE + j] = across[at];
+                pushed[(RATE + j) * MOVING + TURN + i] = across[at];
+                rate[RATE + j] = turning * dt * ((i == j ? by : 0.0) + (more ? more * unseen[at] : 0.0));
+            }
+        for (int j = 0; j < SIZE; j++)
+            left[j] = j < SKIN ? 1.0 : own[j - SKIN];
+        for (int i = 0; i < SOFT; i++)
+            for (int j = 0; j < SOFT; j++)
+                settling[(k * SOFT + i) * SOFT + j] = rest[i * SOFT + j] * (1.0 - own[i] * own[j]);
+    }
+    carried(modes, SIZE, MOVING, SOFT, change, mean, covariance, probability, moving, driven, kept, settling, value,
+            out_mean, out_covariance, out_probability);
+    merged(1, modes, SIZE, out_mean, out_covariance, out_probability, middle, whole);
+    memcpy(out_value, value, sizeof(double) * SIZE);
+    for (int k = 0; k < 3; k++) {
+        out_value[POSITION + k] += value[VELOCITY + k] * dt;
+        out_value[TURN + k] = 0.0;
+    }
+    times33(rotation, turned, out_rotation);
+    return 0;
+}
+
 /* The bank as errors from its own mean: those of the turn to second order. */
 int recentred(
     int modes, const double *mean, const double *covariance, const double *probability, const double *value,
@@ -181,6 +283,88 @@ int log_odds(
             /* Unknown where either is. */
             out[j * blobs + i] = full >= flat || full != full ? full : flat;
             with_depth[j * blobs + i] = has_depth && full >= flat;
+        }
+    }
+    return 0;
+}
+
+/* The wrist's pose and clinical angles: core/tracking/readout.py and core/hand/clinical_angles.py. */
+int wrist_read(
+    const double *axes, const double *sensitivity, const double *place, const double *value, const double *rotation,
+    const double *covariance, const double *start, const double *stays, double side, double undefined_below,
+    double *position, double *shown, double *rate, double *angles, double *sd, double *zyz)
+{
+    enum { READ = SHAPE + 3 * DISCS - TURN, SHAPES = 3 * DISCS };
+    double in_body[3], half[9], own[9], error[3 * READ] = {0.0}, cross[3 * READ], spread[9], axes_turned[9];
+    for (int k = 0; k < 3; k++)
+        in_body[k] = place[k] + value[SHAPE + k] + value[SKIN + k];
+    times3(rotation, in_body, position);
+    for (int k = 0; k < 3; k++)
+        position[k] += value[POSITION + k];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            axes_turned[3 * i + j] = axes[3 * j + i];
+    times33(axes_turned, rotation, half);
+    times33(half, axes, own);
+    turned3(axes, value + RATE, rate);
+    for (int i = 0; i < 3; i++) {
+        memcpy(error + i * READ, axes_turned + 3 * i, 3 * sizeof(double));
+        for (int k = 0; k < 3; k++)
+            add_scaled(error + i * READ + SHAPE - TURN, (i == k) - own[3 * k + i], sensitivity + k * SHAPES, SHAPES);
+    }
+    product(cross, READ, error, READ, 1, covariance + TURN * SIZE + TURN, SIZE, 3, READ, READ, SET);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            spread[3 * i + j] = dot(cross + i * READ, error + j * READ, READ);
+    if (stays) {
+        double in_axes[9];
+        times33(axes_turned, stays, half);
+        times33(half, axes, in_axes);
+        for (int k = 0; k < 9; k++)
+            spread[k] += in_axes[k];
+    }
+    if (start)
+        times33(start, own, shown);
+    else
+        memcpy(shown, own, sizeof own);
+    const double sine = -shown[6] > 1.0 ? 1.0 : -shown[6] < -1.0 ? -1.0 : -shown[6];
+    const double psi = atan2(shown[3], shown[0]), theta = asin(sine), phi = atan2(shown[7], shown[8]);
+    const double sx = sin(phi), cx = cos(phi), cosine = cos(theta), c = fabs(cosine) < 1e-6 ? 1e-6 : cosine;
+    const double t = side * sin(theta) / c;
+    const double by_turn[9] = {0.0, side * sx / c, side * cx / c, 0.0, cx, -sx, side, sx * t, cx * t};
+    angles[0] = side * psi;
+    angles[1] = theta + 0.0;
+    angles[2] = side * phi;
+    for (int i = 0; i < 3; i++) {
+        double along[3];
+        turned3(spread, by_turn + 3 * i, along);
+        const double variance = along[0] * by_turn[3 * i] + along[1] * by_turn[3 * i + 1] + along[2] * by_turn[3 * i + 2];
+        sd[i] = sqrt(variance < 0.0 ? 0.0 : variance);
+    }
+    const double beta = atan2(hypot(shown[2], shown[5]), shown[8]);
+    const int is_known = beta >= undefined_below;
+    zyz[0] = is_known ? atan2(shown[5], shown[2]) : NAN;
+    zyz[1] = is_known ? beta : NAN;
+    zyz[2] = is_known ? atan2(shown[7], -shown[6]) : NAN;
+    return 0;
+}
+
+/* Variance factors of u, v and depth after one more frame: core/tracking/adaptive_noise.py. */
+int adapted_factors(
+    int markers, const double *factor, const double *residual, const uint8_t *measured, double weight, double least,
+    double most, double *out)
+{
+    for (int m = 0; m < markers; m++) {
+        double square[3];
+        for (int k = 0; k < 3; k++) {
+            const double own = residual[3 * m + k] * residual[3 * m + k];
+            square[k] = measured[3 * m + k] ? (own > most ? most : own) : 1.0;
+        }
+        square[0] = square[1] = 0.5 * (square[0] + square[1]);
+        for (int k = 0; k < 3; k++) {
+            const int at = 3 * m + k;
+            const double grown = factor[at] * (1.0 + weight * (square[k] - 1.0));
+            out[at] = !measured[at] ? factor[at] : grown < least ? least : grown > most ? most : grown;
         }
     }
     return 0;

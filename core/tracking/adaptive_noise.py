@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.settings import MeasurementNoise
 from carpus.core.types import BoolArray, FloatArray
 
@@ -21,6 +22,12 @@ def adapted_factor(
     if not measured.any() or dt_s <= 0.0:
         return factor
     weight = 1.0 - math.exp(-dt_s / noise.adapt_s)
+    if (kernels := in_c()) is not None:
+        out = np.empty(factor.shape)
+        kernels.adapted_factors(
+            factor.size // 3, factor, residual, measured, weight, noise.least_adapted, noise.most_adapted, out
+        )
+        return out
     squared = np.where(measured, np.minimum(residual**2, noise.most_adapted), 1.0)
     squared[..., :2] = 0.5 * (squared[..., :1] + squared[..., 1:2])
     grown = factor * (1.0 + weight * (squared - 1.0))

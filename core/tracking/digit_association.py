@@ -13,6 +13,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.kernels.choice import in_c
 from carpus.core.tracking import association
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.hand_geometry import DISCS, RAYS, SHOWS, SLOTS, is_crowded, ray_frames
@@ -26,7 +27,7 @@ from carpus.core.types import FloatArray
 
 _AXES = np.arange(3)
 _SLOT = np.arange(SLOTS)
-_BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
+BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
 """Slots (5, 5) that tilt the discs past them."""
 _LOG_2_PI = float(np.log(2.0 * np.pi))
 
@@ -152,7 +153,7 @@ def tilt_to(view: RayView, normal: FloatArray, centre_m: FloatArray) -> FloatArr
 
 def tilt_variance(covariance: FloatArray) -> FloatArray:
     """Variance (5, 3) of the discs' tilts from covariances (5, n, n), for joints that err independently."""
-    return np.asarray(np.cumsum(covariance[:, _SLOT, _SLOT] * _BENDS, axis=1)[:, 2:])
+    return np.asarray(np.cumsum(covariance[:, _SLOT, _SLOT] * BENDS, axis=1)[:, 2:])
 
 
 def _each_by_itself(scene: DigitScene, settings: TrackerSettings) -> DigitAssignment:
@@ -181,11 +182,20 @@ def _each_by_itself(scene: DigitScene, settings: TrackerSettings) -> DigitAssign
     return DigitAssignment(taken.reshape(RAYS, DISCS), with_depth.reshape(RAYS, DISCS))
 
 
-def updated_as_associated(
-    beliefs: Bank, scene: DigitScene, names: DigitAssignment, settings: TrackerSettings
-) -> UpdatedDigits:
-    """All rays corrected by the blobs as named."""
+def measured_as_named(
+    scene: DigitScene, names: DigitAssignment, settings: TrackerSettings
+) -> tuple[FloatArray, FloatArray]:
+    """What the blobs as named measure (5, 9), NaN where there is none, and its variance (5, 9)."""
     noise, fingers = settings.noise, settings.fingers
+    if (kernels := in_c()) is not None:
+        measured, variance = np.empty((RAYS, 9)), np.empty((RAYS, 9))
+        kernels.digits_measured(
+            len(scene.blobs), names.taken, names.with_depth, scene.blobs.value, scene.blobs.variance, scene.area_px,
+            scene.whole_px, scene.line.value, scene.noise_factor, noise.whole_from, noise.shade_share,
+            settings.marker_radius_m, scene.view.camera.fx_px, fingers.crowded_radii, fingers.crowded_px,
+            noise.pixel_sd_px, fingers.skin_px, measured, variance,
+        )  # fmt: skip
+        return measured, variance
     blob = np.maximum(names.taken, 0)
     is_named = names.taken >= 0
     if len(scene.blobs):
@@ -202,7 +212,14 @@ def updated_as_associated(
         variance[..., :2] = np.where(np.isfinite(own) & is_named[..., None], own, variance[..., :2])
     else:
         measured, variance = np.full((RAYS, DISCS, 3), np.nan), np.ones((RAYS, DISCS, 3))
-    measured, variance = measured.reshape(RAYS, 9), variance.reshape(RAYS, 9) * scene.noise_factor
+    return measured.reshape(RAYS, 9), variance.reshape(RAYS, 9) * scene.noise_factor
+
+
+def updated_as_associated(
+    beliefs: Bank, scene: DigitScene, names: DigitAssignment, settings: TrackerSettings
+) -> UpdatedDigits:
+    """All rays corrected by the blobs as named."""
+    measured, variance = measured_as_named(scene, names, settings)
     update = corrected(
         beliefs,
         scene.line,

@@ -12,6 +12,7 @@ from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand.sites import DIGITS
+from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.anatomy_refinement import RayStart, ray_start
 from carpus.core.tracking.finger_depth import FLEXION
 from carpus.core.tracking.geometry import palm_of
@@ -252,9 +253,8 @@ class FingerModel:
 
     def read(self, mean: FloatArray, covariance: FloatArray, seat: Seat, line: RayForecast) -> JointMoment:
         """Joints of rays (5, n) with covariance (5, n, n) on that palm; ``line`` what the camera saw of them."""
-        palm, state = seat.palm, mean[:, SEEN]
-        joints = covariance[:, :SLOTS, :SLOTS]
-        frames = ray_frames(state)
+        palm, joints = seat.palm, covariance[:, :SLOTS, :SLOTS]
+        inherited, chain, disc_cam = self.placed(mean, covariance, seat, line)
         # A knuckle's flexion is against its own metacarpal.
         slots, own = mean[:, :SLOTS].copy(), joints.copy()
         slots[:, FLEXION] -= palm.cup_rad
@@ -263,17 +263,38 @@ class FingerModel:
             self._moves & self.settings.fingers.skin_offsets, self.settings.fingers.skin_sd_rad**2, 0.0
         )
         angles = self.reading.angles(slots)
-        variance = self.reading.variances(own + self._inherited(joints, seat, line, frames.normal))
+        variance = self.reading.variances(own + inherited)
         rates = self.reading.angles(mean[:, RATES])
-        chain = ray_joints_m(palm.disc_m[1:], state, frames)
         centre = np.empty((1 + RAYS * (DISCS + 1), 3))
         centre[0] = 0.0, 0.0, -self._wrist_depth_m
-        centre[1:] = (chain if self._dip_free else self._coupled(palm, state)).reshape(-1, 3)
+        centre[1:] = chain.reshape(-1, 3)
         if self.side == "left":
             centre[:, 1] *= -1.0
-        disc = chain[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal
-        disc_cam = disc @ seat.view.rotation.T + seat.view.translation_m
         return JointMoment(angles, np.sqrt(np.maximum(variance, 0.0)), rates, centre[self._sites], disc_cam)
+
+    def placed(
+        self, mean: FloatArray, covariance: FloatArray, seat: Seat, line: RayForecast
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Of rays (5, n) with covariance (5, n, n): the covariance (5, 5, 5) that the slots inherit, the joint centres
+        (5, 4, 3) in W of a right hand as the angles have them, and the discs (5, 3, 3) in camera axes."""
+        palm, own = seat.palm, self.settings.fingers
+        if (kernels := in_c()) is not None:
+            out = np.empty((RAYS, SLOTS, SLOTS)), np.empty((RAYS, DISCS + 1, 3)), np.empty((RAYS, DISCS, 3))
+            kernels.rays_read(
+                mean, covariance, line.slope, line.centre_m, line.by_place, palm.disc_m[1:], seat.view.rotation,
+                seat.view.translation_m, seat.turn_covariance, *self._focal_px.tolist(),
+                own.across_m, own.depth_stays_m, own.inherited, _NARROW2, not self._dip_free, *out,
+            )  # fmt: skip
+            return out
+        state = mean[:, SEEN]
+        frames = ray_frames(state)
+        chain = ray_joints_m(palm.disc_m[1:], state, frames)
+        disc = chain[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal
+        return (
+            self._inherited(covariance[:, :SLOTS, :SLOTS], seat, line, frames.normal),
+            chain if self._dip_free else self._coupled(palm, state),
+            disc @ seat.view.rotation.T + seat.view.translation_m,
+        )
 
     def _inherited(self, joints: FloatArray, seat: Seat, line: RayForecast, normal: FloatArray) -> FloatArray:
         """Covariance (5, 5, 5) that the slots inherit from the turn of W2 and from depths that stay wrong.

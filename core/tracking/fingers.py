@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.adaptive_noise import adapted_factor
 from carpus.core.tracking.association import AssociationSettings
 from carpus.core.tracking.digit_association import (
+    BENDS,
     DigitScene,
     UpdatedDigits,
     associate_digits,
@@ -33,7 +35,7 @@ from carpus.core.tracking.joint_association import is_jointly_compatible
 from carpus.core.tracking.kernel import Bank
 from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.predicted_measurement import PredictedDigits
-from carpus.core.tracking.ray_filter import RATES, RAY_SIZE, SEEN, RayPoints, forecast, spread_points
+from carpus.core.tracking.ray_filter import RATES, RAY_SIZE, SEEN, RayForecast, RayPoints, forecast, spread_points
 from carpus.core.tracking.ray_search import in_reach, search_rays
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import DigitSpeeds
@@ -272,22 +274,17 @@ class Fingers:
         free: NDArray[np.bool_],
     ) -> FingerTrial:
         line = forecast(points, seat.view, self._settings.spread)
-        tilt = tilt_to(seat.view, points.normal, line.centre_m)
-        tilt_sd = np.sqrt(tilt_variance(points.covariance))
-        visible = seen_chance(self._visible, tilt, tilt_sd, dt_s, self._settings.fingers)
-        shift = self.model.palm_part(line, seat)
-        facing = np.maximum(np.cos(tilt), self._settings.fingers.least_facing)
-        facing_m2 = facing * (seat.view.camera.fx_px / line.centre_m[..., 2]) ** 2
+        sight = in_sight(points, line, seat, self._visible, dt_s, self._settings.fingers)
         scene = DigitScene(
             points.covariance,
             line,
-            line.spread + shift,
-            shift,
-            visible,
+            sight.spread,
+            sight.palm_part,
+            sight.visible,
             blobs,
             free,
             area_px,
-            self._disc_m2 * facing_m2,
+            self._disc_m2 * sight.facing_m2,
             self._noise_factor,
             self.model.resolution_px2,
             seat.view,
@@ -299,7 +296,9 @@ class Fingers:
         disc_m2 = np.full((RAYS, DISCS), np.nan)
         if area_px.size:
             disc_m2 = np.where(
-                (taken >= 0) & (tilt < self._settings.fingers.flat_rad), area_px[taken] / facing_m2, np.nan
+                (taken >= 0) & (sight.tilt_rad < self._settings.fingers.flat_rad),
+                area_px[taken] / sight.facing_m2,
+                np.nan,
             )
         return FingerTrial(seat, scene, named, disc_m2, {})
 
@@ -334,6 +333,40 @@ class Fingers:
     def read(self, trial: FingerTrial) -> JointMoment:
         """The joints after that trial was accepted."""
         return self.model.read(self._mean, self._covariance, trial.seat, trial.scene.line)
+
+
+@dataclass(frozen=True, slots=True)
+class DiscSight:
+    """How the discs are to be seen on a palm: ``palm_part`` (5, 9, 9) of the covariance of their images, ``spread`` (5,
+    9, 9) all of it; chance (5, 3) that each is ``visible``, its ``tilt_rad`` (5, 3) to the line of sight, and
+    ``facing_m2`` (5, 3) pixels for each square metre of it."""
+
+    palm_part: FloatArray
+    spread: FloatArray
+    visible: FloatArray
+    tilt_rad: FloatArray
+    facing_m2: FloatArray
+
+
+def in_sight(
+    points: RayPoints, line: RayForecast, seat: Seat, visible: FloatArray, dt_s: float, own: FingerSettings
+) -> DiscSight:
+    """How the discs at ``points`` are to be seen ``dt_s`` after they were ``visible`` (5, 3)."""
+    if (kernels := in_c()) is not None:
+        sight = DiscSight(np.empty((RAYS, 9, 9)), np.empty((RAYS, 9, 9)), *np.empty((3, RAYS, DISCS)))
+        kernels.rays_scene(
+            points.covariance, line.spread, line.centre_m, line.by_place, points.normal, seat.view.rotation,
+            seat.view.translation_m, seat.pose_covariance, BENDS, visible, dt_s, own.shown_s, own.hidden_s,
+            own.steepest_rad, own.steepest_sd_rad, own.least_seen, own.most_seen, own.least_facing,
+            seat.view.camera.fx_px, sight.palm_part, sight.spread, sight.visible, sight.tilt_rad, sight.facing_m2,
+        )  # fmt: skip
+        return sight
+    tilt = tilt_to(seat.view, points.normal, line.centre_m)
+    chance = seen_chance(visible, tilt, np.sqrt(tilt_variance(points.covariance)), dt_s, own)
+    shift = FingerModel.palm_part(line, seat)
+    facing = np.maximum(np.cos(tilt), own.least_facing)
+    facing_m2 = facing * (seat.view.camera.fx_px / line.centre_m[..., 2]) ** 2
+    return DiscSight(shift, line.spread + shift, chance, tilt, facing_m2)
 
 
 def learnt_sizes(known_m2: FloatArray, seen_m2: FloatArray, own: FingerSettings) -> FloatArray:

@@ -21,8 +21,8 @@ from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.fingers import Fingers, FingerTrial
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_geometry import RAYS, JointMoment
-from carpus.core.tracking.kernel import Bank, carried
-from carpus.core.tracking.motion import PalmMotion, palm_step, slowing, slowing_unseen, unseen_turns
+from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.motion import PalmMotion, palm_ahead, slowing, slowing_unseen, unseen_turns
 from carpus.core.tracking.operator_hints import NamedSpot
 from carpus.core.tracking.palm_association import Measurements, UpdatedPalm, associate_and_update, measurements_of
 from carpus.core.tracking.palm_smoother import FilterStep
@@ -196,10 +196,8 @@ class HandFilter:
     def _predicted(self, belief: PalmBelief, bank: Bank, dt_s: float) -> PredictedMeasurement:
         settings, fresh = self._settings, 0.0
         if dt_s > 0.0:
-            before, speeds = belief, self._digit_speeds
-            step = palm_step(belief.rate_rad_s, self.motion, dt_s, self._unseen, speeds)
-            bank = carried(bank, step, belief.value, self.motion.switch(belief.rate_rad_s, dt_s, speeds))
-            belief = replace(step.carries(belief, dt_s), covariance=bank.merged()[1][0])
+            before = belief
+            belief, bank = palm_ahead(belief, bank, self.motion, dt_s, self._unseen, self._digit_speeds)
             fresh = fresh_share(self.view.discs_cam_m(before), self.view.discs_cam_m(belief), self.view.camera)
         shares = shape_shares(settings.shape_news * max(fresh, settings.shape_stale))
         digits = None if self.fingers is None else self.fingers.ahead(dt_s)

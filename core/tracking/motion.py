@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core import so3
-from carpus.core.tracking.kernel import Carrying, switching
+from carpus.core.kernels.choice import NOTHING, in_c
+from carpus.core.tracking.kernel import Bank, Carrying, carried, switching
 from carpus.core.tracking.palm_state import MOVING, POSITION, RATE, SIZE, SKIN, SOFT, TURN, VELOCITY, PalmBelief
 from carpus.core.tracking.soft_tissue import HOME, NO_DIGITS, STILL, DigitSpeeds, TissueModes
 from carpus.core.types import FloatArray
@@ -42,12 +43,13 @@ class PalmStep(Carrying):
 
     turned: FloatArray
 
-    def carries(self, belief: PalmBelief, dt_s: float) -> PalmBelief:
-        """The nominal belief after the step, its covariance left as it is."""
+    def carries(self, belief: PalmBelief, dt_s: float, covariance: FloatArray | None = None) -> PalmBelief:
+        """The nominal belief after the step, its covariance left as it is, or the one given."""
         value = belief.value.copy()
         value[POSITION] += belief.velocity_m_s * dt_s
         value[TURN] = 0.0
-        return PalmBelief(belief.rotation_w2_w0 @ self.turned, value, belief.covariance)
+        covariance = belief.covariance if covariance is None else covariance
+        return PalmBelief(belief.rotation_w2_w0 @ self.turned, value, covariance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,6 +159,34 @@ def palm_step(
         by_mode[:, RATE, RATE] += more * (turning * dt_s) * unseen
     settling = tissue.pushed(soft)[motion.tissue_of]
     return PalmStep(moving, by_mode, kept, settling, turned)
+
+
+def palm_ahead(
+    belief: PalmBelief,
+    bank: Bank,
+    motion: PalmMotion,
+    dt_s: float,
+    unseen: FloatArray | None = None,
+    digits: DigitSpeeds = NO_DIGITS,
+) -> tuple[PalmBelief, Bank]:
+    """The palm ``dt_s`` later, its modes as errors from the nominal belief, whose covariance is that of them all."""
+    if (kernels := in_c()) is not None:
+        noise, tissue, turning_rad_s = motion.noise, motion.tissue, float(np.linalg.norm(belief.rate_rad_s))
+        later = Bank(np.empty(bank.mean.shape), np.empty(bank.covariance.shape), np.empty(bank.probability.shape))
+        nominal = PalmBelief(np.empty((3, 3)), np.empty(SIZE), np.empty((SIZE, SIZE)))
+        kernels.palm_ahead(
+            motion.modes, tissue.count, tissue.resting, motion.scales.size, dt_s, motion.scale_of, motion.tissue_of,
+            tissue.settled, tissue.switch(turning_rad_s, dt_s, digits), tissue.kept(dt_s, turning_rad_s, digits),
+            motion.dwell_s,
+            noise.acceleration_m_s2**2 * REFERENCE_DT_S, noise.turn_acceleration_rad_s2**2 * REFERENCE_DT_S,
+            motion.unseen_scale, NOTHING if unseen is None else unseen, bank.mean, bank.covariance, bank.probability,
+            belief.value, belief.rotation_w2_w0, later.mean, later.covariance, later.probability,
+            nominal.value, nominal.rotation_w2_w0, nominal.covariance,
+        )  # fmt: skip
+        return nominal, later
+    step = palm_step(belief.rate_rad_s, motion, dt_s, unseen, digits)
+    later = carried(bank, step, belief.value, motion.switch(belief.rate_rad_s, dt_s, digits))
+    return step.carries(belief, dt_s, later.merged()[1][0]), later
 
 
 def slowing(keep: float) -> FloatArray:

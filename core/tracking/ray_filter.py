@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.camera import Camera
+from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.hand_geometry import (
     CONSTANTS,
     DISCS,
@@ -146,6 +147,17 @@ class RayPoints:
 
 def spread_points(mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: Spread) -> RayPoints:
     """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which rays begin."""
+    if (kernels := in_c()) is not None:
+        bends, others = _BENT.size, _OTHER_CONSTANT.size
+        points = RayPoints(
+            np.empty((RAYS, 2 * bends + 1, DISCS, 3)), np.empty((RAYS, bends, bends)), np.empty((RAYS, bends, others)),
+            np.empty((RAYS, DISCS, 3, others)), np.empty((RAYS, DISCS, 3)), mean, covariance,
+        )  # fmt: skip
+        kernels.rays_spread(
+            mean, covariance, root_disc_m, _FLOOR, weights_for(bends, spread).scale,
+            points.disc_m, points.unroot, points.along, points.by_constants, points.normal,
+        )  # fmt: skip
+        return points
     bent, other = _BENT_AT, _OTHER_AT
     block = covariance[:, bent[:, None], bent]
     block[:, _BENT, _BENT] += _FLOOR
@@ -212,6 +224,18 @@ def forecast(points: RayPoints, view: RayView, spread: Spread) -> RayForecast:
     """Statistical linear regression of the discs' images on the joints, and their slope by the constants."""
     count = _BENT.size
     weights = weights_for(count, spread)
+    if (kernels := in_c()) is not None:
+        camera, seen = view.camera, 3 * DISCS
+        line = RayForecast(
+            np.empty((RAYS, seen)), np.empty((RAYS, seen, RAY_SIZE)), np.empty((RAYS, seen, seen)), points.mean,
+            np.empty((RAYS, seen, seen)), np.empty((RAYS, DISCS, 3)), np.empty((RAYS, DISCS, 3, 3)),
+        )  # fmt: skip
+        kernels.rays_forecast(
+            points.disc_m, points.unroot, points.along, points.by_constants, points.covariance, view.rotation,
+            view.translation_m, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, *weights.numbers,
+            line.value, line.slope, line.error, line.spread, line.centre_m, line.by_place,
+        )  # fmt: skip
+        return line
     image = view.observe(points.disc_m).reshape(RAYS, 2 * count + 1, 3 * DISCS)
     value: FloatArray = weights.mean @ image
     plus, minus = image[:, 1 : count + 1], image[:, count + 1 :]

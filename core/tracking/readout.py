@@ -17,6 +17,7 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
 from carpus.core.hand.wrist_frame import wrist_axes_sensitivity
+from carpus.core.kernels.choice import NOTHING, in_c
 from carpus.core.tracking.hand_geometry import NO_CUP, JointMoment, PalmInBody
 from carpus.core.tracking.palm_state import SHAPE, SIZE, SKIN, TURN, PalmBelief
 from carpus.core.tracking.soft_tissue import LOOSE
@@ -93,6 +94,20 @@ class Readout:
         The origin of W2 is the WRIST disc where the skin has carried it; the axes are those of the fixed unit.
         """
         axes, sensitivity = self._axes_of(belief.value[SHAPE])
+        if (kernels := in_c()) is not None:
+            position, rate, angles, sd, zyz = np.empty((5, 3))
+            shown = np.empty((3, 3))
+            kernels.wrist_read(
+                axes, sensitivity, self._disc_m[0], belief.value, belief.rotation_w2_w0, belief.covariance,
+                self._start if self._has_start else NOTHING,
+                self._tilt_covariance(belief) if self._has_stays else NOTHING,
+                clinical_angles.side_sign(self._side), clinical_angles.ZYZ_UNDEFINED_BELOW_RAD,
+                position, shown, rate, angles, sd, zyz,
+            )  # fmt: skip
+            w0_turn = so3.log(axes @ self._start.T)
+            return Moment(
+                position, belief.velocity_m_s, w0_turn, shown, rate, angles, sd, zyz, _NONE, _NONE, _NONE, _NOWHERE
+            )
         place = self._disc_m[0] + belief.shape_m[0] + belief.skin_m[0]
         position = belief.position_m + belief.rotation_w2_w0 @ place
         rotation = axes.T @ belief.rotation_w2_w0 @ axes

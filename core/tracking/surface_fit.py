@@ -69,7 +69,7 @@ def surface_measurement(
     """Fit the surface to the readings, from the belief's pose on; None where too few lie on it."""
     if (kernels := in_c()) is not None:
         camera, sensor, used = view.camera, view.camera.sensor, np.empty(1)
-        found = SurfaceMeasurement(np.empty(3), np.empty((3, 3)), np.empty((3, SIZE)), 0)
+        told = np.empty(3), np.empty((3, 3)), np.empty((3, SIZE))
         kernels.surface_fit(
             len(samples.depth_m), samples.pixel, samples.depth_m,
             camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px,
@@ -78,10 +78,10 @@ def surface_measurement(
             settings.steps, settings.huber_m, settings.most_m, settings.least, settings.shared, settings.reading_per_m,
             sensor.reading.fixed_m, sensor.reading.square_per_m, sensor.stays.fixed_m, sensor.stays.square_per_m,
             sensor.stays_px, sensor.patch_px, sensor.averages, settings.turn_sd_rad, settings.up_sd_m, settings.goes_on,
-            used, found.value, found.covariance, found.slope,
+            used, *told,
         )  # fmt: skip
         count = int(used[0])
-        return None if count < settings.least else replace(found, count=count)
+        return None if count < settings.least else SurfaceMeasurement(*told, count)
     in_camera = view.camera.back_project(samples.pixel, samples.depth_m)
     in_w0 = np.ones((len(in_camera), 4))
     in_w0[:, :3] = (in_camera - view.translation_w0_cam_m) @ view.rotation_w0_cam

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -10,22 +11,35 @@ import pytest
 from carpus.core import so3
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.hand.back_surface import BackSurface
+from carpus.core.tracking.adaptive_noise import adapted_factor
 from carpus.core.tracking.association import AssociationSettings, log_odds
 from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_ahead
 from carpus.core.tracking.palm_state import BACK, RELIEF, SIZE, TURN, PalmBelief
 from carpus.core.tracking.palm_view import View, recentred, sight
 from carpus.core.tracking.predicted_measurement import predicted_measurement
+from carpus.core.tracking.readout import Readout, ReadoutSettings
+from carpus.core.tracking.settings import MeasurementNoise
+from carpus.core.tracking.soft_tissue import (
+    DigitSpeeds,
+    SoftTissue,
+    TissueModes,
+    always_pushed,
+    moved_by_joints,
+    resting_or_moving,
+)
 from carpus.core.tracking.surface_fit import SurfaceSettings, surface_measurement
 from carpus.core.tracking.unscented import Spread
-from carpus.core.types import FloatArray, SurfaceSamples
+from carpus.core.types import FloatArray, Side, SurfaceSamples
 from tests.kernels.pairs import both
 from tests.kernels.test_filter_kernels import covariances
-from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
+from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, calibration
 from tests.tracking.test_palm_filter import moving
 from tests.tracking.test_surface_fit import place_on
 from tests.tracking.test_surface_fit import surface as surface_of_a_hand
 
 surface = surface_of_a_hand
+SPEEDS = DigitSpeeds(0.7, 1.3)
 
 
 def view_of(rng: np.random.Generator, sensor: DepthSensor = PRIMESENSE) -> View:
@@ -107,3 +121,40 @@ def test_surface(surface: BackSurface, sensor: DepthSensor, seed: int) -> None:
     assert both(lambda: surface_measurement(belief, away, surface, view, SurfaceSettings())) is None
     none = SurfaceSamples(np.empty((0, 2)), np.empty(0))
     assert both(lambda: surface_measurement(belief, none, surface, view, SurfaceSettings())) is None
+
+
+@pytest.mark.parametrize("tissue", [always_pushed, resting_or_moving, moved_by_joints])
+@pytest.mark.parametrize("scales", [(1.0,), (0.5, 4.0)])
+@pytest.mark.parametrize("dt_s", [0.033, 3.0])
+def test_the_palm_ahead(tissue: Callable[[SoftTissue], TissueModes], scales: tuple[float, ...], dt_s: float) -> None:
+    rng = np.random.default_rng(13)
+    motion, along = PalmMotion(MotionNoise(), tissue(SoftTissue()), np.array(scales)), rng.normal(size=3)
+    unseen = np.outer(along, along) / (along @ along)
+    for seed, some in ((1, None), (2, unseen)):
+        belief = moving(seed)
+        bank = bank_about(belief, rng, motion.modes)
+        both(lambda belief=belief, bank=bank, some=some: palm_ahead(belief, bank, motion, dt_s, some, SPEEDS))
+    still = replace(moving(3), value=np.zeros(SIZE))
+    both(lambda: palm_ahead(still, bank_about(still, np.random.default_rng(1), motion.modes), motion, dt_s))
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+@pytest.mark.parametrize("start_rad", [(0.0, 0.0, 0.0), (0.1, 0.9, -0.2)])
+@pytest.mark.parametrize("sensor", [PRIMESENSE, D435], ids=lambda sensor: sensor.name)
+def test_the_wrist_as_it_is_read(side: Side, start_rad: tuple[float, ...], sensor: DepthSensor) -> None:
+    known = calibration(side, start_angles_rad=np.array(start_rad))
+    camera = replace(CAMERA, sensor=replace(sensor, averages=sensor is D435, stays_px=0.0))
+    for seed in range(3):
+        belief = moving(seed)
+        if seed == 2:
+            belief = replace(belief, rotation_w2_w0=np.eye(3))  # where ZYZ angles are not defined
+        both(lambda belief=belief: Readout(known, ReadoutSettings(), camera, 6e-3).moment(belief))
+
+
+def test_adapted_noise() -> None:
+    rng, noise = np.random.default_rng(14), MeasurementNoise()
+    for shape in ((6, 3), (5, 3, 3)):
+        factor, residual = rng.uniform(0.6, 3.0, size=shape), 6.0 * rng.normal(size=shape)
+        seen = rng.uniform(size=shape) < 0.6
+        both(lambda f=factor, r=residual, s=seen: adapted_factor(f, r, s, 0.03, noise))
+        both(lambda f=factor, r=residual: adapted_factor(f, r, np.zeros(r.shape, dtype=bool), 0.03, noise))

@@ -1,0 +1,447 @@
+/* Thumb and fingers: core/tracking/hand_geometry.py, ray_filter.py, digit_association.py and finger_model.py in C. */
+#include "algebra.h"
+#include "kernels.h"
+
+enum { RAYS = 5, RAY = 21, SLOTS = 5, BENT = 6, OTHER = 10, JOINED = 16, POINTS = 2 * BENT + 1, SEEN = 9 };
+enum { LENGTH = 5, FAN = 8, ROLL = 9, ROOT = 10, HEIGHT = 13 }; /* in slots and constants side by side */
+
+static const double DIP_PER_PIP = 2.0 / 3.0;
+static const int BENT_AT[BENT] = {0, 1, 2, 3, 4, 14};
+static const int OTHER_AT[OTHER] = {10, 11, 12, 13, 15, 16, 17, 18, 19, 20};
+
+/* Slots and constants (16) of a ray's state (21). */
+static void joined(const double *state, double *out)
+{
+    memcpy(out, state, sizeof(double) * SLOTS);
+    memcpy(out + SLOTS, state + 2 * SLOTS, sizeof(double) * (JOINED - SLOTS));
+}
+
+/* Discs (3, 3) of a ray in W. */
+static void discs_of(int ray, const double *s, const double *root, double *out)
+{
+    double ahead[3], aside[3], up[3];
+    const double azimuth = s[0] + s[FAN], c0 = cos(azimuth), s0 = sin(azimuth);
+    if (ray == 0) {
+        const double c1 = cos(s[1]), s1 = -sin(s[1]), c2 = cos(s[2]), s2 = -sin(s[2]), c3 = cos(s[3]), s3 = sin(s[3]);
+        const double c4 = cos(s[4]), s4 = -sin(s[4]), c5 = cos(0.5 * s[4]), s5 = -sin(0.5 * s[4]);
+        const double cr = cos(s[ROLL]), sr = sin(s[ROLL]);
+        const double along[3] = {0.0, s[LENGTH + 1] - s[HEIGHT + 1] * s5,
+                                 s[LENGTH + 1] + s[LENGTH + 2] * c4 - s[HEIGHT + 2] * s4};
+        const double over[3] = {0.0, s[HEIGHT + 1] * c5, s[LENGTH + 2] * s4 + s[HEIGHT + 2] * c4};
+        for (int d = 0; d < 3; d++) {
+            double forth = 0.0, high = s[HEIGHT], across = 0.0;
+            if (d) {
+                const double straight = along[d] * c3;
+                across = along[d] * s3;
+                forth = straight * c2 - over[d] * s2;
+                high = straight * s2 + over[d] * c2;
+            }
+            const double rolled = high * cr - across * sr;
+            aside[d] = high * sr + across * cr;
+            ahead[d] = (s[LENGTH] + forth) * c1 - rolled * s1;
+            up[d] = (s[LENGTH] + forth) * s1 + rolled * c1;
+        }
+    } else {
+        const double pitch[3] = {-s[1], -s[1] - s[2], -s[1] - (1.0 + DIP_PER_PIP) * s[2] - s[3]};
+        const double normal[3] = {-s[1] - 0.5 * s[2], -s[1] - (1.0 + 0.5 * DIP_PER_PIP) * s[2] - 0.5 * s[3], pitch[2]};
+        double forth = 0.0, high = 0.0;
+        for (int d = 0; d < 3; d++) {
+            forth += s[LENGTH + d] * cos(pitch[d]);
+            high += s[LENGTH + d] * sin(pitch[d]);
+            ahead[d] = forth - s[HEIGHT + d] * sin(normal[d]);
+            up[d] = high + s[HEIGHT + d] * cos(normal[d]);
+            aside[d] = 0.0;
+        }
+    }
+    for (int d = 0; d < 3; d++) {
+        out[3 * d] = ahead[d] * c0 - aside[d] * s0 + root[0] + s[ROOT];
+        out[3 * d + 1] = ahead[d] * s0 + aside[d] * c0 + root[1] + s[ROOT + 1];
+        out[3 * d + 2] = up[d] + root[2] - s[ROOT + 2];
+    }
+}
+
+/* Directions of the bones and normals of the discs, (3, 3) each. */
+static void frames_of(int ray, const double *s, double *direction, double *normal)
+{
+    const double azimuth = s[0] + s[FAN], c0 = cos(azimuth), s0 = sin(azimuth);
+    if (ray) {
+        const double pitch[3] = {s[1], s[1] + s[2], s[1] + (1.0 + DIP_PER_PIP) * s[2] + s[3]};
+        const double tilt[3] = {s[1] + 0.5 * s[2], s[1] + (1.0 + 0.5 * DIP_PER_PIP) * s[2] + 0.5 * s[3], pitch[2]};
+        for (int d = 0; d < 3; d++) {
+            const double c = cos(pitch[d]), n = sin(tilt[d]);
+            direction[3 * d] = c * c0, direction[3 * d + 1] = c * s0, direction[3 * d + 2] = -sin(pitch[d]);
+            normal[3 * d] = n * c0, normal[3 * d + 1] = n * s0, normal[3 * d + 2] = cos(tilt[d]);
+        }
+        return;
+    }
+    const double c1 = cos(s[1]), s1 = sin(s[1]), c2 = cos(s[2]), s2 = sin(s[2]), c3 = cos(s[3]), s3 = sin(s[3]);
+    const double cr = cos(s[ROLL]), sr = sin(s[ROLL]), cb = cos(s[4]), sb = sin(s[4]);
+    const double ch = cos(0.5 * s[4]), sh = sin(0.5 * s[4]);
+    const double phalanx[3] = {c3 * c2, -c3 * s2, s3}, lifted[3] = {s2, c2, 0.0};
+    const double in[6][2] = {{0.0, 0.0}, {1.0, 0.0}, {cb, -sb}, {0.0, 0.0}, {sh, ch}, {sb, cb}};
+    for (int k = 0; k < 6; k++) {
+        double *to = k < 3 ? direction + 3 * k : normal + 3 * (k - 3);
+        double x = k == 0, y = k == 3, z = 0.0;
+        if (k != 0 && k != 3) {
+            x = in[k][0] * phalanx[0] + in[k][1] * lifted[0];
+            y = in[k][0] * phalanx[1] + in[k][1] * lifted[1];
+            z = in[k][0] * phalanx[2] + in[k][1] * lifted[2];
+        }
+        const double over = cr * y - sr * z, across = sr * y + cr * z, ahead = x * c1 + over * s1;
+        to[0] = ahead * c0 - across * s0, to[1] = ahead * s0 + across * c0, to[2] = over * c1 - x * s1;
+    }
+}
+
+/* Joint centres (4, 3) from the root's to the tip. */
+static void joints_of(const double *s, const double *root, const double *direction, double *out)
+{
+    out[0] = root[0] + s[ROOT], out[1] = root[1] + s[ROOT + 1], out[2] = root[2] - s[ROOT + 2];
+    for (int d = 0; d < 3; d++)
+        for (int k = 0; k < 3; k++)
+            out[3 * (d + 1) + k] = out[3 * d + k] + s[LENGTH + d] * direction[3 * d + k];
+}
+
+int rays_spread(
+    const double *mean, const double *covariance, const double *roots, double floor, double scale, double *disc_m,
+    double *unroot, double *along, double *by_constants, double *normal)
+{
+    for (int r = 0; r < RAYS; r++) {
+        const double *wide = covariance + r * RAY * RAY, *root_m = roots + 3 * r;
+        double root[BENT * BENT], other[BENT * OTHER], *inverse = unroot + r * BENT * BENT, *goes = along + r * BENT * OTHER;
+        for (int i = 0; i < BENT; i++) {
+            for (int j = 0; j < BENT; j++)
+                root[i * BENT + j] = wide[BENT_AT[i] * RAY + BENT_AT[j]] + (i == j ? floor : 0.0);
+            for (int j = 0; j < OTHER; j++)
+                other[i * OTHER + j] = wide[BENT_AT[i] * RAY + OTHER_AT[j]];
+        }
+        if (root_and_inverse(root, inverse, BENT))
+            return 1;
+        product(goes, OTHER, inverse, BENT, 1, other, OTHER, BENT, BENT, OTHER, SET);
+        double middle[RAY], moved[RAY], s[JOINED];
+        memcpy(middle, mean + r * RAY, sizeof middle);
+        joined(middle, s);
+        double *discs = disc_m + r * POINTS * 9;
+        discs_of(r, s, root_m, discs);
+        double direction[9], joint[12], *facing = normal + 9 * r;
+        frames_of(r, s, direction, facing);
+        joints_of(s, root_m, direction, joint);
+        for (int d = 0; d < 3; d++) {
+            double slope[3][11] = {{0.0}}, lever[3];
+            for (int k = 0; k < 3; k++) {
+                for (int b = 0; b <= d; b++)
+                    slope[k][b] = direction[3 * b + k];
+                slope[k][5 + k] = k < 2 ? 1.0 : -1.0;
+                slope[k][8 + d] = facing[3 * d + k];
+                lever[k] = joint[3 * (d + 1) + k] + s[HEIGHT + d] * facing[3 * d + k] - joint[k];
+            }
+            slope[0][3] = -lever[1];
+            slope[1][3] = lever[0];
+            double *to = by_constants + (size_t)(3 * r + d) * 3 * OTHER;
+            for (int k = 0; k < 3; k++)
+                for (int j = 0; j < OTHER; j++)
+                    to[k * OTHER + j] = slope[k][j < 4 ? j : j + 1];
+        }
+        for (int p = 0; p < BENT; p++)
+            for (int sign = 0; sign < 2; sign++) {
+                const double by = sign ? -scale : scale;
+                memcpy(moved, middle, sizeof moved);
+                for (int i = p; i < BENT; i++)
+                    moved[BENT_AT[i]] += by * root[p * BENT + i];
+                for (int j = 0; j < OTHER; j++)
+                    moved[OTHER_AT[j]] += by * goes[p * OTHER + j];
+                joined(moved, s);
+                discs_of(r, s, root_m, discs + (1 + p + sign * BENT) * 9);
+            }
+    }
+    return 0;
+}
+
+int rays_forecast(
+    const double *disc_m, const double *unroot, const double *along, const double *by_constants, const double *covariance,
+    const double *rotation, const double *translation, double fx, double fy, double cx, double cy, double mean_middle,
+    double mean_other, double spread_middle, double spread_other, double scale, double *out_value, double *out_slope,
+    double *out_error, double *out_spread, double *centre_m, double *by_place)
+{
+    for (int r = 0; r < RAYS; r++) {
+        double image[POINTS][SEEN], half[BENT * SEEN], bend[BENT][SEEN], constants[SEEN * OTHER];
+        double *value = out_value + r * SEEN, *slope = out_slope + r * SEEN * RAY, *error = out_error + r * SEEN * SEEN;
+        for (int p = 0; p < POINTS; p++)
+            for (int d = 0; d < 3; d++) {
+                double at[3];
+                times3(rotation, disc_m + ((size_t)r * POINTS + p) * 9 + 3 * d, at);
+                for (int k = 0; k < 3; k++)
+                    at[k] += translation[k];
+                if (p == 0)
+                    memcpy(centre_m + 9 * r + 3 * d, at, sizeof at);
+                image[p][3 * d] = at[0] * (fx / at[2]) + cx;
+                image[p][3 * d + 1] = at[1] * (fy / at[2]) + cy;
+                image[p][3 * d + 2] = at[2];
+            }
+        for (int k = 0; k < SEEN; k++) {
+            value[k] = mean_middle * image[0][k];
+            for (int p = 1; p < POINTS; p++)
+                value[k] += mean_other * image[p][k];
+            for (int p = 0; p < BENT; p++) {
+                half[p * SEEN + k] = (image[1 + p][k] - image[1 + p + BENT][k]) * (0.5 / scale);
+                bend[p][k] = 0.5 * (image[1 + p][k] + image[1 + p + BENT][k]) - value[k];
+            }
+        }
+        for (int a = 0; a < SEEN; a++)
+            for (int b = 0; b <= a; b++) {
+                double sum = 0.0;
+                for (int p = 0; p < BENT; p++)
+                    sum += bend[p][a] * bend[p][b];
+                sum = 2.0 * spread_other * sum + spread_middle * (image[0][a] - value[a]) * (image[0][b] - value[b]);
+                error[a * SEEN + b] = error[b * SEEN + a] = sum;
+            }
+        for (int d = 0; d < 3; d++) {
+            const double u = image[0][3 * d], v = image[0][3 * d + 1], z = image[0][3 * d + 2];
+            const double own[9] = {fx / z, 0.0, (cx - u) / z, 0.0, fy / z, (cy - v) / z, 0.0, 0.0, 1.0};
+            double turned[9];
+            memcpy(by_place + (size_t)(3 * r + d) * 9, own, sizeof own);
+            times33(own, rotation, turned);
+            product(constants + 3 * d * OTHER, OTHER, turned, 3, 1, by_constants + (size_t)(3 * r + d) * 3 * OTHER, OTHER, 3,
+                    3, OTHER, SET);
+        }
+        memset(slope, 0, sizeof(double) * SEEN * RAY);
+        for (int a = 0; a < SEEN; a++) {
+            double own[BENT];
+            for (int p = 0; p < BENT; p++)
+                own[p] = half[p * SEEN + a] - dot(along + (r * BENT + p) * OTHER, constants + a * OTHER, OTHER);
+            for (int i = 0; i < BENT; i++) {
+                double sum = 0.0;
+                for (int p = 0; p < BENT; p++)
+                    sum += own[p] * unroot[(r * BENT + p) * BENT + i];
+                slope[a * RAY + BENT_AT[i]] = sum;
+            }
+            for (int j = 0; j < OTHER; j++)
+                slope[a * RAY + OTHER_AT[j]] = constants[a * OTHER + j];
+        }
+        double cross[SEEN * RAY], turned[RAY * SEEN];
+        product(cross, RAY, slope, RAY, 1, covariance + r * RAY * RAY, RAY, SEEN, RAY, RAY, SET);
+        for (int a = 0; a < SEEN; a++)
+            for (int j = 0; j < RAY; j++)
+                turned[j * SEEN + a] = slope[a * RAY + j];
+        double *spread = out_spread + r * SEEN * SEEN;
+        memcpy(spread, error, sizeof(double) * SEEN * SEEN);
+        product(spread, SEEN, cross, RAY, 1, turned, SEEN, SEEN, RAY, SEEN, ADD);
+    }
+    return 0;
+}
+
+static double between(double x, double least, double most)
+{
+    return x < least ? least : x > most ? most : x;
+}
+
+/* by_place times the matrix of the cross product with (from - at), (3, 3). */
+static void by_turn(const double *by_place, const double *from, const double *at, double *out)
+{
+    const double x = from[0] - at[0], y = from[1] - at[1], z = from[2] - at[2];
+    for (int k = 0; k < 3; k++) {
+        const double *e = by_place + 3 * k;
+        out[3 * k] = e[1] * z - e[2] * y;
+        out[3 * k + 1] = e[2] * x - e[0] * z;
+        out[3 * k + 2] = e[0] * y - e[1] * x;
+    }
+}
+
+int rays_scene(
+    const double *covariance, const double *line_spread, const double *centre_m, const double *by_place,
+    const double *normal, const double *rotation, const double *translation, const double *pose_covariance,
+    const double *bends, const double *visible, double dt_s, double shown_s, double hidden_s, double steepest,
+    double steepest_sd, double least_seen, double most_seen, double least_facing, double fx, double *shift,
+    double *out_spread, double *out_visible, double *tilt, double *facing_m2)
+{
+    const double stays = exp(-dt_s / shown_s), comes = -expm1(-dt_s / hidden_s);
+    for (int r = 0; r < RAYS; r++) {
+        double flat[SEEN * 6], half[SEEN * 6], turned[6 * SEEN], variance = 0.0;
+        for (int slot = 0; slot < 2; slot++)
+            variance += covariance[(r * RAY + slot) * RAY + slot] * bends[SLOTS * r + slot];
+        for (int d = 0; d < 3; d++) {
+            const double *at = centre_m + 9 * r + 3 * d, *place = by_place + (size_t)(3 * r + d) * 9;
+            double by[9], facing[3];
+            by_turn(place, translation, at, by);
+            for (int k = 0; k < 3; k++)
+                for (int j = 0; j < 3; j++) {
+                    flat[(3 * d + k) * 6 + j] = place[3 * k + j];
+                    flat[(3 * d + k) * 6 + 3 + j] = by[3 * k + j];
+                }
+            times3(rotation, normal + 9 * r + 3 * d, facing);
+            const double across = facing[0] * at[0] + facing[1] * at[1] + facing[2] * at[2];
+            const double distance = sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
+            const double tilted = acos(between(-across / distance, -1.0, 1.0));
+            variance += covariance[(r * RAY + d + 2) * RAY + d + 2] * bends[SLOTS * r + d + 2];
+            const double sd = sqrt(variance + steepest_sd * steepest_sd), seen = visible[3 * r + d];
+            const double chance = 1.0 / (1.0 + exp(between(1.7 * (tilted - steepest) / sd, -30.0, 30.0)));
+            out_visible[3 * r + d] = between((seen * stays + (1.0 - seen) * comes) * chance, least_seen, most_seen);
+            tilt[3 * r + d] = tilted;
+            const double faces = cos(tilted), across_px = fx / at[2];
+            facing_m2[3 * r + d] = (faces < least_facing ? least_facing : faces) * across_px * across_px;
+        }
+        for (int a = 0; a < SEEN; a++)
+            for (int k = 0; k < 6; k++)
+                turned[k * SEEN + a] = flat[a * 6 + k];
+        product(half, 6, flat, 6, 1, pose_covariance, 6, SEEN, 6, 6, SET);
+        product(shift + r * SEEN * SEEN, SEEN, half, 6, 1, turned, SEEN, SEEN, 6, SEEN, SET);
+        for (int k = 0; k < SEEN * SEEN; k++)
+            out_spread[r * SEEN * SEEN + k] = line_spread[r * SEEN * SEEN + k] + shift[r * SEEN * SEEN + k];
+    }
+    return 0;
+}
+
+/* What the blobs as named measure of the discs, and how surely. */
+int digits_measured(
+    int blobs, const int64_t *taken, const uint8_t *with_depth, const double *value, const double *blob_variance,
+    const double *area_px, const double *whole_px, const double *expected, const double *noise_factor, double whole_from,
+    double shade_share, double radius_m, double fx, double crowded_radii, double crowded_px, double pixel_sd,
+    double skin_px, double *measured, double *variance)
+{
+    for (int r = 0; r < RAYS; r++) {
+        double radius[3];
+        int crowded[3] = {0};
+        for (int d = 0; d < 3; d++)
+            radius[d] = radius_m * fx / expected[SEEN * r + 3 * d + 2];
+        for (int d = 1; d < 3; d++) {
+            const double *one = expected + SEEN * r + 3 * d, u = one[0] - one[-3], v = one[1] - one[-2];
+            const double far = crowded_radii * radius[d];
+            if (u * u + v * v < far * far)
+                crowded[d] = crowded[d - 1] = 1;
+        }
+        for (int d = 0; d < 3; d++) {
+            const int disc = 3 * r + d;
+            const int64_t blob = taken[disc];
+            double *y = measured + 3 * disc, *of = variance + 3 * disc;
+            y[0] = y[1] = y[2] = NAN;
+            of[0] = of[1] = of[2] = 1.0;
+            if (blob >= 0 && blob < blobs) {
+                memcpy(y, value + 3 * blob, 3 * sizeof(double));
+                memcpy(of, blob_variance + 3 * blob, 3 * sizeof(double));
+                if (!with_depth[disc])
+                    y[2] = NAN;
+                const double missing = whole_from - area_px[blob] / whole_px[disc];
+                const double wander = shade_share * sqrt(whole_px[disc] / 3.14159265358979323846) * (missing < 0.0 ? 0.0 : missing);
+                const double close = crowded[d] ? crowded_px : 0.0;
+                const double own = pixel_sd * pixel_sd + skin_px * skin_px + wander * wander + close * close;
+                if (isfinite(own))
+                    of[0] = of[1] = own;
+            }
+            for (int k = 0; k < 3; k++)
+                of[k] *= noise_factor[3 * disc + k];
+        }
+    }
+    return 0;
+}
+
+/* X of A X = B, A (n, n) and B (n, m) spoilt, by elimination with pivots; 1 where A is singular. */
+static int solved(double *a, double *b, int n, int m)
+{
+    for (int k = 0; k < n; k++) {
+        int best = k;
+        for (int i = k + 1; i < n; i++)
+            if (fabs(a[i * n + k]) > fabs(a[best * n + k]))
+                best = i;
+        if (a[best * n + k] == 0.0)
+            return 1;
+        for (int j = 0; j < n && best != k; j++) {
+            const double own = a[k * n + j];
+            a[k * n + j] = a[best * n + j], a[best * n + j] = own;
+        }
+        for (int j = 0; j < m && best != k; j++) {
+            const double own = b[k * m + j];
+            b[k * m + j] = b[best * m + j], b[best * m + j] = own;
+        }
+        for (int i = k + 1; i < n; i++) {
+            const double by = a[i * n + k] / a[k * n + k];
+            add_scaled(a + i * n + k, -by, a + k * n + k, n - k);
+            add_scaled(b + i * m, -by, b + k * m, m);
+        }
+    }
+    for (int k = n - 1; k >= 0; k--) {
+        for (int i = k + 1; i < n; i++)
+            add_scaled(b + k * m, -a[k * n + i], b + i * m, m);
+        for (int j = 0; j < m; j++)
+            b[k * m + j] /= a[k * n + k];
+    }
+    return 0;
+}
+
+/* Places of joints and discs, and the covariance (5, 5, 5) that the slots inherit. */
+int rays_read(
+    const double *mean, const double *covariance, const double *slope, const double *centre_m, const double *by_place,
+    const double *roots, const double *rotation, const double *translation, const double *turn_covariance, double fx,
+    double fy, double across_m, double depth_stays, double share, double narrow2, int coupled, double *inherited,
+    double *centres, double *disc_cam)
+{
+    for (int r = 0; r < RAYS; r++) {
+        double s[JOINED], direction[9], normal[9], joint[12], bound[9];
+        joined(mean + r * RAY, s);
+        frames_of(r, s, direction, normal);
+        joints_of(s, roots + 3 * r, direction, joint);
+        memcpy(centres + 12 * r, joint, sizeof joint);
+        double unit[SEEN], by[SEEN * SLOTS], root_m[3], turned[SEEN * 3], seen[SEEN];
+        times3(rotation, roots + 3 * r, root_m);
+        for (int k = 0; k < 3; k++)
+            root_m[k] += translation[k];
+        for (int d = 0; d < 3; d++) {
+            const double *at = centre_m + 9 * r + 3 * d, *place = by_place + (size_t)(3 * r + d) * 9;
+            double tip[3], in_camera[3], moved[3], whole[9];
+            unit[3 * d] = at[2] / (fx * across_m);
+            unit[3 * d + 1] = at[2] / (fy * across_m);
+            unit[3 * d + 2] = 1.0 / depth_stays;
+            for (int k = 0; k < 3; k++)
+                tip[k] = joint[3 * (d + 1) + k] + s[HEIGHT + d] * normal[3 * d + k];
+            times3(rotation, tip, in_camera);
+            for (int k = 0; k < 3; k++)
+                disc_cam[9 * r + 3 * d + k] = in_camera[k] + translation[k];
+            times3(rotation, normal + 3 * d, in_camera);
+            for (int k = 0; k < 3; k++)
+                moved[k] = -in_camera[2] * in_camera[k] + (k == 2);
+            by_turn(place, root_m, at, whole);
+            for (int k = 0; k < 3; k++) {
+                const int row = 3 * d + k;
+                for (int j = 0; j < SLOTS; j++)
+                    by[row * SLOTS + j] = slope[((size_t)r * SEEN + row) * RAY + j] * unit[row];
+                for (int j = 0; j < 3; j++)
+                    turned[3 * row + j] = whole[3 * k + j] * unit[row];
+                seen[row] = (place[3 * k] * moved[0] + place[3 * k + 1] * moved[1] + place[3 * k + 2] * moved[2]) *
+                            (depth_stays * unit[row]);
+            }
+        }
+        double joints[SLOTS * SLOTS], doubt[SLOTS * SLOTS] = {0.0}, response[SLOTS * SEEN];
+        for (int i = 0; i < SLOTS; i++) {
+            for (int j = 0; j < SLOTS; j++)
+                joints[i * SLOTS + j] = covariance[(r * RAY + i) * RAY + j] + (i == j ? narrow2 : 0.0);
+            doubt[i * SLOTS + i] = share;
+        }
+        if (solved(joints, doubt, SLOTS, SLOTS))
+            return 1;
+        for (int i = 0; i < SLOTS; i++) {
+            for (int j = 0; j < SLOTS; j++)
+                for (int a = 0; a < SEEN; a++)
+                    doubt[i * SLOTS + j] += by[a * SLOTS + i] * by[a * SLOTS + j];
+            for (int a = 0; a < SEEN; a++)
+                response[i * SEEN + a] = by[a * SLOTS + i];
+        }
+        if (solved(doubt, response, SLOTS, SEEN))
+            return 1;
+        double own[SLOTS * 3] = {0.0}, half[SLOTS * 3], by_disc[SLOTS * 3] = {0.0};
+        for (int i = 0; i < SLOTS; i++)
+            for (int a = 0; a < SEEN; a++) {
+                for (int j = 0; j < 3; j++)
+                    own[3 * i + j] += response[i * SEEN + a] * turned[3 * a + j];
+                by_disc[3 * i + a / 3] += response[i * SEEN + a] * seen[a];
+            }
+        product(half, 3, own, 3, 1, turn_covariance, 3, SLOTS, 3, 3, SET);
+        for (int i = 0; i < SLOTS; i++)
+            for (int j = 0; j < SLOTS; j++)
+                inherited[(r * SLOTS + i) * SLOTS + j] =
+                    dot(half + 3 * i, own + 3 * j, 3) + dot(by_disc + 3 * i, by_disc + 3 * j, 3);
+        if (coupled && r) {
+            s[3] = 0.0;
+            frames_of(r, s, bound, normal);
+            joints_of(s, roots + 3 * r, bound, centres + 12 * r);
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,113 @@
+"""Thumb and fingers in C against NumPy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measured_as_named
+from carpus.core.tracking.finger_model import Seat, seat_of
+from carpus.core.tracking.fingers import Fingers, in_sight
+from carpus.core.tracking.geometry import palm_of
+from carpus.core.tracking.hand_filter import HandFilter
+from carpus.core.tracking.palm_association import Measurements
+from carpus.core.tracking.ray_filter import RayForecast, RayPoints, forecast, spread_points
+from carpus.core.tracking.readout import Readout, ReadoutSettings
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.unscented import Spread
+from carpus.core.types import FloatArray
+from tests.accuracy.carpus import measured_hand
+from tests.kernels.pairs import both
+from tests.kernels.test_filter_kernels import covariances
+from tests.simulation.measurements import measurement_sequence
+from tests.tracking.test_palm_filter import moving
+
+SETTINGS = TrackerSettings()
+
+
+@dataclass(frozen=True)
+class Hand:
+    """A calibrated hand whose palm sits somewhere, its rays bent at random."""
+
+    fingers: Fingers
+    seat: Seat
+    mean: FloatArray
+    covariance: FloatArray
+
+    def points(self) -> RayPoints:
+        return spread_points(self.mean, self.covariance, self.seat.palm.disc_m[1:], Spread())
+
+    def line(self) -> RayForecast:
+        return forecast(self.points(), self.seat.view, Spread())
+
+
+@cache
+def hand(side: str, seed: int, dip: str = "coupled") -> Hand:
+    rng = np.random.default_rng(seed)
+    seen = measurement_sequence(RecordingSpec(seed=61, protocol="hand21", motion="fist", seconds=1.5, hand=side))
+    found, _ = measured_hand(seen, CalibrationSettings())
+    assert found.calibration is not None
+    settings = replace(SETTINGS, dip=dip)
+    fingers = Fingers(found.calibration, seen.truth.camera, settings)
+    view = HandFilter(found.calibration, seen.truth.camera, settings).view
+    belief = replace(moving(seed), covariance=1e-2 * moving(seed).covariance)
+    seat = seat_of(belief, view, Readout(palm_of(found.calibration), ReadoutSettings(), view.camera, 6e-3))
+    mean, covariance = fingers.model.at_neutral().merged()
+    scale = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
+    mean = mean + scale * rng.normal(size=mean.shape)
+    mean[:, :5] += rng.uniform(0.0, 1.2, size=(5, 5))
+    return Hand(fingers, seat, mean, covariances(rng, 5, 21) * scale[:, :, None] * scale[:, None])
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+@pytest.mark.parametrize("seed", range(3))
+def test_points_and_what_the_camera_sees_of_them(side: str, seed: int) -> None:
+    it = hand(side, seed)
+    points = both(it.points)
+    line = both(lambda: forecast(points, it.seat.view, Spread()))
+    visible = np.random.default_rng(seed).uniform(0.0, 1.0, size=(5, 3))
+    both(lambda: in_sight(points, line, it.seat, visible, 0.04, SETTINGS.fingers))
+
+
+def test_rays_that_are_not_known_at_all_are_no_covariance() -> None:
+    it = hand("right", 0)
+    for how in ("numpy", "plain", "wide"):
+        from carpus.core.kernels import choice
+
+        with choice.forced(how), pytest.raises(np.linalg.LinAlgError):
+            spread_points(it.mean, -it.covariance, it.seat.palm.disc_m[1:], Spread())
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+@pytest.mark.parametrize("dip", ["coupled", "free"])
+def test_joints_as_they_are_read(side: str, dip: str) -> None:
+    it = hand(side, 1, dip)
+    line = it.line()
+    both(lambda: it.fingers.model.placed(it.mean, it.covariance, it.seat, line))
+    both(lambda: it.fingers.model.read(it.mean, it.covariance, it.seat, line))
+
+
+@pytest.mark.parametrize("blobs", [0, 9])
+def test_what_named_blobs_measure(blobs: int) -> None:
+    it, rng = hand("right", 2), np.random.default_rng(3)
+    line = it.line()
+    value = rng.normal(size=(blobs, 3)) + [300.0, 200.0, 0.7]
+    value[1::3, 2] = np.nan
+    taken = np.where(rng.uniform(size=(5, 3)) < 0.6, rng.integers(0, max(blobs, 1), (5, 3)), -1) if blobs else None
+    taken = np.full((5, 3), -1) if taken is None else taken
+    names = DigitAssignment(taken.astype(np.int64), (taken >= 0) & (rng.uniform(size=(5, 3)) < 0.7))
+    whole_px = np.where(rng.uniform(size=(5, 3)) < 0.2, np.nan, 60.0)
+    crowded = replace(line, value=np.where(np.arange(9) % 3 == 2, 0.7, line.value * 0.05))
+    for seen in (line, crowded):
+        scene = DigitScene(
+            it.covariance, seen, seen.spread, seen.spread, np.full((5, 3), 0.5),
+            Measurements(value, rng.uniform(0.01, 0.1, size=(blobs, 3))), np.ones(blobs, dtype=bool),
+            rng.uniform(10.0, 90.0, size=blobs), whole_px, rng.uniform(0.6, 3.0, size=(5, 9)), 3e5, it.seat.view, 0.2,
+            np.ones(5, dtype=bool),
+        )  # fmt: skip
+        both(lambda scene=scene: measured_as_named(scene, names, SETTINGS))
