@@ -11,10 +11,12 @@ from pathlib import Path
 CAMERAS_EXTRA = "carpus-cameras-extra"
 MAINTAINER = "The Carpus developers <carpus@localhost>"
 
-# On Debian 12 and Ubuntu 24.04 by these names (Ubuntu's t64 packages provide them). The packed folder brings all else.
+# On Debian 12, 13 and Ubuntu 24.04 by these names (Ubuntu's t64 packages provide them). The packed folder brings all
+# else, but nothing that a library of the system, such as OpenNI2, needs as new as itself.
 NEEDS = (
     "libc6 (>= 2.36)", "libgl1", "libegl1", "libxcb1", "libwayland-client0", "libwayland-cursor0", "libwayland-egl1",
-    "fontconfig-config", "xkb-data", "shared-mime-info", "desktop-file-utils",
+    "libstdc++6 (>= 12)", "libgcc-s1", "libudev1", "libusb-1.0-0", "fontconfig-config", "xkb-data",
+    "shared-mime-info", "desktop-file-utils",
 )  # fmt: skip
 ALSO = ("libopenni2-0",)
 """Needed for a camera and its recordings; brings the udev rules, so that a camera opens without being root."""
