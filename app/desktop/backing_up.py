@@ -8,7 +8,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, QStandardPaths, QTimer, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from carpus import __version__
@@ -243,7 +243,8 @@ class BackingUp(QObject):
     def ask_restore_sealed(self) -> None:
         """The same of a sealed file."""
         title = self.tr("Sealed back-up")
-        name, _ = QFileDialog.getOpenFileName(self.card.window(), title, "", self.tr("Sealed files (*.age)"))
+        folder = str(self._sealed_in())
+        name, _ = QFileDialog.getOpenFileName(self.card.window(), title, folder, self.tr("Sealed files (*.age)"))
         if name:
             self.passphrase.begin(
                 lambda typed: self._background.run(
@@ -295,18 +296,27 @@ class BackingUp(QObject):
         """Everything as one file with a passphrase, to be carried away."""
         if self._running:
             return
-        name = f"carpus-{self._now():%Y-%m-%d}{ENDING}"
+        name = str(self._sealed_in() / f"carpus-{self._now():%Y-%m-%d}{ENDING}")
         title = self.tr("Seal into one file")
         chosen, _ = QFileDialog.getSaveFileName(self.card.window(), title, name, self.tr("Sealed files (*.age)"))
         if chosen:
             self.passphrase.begin(lambda typed: self._seal(Path(chosen), typed), seals=True)
 
-    def _seal(self, path: Path, passphrase: str) -> None:
+    def _sealed_in(self) -> Path:
+        """Where a sealed file is looked for: beside the back-ups, else where a person keeps documents."""
+        place = Path(self._settings.folder)
+        documents = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
+        return place if self._settings.folder and place.is_dir() else Path(documents)
+
+    def _seal(self, chosen: Path, passphrase: str) -> None:
+        path = chosen if chosen.suffix == Path(ENDING).suffix else chosen.with_name(f"{chosen.name}{ENDING}")
         self._running = True
         self.card.show_progress(0)
+        self.card.show_sealed("")
 
         def work() -> Backup:
-            path.unlink(missing_ok=True)  # the dialog has asked
+            if path == chosen:
+                path.unlink(missing_ok=True)  # the dialog has asked
             made = seal_backup(
                 self._library.folder, path, passphrase, software_version=__version__,
                 sessions=self._library.store.sessions_folder, settings_folder=self._settings_folder,
@@ -315,7 +325,13 @@ class BackingUp(QObject):
             self._library.note("backed_up", sessions=made.sessions, sealed=1)
             return made
 
-        self._background.run(work, self._done, self._failed, self)
+        def done(made: Backup) -> None:
+            self._done(made)
+            words = self.tr("Sealed: {name}, {size} MB. Whoever has the passphrase can open it.")
+            size = numbers.fixed(path.stat().st_size / 1e6, 1)
+            self.card.show_sealed(words.format(name=path.name, size=size))
+
+        self._background.run(work, done, self._failed, self)
 
 
 def _newest(place: Path) -> tuple[Backup, Content]:

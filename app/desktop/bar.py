@@ -116,11 +116,11 @@ class Bar(QObject):
             return
         if place == "review" and self._review.saved_at is not None:
             camera.show_state("good", self.tr("Saved {time}").format(time=f"{self._review.saved_at:%H:%M}"))
-        elif now.kind == "practice" and (self._is_demo or now.source is not None or place in STEPS):
-            camera.show_state("good", self.tr("Simulated camera"))
         elif now.kind == "file" and now.source is not None:
             name = Path(now.choice.path).name
             camera.show_state("good", self.tr("Recording {name}").format(name=shortened(name, MOST_NAME)))
+        elif self._is_demo or (now.kind == "practice" and (now.source is not None or place in STEPS)):
+            camera.show_state("good", self.tr("Simulated camera"))
         elif self._camera_there() and (said := self._care()) is not None and place != "card":
             camera.show_state(*said)
         elif self._camera_there():

@@ -1,4 +1,4 @@
-"""Archive or erase: what would go is worked out, shown, and done only when it was confirmed."""
+"""Archive or erase: what would go is worked out, shown, and done only when it was confirmed; what was done is said."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from datetime import date, datetime
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.library.records import Records
 from carpus.core.records.erasure import ErasurePlan
@@ -42,6 +42,7 @@ class Erasing(QObject):
         self._plan: ErasurePlan | None = None
         journey.sessions.erase_wanted.connect(self.ask_session)
         journey.patients.erase_wanted.connect(self.ask_patient)
+        journey.sessions.moved.connect(self._moved)
         self.sheet.erase.connect(self._erase)
         self.sheet.archive.connect(self._archive)
 
@@ -86,10 +87,28 @@ class Erasing(QObject):
         if plan is not None:
             self._journey.background.run(
                 lambda: self._records.erase(plan),
-                lambda _: self._gone(plan.kind == "session"),
+                lambda files: self._erased(plan, files),
                 lambda fault: self._refused(plan.kind == "session", fault),
                 self,
             )
+
+    def _erased(self, plan: ErasurePlan, files: int) -> None:
+        """Said where it was, without its name."""
+        single = plan.kind == "session"
+        self._gone(single)
+        what = self.tr("The session is erased.") if single else self.tr("The patient is erased.")
+        count = self.tr("1 file went.") if files == 1 else self.tr("{count} files went.").format(count=files)
+        place = self._journey.sessions.notice_place if single else self._journey.patients.notice_place
+        self._say(place, Words(what, count, ""), "trash-2")
+
+    def _moved(self, name: str) -> None:
+        words = Words(self.tr("The session is now one of {name}.").format(name=name), "", "")
+        self._say(self._journey.sessions.notice_place, words, "arrow-right")
+
+    def _say(self, place: QVBoxLayout, words: Words, icon: str) -> None:
+        """What was done, until it is closed or left."""
+        strip = self._journey.teller.strip(place, words, "", lambda: None, icon=icon, later=self.tr("Close"))
+        self._journey.way.leaving.connect(strip.later)
 
     def _archive(self) -> None:
         plan, self._plan = self._plan, None

@@ -2412,6 +2412,10 @@
         <translation>Alles ohne Patient ausprobieren</translation>
     </message>
     <message>
+        <source>No session counted yet</source>
+        <translation>Noch keine gezählt</translation>
+    </message>
+    <message>
         <source>No camera needed</source>
         <translation type="vanished">Keine Kamera nötig</translation>
     </message>
@@ -2421,7 +2425,7 @@
     </message>
     <message>
         <source>No session yet</source>
-        <translation>Noch keine Sitzung</translation>
+        <translation type="vanished">Noch keine Sitzung</translation>
     </message>
     <message>
         <source>Carpus</source>
@@ -7556,6 +7560,10 @@
         <translation>So lassen</translation>
     </message>
     <message>
+        <source>Sealed: {name}, {size} MB. Whoever has the passphrase can open it.</source>
+        <translation>Versiegelt: {name}, {size} MB. Wer die Passphrase hat, kann sie öffnen.</translation>
+    </message>
+    <message>
         <source>The last back-up is of {day}.</source>
         <translation>Letzte Sicherung: {day}.</translation>
     </message>
@@ -7643,6 +7651,14 @@
         <translation>Behalten</translation>
     </message>
     <message>
+        <source>To carry away or send</source>
+        <translation>Mitnehmen, senden</translation>
+    </message>
+    <message>
+        <source>One file with everything, closed with a passphrase.</source>
+        <translation>Eine Datei mit allem, mit einer Passphrase verschlossen.</translation>
+    </message>
+    <message>
         <source>{percent} %</source>
         <translation>{percent} %</translation>
     </message>
@@ -7656,7 +7672,7 @@
     </message>
     <message>
         <source>closed with a passphrase, to carry away or send</source>
-        <translation>mit einer Passphrase verschlossen, zum Mitnehmen oder Verschicken</translation>
+        <translation type="vanished">mit einer Passphrase verschlossen, zum Mitnehmen oder Verschicken</translation>
     </message>
 </context>
 <context>
@@ -8938,6 +8954,10 @@
         <translation>Der Eintrag des Patienten mit echtem Namen und Notizen und 1 Sitzung mit allen Winkeln, Bildern und Notizen ({files}, {size} MB).</translation>
     </message>
     <message>
+        <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}.</source>
+        <translation>Anderswo gespeicherte Berichte und Exporte löschen Sie selbst ({n}): {path}.</translation>
+    </message>
+    <message>
         <source>{one} and {other}</source>
         <translation type="vanished">{one} und {other}</translation>
     </message>
@@ -9019,11 +9039,31 @@
     </message>
     <message>
         <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}</source>
-        <translation>Anderswo gespeicherte Berichte und Exporte, bitte selbst löschen ({n}): {path}</translation>
+        <translation type="vanished">Anderswo gespeicherte Berichte und Exporte, bitte selbst löschen ({n}): {path}</translation>
     </message>
 </context>
 <context>
     <name>Erasing</name>
+    <message>
+        <source>The session is erased.</source>
+        <translation>Die Sitzung ist gelöscht.</translation>
+    </message>
+    <message>
+        <source>The patient is erased.</source>
+        <translation>Der Patient ist gelöscht.</translation>
+    </message>
+    <message>
+        <source>1 file went.</source>
+        <translation>1 Datei ist weg.</translation>
+    </message>
+    <message>
+        <source>{count} files went.</source>
+        <translation>{count} Dateien sind weg.</translation>
+    </message>
+    <message>
+        <source>The session is now one of {name}.</source>
+        <translation>Die Sitzung gehört jetzt zu {name}.</translation>
+    </message>
     <message>
         <source>The session of {day} is in the archive.</source>
         <translation>Die Sitzung vom {day} ist im Archiv.</translation>
@@ -10437,6 +10477,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>A simulated patient moves in front of a simulated camera. Try every step without a patient.</source>
         <translation>Ein simulierter Patient bewegt sich vor einer simulierten Kamera. Probieren Sie jeden Schritt ohne Patient aus.</translation>
+    </message>
+    <message>
+        <source>Only simulated sessions so far: they count nowhere.</source>
+        <translation>Bisher nur simulierte Sitzungen: Sie zählen nirgends.</translation>
     </message>
     <message>
         <source>Put the markers on, then start.</source>

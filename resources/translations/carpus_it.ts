@@ -2412,6 +2412,10 @@
         <translation>Provare tutto senza un paziente</translation>
     </message>
     <message>
+        <source>No session counted yet</source>
+        <translation>Nessuna ancora contata</translation>
+    </message>
+    <message>
         <source>No camera needed</source>
         <translation type="vanished">Nessuna telecamera necessaria</translation>
     </message>
@@ -2421,7 +2425,7 @@
     </message>
     <message>
         <source>No session yet</source>
-        <translation>Ancora nessuna seduta</translation>
+        <translation type="vanished">Ancora nessuna seduta</translation>
     </message>
     <message>
         <source>Carpus</source>
@@ -7556,6 +7560,10 @@
         <translation>Lascia così</translation>
     </message>
     <message>
+        <source>Sealed: {name}, {size} MB. Whoever has the passphrase can open it.</source>
+        <translation>Sigillato: {name}, {size} MB. Chi ha la passphrase può aprirlo.</translation>
+    </message>
+    <message>
         <source>The last back-up is of {day}.</source>
         <translation>L’ultima copia è del {day}.</translation>
     </message>
@@ -7643,6 +7651,14 @@
         <translation>Conservare</translation>
     </message>
     <message>
+        <source>To carry away or send</source>
+        <translation>Da portare o inviare</translation>
+    </message>
+    <message>
+        <source>One file with everything, closed with a passphrase.</source>
+        <translation>Un solo file con tutto, chiuso da una passphrase.</translation>
+    </message>
+    <message>
         <source>{percent} %</source>
         <translation>{percent} %</translation>
     </message>
@@ -7656,7 +7672,7 @@
     </message>
     <message>
         <source>closed with a passphrase, to carry away or send</source>
-        <translation>chiuso con una passphrase, da portare via o inviare</translation>
+        <translation type="vanished">chiuso con una passphrase, da portare via o inviare</translation>
     </message>
 </context>
 <context>
@@ -8938,6 +8954,10 @@
         <translation>La scheda del paziente con nome vero e note, e 1 seduta con tutti gli angoli, le immagini e le note ({files}, {size} MB).</translation>
     </message>
     <message>
+        <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}.</source>
+        <translation>Relazioni ed esportazioni salvate altrove, da cancellare di persona ({n}): {path}.</translation>
+    </message>
+    <message>
         <source>{one} and {other}</source>
         <translation type="vanished">{one} e {other}</translation>
     </message>
@@ -9019,11 +9039,31 @@
     </message>
     <message>
         <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}</source>
-        <translation>Rapporti ed esportazioni salvati altrove, da cancellare a mano ({n}): {path}</translation>
+        <translation type="vanished">Rapporti ed esportazioni salvati altrove, da cancellare a mano ({n}): {path}</translation>
     </message>
 </context>
 <context>
     <name>Erasing</name>
+    <message>
+        <source>The session is erased.</source>
+        <translation>La seduta è cancellata.</translation>
+    </message>
+    <message>
+        <source>The patient is erased.</source>
+        <translation>Il paziente è cancellato.</translation>
+    </message>
+    <message>
+        <source>1 file went.</source>
+        <translation>1 file è andato via.</translation>
+    </message>
+    <message>
+        <source>{count} files went.</source>
+        <translation>{count} file sono andati via.</translation>
+    </message>
+    <message>
+        <source>The session is now one of {name}.</source>
+        <translation>La seduta ora è di {name}.</translation>
+    </message>
     <message>
         <source>The session of {day} is in the archive.</source>
         <translation>La seduta del {day} è nell’archivio.</translation>
@@ -10437,6 +10477,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>A simulated patient moves in front of a simulated camera. Try every step without a patient.</source>
         <translation>Un paziente simulato si muove davanti a una telecamera simulata. Provare ogni passo senza un paziente.</translation>
+    </message>
+    <message>
+        <source>Only simulated sessions so far: they count nowhere.</source>
+        <translation>Finora solo sedute simulate: non contano da nessuna parte.</translation>
     </message>
     <message>
         <source>Put the markers on, then start.</source>

@@ -365,7 +365,7 @@ def test_everything_is_sealed_into_one_file_and_comes_back_from_it(
     path, words = tmp_path / "out.tar.age", "four words of mine"
     desktop = opened()
     backing, sheet = desktop.safe.backing_up, desktop.safe.backing_up.passphrase
-    monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getSaveFileName", lambda *_: (str(path), ""))
+    monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getSaveFileName", lambda *_: (str(tmp_path / "out"), ""))
     monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getOpenFileName", lambda *_: (str(path), ""))
     backing.card.seal_button.click()
     for first, again, said in (("short", "short", "ten signs"), (words, f"{words}s", "not the same")):
@@ -376,6 +376,7 @@ def test_everything_is_sealed_into_one_file_and_comes_back_from_it(
     sheet.again.setText(words)
     sheet.go.click()
     qtbot.waitUntil(lambda: path.exists() and not backing._running, timeout=60_000)
+    assert "out.tar.age" in backing.card.sealed.text(), "its ending comes by itself, and it is said where it is"
     backing.card.unseal_button.click()
     assert sheet.again.isHidden() or not sheet.again.isVisible()
     sheet.first.setText("another one")

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import QApplication, QLabel, QWidget
 from carpus.ui import terms
 from carpus.ui.markers.screen import MarkersScreen
 from tests.ui import pseudo
+from tests.ui.fakes import WHY
 from tests.ui.gallery import Gallery
 from tests.ui.geometry import complaints, shown_texts
 
@@ -120,7 +121,7 @@ LONG = (
 """Looked at in the lengthened language too; ``python -m tests.ui.pseudo`` looks at all."""
 OWN_WORDS = re.compile(
     r"^(Carpus|MCP|PIP|DIP|CMC|TIP|TAM|PRWE|English|Deutsch|Italiano|~/.*)$|\.(c3d|csv|mot|trc)\b|"
-    r"\b[A-Z][a-z]+ \d\d\b|[a-z]\.? \d\d?:|Nov|Okt|2026"
+    r"\b[A-Z][a-z]+ \d\d\b|[a-z]\.? \d\d?:|Nov|Okt|2026|" + "|".join(why[:16] for why, _ in WHY.values())
 )
 """Names, days and abbreviations, which are no language's."""
 

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLineEdit, QSpinBox, QV
 
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button
+from carpus.ui.controls.flow import FlowLayout
 from carpus.ui.controls.text import MEDIUM, Text
 from carpus.ui.fonts import font
 from carpus.ui.icons import paint_icon
@@ -130,11 +131,15 @@ class Choices(QWidget):
 
     chosen = Signal(object)
 
-    def __init__(self, theme: Theme, options: Sequence[tuple[object, str]], current: object = None) -> None:
+    def __init__(
+        self, theme: Theme, options: Sequence[tuple[object, str]], current: object = None, *, wraps: bool = False
+    ) -> None:
+        """``wraps``: in several lines where there is little room."""
         super().__init__()
-        row = QHBoxLayout(self)
+        row = FlowLayout(8) if wraps else QHBoxLayout()
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(8)
+        self.setLayout(row)
         self._group = QButtonGroup(self)
         self._values: list[object] = []
         for number, (value, text) in enumerate(options):
@@ -142,7 +147,8 @@ class Choices(QWidget):
             self._group.addButton(button, number)
             self._values.append(value)
             row.addWidget(button)
-        row.addStretch(1)
+        if isinstance(row, QHBoxLayout):
+            row.addStretch(1)
         self._group.idClicked.connect(lambda number: self.chosen.emit(self._values[number]))
         self.choose(current if current in self._values else self._values[0])
 

@@ -264,6 +264,8 @@ class NumberCard(QWidget):
         movement = "" if reading.figure is not None else terms.movement_name(SIDES[reading.angle][0 if positive else 1])
         words = self.tr("Best {movement}").format(movement=inside(movement)) if movement else self.tr("Best today")
         size, room = 14, self._across - 8 - across
+        if QFontMetricsF(font(10 * scale, REGULAR)).horizontalAdvance(words) > room:
+            words = self.tr("Best today")
         while size > 10 and QFontMetricsF(font(size * scale, REGULAR)).horizontalAdvance(words) > room:
             size -= 1
         self._text(painter, words, across, y, size, REGULAR, "text2")

@@ -182,6 +182,10 @@ class MarkersScreen(QWidget):
             self._right.invalidate()
             needed_px = self._right.minimumHeightForWidth(self._theme.px(376)) + 2 * (MARGIN_PX - 4) + guided_px
             self.panel.setVisible(needed_px <= self.height())
+        elif self._judged is not None and not asks and self.bubble.isHidden() and self.height() > 0:
+            self._right.invalidate()  # the checks are what is read now: where both have no room, the drawing waits
+            needed_px = self._right.minimumHeightForWidth(self._theme.px(376)) + 2 * (MARGIN_PX - 4)
+            self.hand.setVisible(needed_px <= self.height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()

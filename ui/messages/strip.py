@@ -15,7 +15,7 @@ from carpus.ui.theme import Theme
 
 
 class NoticeStrip(Card):
-    """``answered`` by the button, ``later`` by the other one or Esc."""
+    """``answered`` by the button, ``later`` by the other one or Esc; without words on the button it only tells."""
 
     answered = Signal()
     later = Signal()
@@ -30,6 +30,7 @@ class NoticeStrip(Card):
             if line:
                 texts.addWidget(Text(theme, line, 14, REGULAR, wrap=True))
         self.button = Button(theme, button, "plain", height_px=40)
+        self.button.setVisible(bool(button))
         self.later_button = Button(theme, later or self.tr("Later"), "quiet", hint=self.tr("Esc"), height_px=36)
         buttons = QVBoxLayout()
         buttons.setSpacing(4)

@@ -197,6 +197,8 @@ class PatientCardView(Card):
                 return self.tr(
                     "A simulated patient moves in front of a simulated camera. Try every step without a patient."
                 )
+            if card.has_sessions:
+                return self.tr("Only simulated sessions so far: they count nowhere.")
             return self.tr("Put the markers on, then start.")
         number = self.tr("{ordinal} session").format(ordinal=numbers.ordinal(row.session_count))
         parts = (number + ", " + numbers.short_date(row.last_session), card.last_set)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from datetime import date
 
 from PySide6.QtCore import QStringListModel, Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QCompleter, QHBoxLayout, QLineEdit, QPlainTextEdit, QVBoxLayout, QWidget
 
 from carpus.core.names import folded
@@ -130,6 +131,7 @@ class PatientForm(Sheet):
         cancel.clicked.connect(self.close_sheet)
         self._taken: frozenset[str] = frozenset()
         self._words = ""
+        theme.changed.connect(self._fit)
 
     def begin(self, entry: PatientEntry | None, taken: frozenset[str], name: str = "") -> None:
         """Open for a new patient (optionally with a name already typed) or with an entry to change."""
@@ -157,10 +159,18 @@ class PatientForm(Sheet):
         self.real_name.setText(entry.name)
         self.note.setPlainText(entry.note)
         self._fault.hide()
-        room = host_of(self).height() - self._theme.px(250)
-        self._scroll.setFixedHeight(min(self._fields.sizeHint().height() + 2, max(room, 160)))
+        self._fit()
         self.open(self.name)
         self.name.selectAll()
+
+    def _fit(self) -> None:
+        """As high as the fields are, as far as there is room."""
+        room = host_of(self).height() - self._theme.px(250)
+        self._scroll.setFixedHeight(min(self._fields.sizeHint().height() + 2, max(room, 160)))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit()
 
     def _judge(self) -> None:
         """What is still to be said stands on the button."""

@@ -66,7 +66,7 @@ def cells(row: PatientRow, today: date) -> tuple[str, str, str, str, str, str, s
         return row.pseudonym, side, tr("Try everything without a patient"), "", "", "", ""
     since = numbers.weeks_since(row.onset_day, today) if row.onset_day is not None else ""
     if row.last_session is None:
-        return row.pseudonym, side, row.diagnosis, since, tr("No session yet"), "", ""
+        return row.pseudonym, side, row.diagnosis, since, tr("No session counted yet"), "", ""
     when = row.last_session
     return (
         row.pseudonym, side, row.diagnosis, since, numbers.short_date(when), numbers.days_ago(when, today),

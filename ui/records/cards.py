@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, KeyCaps, Line
 from carpus.ui.controls.field import Choices
+from carpus.ui.controls.flow import FlowLayout
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
@@ -80,12 +81,8 @@ class BackupCard(Card):
         self.body.addLayout(top)
         self.seal_button = Button(theme, self.tr("&Seal into one file…"), icon="lock", height_px=40)
         self.unseal_button = Button(theme, self.tr("Back from a sealed file…"), height_px=40)
-        sealing = QHBoxLayout()
-        sealing.setSpacing(12)
-        sealing.addWidget(self.seal_button)
-        sealing.addWidget(self.unseal_button)
-        sealing.addWidget(caption(theme, self.tr("closed with a passphrase, to carry away or send"), wrap=True), 1)
-        self.body.addLayout(sealing)
+        self.sealed = Text(theme, "", 14, SEMIBOLD, "good", wrap=True)
+        self.sealed.hide()
         self.seal_button.clicked.connect(self.seal)
         self.unseal_button.clicked.connect(self.unseal)
         self.place = Text(theme, "", 14, MEDIUM, wrap=True)
@@ -105,6 +102,16 @@ class BackupCard(Card):
         self.body.addWidget(Line(theme))
         keep = Text(theme, self.tr("the last 14, and one of each month for 2 years"), 14)
         self.body.addLayout(_row(theme, self.tr("Keep"), keep))
+        self.body.addWidget(Line(theme))
+        sealing = QWidget()
+        flow = FlowLayout(12)
+        sealing.setLayout(flow)
+        for button in (self.seal_button, self.unseal_button):
+            flow.addWidget(button)
+        self.body.addLayout(_row(theme, self.tr("To carry away or send"), sealing))
+        words = self.tr("One file with everything, closed with a passphrase.")
+        self.body.addWidget(caption(theme, words, wrap=True))
+        self.body.addWidget(self.sealed)
         self.now_button.clicked.connect(self.back_up)
         self.restore_button.clicked.connect(self.restore)
         self.place_button.clicked.connect(self.place_wanted)
@@ -122,6 +129,11 @@ class BackupCard(Card):
         self.place.setText(facts.place)
         self.place_state.show_state(facts.place_state, facts.place_words)
         self.now_button.setEnabled(facts.can_back_up)
+
+    def show_sealed(self, words: str) -> None:
+        """Which file was sealed; empty while one is made."""
+        self.sealed.setText(words)
+        self.sealed.setVisible(bool(words))
 
     def show_progress(self, percent: int | None) -> None:
         """While it runs; None when it does not."""
@@ -202,7 +214,8 @@ class RecordsCard(Card):
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         names = {0: self.tr("Not set")}
         shown = sorted({*choices, years})
-        self.years = Choices(theme, [(one, names.get(one, self.tr("{n} years").format(n=one))) for one in shown], years)
+        options = [(one, names.get(one, self.tr("{n} years").format(n=one))) for one in shown]
+        self.years = Choices(theme, options, years, wraps=True)
         self.due_button = Button(theme, self.tr("What is d&ue…"), height_px=40)
         self.archive_button = Button(theme, self.tr("&Archive…"), icon="archive", height_px=40)
         self.log_button = Button(theme, self.tr("&Log…"), icon="file-text", height_px=40)

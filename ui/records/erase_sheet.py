@@ -168,7 +168,7 @@ class EraseSheet(Sheet):
         else:
             parts.append(self.tr("Files copied elsewhere: Carpus cannot reach them."))
         if facts.made:
-            words = self.tr("Reports and exports saved elsewhere, delete them yourself ({n}): {path}")
+            words = self.tr("Reports and exports saved elsewhere, delete them yourself ({n}): {path}.")
             paths = ", ".join(facts.made[:MOST_PATHS]) + (", …" if len(facts.made) > MOST_PATHS else "")
             parts.append(words.format(n=len(facts.made), path=paths))
         parts.append(self.tr("The log keeps that it was erased, no name."))

@@ -10,7 +10,7 @@ from datetime import datetime, timedelta
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 
 from carpus.core.by_hand.values import HandValue, of_session
 from carpus.core.output.camera_said import UNKNOWN_CAMERA, CameraSaid
@@ -140,7 +140,8 @@ class ReviewScreen(QWidget):
         fingers += [(finger, finger_name(str(finger))) for finger in FINGERS]
         self.finger = Choices(theme, [*fingers, (WRIST, self.tr("Wrist"))])
         self.notes = Text(theme, "", 14, REGULAR, wrap=True)
-        self.title = ElidedText(theme, self.tr("Range of motion"), 16, SEMIBOLD)
+        self.title = Text(theme, self.tr("Range of motion"), 16, SEMIBOLD)
+        self.title.setMinimumWidth(1)
         self.count = ElidedText(theme, "", 14, REGULAR, "text2")  # one line: what it says comes when all has its place
         self.again_button = Button(theme, self.tr("Another set"), "quiet", icon="plus")
         self.count_button = Button(theme, self.tr("Do not count"), "quiet")
@@ -186,9 +187,13 @@ class ReviewScreen(QWidget):
         right.addWidget(self.ways, 1)
         top.addLayout(right, 736)
         card = Card(self._theme, 20)
+        said = self._said = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        said.setSpacing(12)
+        said.addWidget(self.title)
+        said.addWidget(self.count, 1)
         head = QHBoxLayout()
         head.setSpacing(12)
-        head.addWidget(self.count, 1)
+        head.addStretch(1)
         head.addWidget(self.count_button)
         head.addWidget(self.beside_button)
         head.addWidget(self.again_button)
@@ -196,7 +201,7 @@ class ReviewScreen(QWidget):
         head.addWidget(self.report_button)
         card.body.setContentsMargins(24, 4, 16, 4)
         card.body.setSpacing(4)
-        card.body.addWidget(self.title)
+        card.body.addLayout(said)
         card.body.addLayout(head)
         self._scroll = QScrollArea()
         tables = ScrolledColumn()
@@ -241,13 +246,13 @@ class ReviewScreen(QWidget):
             return
         most = self.height() * (0.36 if tight else 0.42 if self._is_hand else 0.48)
         needed = self.table.sizeHint().height()
-        # All else keeps its least height; the card must not be pushed together instead.
-        whole, width = self.layout(), self.width()
-        assert whole is not None
-        whole.invalidate()  # the text may just have become larger
-        least = whole.minimumHeightForWidth(width) if whole.hasHeightForWidth() else whole.minimumSize().height()
-        room = self.height() - (least - self._scroll.minimumHeight())
-        fewest = LEAST_TABLE_PX * self._theme.text_scale
+        fewest, beside = LEAST_TABLE_PX * self._theme.text_scale, QBoxLayout.Direction.LeftToRight
+        # With large text what was left out, and why, has a line of its own where the table can spare one.
+        self._said.setDirection(QBoxLayout.Direction.TopToBottom if tight else beside)
+        room = self._room()
+        if room < fewest:
+            self._said.setDirection(beside)
+            room = self._room()
         if self._is_hand:  # always more than there is room for: its place is known before it is read
             self._scroll.setFixedHeight(round(max(min(most, room), fewest)))
             return
@@ -432,6 +437,14 @@ class ReviewScreen(QWidget):
         counts = self.tr("Let it count again") if figures.not_counted else self.tr("Do not count")
         self.count_button.set_face(counts)
         self._fit()
+
+    def _room(self) -> int:
+        """What is left for the tables when all else keeps its least height; the card must not be pushed together."""
+        whole, width = self.layout(), self.width()
+        assert whole is not None
+        whole.invalidate()  # the text may just have become larger
+        least = whole.minimumHeightForWidth(width) if whole.hasHeightForWidth() else whole.minimumSize().height()
+        return self.height() - (least - self._scroll.minimumHeight())
 
     def _show_active_passive(self, figures: SessionFigures) -> None:
         """The table of what was active, passive and measured by hand, where there is more than the first."""

@@ -83,8 +83,9 @@ class RangeTable(QWidget):
             edge = COLUMNS[column] * width + (16 if column == 0 else 0)
             following = COLUMNS[column + 1] * width if column < 6 else width
             room = (following - edge - 8) if left_sided else (edge - COLUMNS[column - 1] * width - 8)
-            if column == 1:
-                room = COLUMNS[2] * width - 52 * self._theme.text_scale - edge
+            if column == 1:  # as much as the figure leaves that ends at the next edge
+                taken = max(52 * self._theme.text_scale, QFontMetricsF(faces[2]).horizontalAdvance(texts[2]) + 14)
+                room = COLUMNS[2] * width - taken - edge
             box = QRectF(edge, top, room, height) if left_sided else QRectF(edge - room, top, room, height)
             if column == 6 and row.short_change and QFontMetricsF(faces[6]).horizontalAdvance(text) > room:
                 text = row.short_change  # with its limit, rather than without its end

@@ -35,6 +35,8 @@ class SessionsScreen(QWidget):
     pair_wanted = Signal(str, str)
     archive_wanted = Signal(str)
     told = Signal(object)
+    moved = Signal(str)
+    """To whom, by name."""
     changed = Signal()
 
     def __init__(self, theme: Theme, background: Background, shelf: SessionShelf, keys: Keys | None = None) -> None:
@@ -119,7 +121,7 @@ class SessionsScreen(QWidget):
         self.archive_button.clicked.connect(lambda: self.archive_wanted.emit(self._patient_id))
         self.aside_sheet.kept.connect(self._set_aside)
         self.move_sheet.chosen.connect(
-            lambda patient_id: self._do(lambda line: self._shelf.move(line.session_id, patient_id))
+            lambda patient_id: self._do(lambda line: self._move(line.session_id, patient_id), self.moved.emit)
         )
         self.rename_sheet.chosen.connect(
             lambda exercise: self._do(lambda line: self._shelf.rename_exercise(line.session_id, exercise))
@@ -254,15 +256,21 @@ class SessionsScreen(QWidget):
         if line is not None:
             self.erase_wanted.emit(line.session_id)
 
-    def _do(self, action) -> None:  # type: ignore[no-untyped-def]
+    def _move(self, session_id: str, patient_id: str) -> str:
+        """Whose it is now."""
+        self._shelf.move(session_id, patient_id)
+        return dict(self._shelf.other_patients(self._patient_id))[patient_id]
+
+    def _do(self, action, told=lambda _: None) -> None:  # type: ignore[no-untyped-def]
         line = self.chosen()
         if line is None:
             return
 
-        def done(_: object) -> None:
+        def done(result: object) -> None:
             self.changed.emit()
             self.begin(self._patient_id, self._pseudonym, line.session_id)
             self.first().setFocus(Qt.FocusReason.OtherFocusReason)
+            told(result)
 
         self._background.run(lambda: action(line), done, self.told.emit, self)
 
