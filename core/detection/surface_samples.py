@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from carpus.core.kernels.choice import in_c
 from carpus.core.types import FINGER_READINGS, FINGER_STEP_PX, SURFACE_READINGS, FloatArray, Frame, SurfaceSamples
 
 
@@ -31,6 +32,14 @@ def surface_samples(frame: Frame, corner_px: FloatArray, settings: SamplingSetti
     if frame.depth_raw is None or not np.isfinite(corner_px).all():
         return None
     height, width = frame.depth_raw.shape
+    if (kernels := in_c()) is not None:
+        pixel, depth, found = np.empty((settings.most, 2)), np.empty(settings.most), np.empty(1, dtype=np.int32)
+        kernels.readings_within(
+            height, width, frame.depth_raw, frame.depth_unit_m, len(corner_px), corner_px,
+            settings.wider, settings.margin_px, settings.step_px, settings.most, pixel, depth, found,
+        )  # fmt: skip
+        count = found.item()
+        return None if count < 0 else SurfaceSamples(pixel[:count], depth[:count])
     middle = corner_px.mean(axis=0)
     outline = middle + settings.wider * (corner_px - middle)
     outline = outline[np.argsort(np.arctan2(outline[:, 1] - middle[1], outline[:, 0] - middle[0]))]

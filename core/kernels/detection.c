@@ -163,3 +163,70 @@ int blobs_measured(
     free(work);
     return 0;
 }
+
+/* Readings on a lattice within an outline, never more than `most`: core/detection/surface_samples.py. `found` tells how
+   many; -1 where the outline lies off the picture. */
+int readings_within(
+    int height, int width, const uint16_t *raw, double unit_m, int corners, const double *corner, double wider,
+    double margin, int step, int most, double *pixel, double *depth, int32_t *found)
+{
+    double middle[2] = {0.0, 0.0}, outline[2 * corners], angle[corners], along[2 * corners], least[corners];
+    for (int i = 0; i < corners; i++)
+        for (int k = 0; k < 2; k++)
+            middle[k] += corner[2 * i + k] / corners;
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int i = 0; i < corners; i++) {
+        double at[2];
+        for (int k = 0; k < 2; k++) {
+            at[k] = middle[k] + wider * (corner[2 * i + k] - middle[k]);
+            low[k] = at[k] < low[k] ? at[k] : low[k];
+            high[k] = at[k] > high[k] ? at[k] : high[k];
+        }
+        const double own = atan2(at[1] - middle[1], at[0] - middle[0]);
+        int j = i;
+        for (; j > 0 && angle[j - 1] > own; j--) {
+            angle[j] = angle[j - 1];
+            memcpy(outline + 2 * j, outline + 2 * j - 2, 2 * sizeof(double));
+        }
+        angle[j] = own;
+        memcpy(outline + 2 * j, at, sizeof at);
+    }
+    for (int i = 0; i < corners; i++) {
+        const double *from = outline + 2 * i, *to = outline + 2 * ((i + 1) % corners);
+        along[2 * i] = to[0] - from[0];
+        along[2 * i + 1] = to[1] - from[1];
+        least[i] = margin * (hypot(along[2 * i], along[2 * i + 1]) + 1e-9);
+    }
+    const double left = low[0] - margin > 0.0 ? low[0] - margin : 0.0, top = low[1] - margin > 0.0 ? low[1] - margin : 0.0;
+    const double right = floor(high[0] + margin), bottom = floor(high[1] + margin);
+    const int first_u = left < width ? step * (int)ceil(left / step) : width;
+    const int first_v = top < height ? step * (int)ceil(top / step) : height;
+    const int last_u = right < width - 1 ? (int)(right > -1.0 ? right : -1.0) : width - 1;
+    const int last_v = bottom < height - 1 ? (int)(bottom > -1.0 ? bottom : -1.0) : height - 1;
+    *found = -1;
+    if (last_u < first_u || last_v < first_v)
+        return 0;
+    const int columns = (last_u - first_u) / step + 1, rows = (last_v - first_v) / step + 1;
+    int32_t *kept = malloc(sizeof *kept * (size_t)columns * (size_t)rows);
+    if (!kept)
+        return 1;
+    int n = 0;
+    for (int v = first_v; v <= last_v; v += step)
+        for (int u = first_u; u <= last_u; u += step) {
+            int inside = raw[(size_t)v * width + u] > 0;
+            for (int i = 0; inside && i < corners; i++)
+                inside = along[2 * i] * (v - outline[2 * i + 1]) + least[i] >= along[2 * i + 1] * (u - outline[2 * i]);
+            if (inside)
+                kept[n++] = v * width + u;
+        }
+    const int taken = n > most ? most : n;
+    for (int k = 0; k < taken; k++) {
+        const int at = kept[n <= most ? k : k == most - 1 ? n - 1 : (int)(k * ((n - 1) / (double)(most - 1)))];
+        pixel[2 * k] = at % width;
+        pixel[2 * k + 1] = at / width;
+        depth[k] = (float)(raw[at] * unit_m); /* as they are stored */
+    }
+    free(kept);
+    *found = taken;
+    return 0;
+}

@@ -82,6 +82,9 @@ KERNEL int blobs_measured(
     double valid_share, double fewest_readings, double edge_step, double edge_sd, double slope_share, double fixed_m,
     double square_per_m, double patch, int averages, double *centre, double *area, double *similarity,
     double *skin_share, double *depth, double *depth_sd);
+KERNEL int readings_within(
+    int height, int width, const uint16_t *raw, double unit_m, int corners, const double *corner, double wider,
+    double margin, int step, int most, double *pixel, double *depth, int32_t *found);
 
 /* digits.c */
 KERNEL int rays_spread(

@@ -9,11 +9,12 @@ import pytest
 
 from carpus.core.depth_sensor import D435, PRIMESENSE, DepthSensor
 from carpus.core.detection.detector import Detector, Region
+from carpus.core.detection.surface_samples import SamplingSettings, surface_samples
 from carpus.core.kernels import choice
 from carpus.core.types import Detections, Frame
 from tests.detection.pictures import CAMERA, PALM_PX, Extra, Look, depth_picture, frame, picture
 from tests.detection.test_detector import SETTINGS, learnt
-from tests.kernels.pairs import LEVELS
+from tests.kernels.pairs import LEVELS, both
 
 
 def alike(detector: Detector, seen: Frame, region: Region | None = None) -> Detections:
@@ -51,3 +52,19 @@ def test_nothing_in_the_picture() -> None:
     looks, _ = learnt(Look(), rng)
     dark = frame(np.zeros((240, 320, 3), dtype=np.uint8), depth_picture(rng))
     assert len(alike(Detector(looks, CAMERA, SETTINGS), dark, Region(10, 10, 200, 200))) == 0
+
+
+def test_readings_on_the_back_of_the_hand() -> None:
+    rng = np.random.default_rng(7)
+    raw = (3500 * (rng.uniform(size=(240, 320)) < 0.8)).astype(np.uint16)
+    raw += (raw > 0).astype(np.uint16) * rng.integers(0, 50, raw.shape, dtype=np.uint16)
+    seen = frame(np.zeros((240, 320, 3), dtype=np.uint8), raw)
+    corners = np.array([[160.3, 190.2], [128.6, 172.8], [124.1, 100.7], [146.8, 92.4]])
+    for shift_px in (0.0, -135.5, 140.0, 1e4, -1e4):
+        for most in (3, 40, 5000):
+            own = replace(SamplingSettings(), most=most)
+            found = both(lambda shift_px=shift_px, own=own: surface_samples(seen, corners + shift_px, own), 1e-15)
+            assert (found is None) == (abs(shift_px) > 1e3)
+    assert both(lambda: surface_samples(seen, np.full((4, 2), np.nan), SamplingSettings())) is None
+    empty = replace(seen, depth_raw=np.zeros((240, 320), dtype=np.uint16))
+    assert not len(both(lambda: surface_samples(empty, corners, SamplingSettings())).depth_m)
