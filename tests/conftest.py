@@ -68,6 +68,22 @@ def window_application(qapp: QApplication) -> QApplication:
 
 
 @pytest.fixture(autouse=True)
+def windows_let_go(qapp: QApplication) -> Iterator[None]:
+    """Windows go with the test that made them: left alive, they make every later change of style as slow as all of them
+    together."""
+    there = set(qapp.topLevelWidgets())
+    yield
+    made = [widget for widget in qapp.topLevelWidgets() if widget not in there and widget.parent() is None]
+    for widget in made:
+        widget.deleteLater()
+    if made:
+        from PySide6.QtCore import QEvent
+
+        qapp.processEvents()
+        qapp.sendPostedEvents(None, QEvent.Type.DeferredDelete)  # outside a running loop nobody does
+
+
+@pytest.fixture(autouse=True)
 def own_folders(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Settings, patients and caches of the person who runs the tests are neither read nor written.
 

@@ -27,7 +27,6 @@ from carpus.core.errors import CameraLost
 from carpus.core.simulation import practice_camera
 from carpus.ui.messages.stop_card import StopCard
 from carpus.ui.settings.camera_card import CameraCard
-from tests.journeys.conftest import let_go
 from tests.ui.camera_fakes import camera_checks
 
 FEW = 12
@@ -49,7 +48,6 @@ def desktop(qapp: QApplication, data: Path, tmp_path: Path) -> Iterator[Desktop]
     opened.show()
     yield opened
     opened.close()
-    let_go(qapp)
 
 
 @pytest.fixture(autouse=True)

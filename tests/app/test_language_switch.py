@@ -14,7 +14,6 @@ from carpus.app.compose import Desktop, application, compose
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings, load_settings
 from carpus.ui import language
 from carpus.ui.controls.text import Text
-from tests.journeys.conftest import let_go
 
 
 @pytest.fixture
@@ -26,7 +25,6 @@ def desktop(qapp: QApplication, tmp_path: Path) -> Iterator[Desktop]:
     opened.show()
     yield opened
     opened.close()
-    let_go(qapp)
     language.speak("en")
 
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QCoreApplication, QEvent, QLocale
+from PySide6.QtCore import QLocale
 from PySide6.QtWidgets import QApplication
 
 from carpus.app.compose import Desktop, application, compose
@@ -73,12 +73,3 @@ def open_desktop(
     yield open_one
     for desktop in opened:
         desktop.close()
-    let_go(qapp)
-
-
-def let_go(qapp: QApplication) -> None:
-    """Delete all windows: left alive, they would make every later change of style as slow as all of them together."""
-    for widget in qapp.topLevelWidgets():
-        widget.deleteLater()
-    qapp.processEvents()
-    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)

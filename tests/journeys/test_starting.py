@@ -18,7 +18,6 @@ from carpus.app.desktop.no_folder import NoFolder
 from carpus.app.settings import load_settings
 from carpus.ui.ports import Words
 from carpus.ui.theme import Theme
-from tests.journeys.conftest import let_go
 
 ROOT = Path(__file__).parents[2]
 CALL = "import sys; from pathlib import Path; from carpus.app.desktop.alone import Alone; a = Alone(Path(sys.argv[1]));"
@@ -98,7 +97,6 @@ def test_the_window_opens_on_the_folder_that_was_chosen_instead(
     assert "blocked" in capsys.readouterr().err
     assert (good / "records.sqlite3").exists()
     assert load_settings().data_folder == good, "also from the next start on"
-    let_go(qapp)
 
 
 def test_nobody_chooses_and_it_ends_with_a_sentence(
@@ -129,4 +127,3 @@ def test_a_window_that_is_closed_while_it_comes_up_ends_in_peace(
     monkeypatch.setattr(compose.Desktop, "show", closes_at_once)
     assert desktop.open_window(tmp_path / "early", is_demo=True) == 0
     assert capsys.readouterr().err == ""
-    let_go(qapp)

@@ -24,7 +24,6 @@ from carpus.core.pipeline.track import retrack_session
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import TRUTH_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
-from tests.journeys.conftest import let_go
 from tests.journeys.takes import clicks_of, take_of
 from tests.journeys.test_journey import at, click, reviewed, still_hand, wait
 
@@ -51,7 +50,6 @@ def desktop(qapp: QApplication, hand_take: Path, tmp_path: Path) -> Iterator[Des
     composed.show()
     yield composed
     composed.close()
-    let_go(qapp)
 
 
 def record(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:

@@ -45,7 +45,8 @@ STIFF = TrackSettings(
 def test_stored_pose_of_w0_takes_the_wrist_to_where_its_disc_is(
     protocol: str, hand: str, motion: str, start_deg: tuple[float, ...], settings: TrackSettings, tmp_path: Path
 ) -> None:
-    spec = RecordingSpec(seed=11, protocol=protocol, hand=hand, motion=motion, seconds=2.2, speed_hz=0.7)  # type: ignore[arg-type]
+    seconds = 1.2 if protocol == "wrist6" else 2.2
+    spec = RecordingSpec(seed=11, protocol=protocol, hand=hand, motion=motion, seconds=seconds, speed_hz=0.7)  # type: ignore[arg-type]
     simulate(spec, tmp_path / "r")
     clicks = read_clicks(tmp_path / "r" / CLICKS_FILE, 640, 480)
     source = TumFolder(tmp_path / "r")
