@@ -24,6 +24,7 @@ from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CarpusFault, OutputNotWritable, SettingsInvalid
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.live import LiveSettings
+from carpus.core.pipeline.live_values import StartMode
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.values import ANGLE_ORDERS as ANGLE_ORDERS
 from carpus.core.session.values import AngleOrder
@@ -66,11 +67,13 @@ class CameraSettings:
 @dataclass(frozen=True, slots=True)
 class RecordingSettings:
     """``folder`` of patients and sessions, empty for the user's own; ``keep_pictures`` pictures of the hand with
-    each session where the disk has room; ``smooth`` each session when it is stored."""
+    each session where the disk has room; ``smooth`` each session when it is stored; ``start``: at the key, counted down
+    after it, or by itself over a hand that lies still."""
 
     folder: str = ""
     keep_pictures: bool = True
     smooth: bool = True
+    start: StartMode = "key"
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,8 @@ DEFAULT_KEYS = {
     "help": "F1", "settings": "Ctrl+,", "lock": "Ctrl+L", "search": "Ctrl+F", "new_patient": "Ctrl+N",
     "report": "Ctrl+P", "home_sheet": "Ctrl+H",
     "export": "Ctrl+E", "back": "Esc", "quit": "Ctrl+Q",
-    "record": "Space", "note": "F5", "pain": "F6", "pause": "F7", "overlay": "F8", "whole_picture": "F9",
+    "record": "Space", "pedal": "PgDown", "note": "F5", "pain": "F6", "pause": "F7", "overlay": "F8",
+    "whole_picture": "F9",
     "patient_view": "Shift+F11", "large_view": "F11",
     "speeds": "F4", "next_angle": "F2", "next_finger": "F3", "side_view": "Shift+F8",
     "answer_first": "F2", "answer_second": "F3", "answer_none": "F12",
@@ -30,7 +31,7 @@ DEFAULT_KEYS = {
     "correct_doubtful": "D",
     "tick": "Space", "compare_ticked": "C", "beside": "B", "mirror": "M",
 }  # fmt: skip
-"""While measuring only the space bar and function keys, so that no keyboard layout or language matters."""
+"""While measuring only the space bar, a pedal's key and function keys: no keyboard layout or language matters."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +82,7 @@ def action_words(name: str) -> str:
             "export": tr("Export"),
         "back": tr("Go back"), "quit": tr("Close Carpus"), "note": tr("Note"),
         "record": tr("Record, and stop and review"),
+        "pedal": tr("Pedal: go on, record, stop"),
         "pain": tr("Pain score"), "pause": tr("Pause and go on"),
         "overlay": tr("Hide or show the marks on the picture"),
         "whole_picture": tr("Whole picture or hand area"), "speeds": tr("Speeds or angles"),

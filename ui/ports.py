@@ -17,7 +17,7 @@ from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.library.set_up import SetUp
 from carpus.core.output.camera_said import CameraSaid
 from carpus.core.output.report_content import RepetitionChoices, SessionFigures
-from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
+from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, StartMode, TrackedView
 from carpus.core.records.values import AffectedSide, Dominance, Onset, PatientEntry
 from carpus.core.session.values import AngleOrder, Session
 from carpus.core.spot_answer import SpotAnswer
@@ -462,3 +462,4 @@ class Preferences:
     """Of the window: a code of :data:`carpus.ui.language.LANGUAGES`, or the computer's."""
     research: bool = False
     """Whether what only research needs is shown."""
+    start: StartMode = "key"

@@ -113,6 +113,7 @@ class CourseRun(QObject):
         """No rest is kept any more."""
         self._timer.stop()
         self._rest_left_s = 0
+        self._live.rest(on=False)
         self._patient.rest(None)
 
     def _second(self) -> None:
@@ -125,6 +126,7 @@ class CourseRun(QObject):
         if self._now.set_up is not None:
             self._show(self._now.set_up)
             course = self._now.set_up.course
+            self._live.rest(on=self.resting)
             if self.resting and course is not None:
                 self._patient.rest((self._rest_left_s, self._rest_s, course.number, len(course.parts)))
 

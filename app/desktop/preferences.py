@@ -65,6 +65,7 @@ class PreferenceKeeper(QObject):
             settings.patient.sound,
             settings.screen.language,
             settings.screen.research,
+            settings.recording.start,
         )
         self.screen = SettingsScreen(theme, chosen, __version__, measured)
         self._shown_folder = chosen.data_folder
@@ -73,6 +74,7 @@ class PreferenceKeeper(QObject):
         self.screen.licences.clicked.connect(lambda: LicencesWindow(self.screen, theme, licence_texts()).exec())
         journey.put_settings(self.screen)
         journey.show_research(on=chosen.research)
+        journey.live.start_mode = chosen.start
         journey.settings_wanted.connect(lambda: journey.way.aside("settings"))
         self._background = Background()
         journey.settings_wanted.connect(self.look_for_newer)
@@ -96,7 +98,7 @@ class PreferenceKeeper(QObject):
         if other_language and (why := self.keeps_language()):
             self.screen.keep_language(self._settings.screen.language, why)
             return
-        recording = self._settings.recording
+        recording = replace(self._settings.recording, start=chosen.start)
         if chosen.data_folder != self._shown_folder:
             recording = replace(recording, folder=chosen.data_folder)
         self._settings = replace(
@@ -109,6 +111,7 @@ class PreferenceKeeper(QObject):
         )
         self._theme.choose(self._theme_of(self._settings), chosen.text_scale)
         self._journey.show_research(on=chosen.research)
+        self._journey.live.start_mode = chosen.start
         self._journey.settings = replace(
             self._journey.settings,
             report=self._settings.report,

@@ -46,6 +46,10 @@ class LiveEvent:
     value: float = float("nan")
 
 
+StartMode = Literal["key", "countdown", "still"]
+"""When a recording begins: at the key, counted down after it, or by itself over a hand that lies still."""
+
+
 @dataclass(frozen=True, slots=True)
 class LiveCounters:
     """Figures of the moment. Unknown is NaN or None.

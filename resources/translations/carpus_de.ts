@@ -1564,6 +1564,10 @@
         <translation>Zurück</translation>
     </message>
     <message>
+        <source>Pedal: go on, record, stop</source>
+        <translation>Pedal: weiter, aufnehmen, beenden</translation>
+    </message>
+    <message>
         <source>Pain score</source>
         <translation>Schmerzwert</translation>
     </message>
@@ -2230,6 +2234,14 @@
     <message>
         <source>Well done.</source>
         <translation>Gut gemacht.</translation>
+    </message>
+    <message>
+        <source>Lie still</source>
+        <translation>Ruhig liegen</translation>
+    </message>
+    <message>
+        <source>Let your hand lie still</source>
+        <translation>Lassen Sie die Hand ruhig liegen</translation>
     </message>
     <message>
         <source>Just try it.</source>
@@ -9637,6 +9649,14 @@ Umschalt+F8 von der Seite</translation>
         <translation>Schließen Sie die Kamera wieder an</translation>
     </message>
     <message>
+        <source>Starts in {seconds}</source>
+        <translation>Beginn in {seconds}</translation>
+    </message>
+    <message>
+        <source>Starts by itself when the hand lies still</source>
+        <translation>Beginnt von selbst, wenn die Hand ruhig liegt</translation>
+    </message>
+    <message>
         <source>Close the patient’s view</source>
         <translation>Patientenansicht schließen</translation>
     </message>
@@ -9663,6 +9683,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Stop and review</source>
         <translation>Beenden und auswerten</translation>
+    </message>
+    <message>
+        <source>Starts in {seconds}: not yet</source>
+        <translation>Beginn in {seconds}: noch nicht</translation>
     </message>
     <message>
         <source>Space</source>
@@ -12158,6 +12182,18 @@ Umschalt+F8 von der Seite</translation>
         <translation>Ein Ton am Ziel</translation>
     </message>
     <message>
+        <source>At the key</source>
+        <translation>Mit der Taste</translation>
+    </message>
+    <message>
+        <source>3 s after the key</source>
+        <translation>3 s nach der Taste</translation>
+    </message>
+    <message>
+        <source>When the hand lies still</source>
+        <translation>Wenn die Hand ruhig liegt</translation>
+    </message>
+    <message>
         <source>none</source>
         <translation>keine</translation>
     </message>
@@ -12224,6 +12260,14 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any computer in the same network can read them; no name and no picture is in them. From the next set-up on.</source>
         <translation>Während eine Hand gemessen wird, können ihre Winkel, Orte und Ereignisse über Lab Streaming Layer hinausgehen. Jeder Computer im selben Netz kann sie lesen; kein Name und kein Bild ist dabei. Gilt ab dem nächsten Aufbau.</translation>
+    </message>
+    <message>
+        <source>Start of a recording</source>
+        <translation>Beginn einer Aufnahme</translation>
+    </message>
+    <message>
+        <source>For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide show, is a keyboard with a few keys. Page Down goes on, records and stops; another key is chosen under Keys. A start by itself is counted down, and Space takes it back.</source>
+        <translation>Für Hände, die den Arm des Patienten halten. Die Taste darf weit weg sein: Ein Pedal oder ein Presenter ist eine Tastatur mit wenigen Tasten. Bild ab geht weiter, nimmt auf und beendet; eine andere Taste wählt man unter Tasten. Vor einem Start von selbst wird gezählt, und die Leertaste nimmt ihn zurück.</translation>
     </message>
     <message>
         <source>The patient’s view</source>

@@ -1564,6 +1564,10 @@
         <translation>Indietro</translation>
     </message>
     <message>
+        <source>Pedal: go on, record, stop</source>
+        <translation>Pedale: avanti, registra, ferma</translation>
+    </message>
+    <message>
         <source>Pain score</source>
         <translation>Punteggio del dolore</translation>
     </message>
@@ -2230,6 +2234,14 @@
     <message>
         <source>Well done.</source>
         <translation>Molto bene.</translation>
+    </message>
+    <message>
+        <source>Lie still</source>
+        <translation>Ferma</translation>
+    </message>
+    <message>
+        <source>Let your hand lie still</source>
+        <translation>Tenga ferma la mano</translation>
     </message>
     <message>
         <source>Just try it.</source>
@@ -9637,6 +9649,14 @@ Maiusc+F8 di lato</translation>
         <translation>Ricollegare la telecamera</translation>
     </message>
     <message>
+        <source>Starts in {seconds}</source>
+        <translation>Inizio tra {seconds}</translation>
+    </message>
+    <message>
+        <source>Starts by itself when the hand lies still</source>
+        <translation>Inizia da sola quando la mano sta ferma</translation>
+    </message>
+    <message>
         <source>Close the patient’s view</source>
         <translation>Chiudi la vista del paziente</translation>
     </message>
@@ -9663,6 +9683,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Stop and review</source>
         <translation>Ferma e rivedi</translation>
+    </message>
+    <message>
+        <source>Starts in {seconds}: not yet</source>
+        <translation>Inizio tra {seconds}: non ancora</translation>
     </message>
     <message>
         <source>Space</source>
@@ -12158,6 +12182,18 @@ Maiusc+F8 di lato</translation>
         <translation>Un segnale all’obiettivo</translation>
     </message>
     <message>
+        <source>At the key</source>
+        <translation>Al tasto</translation>
+    </message>
+    <message>
+        <source>3 s after the key</source>
+        <translation>3 s dopo il tasto</translation>
+    </message>
+    <message>
+        <source>When the hand lies still</source>
+        <translation>Con la mano ferma</translation>
+    </message>
+    <message>
         <source>none</source>
         <translation>nessuno</translation>
     </message>
@@ -12224,6 +12260,14 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any computer in the same network can read them; no name and no picture is in them. From the next set-up on.</source>
         <translation>Mentre si misura una mano, i suoi angoli, posizioni ed eventi possono uscire con Lab Streaming Layer. Ogni computer della stessa rete può leggerli; non contengono né nomi né immagini. Dalla prossima preparazione in poi.</translation>
+    </message>
+    <message>
+        <source>Start of a recording</source>
+        <translation>Inizio di una registrazione</translation>
+    </message>
+    <message>
+        <source>For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide show, is a keyboard with a few keys. Page Down goes on, records and stops; another key is chosen under Keys. A start by itself is counted down, and Space takes it back.</source>
+        <translation>Per mani che tengono il braccio del paziente. Il tasto può essere lontano: un pedale o un telecomando per presentazioni è una tastiera con pochi tasti. Pag giù prosegue, registra e ferma; un altro tasto si sceglie in Tasti. Prima di un inizio da solo si conta, e lo Spazio lo annulla.</translation>
     </message>
     <message>
         <source>The patient’s view</source>

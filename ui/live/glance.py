@@ -17,7 +17,8 @@ class Glance:
     is measured now; ``hand_seen`` whether at least the hand is, where the trained joint is not. ``wrist_deg``
     deviation, flexion, pro/supination and ``bent_deg`` the mean bending of the fingers, for exercises without a
     trained angle. ``done`` full repetitions of ``asked``; ``found`` as they
-    are counted now, of which one may still turn out to be none.
+    are counted now, of which one may still turn out to be none. ``starts_s``: seconds that are still counted down
+    to the recording, 0 for none.
     """
 
     at_s: float
@@ -30,3 +31,4 @@ class Glance:
     done: int = 0
     asked: int = 0
     found: int = 0
+    starts_s: int = 0

@@ -7,6 +7,7 @@ import time
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
 from PySide6.QtCore import QEvent, QObject, QRectF, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
@@ -16,7 +17,7 @@ from carpus.core.library.exercise_sets import next_part
 from carpus.core.library.set_up import SetUp
 from carpus.core.measures.validity import LARGEST_SD_RAD
 from carpus.core.output.repetition_rows import ACTIVE, PASSIVE
-from carpus.core.pipeline.live_values import LiveCounters, TrackedView
+from carpus.core.pipeline.live_values import LiveCounters, StartMode, TrackedView
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
@@ -24,6 +25,7 @@ from carpus.ui.controls.card import Line, Surface
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.figures import FIGURES, FINGERS, Figure, figure_of
 from carpus.ui.keys import Keys, bind
+from carpus.ui.live.beginning import Beginning
 from carpus.ui.live.counting import RunningCount
 from carpus.ui.live.doubt import Chosen, Doubt, SteadyDoubt, doubt_lamp, doubt_of
 from carpus.ui.live.glance import Glance, RecordingState
@@ -97,6 +99,10 @@ class LiveScreen(QWidget):
         self._overlay_on = True
         self._camera_lost = False
         self._stopping = self._passive = False
+        self.start_mode: StartMode = "key"
+        self._beginning = Beginning()
+        self._rests = False
+        self._shown_left_s = 0
         self._tick = 0
         self._ticked_at_s, self._ticked_cpu_s = -math.inf, 0.0
         self._drawing_ms: float | None = 0.0
@@ -208,8 +214,9 @@ class LiveScreen(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
         actions = {
-            "record": self.toggle_recording, "note": self.note.click, "pain": self.pain.click,
-            "pause": self.toggle_pause, "overlay": self.toggle_overlay, "whole_picture": self.toggle_whole,
+            "record": self.toggle_recording, "pedal": self.toggle_recording, "note": self.note.click,
+            "pain": self.pain.click, "pause": self.toggle_pause, "overlay": self.toggle_overlay,
+            "whole_picture": self.toggle_whole,
             "speeds": self.toggle_speeds, "next_angle": self.next_angle, "next_finger": self.next_finger,
             "side_view": self.toggle_side, "patient_view": self.patient_wanted.emit,
             "large_view": self.toggle_large,
@@ -273,7 +280,8 @@ class LiveScreen(QWidget):
         self._open_question(None)
         self._count = None
         self._view = None
-        self._camera_lost = self._stopping = False
+        self._camera_lost = self._stopping = self._rests = False
+        self._arm()
         self.curves.set_exercise(set_up.exercise, set_up.target_positive_deg, set_up.target_negative_deg)
         self.path.set_exercise(set_up.side, set_up.exercise.pure_wrist)
         angle = 1 if set_up.exercise.angle is None else set_up.exercise.angle
@@ -324,7 +332,8 @@ class LiveScreen(QWidget):
 
     # --- commands -----------------------------------------------------------------------------------------
     def toggle_recording(self) -> None:
-        """Start a recording, or stop and go to the review: the same on every source. A hasty end asks."""
+        """Start a recording, or stop and go to the review: the same on every source. A hasty end asks; what is counted
+        down is taken back."""
         if self._measuring is None or self._set_up is None or self._stopping:
             return
         if self._measuring.feed.recording:
@@ -332,9 +341,51 @@ class LiveScreen(QWidget):
                 self.hasty.emit()
             else:
                 self.stop()
-            return
+        elif self._beginning.counts:
+            self._beginning.stop()
+            self._show_start()
+        elif self.start_mode == "countdown" and not self._measuring.starts_with_recording and len(self.history):
+            self._beginning.count(self.now_s)
+            self._show_start()
+        else:
+            self._record()
+
+    def _record(self) -> None:
+        assert self._measuring is not None
+        self._beginning.stop()
         self._stopping = True
         self._background.run(self._measuring.start_recording, lambda _: self._started(), self._not_started, self)
+
+    def rest(self, *, on: bool) -> None:
+        """Between two exercises of a set nothing begins by itself."""
+        if on != self._rests:
+            self._rests = on
+            self._arm()
+
+    def _arm(self) -> None:
+        """A hand that lies still begins from now on, where that is wanted."""
+        self._beginning.stop()
+        stored = self._measuring is not None and self._measuring.starts_with_recording
+        if self.start_mode == "still" and not (stored or self._rests or self._camera_lost):
+            self._beginning.wait()
+
+    def _look_for_start(self) -> None:
+        """One look at the hand while a recording may begin without a hand at the keyboard."""
+        if self._measuring is None or self._measuring.feed.recording or self._stopping or not len(self.history):
+            return
+        history = self.history
+        bent = [history.figure_value(FIGURES.index(Figure(finger, "middle")))[0] for finger in FINGERS[1:]]
+        angles = np.array([*history.angles_deg, *(bent if self._whole_hand else ())], dtype=float)
+        if self._beginning.take(angles if history.status == TrackStatus.TRACKED else None, self.now_s):
+            self._record()
+        self._show_start()
+
+    def _show_start(self) -> None:
+        """The seconds on the button, as soon as they change."""
+        left_s = self._beginning.left_s(self.now_s)
+        if left_s != self._shown_left_s:
+            self._shown_left_s = left_s
+            self._show_buttons()
 
     def _started(self) -> None:
         assert self._set_up is not None
@@ -430,6 +481,7 @@ class LiveScreen(QWidget):
     def set_camera_lost(self, lost: bool) -> None:
         """The camera went or came back; while it is gone nothing old is shown as if it were now."""
         self._camera_lost = lost
+        self._arm()
         self.fingers.set_waiting(lost)
         self._show_buttons()
         if lost:
@@ -530,6 +582,8 @@ class LiveScreen(QWidget):
             self._view = view
             self.picture.show_frame(view.frame.color_rgb)
             self.plots().draw()
+        if fresh and not self._camera_lost:
+            self._look_for_start()
         if self._camera_lost:
             self.history.wait(0.001 * TICK_EVERY_MS)
             self.plots().draw()
@@ -570,6 +624,10 @@ class LiveScreen(QWidget):
             self._open_question(self._steady_doubt.show(doubt, self.now_s))
             if self.doubt is not None and lamp.rank in ("good", "warn"):
                 lamp = doubt_lamp(self.doubt)
+            elif lamp.rank == "good" and self._shown_left_s:
+                lamp = Lamp("good", self.tr("Starts in {seconds}").format(seconds=self._shown_left_s), "")
+            elif lamp.rank == "good" and self._beginning.waits and self.recording_state == "off":
+                lamp = Lamp("good", lamp.state, self.tr("Starts by itself when the hand lies still"))
         self.light.show_lamp(lamp)
         self.number.show_reading(self._reading())
         self.recording_changed.emit(self.recording_state, self.recorded_s)
@@ -608,6 +666,7 @@ class LiveScreen(QWidget):
         return Glance(
             now_s, value, sure, seen, (deviation, flexion, turned),
             sum(bent_deg) / len(bent_deg) if bent_deg else math.nan, state, done, asked, count.found if count else 0,
+            self._shown_left_s,
         )  # fmt: skip
 
     def _hand_reading(self, figure: Figure) -> Reading:
@@ -700,6 +759,8 @@ class LiveScreen(QWidget):
             if recording:
                 follows = self._set_up is not None and next_part(self._set_up) is not None
                 words = self.tr("Stop and go on") if follows else self.tr("Stop and review")
+            elif self._shown_left_s:
+                words = self.tr("Starts in {seconds}: not yet").format(seconds=self._shown_left_s)
             hint = self.tr("Space") if is_tight(self, self._theme) else self.tr("Space · pedal")
             self.main.set_face(words, icon="square" if recording else "", hint=hint)
 

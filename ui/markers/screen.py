@@ -215,6 +215,7 @@ class MarkersScreen(QWidget):
             bind(self, keys, name, action)
         bind(self.picture, keys, "accept", self.accept, Qt.ShortcutContext.WidgetShortcut)
         bind(self, keys, "new_picture", self.preview)
+        bind(self, keys, "pedal", self.primary.click)
         bind(self, keys, "last_picture", self.last.toggle)
         bind(self, keys, "click_again", self._click_again)
 

@@ -42,6 +42,8 @@ class Scene:
     bent_deg: float = math.nan
     tries: bool = False
     done: int = 0
+    starts_s: int = 0
+    """Seconds that are still counted down to the recording."""
     asked: int = 0
     """Repetitions; in a rest between exercises, exercises."""
     rest_share: float = 0.0
@@ -74,6 +76,7 @@ class Guide:
     def take(self, glance: Glance) -> Scene:
         """The scene of this moment."""
         counted = {"tries": glance.state == "off", "done": glance.done, "asked": glance.asked}
+        counted["starts_s"] = glance.starts_s
         goal = self._goals[self._aim]
         if glance.state == "paused":
             return Scene("paused", self._aim, goal_deg=goal, **counted)  # type: ignore[arg-type]

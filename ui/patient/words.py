@@ -34,6 +34,8 @@ def said(exercise_id: str, scene: Scene, audience: Audience) -> Said:
         return Said("" if child else tr("Let your hand rest."), tr("Well done."))
     if scene.phase == "rest":
         return Said("" if child else tr("Let your hand rest."), tr("Well done."))
+    if scene.starts_s:
+        return Said(tr("Lie still") if child else tr("Let your hand lie still"), f"{scene.starts_s} …")
     if scene.phase == "free":
         return Said(_task(exercise_id, 1, child), tr("Just try it.") if scene.tries else "")
     back = _back(exercise_id, child)

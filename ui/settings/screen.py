@@ -82,6 +82,14 @@ class SettingsScreen(QWidget):
         self.patient_sound = Choices(
             theme, [(False, self.tr("No sound")), (True, self.tr("One beep at the goal"))], preferences.patient_sound
         )
+        self.start = Choices(
+            theme,
+            [
+                ("key", self.tr("At the key")), ("countdown", self.tr("3 s after the key")),
+                ("still", self.tr("When the hand lies still")),
+            ],
+            preferences.start,
+        )  # fmt: skip
         self.agreement = DegreesField(theme, MOST_AGREEMENT_DEG, self.tr("none"))
         self.agreement.set_value(preferences.agreement_limit_deg or math.nan)
         self.agreement.setAccessibleName(self.tr("Agree within"))
@@ -136,6 +144,14 @@ class SettingsScreen(QWidget):
         )
         stream.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         stream.body.addWidget(self.stream)
+        start = self._card(self.tr("Start of a recording"))
+        words = self.tr(
+            "For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide show, "
+            "is a keyboard with a few keys. Page Down goes on, records and stops; another key is chosen under Keys. A "
+            "start by itself is counted down, and Space takes it back."
+        )
+        start.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        start.body.addWidget(self.start)
         patient = self._card(self.tr("The patient’s view"))
         words = self.tr(
             "A second screen, or a window of its own, that shows the patient what to do. It opens from the screen one "
@@ -196,7 +212,7 @@ class SettingsScreen(QWidget):
         self._folded = (order, agreement, stream)
         self._pages: dict[Part, QVBoxLayout] = {part: QVBoxLayout() for part in get_args(Part)}
         cards: dict[Part, tuple[QWidget, ...]] = {
-            "camera": (), "measuring": (patient, self._limits), "report": (initials,), "safety": (data,),
+            "camera": (), "measuring": (start, patient, self._limits), "report": (initials,), "safety": (data,),
             "looks": (looks,), "keys": (keys,), "research": (research, *self._folded), "about": (about,),
         }  # fmt: skip
         titles: dict[Part, str] = {
@@ -301,6 +317,7 @@ class SettingsScreen(QWidget):
         self.angle_order.chosen.connect(lambda value: self._change(replace(self._preferences, angle_order=value)))
         self.stream.chosen.connect(lambda value: self._change(replace(self._preferences, stream=value)))
         self.research.toggled.connect(self._take_research)
+        self.start.chosen.connect(lambda value: self._change(replace(self._preferences, start=value)))
         self.patient_sound.chosen.connect(lambda value: self._change(replace(self._preferences, patient_sound=value)))
         self.therapist.editingFinished.connect(self._take_therapist)
         self.agreement.editingFinished.connect(self._take_agreement)
