@@ -27,6 +27,7 @@ from carpus.app.desktop.clinic import Clinic
 from carpus.app.desktop.comparing import Comparing
 from carpus.app.desktop.correcting import Correcting, Moments
 from carpus.app.desktop.courses import CourseRun, KeptSets
+from carpus.app.desktop.filming import Filming
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.measuring_flow import MeasuringFlow
 from carpus.app.desktop.navigation import Navigator, Stop
@@ -183,6 +184,7 @@ class Journey(QObject):
             theme=theme, therapist=lambda: self.settings.report.therapist, forms=self.forms,
             today=self._parts.today,
         )  # fmt: skip
+        self.filming = Filming(self._shell, tell, library, places, self.background, theme)
         self.entering_by_hand = ByHand(
             self, self.by_hand, self.way, tell, now, library, self.background,
             initials=lambda: self.settings.report.therapist, back=self._to_progress,
@@ -299,6 +301,7 @@ class Journey(QObject):
         self.viewing.stayed.connect(self.bar.show)
         self.review.report.connect(self.printing.session)
         self.review.export.connect(self.printing.export)
+        self.review.film.connect(self.filming.save)
         self.printing.formats.compare.connect(lambda: self.comparing.show(self.now.session_id))
         self.sessions.reference_wanted.connect(self._compare_listed)
         self.sessions.pair_wanted.connect(self.beside.show)

@@ -30,6 +30,7 @@ class Witness(QObject):
         library.log_fault = self.log_lost.emit
         journey.way.arrived.connect(self._arrived)
         journey.printing.reported.connect(lambda path, sessions: self._made(path, "report", sessions))
+        journey.filming.filmed.connect(lambda path, sessions: self._made(path, "export", sessions))
         journey.printing.tabled.connect(lambda path, sessions: self._made(path, "export", sessions))
         journey.beside.tabled.connect(lambda paths, sessions: library.made(paths, "export", sessions))
         journey.comparing.saved.connect(lambda paths, sessions: library.made(paths, "export", sessions))

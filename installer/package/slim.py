@@ -1,9 +1,9 @@
 """Takes out of a packed folder what OpenCV links against and Carpus never calls (Linux).
 
-OpenCV's library is bound to video codecs, an old TLS library beside them and a second OpenBLAS: 75 MB, and code that
-nobody here looks after. Carpus reads single pictures. In their place come libraries of a few kilobytes with the same
-names: those of the codecs end the program if they were ever called; that of OpenBLAS hands every call to SciPy's
-OpenBLAS, whose functions are the same with a prefix.
+OpenCV's libraries are bound to the AV1 codec, an old TLS library and a second OpenBLAS: code that nobody here looks
+after. Carpus reads single pictures, and writes films in MPEG-4 into files: those codecs stay. In place of the rest come
+libraries of a few kilobytes with the same names: that of AV1 refuses; those of TLS end the program if they were ever
+called; that of OpenBLAS hands every call to SciPy's OpenBLAS, whose functions are the same with a prefix.
 """
 
 from __future__ import annotations
@@ -15,15 +15,13 @@ from collections import defaultdict
 from pathlib import Path
 
 CODECS = {
-    "libavcodec": "cv2/cv2.abi3.so",
-    "libavformat": "cv2/cv2.abi3.so",
-    "libavutil": "cv2/cv2.abi3.so",
-    "libswscale": "cv2/cv2.abi3.so",
+    "libssl": "opencv_python_headless.libs/libavformat-*",
+    "libcrypto": "opencv_python_headless.libs/libav[fu]*",
     "libaom": "opencv_python_headless.libs/libavif-*",
 }
 """And who names them. libavif stays: every picture is shown to it; where one is its own it finds no decoder."""
-BEHIND = ("libvpx", "libcrypto", "libssl", "libswresample", "libdrm", "libgfortran", "libquadmath")
-"""What only these and its OpenBLAS name."""
+BEHIND = ("libgfortran", "libquadmath")
+"""What only its OpenBLAS names."""
 REFUSING = ("aom_codec_dec_init_ver", "aom_codec_enc_init_ver")
 """Asked when somebody hands in an AVIF picture: the answer is an error, not the end of the program."""
 
@@ -83,8 +81,7 @@ def _function(name: str) -> str:
 def without_codecs(parts: Path) -> None:
     """Replace the codecs by libraries that only have the names that OpenCV binds to."""
     for name, asker in CODECS.items():
-        (asking,) = parts.glob(asker)
-        wanted = wanted_symbols(asking)
+        wanted = {symbol for asking in parts.glob(asker) for symbol in wanted_symbols(asking)}
         (library,) = (parts / "opencv_python_headless.libs").glob(f"{name}-*")
         asked: dict[str, list[str]] = defaultdict(list)
         for symbol, version in offered_symbols(library).items():

@@ -1760,6 +1760,14 @@
         <translation>Nächstes zweifelhaftes Bild</translation>
     </message>
     <message>
+        <source>The angle drawn on the picture</source>
+        <translation>Der Winkel ins Bild gezeichnet</translation>
+    </message>
+    <message>
+        <source>This repetition as a film</source>
+        <translation>Diese Wiederholung als Film</translation>
+    </message>
+    <message>
         <source>Tick a session to be compared</source>
         <translation>Sitzung zum Vergleichen ankreuzen</translation>
     </message>
@@ -6220,6 +6228,10 @@
         <translation>kein Punkt der Handfläche und kein Winkel von Handgelenk oder Fingern ist darin</translation>
     </message>
     <message>
+        <source>no film can be written on this computer</source>
+        <translation>auf diesem Computer kann kein Film geschrieben werden</translation>
+    </message>
+    <message>
         <source>no intrinsics for pictures of {size}</source>
         <translation>keine Kamerawerte für Bilder mit {size}</translation>
     </message>
@@ -6430,6 +6442,10 @@
     <message>
         <source>the wedge’s side with two discs here</source>
         <translation>Keilseite mit zwei Punkten hier</translation>
+    </message>
+    <message>
+        <source>there is no picture of it</source>
+        <translation>es gibt kein Bild davon</translation>
     </message>
     <message>
         <source>there is no such file</source>
@@ -9259,6 +9275,52 @@
     </message>
 </context>
 <context>
+    <name>FilmSheet</name>
+    <message>
+        <source>The hand alone, with its angle: face and room are cut away, there is no sound and no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
+        <translation>Die Hand allein, mit ihrem Winkel: Gesicht und Raum sind weggeschnitten, ohne Ton und Namen. Wo die Bewegung nicht in der Bildebene liegt, steht der Winkel nur in Worten.</translation>
+    </message>
+    <message>
+        <source>Speed</source>
+        <translation>Geschwindigkeit</translation>
+    </message>
+    <message>
+        <source>Whoever has the file can watch it: Carpus cannot protect it there. It is noted in the log.</source>
+        <translation>Wer die Datei hat, kann sie ansehen: Dort kann Carpus sie nicht schützen. Es steht im Protokoll.</translation>
+    </message>
+    <message>
+        <source>Part of it is doubtful: another repetition ([ and ]) makes a film.</source>
+        <translation>Ein Teil davon ist zweifelhaft: Eine andere Wiederholung ([ und ]) ergibt einen Film.</translation>
+    </message>
+    <message>
+        <source>The patient has agreed to this film</source>
+        <translation>Der Patient hat diesem Film zugestimmt</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Save film…</source>
+        <translation>Film speichern…</translation>
+    </message>
+    <message>
+        <source>Film of repetition {number}</source>
+        <translation>Film der Wiederholung {number}</translation>
+    </message>
+</context>
+<context>
+    <name>Filming</name>
+    <message>
+        <source>Save film</source>
+        <translation>Film speichern</translation>
+    </message>
+</context>
+<context>
     <name>FingerCurves</name>
     <message>
         <source>Joint angles of the last ten seconds, by finger</source>
@@ -11810,6 +11872,22 @@ Umschalt+F8 von der Seite</translation>
         <translation>Ein Marker ist hier falsch oder fehlt (Umschalt+F10)</translation>
     </message>
     <message>
+        <source>Angle</source>
+        <translation>Winkel</translation>
+    </message>
+    <message>
+        <source>The angle drawn on the picture (A)</source>
+        <translation>Der Winkel ins Bild gezeichnet (A)</translation>
+    </message>
+    <message>
+        <source>Film…</source>
+        <translation>Film…</translation>
+    </message>
+    <message>
+        <source>This repetition as a film of the hand alone (F)</source>
+        <translation>Diese Wiederholung als Film der Hand allein (F)</translation>
+    </message>
+    <message>
         <source>Reading the session…</source>
         <translation>Sitzung wird gelesen…</translation>
     </message>
@@ -11844,6 +11922,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Ways of the joints: {finger}</source>
         <translation>Wege der Gelenke: {finger}</translation>
+    </message>
+    <message>
+        <source>Not in the picture’s plane: not drawn</source>
+        <translation>Nicht in der Bildebene: nicht gezeichnet</translation>
     </message>
     <message>
         <source>Repetition {number} of {count} · {time}</source>

@@ -1760,6 +1760,14 @@
         <translation>Immagine dubbia seguente</translation>
     </message>
     <message>
+        <source>The angle drawn on the picture</source>
+        <translation>L’angolo disegnato sull’immagine</translation>
+    </message>
+    <message>
+        <source>This repetition as a film</source>
+        <translation>Questa ripetizione come filmato</translation>
+    </message>
+    <message>
         <source>Tick a session to be compared</source>
         <translation>Seleziona una seduta da confrontare</translation>
     </message>
@@ -6216,6 +6224,10 @@
         <translation>non contiene dischetti del palmo né angoli del polso o delle dita</translation>
     </message>
     <message>
+        <source>no film can be written on this computer</source>
+        <translation>su questo computer non si può scrivere un filmato</translation>
+    </message>
+    <message>
         <source>no intrinsics for pictures of {size}</source>
         <translation>nessun valore interno della telecamera per immagini di {size}</translation>
     </message>
@@ -6426,6 +6438,10 @@
     <message>
         <source>the wedge’s side with two discs here</source>
         <translation>qui il lato del cuneo con due dischetti</translation>
+    </message>
+    <message>
+        <source>there is no picture of it</source>
+        <translation>non ce n’è nessuna immagine</translation>
     </message>
     <message>
         <source>there is no such file</source>
@@ -9259,6 +9275,52 @@
     </message>
 </context>
 <context>
+    <name>FilmSheet</name>
+    <message>
+        <source>The hand alone, with its angle: face and room are cut away, there is no sound and no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
+        <translation>Solo la mano, con il suo angolo: viso e stanza sono tagliati via, senza suono né nome. Dove il movimento non giace nell’immagine, l’angolo è detto solo a parole.</translation>
+    </message>
+    <message>
+        <source>Speed</source>
+        <translation>Velocità</translation>
+    </message>
+    <message>
+        <source>Whoever has the file can watch it: Carpus cannot protect it there. It is noted in the log.</source>
+        <translation>Chi ha il file può vederlo: lì Carpus non può proteggerlo. È annotato nel registro.</translation>
+    </message>
+    <message>
+        <source>Part of it is doubtful: another repetition ([ and ]) makes a film.</source>
+        <translation>Una parte è dubbia: un’altra ripetizione ([ e ]) dà un filmato.</translation>
+    </message>
+    <message>
+        <source>The patient has agreed to this film</source>
+        <translation>Il paziente ha acconsentito a questo filmato</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annulla</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Save film…</source>
+        <translation>Salva filmato…</translation>
+    </message>
+    <message>
+        <source>Film of repetition {number}</source>
+        <translation>Filmato della ripetizione {number}</translation>
+    </message>
+</context>
+<context>
+    <name>Filming</name>
+    <message>
+        <source>Save film</source>
+        <translation>Salva filmato</translation>
+    </message>
+</context>
+<context>
     <name>FingerCurves</name>
     <message>
         <source>Joint angles of the last ten seconds, by finger</source>
@@ -11810,6 +11872,22 @@ Maiusc+F8 di lato</translation>
         <translation>Qui un marcatore è sbagliato o manca (Maiusc+F10)</translation>
     </message>
     <message>
+        <source>Angle</source>
+        <translation>Angolo</translation>
+    </message>
+    <message>
+        <source>The angle drawn on the picture (A)</source>
+        <translation>L’angolo disegnato sull’immagine (A)</translation>
+    </message>
+    <message>
+        <source>Film…</source>
+        <translation>Filmato…</translation>
+    </message>
+    <message>
+        <source>This repetition as a film of the hand alone (F)</source>
+        <translation>Questa ripetizione come filmato della sola mano (F)</translation>
+    </message>
+    <message>
         <source>Reading the session…</source>
         <translation>Lettura della seduta…</translation>
     </message>
@@ -11844,6 +11922,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Ways of the joints: {finger}</source>
         <translation>Percorsi delle articolazioni: {finger}</translation>
+    </message>
+    <message>
+        <source>Not in the picture’s plane: not drawn</source>
+        <translation>Non nel piano dell’immagine: non disegnato</translation>
     </message>
     <message>
         <source>Repetition {number} of {count} · {time}</source>

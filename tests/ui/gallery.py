@@ -573,6 +573,19 @@ class Gallery:
         self.settle()
         screen.end()
 
+    def review_angle(self) -> None:
+        """The angle drawn on the picture."""
+        self.review()
+        self._guided(ReviewScreen).angle_button.click()
+        self.settle()
+
+    def review_film(self) -> None:
+        self.review()
+        screen = self._guided(ReviewScreen)
+        screen.film_sheet.begin(4)
+        screen.film_sheet.agreed.click()
+        self.settle()
+
     def review_reason(self) -> None:
         self.review()
         screen = self._guided(ReviewScreen)
@@ -1091,6 +1104,7 @@ class Gallery:
             "patient_view_lost", "patient_view_rest", "exercise_sets", "exercise_goals",
             "live_pain", "live_camera_lost", "review", "review_hand", "review_passive",
             "review_passive_hand", "review_reason",
+            "review_angle", "review_film",
             "review_path", "review_speeds", "review_zyz", "review_hand_finger",
             "review_reach", "review_opposition", "review_finger_ways",
             "correct", "correct_spots", "agreement", "agreement_curves", "agreement_goniometer", "agreement_hand",

@@ -44,6 +44,7 @@ from carpus.ui.records.ports import ListedRecord
 from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_sheet import LetterSheet
 from carpus.ui.retest.people_sheet import PeopleSheet
+from carpus.ui.review.film import FilmSheet
 from carpus.ui.review.reason import ReasonSheet
 from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
 from carpus.ui.setup.set_sheet import SetSheet
@@ -113,6 +114,7 @@ SHEETS: dict[type[Sheet], Callable[[QWidget, Theme], Opened]] = {
     HomeSheet: _home,
     LetterSheet: _opened(LetterSheet, "Show the letter", ["Dr A"], has_name=True),
     PeopleSheet: _opened(PeopleSheet, "These take part", [("a", "P01", 2)], []),
+    FilmSheet: _opened(FilmSheet, "Cancel", 4),
     ReasonSheet: _opened(ReasonSheet, "Keep it in", 3),
     SetAsideSheet: _opened(SetAsideSheet, "Let it count"),
     ChooseSheet: _opened(ChooseSheet, "Leave it as it is", "To whom?", "", "Move it there", [("a", "Heron 17")]),

@@ -44,6 +44,7 @@ STATES = (
     "live_hand_thumb_hidden", "live_hand_fist",
     "live_hand_not_found", "live_arm_moved", "live_disk_full", "live_note", "live_pain", "live_camera_lost", "review",
     "review_hand", "review_passive", "review_passive_hand", "review_reason",
+    "review_angle", "review_film",
     "review_path", "review_speeds", "review_zyz", "review_hand_finger", "review_reach",
     "review_opposition", "review_finger_ways", "correct", "correct_spots",
     "agreement", "agreement_curves", "agreement_goniometer", "agreement_hand", "agreement_running",

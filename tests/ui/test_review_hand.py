@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -145,7 +146,16 @@ def test_the_skeleton_goes_from_the_wrist_to_each_tip(store: FakeHandSessions) -
     assert np.isnan(places[session.status == 2]).all()
 
 
-def test_the_places_are_final_before_the_session_is_read(qtbot: QtBot, theme: Theme, store: FakeHandSessions) -> None:
+def test_the_places_are_final_before_the_session_is_read(
+    qtbot: QtBot, theme: Theme, store: FakeHandSessions, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    may_read, session = threading.Event(), store.session
+
+    def read(session_id: str) -> Session:
+        assert may_read.wait(60.0)
+        return session(session_id)
+
+    monkeypatch.setattr(store, "session", read)
     background = Background()
     screen = ReviewScreen(theme, Keys(), background, store)
     qtbot.addWidget(screen)
@@ -160,7 +170,8 @@ def test_the_places_are_final_before_the_session_is_read(qtbot: QtBot, theme: Th
     screen.begin("linden", "hand-7", whole_hand=True)
     before = places()
     assert not screen.shown
-    qtbot.waitUntil(lambda: screen.shown and not background.busy)
+    may_read.set()
+    qtbot.waitUntil(lambda: screen.shown and not background.busy, timeout=60_000)
     assert places() == before
     screen.end()
 

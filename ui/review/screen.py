@@ -15,6 +15,7 @@ from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QScrollArea, QVBoxLayout,
 from carpus.core.by_hand.values import HandValue, of_session
 from carpus.core.output.camera_said import UNKNOWN_CAMERA, CameraSaid
 from carpus.core.output.exercises import FLEXION, SIDES
+from carpus.core.output.hand_cutout import drawn_angle
 from carpus.core.output.joint_content import JointCurves, joint_curves
 from carpus.core.output.motion_curves import MotionCurves, motion_curves
 from carpus.core.output.repetition_rows import PASSIVE
@@ -30,13 +31,13 @@ from carpus.core.output.report_content import (
 )
 from carpus.core.output.side_by_side import partner_of
 from carpus.core.session.values import Session
-from carpus.core.types import ByteImage, FloatArray
+from carpus.core.types import ByteImage, FloatArray, TrackStatus
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import ScrolledColumn
-from carpus.ui.controls.field import Choices
+from carpus.ui.controls.field import ChoiceButton, Choices
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Text
 from carpus.ui.controls.tooltip import plain_tooltip
 from carpus.ui.controls.words_table import WordsTable
@@ -57,6 +58,7 @@ from carpus.ui.report.hand_rows import column_heads, finger_rows, limits_words
 from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.tables import column_names, repetition_words, table_rows
 from carpus.ui.report.words import corrected_words
+from carpus.ui.review.film import FilmSheet, FilmWanted, paint_angle
 from carpus.ui.review.further_table import FurtherTable
 from carpus.ui.review.hand_table import HandTable
 from carpus.ui.review.player import Player
@@ -93,7 +95,8 @@ class Reviewed:
 class ReviewScreen(QWidget):
     """``report`` and ``export`` carry the session's identity, ``beside`` with it that of the session to be held against
     it; ``told`` a fault; ``again`` asks for another set; ``arrived`` when a session is on the screen; ``correct``
-    carries the session and the row whose markers are to be put right, ``result`` another result of the recording."""
+    carries the session and the row whose markers are to be put right, ``result`` another result of the recording,
+    ``film`` a repetition to be written as a film."""
 
     report = Signal(str)
     beside = Signal(str, str)
@@ -101,6 +104,7 @@ class ReviewScreen(QWidget):
     again = Signal()
     correct = Signal(str, object, int)
     result = Signal(str)
+    film = Signal(FilmWanted)
     told = Signal(object)
     arrived = Signal()
 
@@ -158,12 +162,24 @@ class ReviewScreen(QWidget):
         self.correct_button.setProperty("floats", True)
         self.correct_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.correct_button.setToolTip(self.tr("A marker is wrong or missing here (Shift+F10)"))
+        self.angle_button = ChoiceButton(theme, self.tr("Angle"))
+        self.angle_button.setToolTip(self.tr("The angle drawn on the picture (A)"))
+        self.angle_button.toggled.connect(lambda _: self.picture.update())
+        self.angle_button.toggled.connect(lambda _: self._place_button())
+        self.film_button = Button(theme, self.tr("Film…"), "plain", height_px=36)
+        self.film_button.setToolTip(self.tr("This repetition as a film of the hand alone (F)"))
+        for button in (self.angle_button, self.film_button):
+            button.setParent(self.picture)
+            button.setProperty("floats", True)
+            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+            button.hide()
         self.correct_button.hide()
         self.picture.installEventFilter(self)
         self.results = ResultChoice(theme)
         self.bubble = BubbleView(theme, wide=True)
         self._is_hand = False
         self.reason = ReasonSheet(self, theme)
+        self.film_sheet = FilmSheet(self, theme)
         self._lay_out()
         self._connect(keys)
         # At once, and again when every part has taken its new size.
@@ -286,6 +302,8 @@ class ReviewScreen(QWidget):
         self.count_button.clicked.connect(self.toggle_counted)
         self.beside_button.clicked.connect(self._ask_beside)
         self.correct_button.clicked.connect(self.correct_here)
+        self.film_button.clicked.connect(self.ask_film)
+        self.film_sheet.wanted.connect(self._film)
         self.results.chosen.connect(self.result)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
@@ -298,6 +316,7 @@ class ReviewScreen(QWidget):
             "edge_on": lambda: self.nudge_edge(EDGE_STEP_S), "report": self.report_button.click,
             "export": self.export_button.click, "plot_in": self.curves.zoom_in, "plot_out": self.curves.zoom_out,
             "plot_all": self.curves.show_all, "correct": self.correct_here, "beside": self.beside_button.click,
+            "angle": self.angle_button.click, "film": self.ask_film,
         }  # fmt: skip
         for name, action in actions.items():
             bind(self, keys, name, action)
@@ -367,6 +386,8 @@ class ReviewScreen(QWidget):
         self.picture.set_hand_area(session.calibration.clicks.pixel)
         self.results.show_results(reviewed.results, self._session_id)
         self.correct_button.show()
+        self.angle_button.show()
+        self.film_button.hide()  # until there is a picture of it
         self._place_button()
         self._compute()
         counted = (
@@ -581,9 +602,22 @@ class ReviewScreen(QWidget):
             self.correct.emit(self._session_id, self._session, self._row)
 
     def _place_button(self) -> None:
-        button = self.correct_button
+        """Below on the picture; where they have no room beside each other, the two at the right go one row up."""
+        button, right = self.correct_button, self.picture.width() - 12
         button.adjustSize()
         button.move(12, self.picture.height() - button.height() - 12)
+        others = (self.film_button, self.angle_button)
+        wide = 0
+        for other in others:
+            other.adjustSize()
+            wide += other.width() + 8
+        top = self.picture.height() - others[0].height() - 12
+        if right - wide < button.geometry().right():
+            top -= button.height() + 8
+        for other in others:
+            right -= other.width()
+            other.move(right, top + others[0].height() - other.height())
+            right -= 8
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if watched is self.picture:
@@ -593,6 +627,63 @@ class ReviewScreen(QWidget):
                 self.correct_here()
                 return True
         return False
+
+    # --- film ---------------------------------------------------------------------------------------------
+    def _rows(self) -> range:
+        """Rows of the current repetition."""
+        if self.figures is None or self._curves is None or self._current < 0:
+            return range(0)
+        one = self.figures.repetitions[self._current]
+        first, last = np.searchsorted(self._curves.time_s, (one.start_s, one.end_s))
+        return range(int(first), int(last))
+
+    def ask_film(self) -> None:
+        """Whether, and how fast, the current repetition becomes a film; only where its pictures were kept."""
+        rows = self._rows()
+        if self._curves is None or not rows or self.film_button.isHidden():
+            return
+        self._stop()
+        doubtful = bool((self._curves.status[rows.start : rows.stop] == TrackStatus.DOUBTFUL).any())
+        self.film_sheet.begin(self._current + 1, doubtful=doubtful)
+
+    def _film(self, factor: float) -> None:
+        rows, session, curves = self._rows(), self._session, self._curves
+        if session is None or curves is None or self.figures is None or not rows:
+            return
+        rate_hz = factor * len(rows) / max(float(curves.time_s[rows.stop - 1] - curves.time_s[rows.start]), 1e-3)
+        exercise, words = self.figures.exercise, {row: self._angle_words(row) for row in rows}
+        self.film.emit(
+            FilmWanted(session, self._session_id, self._current + 1, rows, rate_hz, exercise, lambda row: words[row])
+        )
+
+    def _angle_words(self, row: int) -> str:
+        """``Flexion 24° ± 2°``: the trained angle of a row that was measured, else nothing."""
+        if self._curves is None or self.figures is None or self._curves.status[row] != TrackStatus.TRACKED:
+            return ""
+        exercise, joints = self.figures.exercise, self._joints
+        if joints is not None and exercise.joint in joints.names:
+            column = joints.names.index(exercise.joint)
+            value, sd = float(joints.angles_deg[row, column]), float(joints.sds_deg[row, column])
+            name = figure_of(exercise.joint).long_name
+        else:
+            column = FLEXION if exercise.angle is None else exercise.angle
+            value, sd = float(self._curves.angles_deg[row, column]), float(self._curves.sds_deg[row, column])
+            name = terms.movement_name(SIDES[column][0 if value >= 0 else 1])
+        return f"{name} {numbers.with_spread(value, sd)}" if math.isfinite(value) else ""
+
+    def _paint_angle(self, painter: QPainter, picture: PictureView) -> None:
+        """The trained angle on the picture, or why it is not drawn."""
+        assert self._session is not None
+        assert self.figures is not None
+        found = drawn_angle(self._session, self._row, self.figures.exercise)
+        if found is not None:
+            paint_angle(painter, found, picture.to_screen)
+        said = self._angle_words(self._row) if self._joints is not None else ""
+        if found is None:
+            why = self.tr("Not in the picture’s plane: not drawn")
+            said = f"{said} · {why}" if said else why
+        if said:
+            paint_label(painter, self._theme, said, 12, 12 + 1.4 * painter.fontMetrics().height())
 
     # --- corrections --------------------------------------------------------------------------------------
     def toggle_left_out(self) -> None:
@@ -654,6 +745,7 @@ class ReviewScreen(QWidget):
             if session_id != self._session_id or self._session is None:
                 return  # another session is being read
             if picture is not None:
+                self.film_button.show()
                 self.picture.show_frame(picture)
                 if self._row != asked:
                     self._ask_picture(self._row)
@@ -677,9 +769,11 @@ class ReviewScreen(QWidget):
         spots = np.where(np.isfinite(measured), measured, modelled)
         if self._modelled_px is not None:
             self._paint_hand(painter, picture, spots, np.isfinite(measured[:, 0]))
-            return
-        paint_palm(painter, picture, spots, np.isfinite(measured[:, 0]))
-        self._paint_labels(painter, picture)
+        else:
+            paint_palm(painter, picture, spots, np.isfinite(measured[:, 0]))
+            self._paint_labels(painter, picture)
+        if self.angle_button.isChecked():
+            self._paint_angle(painter, picture)
 
     def _paint_hand(self, painter: QPainter, picture: PictureView, spots: FloatArray, seen: np.ndarray) -> None:
         """Skeleton, and the way of the fingertips in the second before."""

@@ -1,0 +1,49 @@
+"""A repetition as a film: asked where to, written beside the window, noted like everything that leaves Carpus."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QWidget
+
+from carpus.app.desktop.files_written import tell_written
+from carpus.app.desktop.last_places import LastPlaces
+from carpus.app.desktop.ways import Tell
+from carpus.core.formats.film import write_film
+from carpus.core.library.library import Library
+from carpus.ui.background import Background
+from carpus.ui.review.film import FilmWanted, film_pictures
+from carpus.ui.theme import Theme
+
+
+class Filming(QObject):
+    """``filmed`` carries the path and the sessions that are in it."""
+
+    filmed = Signal(str, object)
+
+    def __init__(
+        self, window: QWidget, tell: Tell, library: Library, places: LastPlaces, background: Background, theme: Theme
+    ) -> None:
+        super().__init__(window)
+        self._window, self._tell, self._library = window, tell, library
+        self._places, self._background, self._theme = places, background, theme
+
+    def save(self, wanted: FilmWanted) -> None:
+        """Ask for a name and write it."""
+        session_id = wanted.session_id
+        name = f"carpus-{wanted.session.header.when:%Y-%m-%d}-{wanted.number}.mp4"
+        path = self._places.ask_where_to_save(self._window, "exports", name, self.tr("Save film"), "MP4 (*.mp4)")
+        if path is None:
+            return
+        target = path if path.suffix.lower() == ".mp4" else path.with_name(f"{path.name}.mp4")
+
+        def write() -> Path:
+            pictures = film_pictures(self._theme, wanted, lambda row: self._library.picture(session_id, row))
+            return write_film(target, pictures, wanted.rate_hz)
+
+        def written(done: Path) -> None:
+            self.filmed.emit(str(done), [session_id])
+            tell_written(self._tell, str(done.parent), [done.name])
+
+        self._background.run(write, written, self._tell.fault, self)

@@ -1,0 +1,45 @@
+"""A film as MP4, by OpenCV; without sound, and without anything that says whose it is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import cv2
+
+from carpus.core.errors import OutputNotWritable
+from carpus.core.phrase import phrase
+from carpus.core.types import ByteImage
+
+CODE = "mp4v"
+"""MPEG-4 part 2: what OpenCV itself brings the means for on every system."""
+
+
+def write_film(path: Path, pictures: Iterable[ByteImage], rate_hz: float) -> Path:
+    """Write pictures of one even size, RGB, at a rate; a file that is there is replaced when all is written.
+
+    Raises :class:`OutputNotWritable`; nothing half-written stays.
+    """
+    part = path.with_name(f".{path.stem}.part.mp4")
+    writer = None
+    try:
+        part.touch(mode=0o600)
+        for picture in pictures:
+            if writer is None:
+                size = (picture.shape[1], picture.shape[0])
+                writer = cv2.VideoWriter(str(part), cv2.VideoWriter_fourcc(*CODE), rate_hz, size)  # type: ignore[attr-defined]
+                if not writer.isOpened():
+                    raise OutputNotWritable(path, phrase("no film can be written on this computer"))
+            writer.write(cv2.cvtColor(picture, cv2.COLOR_RGB2BGR))
+        if writer is None:
+            raise OutputNotWritable(path, phrase("there is no picture of it"))
+        writer.release()
+        part.replace(path)
+        path.chmod(0o600)
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
+    finally:
+        if writer is not None:
+            writer.release()
+        part.unlink(missing_ok=True)
+    return path

@@ -1,0 +1,147 @@
+"""The hand alone out of a camera picture, and where its trained angle lies in it; face and room are never in it.
+
+Pixels of the colour picture. What is not within a few centimetres of the hand, as the tracked discs say where it is, is
+one flat grey; where the hand was lost nothing is shown.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from carpus.core import so3
+from carpus.core.output.exercises import DEVIATION, FLEXION, Exercise
+from carpus.core.output.range_rows import best_motion
+from carpus.core.session.values import Session
+from carpus.core.types import ByteImage, FloatArray, TrackStatus
+
+MARGIN_M = 0.03
+"""So much around the hand stays."""
+FINGER_SHARE, THUMB_SHARE, ARM_SHARE = 1.25, 0.9, 0.5
+"""Where no disc is on the fingers: how far they reach beyond the knuckles, the thumb beside its base, and how much of
+the forearm stays, as parts of the way from the wrist to the middle knuckle."""
+FLAT = 34
+"""The grey of what is cut away."""
+MOST_TILT_DEG = 20.0
+"""Between a movement's axis and the line of sight: beyond it an angle on the picture would look too small."""
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnAngle:
+    """An angle on the picture: from ``vertex`` towards ``zero`` it is 0, towards ``hand`` as it stands; pixels (2,)."""
+
+    vertex: FloatArray
+    zero: FloatArray
+    hand: FloatArray
+
+
+def discs_px(session: Session, row: int) -> FloatArray:
+    """Where the discs are, (M, 2): measured, else as the model has them; NaN while lost."""
+    out = np.array(session.markers.measured_px[row], dtype=float)
+    places = session.markers.position_cam_m[row]
+    hidden = ~np.isfinite(out).all(axis=1) & np.isfinite(places).all(axis=1)
+    if hidden.any():
+        out[hidden] = session.camera.distort(session.camera.project(places[hidden]))
+    return out
+
+
+def _outline(session: Session, row: int) -> tuple[FloatArray, float] | None:
+    """Points (K, 2) that hold the hand, and how many pixels around them stay; None while it is lost."""
+    spots, depth = discs_px(session, row), session.markers.position_cam_m[row][:, 2]
+    names = session.header.protocol.markers
+    if session.status[row] == TrackStatus.LOST or not np.isfinite(spots).all() or not np.isfinite(depth).any():
+        return None
+    at = dict(zip(names, spots, strict=True))
+    wrist, middle = at["WRIST"], at["MCP3"]
+    palm = float(np.linalg.norm(middle - wrist))
+    points = [*spots, wrist + ARM_SHARE * (wrist - middle)]
+    for k in (2, 3, 4, 5):
+        if f"TIP{k}" not in at:
+            along = at[f"MCP{k}"] - wrist
+            points.append(at[f"MCP{k}"] + FINGER_SHARE * palm * along / max(float(np.linalg.norm(along)), 1.0))
+    if "TIP1" not in at:
+        away = at["CMC1"] - at["MCP5"]
+        side = away / max(float(np.linalg.norm(away)), 1.0)
+        points += [at["CMC1"] + THUMB_SHARE * palm * side, at["MCP2"] + THUMB_SHARE * palm * side]
+    return np.array(points), MARGIN_M * float(session.camera.matrix[0, 0]) / float(np.nanmedian(depth))
+
+
+def box_of(session: Session, rows: Sequence[int]) -> tuple[int, int, int, int]:
+    """Left, top, right and lower edge that hold the hand throughout, even sizes; all 0 where it was never seen."""
+    low, high = np.full(2, np.inf), np.full(2, -np.inf)
+    for row in rows:
+        if (found := _outline(session, row)) is not None:
+            points, margin = found
+            low, high = np.minimum(low, points.min(axis=0) - margin), np.maximum(high, points.max(axis=0) + margin)
+    if not np.isfinite(low).all():
+        return 0, 0, 0, 0
+    size = np.array([session.camera.width_px, session.camera.height_px])
+    left, top = np.clip(np.floor(low), 0, size).astype(int)
+    right, foot = np.clip(np.ceil(high), 0, size).astype(int)
+    return int(left), int(top), int(right - (right - left) % 2), int(foot - (foot - top) % 2)
+
+
+def cut_out(picture: ByteImage, session: Session, row: int, box: tuple[int, int, int, int]) -> ByteImage:
+    """The part of a picture in a box, with nothing in it but the hand of that row."""
+    left, top, right, foot = box
+    out = np.full((foot - top, right - left, 3), FLAT, np.uint8)
+    found = _outline(session, row)
+    if found is None:
+        return out
+    points, margin = found
+    mask = np.zeros(picture.shape[:2], np.uint8)
+    hull = cv2.convexHull(points.astype(np.float32)).astype(np.int32)
+    cv2.fillConvexPoly(mask, hull, 1)
+    cv2.polylines(mask, [hull], True, 1, thickness=max(2 * round(margin), 1))
+    inside = mask[top:foot, left:right].astype(bool)
+    out[inside] = picture[top:foot, left:right][inside]
+    return out
+
+
+def drawn_angle(session: Session, row: int, exercise: Exercise) -> DrawnAngle | None:
+    """Where the trained angle lies on the picture; None where it does not lie in it, or the row was not measured."""
+    if session.status[row] != TrackStatus.TRACKED:
+        return None
+    spots = dict(zip(session.header.protocol.markers, discs_px(session, row), strict=True))
+    places = dict(zip(session.header.protocol.markers, session.markers.position_cam_m[row], strict=True))
+    if exercise.angle in (DEVIATION, FLEXION) and session.calibration.start_angles_rad[exercise.angle] == 0.0:
+        return _of_wrist(session, row, exercise.angle, spots["WRIST"], spots["MCP3"])
+    joint = exercise.joint.partition("_")
+    names = {"MCP": ("WRIST", "MCP", "PIP"), "PIP": ("MCP", "PIP", "DIP")}.get(joint[0][:3])
+    if names is None or joint[2] != "flexion" or not session.header.joint_names:
+        return None
+    before, at, after = (name if name == "WRIST" else f"{name}{joint[0][3:]}" for name in names)
+    if not np.isfinite([places[name] for name in (before, at, after)]).all():
+        return None
+    normal = np.cross(places[at] - places[before], places[after] - places[at])
+    size = float(np.linalg.norm(normal))
+    if size < 1e-9 or not _faces(normal / size):
+        return None
+    along = spots[at] - spots[before]
+    length = float(np.linalg.norm(spots[after] - spots[at]))
+    return DrawnAngle(spots[at], spots[at] + length * along / max(float(np.linalg.norm(along)), 1.0), spots[after])
+
+
+def _of_wrist(
+    session: Session, row: int, angle: int, wrist_px: FloatArray, knuckle_px: FloatArray
+) -> DrawnAngle | None:
+    motion = best_motion(session)
+    to_camera = session.calibration.rotation_w0_cam @ so3.exp(np.nan_to_num(motion.w0_turn_rad[row]))
+    axis = to_camera[:, 1 if angle == FLEXION else 2]
+    if not np.isfinite(wrist_px).all() or not np.isfinite(knuckle_px).all() or not _faces(axis):
+        return None
+    length = 1.6 * float(np.linalg.norm(knuckle_px - wrist_px))
+    ends = []
+    for direction in (to_camera[:, 0], to_camera @ motion.rotation_w2_w0[row][:, 0]):
+        flat = direction[:2]
+        ends.append(wrist_px + length * flat / max(float(np.linalg.norm(flat)), 1e-9))
+    return DrawnAngle(wrist_px, ends[0], ends[1])
+
+
+def _faces(axis_cam: FloatArray) -> bool:
+    """Whether a movement about an axis (3,) in camera axes lies in the picture."""
+    return abs(float(axis_cam[2])) >= math.cos(math.radians(MOST_TILT_DEG))

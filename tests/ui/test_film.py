@@ -1,0 +1,183 @@
+"""A repetition as a film: the hand alone, opened by another reader; the angle where it lies in the picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from carpus.app.desktop.filming import Filming
+from carpus.core.errors import OutputNotWritable
+from carpus.core.formats.film import write_film
+from carpus.core.output.exercises import exercise_named
+from carpus.core.output.hand_cutout import FLAT, box_of, cut_out, drawn_angle
+from carpus.core.session.values import Session
+from carpus.core.types import ByteImage, TrackStatus
+from carpus.ui.background import Background
+from carpus.ui.keys import Keys
+from carpus.ui.review.film import FilmWanted, film_pictures
+from carpus.ui.review.screen import ReviewScreen
+from carpus.ui.theme import Theme
+from tests.ui.fakes import FakeSessions, session
+
+ROWS = range(30, 90)
+FACE = (255, 0, 255)
+
+
+def room(_: int = 0) -> ByteImage:
+    """A picture that is a face all over, so that whatever of it stays is seen."""
+    return np.full((480, 640, 3), FACE, np.uint8)
+
+
+@pytest.fixture(scope="module")
+def side() -> Session:
+    return session(exercise="WRIST_RU", motion="deviation", seconds=20.0, speed_hz=0.16)
+
+
+def test_only_what_is_near_the_hand_stays(side: Session) -> None:
+    box = box_of(side, ROWS)
+    left, top, right, foot = box
+    assert (right - left) % 2 == 0
+    assert (foot - top) % 2 == 0
+    for row in ROWS[::10]:
+        alone = cut_out(room(), side, row, box)
+        kept = (alone == FACE).all(axis=2)
+        assert (alone[~kept] == FLAT).all()
+        discs = np.round(side.markers.measured_px[row] - (left, top)).astype(int)
+        assert kept[discs[:, 1], discs[:, 0]].all(), "the hand is there"
+        far = np.argwhere(kept)[:, ::-1] + (left, top)
+        reach = np.linalg.norm(far[:, None] - side.markers.measured_px[row][None], axis=2).min(axis=1)
+        palm = float(np.linalg.norm(side.markers.measured_px[row][3] - side.markers.measured_px[row][0]))
+        assert reach.max() < 2.2 * palm, "no more of the room than fingers may reach"
+        assert kept.sum() < 0.5 * room().shape[0] * room().shape[1]
+    status = np.array(side.status)
+    status[ROWS[0]] = TrackStatus.LOST
+    assert (cut_out(room(), replace(side, status=status), ROWS[0], box) == FLAT).all(), "a lost hand shows nothing"
+
+
+def test_the_angle_on_the_picture_is_the_one_that_was_measured(side: Session) -> None:
+    exercise = exercise_named("WRIST_RU")
+    for row in ROWS[::7]:
+        drawn = drawn_angle(side, row, exercise)
+        assert drawn is not None
+        zero, hand = drawn.zero - drawn.vertex, drawn.hand - drawn.vertex
+        shown = math.degrees(math.atan2(zero[0] * hand[1] - zero[1] * hand[0], float(zero @ hand)))
+        assert abs(abs(shown) - abs(math.degrees(side.motion.angles_rad[row][0]))) < 4.0
+    bending = session(seconds=20.0, speed_hz=0.16)
+    assert drawn_angle(bending, 60, exercise_named("WRIST_FE")) is None, "towards the camera it would look too small"
+
+
+def test_the_film_is_opened_by_another_reader(qapp: QApplication, side: Session, theme: Theme, tmp_path: Path) -> None:
+    wanted = FilmWanted(side, "s", 4, ROWS, 15.0, exercise_named("WRIST_RU"), lambda row: f"{row}")
+    path = write_film(tmp_path / "film.mp4", film_pictures(theme, wanted, room), wanted.rate_hz)
+    assert path.read_bytes()[4:8] == b"ftyp"
+    film = cv2.VideoCapture(str(path))
+    assert film.isOpened()
+    left, top, right, foot = box_of(side, ROWS)
+    assert film.get(cv2.CAP_PROP_FPS) == pytest.approx(15.0)
+    count, size = 0, (0, 0)
+    while (read := film.read())[0]:
+        count, size = count + 1, read[1].shape[:2]
+    assert count == len(ROWS)
+    assert size[0] % (foot - top) == size[1] % (right - left) == 0
+    assert [one.name for one in tmp_path.iterdir()] == ["film.mp4"], "nothing half-written beside it"
+    with pytest.raises(OutputNotWritable):
+        write_film(tmp_path / "none.mp4", iter(()), 15.0)
+    assert not (tmp_path / "none.mp4").exists()
+
+
+@pytest.fixture
+def background(qtbot: QtBot) -> Iterator[Background]:
+    background = Background()
+    yield background
+    qtbot.waitUntil(lambda: not background.busy, timeout=60_000)
+
+
+def shown(qtbot: QtBot, theme: Theme, background: Background, *, pictures: bool) -> ReviewScreen:
+    screen = ReviewScreen(theme, Keys(), background, FakeSessions(pictures))
+    qtbot.addWidget(screen)
+    screen.resize(1280, 744)
+    screen.show()
+    screen.begin("linden", "session-7")
+    qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None, timeout=60_000)
+    return screen
+
+
+def test_without_agreement_or_pictures_there_is_no_film(qtbot: QtBot, theme: Theme, background: Background) -> None:
+    screen = shown(qtbot, theme, background, pictures=False)
+    assert screen.film_button.isHidden()
+    screen.ask_film()
+    assert not screen.film_sheet.isVisible()
+    screen.end()
+    screen = shown(qtbot, theme, background, pictures=True)
+    wanted: list[FilmWanted] = []
+    screen.film.connect(wanted.append)
+    screen.go_to_repetition(3)
+    qtbot.mouseClick(screen.film_button, Qt.MouseButton.LeftButton)
+    sheet = screen.film_sheet
+    assert sheet.isVisible()
+    assert not sheet.take.isEnabled()
+    qtbot.keyClick(sheet, Qt.Key.Key_Return)
+    assert not wanted
+    screen.ask_film()
+    qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
+    qtbot.keyClick(sheet, Qt.Key.Key_Return)
+    (film,) = wanted
+    assert film.number == 4
+    one = screen.figures.repetitions[3]  # type: ignore[union-attr]
+    assert len(film.rows) == pytest.approx(30 * (one.end_s - one.start_s), abs=2)
+    assert film.rate_hz == pytest.approx(15.0, rel=0.05), "half as fast as it was"
+    assert "°" in film.words(film.rows[len(film.rows) // 2])
+    screen.ask_film()
+    assert not sheet.agreed.isChecked(), "agreement is given anew each time"
+    sheet.begin(4, doubtful=True)
+    assert not sheet.agreed.isEnabled()
+    sheet.close_sheet()
+    screen.angle_button.click()
+    screen.end()
+    qtbot.waitUntil(lambda: screen._asked_row < 0, timeout=60_000)
+
+
+class Places:
+    """Says where to, without a dialog."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def ask_where_to_save(self, *_: object) -> Path:
+        return self.path
+
+
+def test_a_saved_film_is_told_and_noted(
+    qtbot: QtBot, theme: Theme, background: Background, side: Session, tmp_path: Path
+) -> None:
+    class Pictures:
+        @staticmethod
+        def picture(session_id: str, row: int) -> ByteImage:
+            return room(row)
+
+    told: list[object] = []
+
+    class Tell:
+        def fault(self, fault: object) -> None:
+            told.append(fault)
+
+        def __getattr__(self, name: str) -> object:
+            return lambda *given, **named: told.append(given)
+
+    filming = Filming(None, Tell(), Pictures(), Places(tmp_path / "x"), background, theme)  # type: ignore[arg-type]
+    made: list[tuple[str, object]] = []
+    filming.filmed.connect(lambda path, sessions: made.append((path, sessions)))
+    filming.save(FilmWanted(side, "s7", 4, ROWS[:6], 30.0, exercise_named("WRIST_RU"), lambda _: ""))
+    qtbot.waitUntil(lambda: bool(made), timeout=60_000)
+    assert made == [(str(tmp_path / "x.mp4"), ["s7"])]
+    assert (tmp_path / "x.mp4").stat().st_mode & 0o077 == 0
+    assert told
