@@ -45,6 +45,7 @@ from carpus.core.output.repetition_rows import (
     Measured,
     Unmeasured,
     measured_repetitions,
+    passive_stretches,
     seen_well,
     trained_angle,
     wrist_signals,
@@ -381,14 +382,20 @@ def session_figures(
     measured = measured_repetitions(trained, choices) if trained is not None else ()
     repetitions = _shown(measured)
     counted = tuple(one.window for one in measured if one.row.counted)
+    own = _by_itself(session, measured)
+    own_view, own_signals, own_tracks = view, signals, tracks
+    if own is not session:
+        own_view, own_tracks = seen_well(own), joint_tracks(own)
+        own_signals = wrist_signals(own, own_view)
     angles: tuple[int, ...] = FREE_ORDER if exercise.angle is None else (exercise.angle,)
     all_left_out = not counted and any(one.is_whole for one in repetitions)
     if all_left_out:
         angles = ()  # all were left out: nothing is measured, least of all the whole recording
-    rows = [row for k in angles for row in _rows(k, signals[k], counted, looked_back)]
-    shown_joints = () if all_left_out else joint_rows(tracks, counted, exercise)
-    shaken = held_tremor(session, 1 if exercise.angle is None else exercise.angle, TREMOR_NOISE_RAD)
-    further = (*further_measures(session, exercise, tracks, view), *([shaken] if shaken is not None else []))
+    of_all = signals if counted else own_signals
+    rows = [row for k in angles for row in _rows(k, of_all[k], counted, looked_back)]
+    shown_joints = () if all_left_out else joint_rows(tracks if counted else own_tracks, counted, exercise)
+    shaken = held_tremor(own, 1 if exercise.angle is None else exercise.angle, TREMOR_NOISE_RAD)
+    further = (*further_measures(own, exercise, own_tracks, own_view), *([shaken] if shaken is not None else []))
     strokes = [stroke for one in measured if one.row.counted for stroke in one.strokes if not stroke.stroke.half]
     uncounted = what_was_not_counted(trained.seen, found) if trained is not None else None
     verdict = session.calibration.verdict
@@ -409,7 +416,7 @@ def session_figures(
         start_angles_deg=np.degrees(session.calibration.start_angles_rad),
         repetitions=repetitions,
         rows=tuple(rows),
-        trick_deg=_tricks(signals, exercise),
+        trick_deg=_tricks(own_signals, exercise),
         peak_speed=_spread(
             [math.degrees(stroke.peak_speed_rad_s) for stroke in strokes],
             [math.degrees(stroke.peak_speed_sd_rad_s) for stroke in strokes],
@@ -455,6 +462,25 @@ def session_figures(
         corrected=corrected_from(session),
         passive=_of_passive(session, choices, measured, error_limits),
     )
+
+
+def _by_itself(session: Session, measured: Sequence[Measured]) -> Session:
+    """A session in which nothing was seen while somebody else moved the hand: what is measured over all of it."""
+    time_s = session.timestamp_s - session.timestamp_s[:1]
+    helped = np.zeros(len(time_s), dtype=bool)
+    for start_s, end_s in passive_stretches(session):
+        helped |= (start_s <= time_s) & (time_s < end_s)
+    for one in sorted(measured, key=lambda one: one.row.counted):  # what counts has the last word
+        if one.row.counted or one.left_out == PASSIVE:
+            helped[(one.window.start_s <= time_s) & (time_s <= one.window.end_s)] = not one.row.counted
+    if not helped.any():
+        return session
+    motion, smoothed = (
+        one if one is None else replace(one, joint_angles_rad=np.where(helped[:, None], math.nan, one.joint_angles_rad))
+        for one in (session.motion, session.smoothed)
+    )
+    status = np.where(helped, TrackStatus.LOST, session.status)
+    return replace(session, status=status, motion=motion or session.motion, smoothed=smoothed)
 
 
 def _of_passive(

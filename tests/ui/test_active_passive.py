@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from carpus.core.output.measures_table import measure_rows
 from carpus.core.output.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
@@ -49,6 +50,30 @@ def test_what_was_said_to_be_passive_counts_apart_and_never_as_active() -> None:
     assert mean_of(figures) == mean_of(session_figures(helped_session(), left_out)), "as if it had been left out"
     rows = {row.of for row in measure_rows(figures, "s")}
     assert {"flexion", "flexion, passive"} <= rows
+
+
+@pytest.mark.parametrize("exercise", ["FREE", "REACH_GRASP"])
+def test_where_no_repetitions_are_counted_what_was_helped_is_not_measured(exercise: str) -> None:
+    def free(*events: tuple[float, str]) -> SessionFigures:
+        made = helped_session(*events)
+        return session_figures(replace(made, header=replace(made.header, exercise=exercise)))
+
+    row, whole = free((HELPED_S, PASSIVE)).row("flexion", 1), free().row("flexion", 1)
+    assert row is not None
+    assert whole is not None
+    assert row.best_deg < 0.75 * whole.best_deg
+    assert not free((0.0, PASSIVE)).rows, "nothing was active"
+
+
+def test_what_is_measured_over_all_of_a_fist_leaves_out_what_was_helped() -> None:
+    made = FakeHandSessions().session("hand-7")
+    start_s = float(made.timestamp_s[0])
+    assert session_figures(made).further
+    everything = session_figures(replace(made, events=(Event(start_s, PASSIVE, ""),)))
+    assert everything.passive is not None
+    assert not everything.further, "nothing was active"
+    counted = RepetitionChoices(dict.fromkeys(range(len(everything.repetitions)), ""))
+    assert session_figures(replace(made, events=(Event(start_s, PASSIVE, ""),)), counted).further
 
 
 def test_a_person_has_the_last_word_and_active_again_ends_a_stretch() -> None:
