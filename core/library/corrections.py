@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,6 +14,7 @@ from carpus.core.errors import OutputNotWritable, SessionUnreadable
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import MARKERS_SUFFIX
 from carpus.core.output.range_rows import best_motion
+from carpus.core.output.repetition_rows import PASSIVE, repetitions_of
 from carpus.core.private import make_private
 from carpus.core.records.session_list import TRIALS_FOLDER
 from carpus.core.records.values import SessionEntry
@@ -122,13 +123,27 @@ class Corrections:
             library.index.rename_exercise(new.session_id, entry.exercise)
         with suppress(SessionUnreadable):
             choices = library.choices(session_id)
-            if choices.not_counted:  # the rest speaks of repetitions that are found anew
-                library.keep_choices(new.session_id, replace(choices, left_out={}, edges_s={}))
+            moved = {number: why for number, why in choices.left_out.items() if why in (PASSIVE, "")}
+            if moved:  # who moved the hand is true of the same moments
+                moved = _found_again(moved, library.session(session_id), library.session(new.session_id))
+            if choices.not_counted or moved:  # the rest speaks of repetitions that are found anew
+                library.keep_choices(new.session_id, replace(choices, left_out=moved, edges_s={}))
         return new.session_id
 
     def drop(self, trial: Path) -> None:
         """Nobody wants it."""
         trial.unlink(missing_ok=True)
+
+
+def _found_again(said: Mapping[int, str], old: Session, new: Session) -> dict[int, str]:
+    """What was said of repetitions, by the numbers of those of a new result that have their middle in them."""
+    before = repetitions_of(old).rows
+    return {
+        number: why
+        for number, row in enumerate(repetitions_of(new).rows)
+        for earlier, why in said.items()
+        if earlier < len(before) and before[earlier].start_s <= 0.5 * (row.start_s + row.end_s) <= before[earlier].end_s
+    }
 
 
 def difference(old: Session, new: Session) -> Difference:

@@ -21,7 +21,8 @@ from carpus.core.library.corrections import Corrections, Waiting, difference
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.library.set_up import MARKERS_SUFFIX
-from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.output.repetition_rows import PASSIVE
+from carpus.core.output.report_content import RepetitionChoices, session_figures
 from carpus.core.pipeline.correction import Task, correct, task_of
 from carpus.core.records.values import PatientEntry
 from carpus.ui.background import Background
@@ -173,6 +174,19 @@ def test_a_wanted_result_counts_and_the_old_one_stays(library: Library, stored: 
     assert library.entry(new).exercise == "WRIST_RUD"
     assert library.entry(new).path.with_suffix(MARKERS_SUFFIX).read_bytes() == b"picture"
     assert library.choices(new) == RepetitionChoices(not_counted=True, not_counted_reason="discs lost")
+
+
+def test_who_moved_the_hand_is_still_known_of_the_new_result(library: Library, stored: Stored) -> None:  # noqa: F811
+    _, session_id = entered(library, stored)
+    corrections = Corrections(library)
+    figures = session_figures(library.session(session_id))
+    (number, *_) = [number for number, one in enumerate(figures.repetitions) if one.counts]
+    library.keep_choices(session_id, RepetitionChoices({number: PASSIVE}))
+    new = corrections.use(session_id, made(corrections, session_id, stored))
+    again = session_figures(library.session(new), library.choices(new))
+    (helped,) = [one for one in again.repetitions if one.helped]
+    assert helped.start_s == pytest.approx(figures.repetitions[number].start_s, abs=0.3)
+    assert again.passive is not None
 
 
 def test_a_moment_is_the_spots_where_no_picture_was_kept(library: Library, stored: Stored) -> None:  # noqa: F811
