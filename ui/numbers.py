@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from contextlib import suppress
 from datetime import date, datetime
 
 from PySide6.QtCore import QDate
@@ -176,19 +177,23 @@ def weeks_since(day: date, today: date) -> str:
     return tr("1 day") if days == 1 else tr("{count} days").format(count=days)
 
 
+FIRST_YEAR = 1900
+
+
 def day_typed(text: str) -> date | None:
     """A day as people type one, day before month: ``21.8.2026``, ``21/8/26``, ``2026-08-21``, or as Carpus writes it.
 
     >>> day_typed("21.8.26"), day_typed("2026-08-21"), day_typed("31.2.2026"), day_typed("soon")
     (datetime.date(2026, 8, 21), datetime.date(2026, 8, 21), None, None)
+    >>> day_typed("21.8.202"), day_typed("21.8.99999999999"), day_typed("21.8.2026 5")  # a slip, and a year nobody has
+    (None, None, None)
     """
-    parts = [int(part) for part in re.split(r"[\s./-]+", text.strip().strip(".")) if part.isdecimal()]
-    if len(parts) == 3:
-        day, month, year = parts if parts[0] < 100 else reversed(parts)
-        try:
-            return date(year + 2000 if year < 100 else year, month, day)
-        except ValueError:
-            return None
+    if found := re.fullmatch(r"(\d{1,4})[\s./-]+(\d{1,2})[\s./-]+(\d{1,4})", text.strip().strip(".")):
+        day, month, year = map(int, found.groups() if len(found[1]) < 3 else reversed(found.groups()))
+        with suppress(ValueError):
+            typed_day = date(year + 2000 if year < 100 else year, month, day)
+            return typed_day if typed_day.year >= FIRST_YEAR else None
+        return None
     typed = language.locale().toDate(text.strip(), day_format())
     return date(typed.year(), typed.month(), typed.day()) if typed.isValid() else None
 

@@ -40,22 +40,23 @@ class Clinic(QObject):
         super().__init__(window)
         self._window, self._screen, self._way, self._tell, self._library = window, screen, way, tell, library
         self._places, self._background, self._after_days, self._today = places, background, after_days, today
-        screen.week.connect(self.read)
+        screen.week.connect(lambda day: self._read(day, screen.show_week))
         screen.patient.connect(self.opened)
         screen.page.connect(self._save)
 
     def show(self) -> None:
-        """This week."""
-        self.read(self._today())
-
-    def read(self, day: date) -> None:
-        """The week of a day."""
-        store, today, after_days = self._library.store, self._today(), self._after_days()
+        """This week; who went elsewhere while it was read stays there."""
+        place = self._way.place
 
         def shown(week: ClinicWeek) -> None:
             self._screen.show_week(week)
-            self._way.go("clinic")
+            if self._way.place == place:
+                self._way.go("clinic")
 
+        self._read(self._today(), shown)
+
+    def _read(self, day: date, shown: Callable[[ClinicWeek], None]) -> None:
+        store, today, after_days = self._library.store, self._today(), self._after_days()
         self._background.run(lambda: clinic_week(store, day, today, after_days), shown, self._tell.fault, self)
 
     def _save(self) -> None:

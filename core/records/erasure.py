@@ -33,6 +33,8 @@ from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry
 
 IS_THERE = ".carpus-is-there"
+SHORT_NAME = 4
+"""A name of fewer letters stands in other words by chance."""
 """In a share of which something was erased: who finds it knows that it is the share, and not its empty place."""
 
 
@@ -174,11 +176,16 @@ def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]
 
 def _naming(store: Store, names: Sequence[str]) -> list[Row]:
     """What belongs to the clinic and names one of these: an address of letters, a diagnosis of the clinic's list."""
-    found = []
-    for column in (RECIPIENT.c.address, DIAGNOSIS.c.words) if names else ():
-        rows = store.rows(select(column.table.c.id, column.label("said")))
-        found += [dropped(column.table, row.id) for row in rows if any(name in folded(row.said) for name in names)]
-    return found
+    if not names:
+        return []
+    addresses, listed = store.rows(select(RECIPIENT)), store.rows(select(DIAGNOSIS))
+    # Mustermanns names the patient; a ligament does not name Li.
+    ends = {name: r"(?![^\W_])" if len(name) < SHORT_NAME else "" for name in names}
+    word = re.compile("|".join(rf"(?<![^\W_]){re.escape(name)}{end}" for name, end in ends.items()))
+    return [
+        *(dropped(RECIPIENT, row.id) for row in addresses if any(name in folded(row.address) for name in names)),
+        *(dropped(DIAGNOSIS, row.id) for row in listed if word.search(folded(row.words))),
+    ]
 
 
 def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> set[Path]:

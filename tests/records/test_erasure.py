@@ -465,3 +465,12 @@ def test_an_erasure_goes_on_where_the_share_has_no_other_session(
         monkeypatch.undo()
         erasure.finish_erasing(house.store, house.log)
         assert house.store.rows(select(SESSION)) == []
+
+
+def test_the_clinics_list_keeps_words_in_which_a_short_name_stands_by_chance(folder: Path) -> None:
+    with opened(folder) as house:
+        gone = house.patients.add(PatientEntry("Fir 11", "right", name="Li"))
+        for words in ("Ligament repair", "Zweizeitige Naht", "Li, second operation", "as of Fir 11"):
+            of_clinic.list_diagnosis(house.store, words, listed=True)
+        erase_patient(house, gone)
+        assert of_clinic.diagnoses(house.store) == ["Ligament repair", "Zweizeitige Naht"]

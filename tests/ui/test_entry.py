@@ -83,3 +83,31 @@ def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(
     form.onset_day.clear()
     form.save.click()
     assert (given[1].onset, given[1].onset_day) == ("injury", None), "no date, no weeks"
+
+
+def test_a_sign_that_cannot_be_seen_is_told_in_the_form_and_nothing_typed_is_lost(qtbot: QtBot, theme: Theme) -> None:
+    host = QWidget()
+    qtbot.addWidget(host)
+    host.resize(1280, 800)
+    host.show()
+    store = FakeStore()
+    form = PatientForm(host, theme, store, lambda: TODAY)
+    given: list[PatientEntry] = []
+    form.accepted.connect(given.append)
+    form.begin(PatientEntry("Fir 12", "left", "right"), frozenset())
+    form.note.setPlainText("a long note")
+    form.diagnosis.setText("Radius\u00adfracture")
+    before = list(store.listed)
+    form.listed.click()
+    assert store.listed == before
+    form.save.click()
+    assert form.isVisible()
+    assert "soft hyphen" in form._fault.text()
+    assert form.note.toPlainText() == "a long note"
+    for typed in ("21.8.99999999999", "21.8.202"):
+        form.onset_day.setText(typed)
+        assert not form.save.isEnabled(), typed
+    form.onset_day.clear()
+    form.diagnosis.setText("Radius fracture")
+    form.save.click()
+    assert [one.diagnosis for one in given] == ["Radius fracture"]

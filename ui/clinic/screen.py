@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from datetime import timedelta
+from datetime import date, timedelta
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
@@ -30,6 +30,7 @@ class ClinicScreen(QWidget):
         super().__init__()
         self._theme = theme
         self.shown: ClinicWeek | None = None
+        self._asked = date.min
         self.days = Text(theme, "", 16, REGULAR, "text2")
         self.before = Button(theme, self.tr("Week before"), height_px=44)
         self.after = Button(theme, self.tr("Week after"), height_px=44)
@@ -81,6 +82,7 @@ class ClinicScreen(QWidget):
     def show_week(self, week: ClinicWeek) -> None:
         """Show a week."""
         self.shown = week
+        self._asked = week.monday
         self.days.setText(week_words(week.monday))
         self.sessions_title.setText(sessions_words(week))
         self.sessions.show_rows(heads_of_days(has_usual=not math.isnan(week.everybody.usual)), session_rows(week))
@@ -92,4 +94,5 @@ class ClinicScreen(QWidget):
 
     def _turn(self, days: int) -> None:
         if self.shown is not None:
-            self.week.emit(self.shown.monday + timedelta(days=days))
+            self._asked += timedelta(days=days)  # also while the last one is read
+            self.week.emit(self._asked)

@@ -9,7 +9,8 @@ from PySide6.QtCore import QStringListModel, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QCompleter, QHBoxLayout, QLineEdit, QPlainTextEdit, QVBoxLayout, QWidget
 
-from carpus.core.names import folded
+from carpus.core.errors import NameUnsuited
+from carpus.core.names import folded, name_of
 from carpus.core.records.values import PatientEntry
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
@@ -19,6 +20,7 @@ from carpus.ui.controls.host import host_of
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.controls.tick import Tick
+from carpus.ui.fault_words import fault_words
 from carpus.ui.ports import PatientStore
 from carpus.ui.theme import Theme
 
@@ -203,7 +205,10 @@ class PatientForm(Sheet):
 
     def _list(self, wanted: bool) -> None:
         """Into the clinic's list or out of it."""
-        self._store.list_diagnosis(self._why(), listed=wanted)
+        try:
+            self._store.list_diagnosis(name_of(self._why()), listed=wanted)
+        except NameUnsuited as fault:
+            self._say(fault)
         self._known.setStringList(list(self._store.diagnoses()))
         self._look_into_list()
 
@@ -225,13 +230,21 @@ class PatientForm(Sheet):
             self._fault.show()
             self.name.setFocus(Qt.FocusReason.OtherFocusReason)
             return
-        self.close_sheet()
         side, dominance = str(self.side.value()), str(self.dominance.value())
         note, real_name = self.note.toPlainText().strip(), " ".join(self.real_name.text().split())
-        self.accepted.emit(
-            PatientEntry(
-                name, side, dominance, note=note, name=real_name,  # type: ignore[arg-type]
-                diagnosis=self._why(),
-                onset=self.onset.value() or "", onset_day=self._day(),  # type: ignore[arg-type]
-            )
+        entry = PatientEntry(
+            name, side, dominance, note=note, name=real_name,  # type: ignore[arg-type]
+            diagnosis=self._why(), onset=self.onset.value() or "", onset_day=self._day(),  # type: ignore[arg-type]
         )  # fmt: skip
+        try:
+            entry.as_kept()
+        except NameUnsuited as fault:  # told here: what was typed stays
+            self._say(fault)
+        else:
+            self.close_sheet()
+            self.accepted.emit(entry)
+
+    def _say(self, fault: NameUnsuited) -> None:
+        words = fault_words(fault)
+        self._fault.setText(f"{words.happened} {words.do}")
+        self._fault.show()
