@@ -11,10 +11,10 @@ import statistics
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import date, timedelta
+from datetime import UTC, date, datetime, time, timedelta
 from typing import Any
 
-from sqlalchemy import Row, select
+from sqlalchemy import Row, func, select
 
 from carpus.core.records.changes import PRACTICE
 from carpus.core.records.schema import PATIENT, SESSION
@@ -79,8 +79,10 @@ class _Seen:
 def clinic_week(store: Store, day: date, today: date, after_days: int) -> ClinicWeek:
     """The week that has ``day`` in it; a re-test is due ``after_days`` after the last session, as of ``today``."""
     monday = day - timedelta(days=day.weekday())
-    seen = _seen(store)
-    names = tuple(dict.fromkeys(one.by for one in seen))
+    since = min(monday - timedelta(weeks=WEEKS - 1), today - timedelta(days=GONE_DAYS))
+    seen = _seen(store, since)
+    joined = select(SESSION.c.by, func.min(SESSION.c.recorded_s).label("first_s")).group_by(SESSION.c.by)
+    names = [row.by for row in sorted(store.rows(joined), key=lambda row: (row.first_s, row.by))]
     of_week = [one for one in seen if monday <= one.day < monday + timedelta(days=7)]
     every = (_counted(name, [one for one in seen if one.by == name], monday) for name in names)
     return ClinicWeek(
@@ -92,8 +94,10 @@ def clinic_week(store: Store, day: date, today: date, after_days: int) -> Clinic
     )
 
 
-def _seen(store: Store) -> list[_Seen]:
-    """Every recording that counts, in order of time."""
+def _seen(store: Store, since: date) -> list[_Seen]:
+    """Every recording since a day that counts, in order of time."""
+    # Days are those of the place where it was recorded.
+    since_s = datetime.combine(since - timedelta(days=1), time(), UTC).timestamp()
     wanted = (
         SESSION.c.recording_id, SESSION.c.recorded, SESSION.c.recorded_s, SESSION.c.by, SESSION.c.exercise,
         SESSION.c.hand, PATIENT.c.id, PATIENT.c.pseudonym,
@@ -102,6 +106,7 @@ def _seen(store: Store) -> list[_Seen]:
         select(*wanted)
         .join(PATIENT, PATIENT.c.id == SESSION.c.patient_id)
         .where(SESSION.c.archived == "", SESSION.c.erasing == 0, SESSION.c.simulated == 0)
+        .where(SESSION.c.recorded_s >= since_s)
         .where(PATIENT.c.id != PRACTICE, PATIENT.c.archived == "", PATIENT.c.erasing == 0)
         .order_by(SESSION.c.recorded_s, SESSION.c.created_s)
     )

@@ -2924,6 +2924,14 @@
         <translation>Niemand ist überfällig</translation>
     </message>
     <message>
+        <source>1 more on the screen</source>
+        <translation>1 weiterer auf dem Bildschirm</translation>
+    </message>
+    <message>
+        <source>{count} more on the screen</source>
+        <translation>{count} weitere auf dem Bildschirm</translation>
+    </message>
+    <message>
         <source>Now</source>
         <translation>Jetzt</translation>
     </message>

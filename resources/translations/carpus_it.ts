@@ -2924,6 +2924,14 @@
         <translation>Nessuno è in ritardo</translation>
     </message>
     <message>
+        <source>1 more on the screen</source>
+        <translation>1 altro sullo schermo</translation>
+    </message>
+    <message>
+        <source>{count} more on the screen</source>
+        <translation>Altri {count} sullo schermo</translation>
+    </message>
+    <message>
         <source>Now</source>
         <translation>Ora</translation>
     </message>

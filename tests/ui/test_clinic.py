@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from datetime import timedelta
 from pathlib import Path
 
@@ -18,7 +20,7 @@ from carpus.ui.keys import Keys
 from carpus.ui.theme import Theme
 from tests.records.samples import LINDEN, T0, record
 from tests.ui.fakes import clinic
-from tests.ui.test_report_pdf import words_of
+from tests.ui.test_report_pdf import tool, words_of
 
 
 def test_a_patient_is_opened_from_the_list_and_weeks_are_turned(qtbot: QtBot, theme: Theme) -> None:
@@ -52,6 +54,31 @@ def test_the_page_says_the_same(tmp_path: Path) -> None:
     assert all(one.pseudonym in words for one in week.due)
     assert "16 days overdue" in words
     assert "°" not in words, "no measured value"
+
+
+def test_the_page_says_how_many_it_has_no_room_for(tmp_path: Path) -> None:
+    week = clinic()
+    due = tuple(replace(week.due[0], pseudonym=f"Aspen {number}") for number in range(90))
+    therapists = tuple(replace(week.therapists[0], by=f"T{number}") for number in range(20))
+    path = write_clinic_page(tmp_path / "clinic.pdf", replace(week, due=due, therapists=therapists))
+    words = words_of(path)
+    shown = words.count("Aspen ")
+    assert shown > 10
+    assert f"{90 - shown} more on the screen" in words
+    edges = [float(one) for one in re.findall(r'yMax="([-\d.]+)"', tool("pdftotext", "-bbox", str(path), "-"))]
+    assert max(edges) < 842 - 28
+
+
+def test_two_presses_go_two_weeks_back_though_the_first_is_still_read(qtbot: QtBot, theme: Theme) -> None:
+    screen = ClinicScreen(theme, Keys())
+    qtbot.addWidget(screen)
+    week = clinic()
+    screen.show_week(week)
+    weeks: list[object] = []
+    screen.week.connect(weeks.append)
+    screen.before.click()
+    screen.before.click()
+    assert weeks == [week.monday - timedelta(days=7), week.monday - timedelta(days=14)]
 
 
 def test_in_the_window_from_the_patients_to_who_is_due_and_back(

@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
+from carpus.core.names import MOST_CHARACTERS
 from carpus.core.records.values import PatientEntry
 from carpus.ui.patients.entry import MOST_LETTERS, PatientForm
 from carpus.ui.theme import Theme
@@ -17,7 +18,7 @@ from tests.ui.fakes import FakeStore
 TODAY = date(2026, 11, 20)
 
 
-@pytest.mark.parametrize("letters", [5, MOST_LETTERS, 3 * MOST_LETTERS])
+@pytest.mark.parametrize("letters", [5, MOST_LETTERS, MOST_CHARACTERS])
 def test_a_name_is_kept_whole_however_long_it_is(qtbot: QtBot, theme: Theme, letters: int) -> None:
     host = QWidget()
     qtbot.addWidget(host)

@@ -9,7 +9,7 @@ from pathlib import Path
 from carpus.core.records.clinic_week import WEEKS, ClinicWeek, Counted, DueTest
 from carpus.ui import language, numbers, terms
 from carpus.ui.fonts import REGULAR, SEMIBOLD
-from carpus.ui.report.page import Page
+from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
 from carpus.ui.report.pdf import write_page
 from carpus.ui.report.session_page import paint_head, paint_words
 from carpus.ui.translate import inside, tr
@@ -92,11 +92,16 @@ def _paint(page: Page, week: ClinicWeek) -> None:
     has_usual = not math.isnan(week.everybody.usual)
     y = paint_words(page, heads_of_days(has_usual=has_usual), session_rows(week), y + 4) + 26
     page.text(tr("Due for a re-test"), page.left, y, 12.0, SEMIBOLD)
-    if week.due:
-        paint_words(page, heads_of_due(), due_rows(week)[:MOST_DUE], y + 4)
+    rows = due_rows(week)
+    room = max(int((A4_PT[1] - MARGIN_PT - y - 4) / ROW_PT) - 2, 1)  # but for heads and the line below
+    if rows:
+        y = paint_words(page, heads_of_due(), rows[:room], y + 4)
     else:
         page.text(tr("Nobody is overdue"), page.left, y + 16, 9.0, REGULAR, "text2")
+    if (more := len(rows) - room) > 0:
+        said = tr("1 more on the screen") if more == 1 else tr("{count} more on the screen").format(count=more)
+        page.text(said, page.left, y + 12, 9.0, REGULAR, "text2")
 
 
-MOST_DUE = 24
-"""Rows of the page: the longest overdue."""
+ROW_PT = 14.5
+"""Of a table of words."""

@@ -19,6 +19,8 @@ from carpus.ui.report.home_page import DRAWN, MOST_NOTE, MOST_TASKS, HomeReport,
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.theme import Theme
 
+USUAL_TIMES, USUAL_ROUNDS = 10, 3
+
 
 class HomeSheet(Sheet):
     """``wanted`` carries the sheet for home, but for the patient's own way."""
@@ -39,7 +41,7 @@ class HomeSheet(Sheet):
             tick.toggled.connect(self._check)
             grid.addWidget(tick, number // 3, number % 3)
         body.addLayout(grid)
-        self.times, self.rounds = self._count(theme, 10), self._count(theme, 3)
+        self.times, self.rounds = self._count(theme), self._count(theme)
         self.day = QDateEdit()
         self.day.setCalendarPopup(True)
         self.day.setDisplayFormat(numbers.day_format())
@@ -79,10 +81,9 @@ class HomeSheet(Sheet):
         self.set_default(self.take)
 
     @staticmethod
-    def _count(theme: Theme, usual: int) -> QSpinBox:
+    def _count(theme: Theme) -> QSpinBox:
         field = number_field(theme, 50)
         field.setMinimum(1)
-        field.setValue(usual)
         return field
 
     def begin(self, report: SessionReport, today: date) -> None:
@@ -91,6 +92,8 @@ class HomeSheet(Sheet):
         for name, tick in self.ticks.items():
             tick.setEnabled(True)
             tick.setChecked(name == report.figures.exercise.id)
+        self.times.setValue(USUAL_TIMES)  # of nobody who was here before
+        self.rounds.setValue(USUAL_ROUNDS)
         week = today + timedelta(days=7)
         self.day.setMinimumDate(QDate(today.year, today.month, today.day).addDays(1))
         self.day.setDate(QDate(week.year, week.month, week.day))
