@@ -445,3 +445,95 @@ int rays_read(
     }
     return 0;
 }
+
+/* exp(x^2) times what is left of the normal curve beyond x. */
+static double scaled_tail(double x)
+{
+    if (x < 20.0)
+        return exp(x * x) * erfc(x);
+    const double y = 1.0 / (x * x);
+    return (1.0 - y * (0.5 - y * (0.75 - y * (1.875 - y * (6.5625 - y * 29.53125))))) / (x * 1.7724538509055160273);
+}
+
+/* Mean and variance after multiplication by a soft step up at the edge. */
+static void softened(double *mean, double *variance, double edge, double soft)
+{
+    const double total = *variance + soft * soft, root = sqrt(total), z = (*mean - edge) / root;
+    const double ratio = 0.79788456080286535588 / scaled_tail((-z > -20.0 ? -z : -20.0) * 0.70710678118654752440);
+    *mean += *variance * ratio / root;
+    *variance -= *variance * *variance * ratio * (z + ratio) / total;
+}
+
+/* The rays with the limits of their joints taken into account; `pulled` tells of each ray whether any was near. */
+int rays_limited(
+    int modes, int size, const double *mean, const double *covariance, const double *slots, const double *limits,
+    const double *direction, double abduction, double soft, double near_sd, double *out_mean, double *out_covariance,
+    uint8_t *pulled)
+{
+    const int n = size, nn = n * n;
+    for (int r = 0; r < RAYS; r++) {
+        double edge[SLOTS][2], across[modes][n * SLOTS], shared[modes][SLOTS * SLOTS], angle[modes][SLOTS];
+        uint8_t near[modes][SLOTS];
+        const double *turn = direction + r * SLOTS * SLOTS;
+        memcpy(edge, limits + r * SLOTS * 2, sizeof edge);
+        if (r) {
+            const double bent = cos(slots[r * SLOTS + 1]);
+            edge[0][1] = abduction * (bent < 0.0 ? 0.0 : bent);
+            edge[0][0] = -edge[0][1];
+        }
+        pulled[r] = 0;
+        for (int k = 0; k < modes; k++) {
+            const double *at = mean + (r * modes + k) * n, *wide = covariance + (size_t)(r * modes + k) * nn;
+            for (int i = 0; i < n; i++)
+                for (int j = 0; j < SLOTS; j++)
+                    across[k][i * SLOTS + j] = dot(wide + i * n, turn + j * SLOTS, SLOTS);
+            for (int j = 0; j < SLOTS; j++) {
+                angle[k][j] = dot(at, turn + j * SLOTS, SLOTS);
+                for (int l = 0; l < SLOTS; l++) {
+                    shared[k][j * SLOTS + l] = 0.0;
+                    for (int s = 0; s < SLOTS; s++)
+                        shared[k][j * SLOTS + l] += turn[j * SLOTS + s] * across[k][s * SLOTS + l];
+                }
+                const double reach = near_sd * sqrt(shared[k][j * SLOTS + j] + soft * soft);
+                near[k][j] = angle[k][j] - reach < edge[j][0] || angle[k][j] + reach > edge[j][1];
+                pulled[r] |= near[k][j];
+            }
+        }
+        memcpy(out_mean + r * modes * n, mean + r * modes * n, sizeof(double) * (size_t)(modes * n));
+        memcpy(out_covariance + (size_t)r * modes * nn, covariance + (size_t)r * modes * nn,
+               sizeof(double) * (size_t)modes * nn);
+        for (int k = 0; pulled[r] && k < modes; k++) {
+            double *at = out_mean + (r * modes + k) * n, *wide = out_covariance + (size_t)(r * modes + k) * nn;
+            double precision[SLOTS], pull[SLOTS], inner[SLOTS * SLOTS], gain[SLOTS * n];
+            for (int j = 0; j < SLOTS; j++) {
+                const double variance = shared[k][j * SLOTS + j];
+                precision[j] = pull[j] = 0.0;
+                if (!near[k][j] || !(variance > 1e-9))
+                    continue;
+                double lowered = angle[k][j], narrow = variance;
+                softened(&lowered, &narrow, edge[j][0], soft);
+                lowered = -lowered;
+                softened(&lowered, &narrow, -edge[j][1], soft);
+                precision[j] = 1.0 / narrow - 1.0 / variance;
+                precision[j] = precision[j] < 0.0 ? 0.0 : precision[j];
+                pull[j] = -lowered / narrow - angle[k][j] / variance - precision[j] * angle[k][j];
+            }
+            /* The gain is across times the inverse of 1 + precision times shared: solved turned about. */
+            for (int i = 0; i < SLOTS; i++) {
+                for (int j = 0; j < SLOTS; j++)
+                    inner[j * SLOTS + i] = (i == j) + precision[i] * shared[k][i * SLOTS + j];
+                for (int a = 0; a < n; a++)
+                    gain[i * n + a] = across[k][a * SLOTS + i];
+            }
+            if (solved(inner, gain, SLOTS, n))
+                return 1;
+            for (int j = 0; j < SLOTS; j++) {
+                add_scaled(at, pull[j], gain + j * n, n);
+                for (int a = 0; precision[j] != 0.0 && a < n; a++)
+                    for (int b = 0; b < n; b++)
+                        wide[a * n + b] -= gain[j * n + a] * precision[j] * across[k][b * SLOTS + j];
+            }
+        }
+    }
+    return 0;
+}

@@ -111,5 +111,9 @@ KERNEL int rays_read(
     const double *roots, const double *rotation, const double *translation, const double *turn_covariance, double fx,
     double fy, double across_m, double depth_stays, double share, double narrow2, int coupled, double *inherited,
     double *centres, double *disc_cam);
+KERNEL int rays_limited(
+    int modes, int size, const double *mean, const double *covariance, const double *slots, const double *limits,
+    const double *direction, double abduction, double soft, double near_sd, double *out_mean, double *out_covariance,
+    uint8_t *pulled);
 
 #endif

@@ -16,6 +16,7 @@ from scipy.special import erfcx
 
 from carpus.core.hand.anatomy import ABDUCTION_LIMIT_RAD, HARD_LIMITS_RAD
 from carpus.core.hand.kinematics import DIP_PER_PIP
+from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.hand_geometry import RAYS, SLOTS
 from carpus.core.tracking.kernel import Bank
 from carpus.core.types import FloatArray
@@ -83,6 +84,14 @@ def constrained(beliefs: Bank, slots: FloatArray, settings: LimitSettings) -> Ba
     Each angle's pull is found by itself, then all pulls of a ray act together, as measurements with independent
     errors.
     """
+    if (kernels := in_c()) is not None:
+        pulled = Bank(np.empty(beliefs.mean.shape), np.empty(beliefs.covariance.shape), beliefs.probability)
+        rays = np.empty(RAYS, dtype=np.bool_)
+        kernels.rays_limited(
+            *beliefs.mean.shape[1:], beliefs.mean, beliefs.covariance, slots, _LIMITS, _DIRECTION, ABDUCTION_LIMIT_RAD,
+            settings.soft_rad, settings.near_sd, pulled.mean, pulled.covariance, rays,
+        )  # fmt: skip
+        return pulled if rays.any() else beliefs
     angle = np.einsum("rks,rjs->rkj", beliefs.mean[..., :SLOTS], _DIRECTION)
     across = beliefs.covariance[..., :SLOTS] @ np.swapaxes(_DIRECTION, 1, 2)[:, None]  # (5, K, n, 5)
     shared = _DIRECTION[:, None] @ across[..., :SLOTS, :]  # (5, K, 5, 5)

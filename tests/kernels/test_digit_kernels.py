@@ -15,6 +15,8 @@ from carpus.core.tracking.finger_model import Seat, seat_of
 from carpus.core.tracking.fingers import Fingers, in_sight
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_filter import HandFilter
+from carpus.core.tracking.joint_limits import LimitSettings, constrained
+from carpus.core.tracking.kernel import Bank
 from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.ray_filter import RayForecast, RayPoints, forecast, spread_points
 from carpus.core.tracking.readout import Readout, ReadoutSettings
@@ -111,3 +113,19 @@ def test_what_named_blobs_measure(blobs: int) -> None:
             np.ones(5, dtype=bool),
         )  # fmt: skip
         both(lambda scene=scene: measured_as_named(scene, names, SETTINGS))
+
+
+@pytest.mark.parametrize("modes", [1, 2])
+def test_limits_of_joints(modes: int) -> None:
+    it, rng = hand("right", 1), np.random.default_rng(15)
+    for bent_rad in (0.0, 0.7, -1.2, 2.5, 40.0):
+        mean = np.repeat(it.mean[:, None], modes, axis=1) + 0.01 * rng.normal(size=(5, modes, 21))
+        mean[:, :, :5] += bent_rad
+        for wide in (1.0, 30.0):
+            covariance = np.repeat(wide * it.covariance[:, None], modes, axis=1)
+            bank = Bank(mean, covariance, np.full((5, modes), 1.0 / modes))
+            slots = bank.merged()[0][:, :5]
+            both(lambda bank=bank, slots=slots: constrained(bank, slots, LimitSettings()))
+    narrow = Bank(0.3 + 0.0 * mean, 1e-9 * covariance, bank.probability)
+    middle = np.full((5, 5), 0.3)
+    both(lambda: constrained(narrow, middle, LimitSettings()))
