@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Literal
 
-from carpus.core.capture.finding import Finding
+from carpus.core.finding import Finding
 from carpus.core.phrase import phrase
 
 DiskState = Literal["encrypted", "plain", "unknown"]

@@ -10,9 +10,9 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QApplication
 
-from carpus.core.capture.finding import Finding
 from carpus.core.disk_encryption import disk_encryption_finding, disk_state
 from carpus.core.errors import CarpusFault, PinUncheckable
+from carpus.core.finding import Finding
 from carpus.core.library.library import Library
 from carpus.core.safekeeping.pin import Pin
 from carpus.ui.background import Background

@@ -10,10 +10,10 @@ from pathlib import Path
 from carpus.core.camera import Camera
 from carpus.core.capture import openni2_driver
 from carpus.core.capture.camera_kind import CameraKind
-from carpus.core.capture.finding import Finding
 from carpus.core.capture.notice import Notice
 from carpus.core.capture.openni2_camera import OpenNI2Camera
 from carpus.core.depth_sensor import PRIMESENSE
+from carpus.core.finding import Finding
 from carpus.core.phrase import phrase
 
 MODELS = {

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from carpus.core.camera import Camera
-from carpus.core.capture.finding import Finding
 from carpus.core.capture.notice import Notice
 from carpus.core.capture.source import FrameSource
 from carpus.core.capture.usb_devices import UsbCamera, usb_cameras
+from carpus.core.finding import Finding
 
 
 class LiveCamera(FrameSource, Protocol):

@@ -21,7 +21,6 @@ import numpy as np
 
 from carpus.core.capture.camera_kind import CameraKind
 from carpus.core.capture.cameras import CAMERAS, camera_kind, kind_of, kind_to_open, open_camera
-from carpus.core.capture.finding import Finding
 from carpus.core.capture.raw import MB_PER_MINUTE
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.usb_devices import UsbCamera
@@ -36,6 +35,7 @@ from carpus.core.errors import (
     ExtraMissing,
     OtherCamera,
 )
+from carpus.core.finding import Finding
 from carpus.core.installing import how_to_install, is_packed
 from carpus.core.kernels.choice import NUMPY, VARIABLE, in_c
 from carpus.core.phrase import phrase

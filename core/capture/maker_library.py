@@ -8,8 +8,8 @@ from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from importlib.metadata import PackageNotFoundError, version
 
-from carpus.core.capture.finding import Finding
 from carpus.core.errors import DriverMissing
+from carpus.core.finding import Finding
 from carpus.core.installing import how_to_install
 from carpus.core.phrase import phrase
 

@@ -7,9 +7,9 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 
-from carpus.core.capture.finding import Finding
 from carpus.core.capture.openni2 import library_version, load_library
 from carpus.core.errors import DriverMissing
+from carpus.core.finding import Finding
 from carpus.core.phrase import phrase
 
 

@@ -12,7 +12,6 @@ from carpus.core.camera import Camera
 from carpus.core.capture.camera_kind import CameraKind
 from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.capture_messages import Opened
-from carpus.core.capture.finding import Finding
 from carpus.core.capture.maker_library import library_finding
 from carpus.core.capture.notice import Notice, ignore
 from carpus.core.capture.orbbec_opening import MODULE, PACKAGE, load_library
@@ -20,6 +19,7 @@ from carpus.core.capture.orbbec_process import serve
 from carpus.core.capture.process_camera import SIZE_PX, ProcessCamera
 from carpus.core.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSensor
 from carpus.core.errors import DriverMissing
+from carpus.core.finding import Finding
 from carpus.core.phrase import phrase
 
 MODELS = {

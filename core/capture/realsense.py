@@ -12,7 +12,6 @@ from carpus.core.camera import Camera
 from carpus.core.capture.camera_kind import CameraKind
 from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.capture_messages import Opened
-from carpus.core.capture.finding import Finding
 from carpus.core.capture.maker_library import library_finding
 from carpus.core.capture.notice import Notice, ignore
 from carpus.core.capture.process_camera import SIZE_PX, ProcessCamera
@@ -20,6 +19,7 @@ from carpus.core.capture.realsense_opening import load_library
 from carpus.core.capture.realsense_process import serve
 from carpus.core.depth_sensor import ASSUMED, D415, D435, D455, DepthSensor
 from carpus.core.errors import ExtraMissing
+from carpus.core.finding import Finding
 from carpus.core.phrase import phrase
 
 PACKAGE = "pyrealsense2"

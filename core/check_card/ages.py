@@ -10,10 +10,10 @@ from carpus.core.cameras_folder import CAMERAS, file_stem
 from carpus.core.capture.calibrated import SUFFIX as CALIBRATION_SUFFIX
 from carpus.core.capture.calibrated import age_days, stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
-from carpus.core.capture.finding import Finding, State
 from carpus.core.check_card.chart import OLD_DAYS, SUFFIX, Check, chart_path, read_checks, verdict_of
 from carpus.core.check_card.standing import standing_of
 from carpus.core.errors import CarpusFault
+from carpus.core.finding import Finding, State
 
 OLD_CALIBRATION_DAYS = 365.0
 _CALIBRATE = "Run: carpus calibrate-camera"

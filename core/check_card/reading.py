@@ -13,7 +13,7 @@ CHECK_S = 30.0
 """Length of a check."""
 MOST_ANGLE_DEG, MOST_LENGTH_MM, MOST_SCALE = 2.0, 2.5, 0.012
 """Fixed limits of the largest error of an angle and a length, and of all lengths together; the first two are wider for
-a sensor that cannot do better (:mod:`core.check_card.limits`)."""
+a sensor that cannot do better (:mod:`core.check_card.measure`)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,8 +7,9 @@ the covariance is none any more, and it is found again as at the start, at the n
 
 from __future__ import annotations
 
+import math
 from collections import deque
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +19,97 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
 from carpus.core.hand.sites import SITES, joint_angle_names, joint_discs
-from carpus.core.papers.association import blobs_of_markers, log_posteriors
-from carpus.core.papers.augmented_filter import Corrected, Predicted, Seen, correct, predict, seen_from
+from carpus.core.papers.augmented_filter import (
+    Corrected,
+    Gaussian,
+    Motion,
+    Predicted,
+    Seen,
+    correct,
+    predict,
+    seen_from,
+)
 from carpus.core.papers.chain import hand_measured
-from carpus.core.papers.euler import body_turn_by_euler, rotation_of
-from carpus.core.papers.motion import EULER, JOINTS, POSITION, VELOCITY, PaperMotion
+from carpus.core.papers.euler import body_turn_by_euler, euler_near, rotation_of
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
+
+# The papers' state and how it moves: x = (T, v, psi, theta, phi, theta_1..J) and (1) of both papers.
+POSITION, VELOCITY, EULER, JOINTS = slice(0, 3), slice(3, 6), slice(6, 9), slice(9, None)
+PALM_STATES, PALM_NOISES = 9, 6
+_SAMPLE_S = 1.0 / 30.0
+"""The papers' dt. Other steps keep the density of the noise, so that a missing picture counts as the time it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class PaperMotion:
+    """(1) for a hand with ``joint_count`` joint angles; noises are drawn with unit variance and scaled here."""
+
+    settings: PaperSettings
+    joint_count: int
+
+    @property
+    def noise_covariance(self) -> FloatArray:
+        """(6 + J, 6 + J): eta_v, eta_omega and eta_theta in units of their standard deviations."""
+        return np.eye(PALM_NOISES + self.joint_count)
+
+    def at_neutral(self) -> Gaussian:
+        """At rest at the pose that was clicked."""
+        s, joints = self.settings, self.joint_count
+        sd = [s.position_start_m] * 3 + [s.velocity_start_m_s] * 3 + [s.angle_start_rad] * 3
+        sd += [s.joint_start_rad] * joints
+        return Gaussian(np.zeros(PALM_STATES + joints), np.diag(np.square(sd)))
+
+    def over(self, dt_s: float) -> Motion:
+        """(1) over ``dt_s``, for many states (P, n) and noises (P, k) at once."""
+        s = self.settings
+        by_noise = math.sqrt(_SAMPLE_S * dt_s)  # eta dt, eta of variance sd^2 dt_0 / dt
+
+        def moved(state: FloatArray, noise: FloatArray) -> FloatArray:
+            pushed = noise * by_noise
+            out = state.copy()
+            out[:, POSITION] += state[:, VELOCITY] * dt_s
+            out[:, VELOCITY] += s.acceleration_m_s2 * pushed[:, 0:3]
+            turned = rotation_of(state[:, EULER]) @ so3.exp(s.turn_rate_rad_s * pushed[:, 3:6])
+            out[:, EULER] = euler_near(turned, state[:, EULER])
+            out[:, JOINTS] += s.joint_rate_rad_s * pushed[:, 6:]
+            return out
+
+        return moved
+
+
+# Which blob is which marker, as the papers decide it: eq. (6) to (12) of the wrist paper, (3) to (10) of the other's.
+#
+# Every blob goes to the marker, or to clutter, of largest posterior (12), whatever the other blobs do. Where several go
+# to one marker, the one of them that (12) gives most keeps it; the papers leave that to a thesis.
+def log_posteriors(
+    pixel: FloatArray, predicted_px: FloatArray, covariance_px2: FloatArray, clutter_prior: float, resolution_px2: float
+) -> FloatArray:
+    """Logarithm of (12), not normalised, for blobs ``pixel`` (D, 2): (D, 1 + M), column 0 clutter.
+
+    ``predicted_px`` (M, 2) and ``covariance_px2`` (M, 2, 2): (10) and (11) of every marker, noise included.
+    """
+    count = len(predicted_px)
+    apart = pixel[:, None] - predicted_px
+    root = np.linalg.cholesky(covariance_px2)
+    u = apart[..., 0] / root[:, 0, 0]
+    v = (apart[..., 1] - root[:, 1, 0] * u) / root[:, 1, 1]
+    log_size = np.log(root[:, 0, 0] * root[:, 1, 1])
+    out = np.empty((len(pixel), 1 + count))
+    out[:, 0] = math.log(clutter_prior) - math.log(resolution_px2)
+    out[:, 1:] = math.log((1.0 - clutter_prior) / count) - 0.5 * (u * u + v * v) - math.log(2.0 * math.pi) - log_size
+    return out
+
+
+def blobs_of_markers(posterior: FloatArray) -> NDArray[np.int64]:
+    """Blob of every marker (M,), -1 for none, from the logarithms (D, 1 + M) of (12)."""
+    taken = np.full(posterior.shape[1] - 1, -1, dtype=np.int64)
+    best = np.full(taken.size, -np.inf)
+    for blob, choice in enumerate(posterior.argmax(axis=1).tolist()):
+        if choice and posterior[blob, choice] > best[choice - 1]:
+            best[choice - 1], taken[choice - 1] = posterior[blob, choice], blob
+    return taken
+
 
 LEAST_PALM_MARKERS = 3
 _SHARE_WINDOW_S = 1.0

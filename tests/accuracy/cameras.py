@@ -19,7 +19,7 @@ from carpus.core.check_card.measure import measure_card
 from carpus.core.check_card.reading import CardReading
 from carpus.core.depth_sensor import AZURE_KINECT, D435
 from carpus.core.errors import BoardViewsAlike
-from carpus.core.simulation.card_scene import card_scene
+from carpus.core.simulation.practice_camera import card_scene
 from carpus.core.simulation.printed_sheets import LENS, Studio, poses, texture_of
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.types import FloatArray, Frame

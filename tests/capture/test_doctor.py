@@ -14,10 +14,10 @@ from carpus.core.capture import astra, doctor, openni2_driver, realsense, xtion
 from carpus.core.capture.camera_kind import CameraKind
 from carpus.core.capture.cameras import camera_kind
 from carpus.core.capture.doctor import examine
-from carpus.core.capture.finding import Finding
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.usb_devices import UsbCamera
 from carpus.core.errors import CameraBusy, DriverMissing
+from carpus.core.finding import Finding
 from carpus.core.types import Frame
 
 

@@ -14,9 +14,7 @@ import pytest
 from carpus.app.sources import open_recording
 from carpus.core.camera import Camera
 from carpus.core.capture import kinect_recording
-from carpus.core.capture.depth_on_color import DepthOnColor
-from carpus.core.capture.kinect_calibration import read_calibration
-from carpus.core.capture.kinect_recording import KinectRecording
+from carpus.core.capture.kinect_recording import DepthOnColor, KinectRecording, read_calibration
 from carpus.core.depth_sensor import AZURE_KINECT
 from carpus.core.errors import CarpusFault, ExtraMissing, PicturesLost, RecordingDamaged, RecordingUnsupported
 from carpus.core.words import one_sentence

@@ -19,8 +19,7 @@ from carpus.core.capture import capture_link
 from carpus.core.capture.camera_info import write_camera_info
 from carpus.core.capture.oni_check import check_recording
 from carpus.core.capture.oni_format import RecordType
-from carpus.core.capture.oni_jpeg import deadly_pictures
-from carpus.core.capture.oni_source import OniSource
+from carpus.core.capture.oni_source import OniSource, deadly_pictures
 from carpus.core.capture.oni_writer import sidecar_path
 from carpus.core.capture.paced import PacedSource
 from carpus.core.errors import (

@@ -20,7 +20,6 @@ from carpus.core.capture.cameras import open_camera
 from carpus.core.capture.capture_process import GaveUp
 from carpus.core.capture.color_lock import ColorLock
 from carpus.core.capture.doctor import opened_findings, rules_finding
-from carpus.core.capture.finding import Finding
 from carpus.core.capture.orbbec import OrbbecCamera, driver_finding, sensor_named
 from carpus.core.capture.orbbec_opening import choose_streams, find_camera, library
 from carpus.core.capture.orbbec_process import _Controls
@@ -35,6 +34,7 @@ from carpus.core.errors import (
     DriverMissing,
     OtherCamera,
 )
+from carpus.core.finding import Finding
 from carpus.core.words import one_sentence
 from tests.capture import orbbec_stand_in
 from tests.capture.orbbec_stand_in import BENT, DEPTH_FX, EDGE_PX, NEAR_MM, SERIAL, SHIFT_MM, StandInList

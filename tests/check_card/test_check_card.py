@@ -37,7 +37,7 @@ from carpus.core.check_card.reading import CardReading
 from carpus.core.check_card.standing import standing_of
 from carpus.core.check_card.trust import unsure_of
 from carpus.core.errors import CardMissing
-from carpus.core.simulation.card_scene import card_scene
+from carpus.core.simulation.practice_camera import card_scene
 from carpus.core.simulation.printed_sheets import LENS, Studio
 from carpus.core.types import Frame
 

@@ -20,7 +20,7 @@ from carpus.core.camera_calibration.views import FIELDS, Judgement
 from carpus.core.check_card.card import FIGURES
 from carpus.core.check_card.chart import Check, verdict_of
 from carpus.core.check_card.measure import CardWatch
-from carpus.core.simulation.card_scene import card_scene
+from carpus.core.simulation.practice_camera import card_scene
 from carpus.core.simulation.printed_sheets import LENS, Studio, poses, texture_of
 from carpus.core.types import Frame
 from carpus.ui.camera_calibration.values import BoardProgress, BoardResult
