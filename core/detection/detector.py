@@ -150,7 +150,7 @@ class Detector:
         centre, (area, similarity, skin_share, depth, depth_sd) = np.empty((count, 2)), np.empty((5, count))
         kernels.blobs_measured(
             count, own, rough_px, region.left, region.top, *labels.shape, labels, hsv,
-            frame.color_rgb.shape[1], frame.color_rgb, NOTHING if raw is None else raw, raw is not None,
+            *frame.color_rgb.shape[:2], frame.color_rgb, NOTHING if raw is None else raw, raw is not None,
             frame.depth_unit_m, stencil.row.size, stencil.row, stencil.column, stencil.reach,
             stencil.core.stop, stencil.near.stop, stencil.rim.start, stencil.rim.stop, stencil.wedge, stencil.pick,
             self._cell, self._is_skin, self._reference.size, self._reference,

@@ -24,21 +24,26 @@ _FFI = _cffi_backend.FFI()
 NOTHING = _FFI.NULL
 """Stands for an array that is not given."""
 _BUFFERS = {
-    "d": _FFI.typeof("double[]"),
-    "f": _FFI.typeof("float[]"),
-    "B": _FFI.typeof("uint8_t[]"),
-    "?": _FFI.typeof("uint8_t[]"),
-    "H": _FFI.typeof("uint16_t[]"),
-    "i": _FFI.typeof("int32_t[]"),
-    "l": _FFI.typeof("int64_t[]"),
-    "q": _FFI.typeof("int64_t[]"),
+    np.dtype(number): _FFI.typeof(f"{name}[]")
+    for number, name in (
+        (np.float64, "double"),
+        (np.float32, "float"),
+        (np.bool_, "uint8_t"),
+        (np.uint8, "uint8_t"),
+        (np.uint16, "uint16_t"),
+        (np.int32, "int32_t"),
+        (np.int64, "int64_t"),
+    )
 }
 _DECLARED = re.compile(r"^KERNEL int (\w+)\(([^;]*)\);", re.M)
+_SIZED = re.compile(r"(\w+)\[([^]]*)\]")
+"""An argument that is an array, and how many numbers it has."""
 
 
 class Kernels:
     """One library. ``level`` says which; every function that its header declares is an attribute, which takes arrays
-    and numbers and raises ``numpy.linalg.LinAlgError`` where a matrix is not positive definite."""
+    and numbers and raises ``numpy.linalg.LinAlgError`` where a matrix is not positive definite, ``TypeError`` and
+    ``ValueError`` where an array is not of the type or size declared."""
 
     def __init__(self, path: Path, level: str) -> None:
         """Raises ``OSError`` where the library cannot be loaded or is of another source."""
@@ -50,7 +55,9 @@ class Kernels:
                 raise OSError(f"{path.name} is of another source")
             declared = _DECLARED.findall((HERE / "kernels.h").read_text(encoding="utf-8"))
             for name, arguments in declared:
-                setattr(self, name, _called(loaded.load_function(_FFI.typeof(f"int (*)({arguments})"), name)))
+                pointers = _SIZED.sub(r"*\1", arguments)
+                function = loaded.load_function(_FFI.typeof(f"int (*)({pointers})"), name)
+                setattr(self, name, _called(function, _sizes(arguments)))
             self._wide = loaded.load_function(_FFI.typeof("int (*)(void)"), "kernels_run_wide")
         except AttributeError as fault:
             raise OSError(str(fault)) from fault
@@ -65,25 +72,40 @@ class Kernels:
         raise AttributeError(f"no kernel {name}")
 
 
-def _called(function: Any) -> Callable[..., None]:
+def _sizes(arguments: str) -> Callable[..., bool]:
+    """Whether the arrays given have the sizes declared; compiled, since it is asked at each call."""
+    names = [re.findall(r"\w+", _SIZED.sub(r"\1", one))[-1] for one in arguments.split(",")]
+    sizes = [f"({name} is nothing or {name}.size == {size})" for name, size in _SIZED.findall(arguments)]
+    asked: Callable[..., bool] = eval(f"lambda {','.join(names)}: {' and '.join(sizes) or True}", {"nothing": NOTHING})
+    return asked
+
+
+def _called(function: Any, are_whole: Callable[..., bool]) -> Callable[..., None]:
     """A function of arrays, each of the type that its header declares, and numbers."""
     of_array, buffers, array, usual = _FFI.from_buffer, _BUFFERS, np.ndarray, np.dtype(np.float64)
-    doubles = buffers["d"]
+    doubles = buffers[usual]
 
     def as_c(value: Any) -> Any:
-        return of_array(buffers[value.dtype.char], np.ascontiguousarray(value)) if isinstance(value, array) else value
+        if not isinstance(value, array):
+            return value
+        native = value.dtype.newbyteorder("=")
+        if native not in buffers:
+            raise TypeError(f"no kernel takes {native}")
+        return of_array(buffers[native], np.ascontiguousarray(value, dtype=native))
 
     def call(*arguments: Any) -> None:
+        if not are_whole(*arguments):
+            raise ValueError("an array is not of the size that the kernel reads or writes")
         try:
             status = function(
                 *[
-                    (of_array(doubles, x) if x.dtype is usual else of_array(buffers[x.dtype.char], x))
+                    (of_array(doubles, x) if x.dtype is usual else of_array(buffers[x.dtype], x))
                     if x.__class__ is array
                     else x
                     for x in arguments
                 ]
             )
-        except (TypeError, ValueError, BufferError):  # one that is not there, or not stored row by row
+        except (TypeError, ValueError, KeyError, BufferError):  # one that is not there, or not stored row by row
             status = function(*[as_c(x) for x in arguments])
         if status:
             raise np.linalg.LinAlgError("Matrix is not positive definite")

@@ -18,7 +18,7 @@ static void in_order(double *x, int n)
 
 int blobs_measured(
     int blobs, const uint16_t *own, const double *rough, int left, int top, int height, int width,
-    const uint16_t *labels, const uint8_t *hsv, int whole_width, const uint8_t *color, const uint16_t *raw, int has_depth,
+    const uint16_t *labels, const uint8_t *hsv, int whole_height, int whole_width, const uint8_t *color, const uint16_t *raw, int has_depth,
     double unit_m, int pixels, const int64_t *row, const int64_t *column, const uint8_t *reach, int core, int near,
     int rim_from, int rim_to, const float *wedge, const int64_t *pick, const uint8_t *cell, const uint8_t *is_skin,
     int cells, const double *reference, double low, double high, double fewest_rim, double fewest_core, double iqr_m,

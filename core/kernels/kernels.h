@@ -1,5 +1,6 @@
 /* What the library does. Matrices are stored row by row; shapes stand in the Python function of the same name, which
-   is the oracle. Every kernel returns 0, or 1 where a matrix is not positive definite. Nothing is remembered. */
+   is the oracle. Every kernel returns 0, or 1 where a matrix is not positive definite. Nothing is remembered. Where calls
+   differ in size, the sizes of the arrays are declared: another is refused before anything is read. */
 #ifndef KERNELS_H
 #define KERNELS_H
 
@@ -16,21 +17,31 @@ KERNEL int kernels_run_wide(void);
 
 /* filter.c */
 KERNEL int corrected(
-    int chains, int modes, int size, int count, const double *mean, const double *covariance, const double *probability,
-    const double *value, const double *slope, const double *error, const double *about, const double *measured,
-    const double *variance, const double *shared, const double *share_mean, const double *share_covariance,
-    double *out_mean, double *out_covariance, double *out_probability, double *nis, int64_t *dof, double *residual);
+    int chains, int modes, int size, int count, const double mean[chains * modes * size],
+    const double covariance[chains * modes * size * size], const double probability[chains * modes],
+    const double value[chains * count], const double slope[chains * count * size],
+    const double error[chains * count * count], const double about[chains * size],
+    const double measured[chains * count], const double variance[chains * count],
+    const double shared[chains * count * count], const double share_mean[size],
+    const double share_covariance[size * size], double out_mean[chains * modes * size],
+    double out_covariance[chains * modes * size * size], double out_probability[chains * modes], double nis[chains],
+    int64_t dof[chains], double residual[chains * count]);
 KERNEL int carried(
-    int modes, int size, int mixing, int settling, const double *change, const double *mean, const double *covariance,
-    const double *probability, const double *moving, const double *driven, const double *kept, const double *settled,
-    const double *nominal, double *out_mean, double *out_covariance, double *out_probability);
+    int modes, int size, int mixing, int settling, const double change[modes * modes],
+    const double mean[modes * size], const double covariance[modes * size * size], const double probability[modes],
+    const double moving[mixing * mixing], const double driven[modes * mixing * mixing],
+    const double kept[modes * size], const double settled[modes * settling * settling], const double nominal[size],
+    double out_mean[modes * size], double out_covariance[modes * size * size], double out_probability[modes]);
 KERNEL int predicted(
-    int chains, int modes, int size, const double *change, const double *mean, const double *covariance,
-    const double *probability, const double *forward, const double *noise, double *out_mean, double *out_covariance,
-    double *out_probability);
+    int chains, int modes, int size, const double change[modes * modes], const double mean[chains * modes * size],
+    const double covariance[chains * modes * size * size], const double probability[chains * modes],
+    const double forward[chains * size * size], const double noise[chains * modes * size * size],
+    double out_mean[chains * modes * size], double out_covariance[chains * modes * size * size],
+    double out_probability[chains * modes]);
 KERNEL int merged(
-    int chains, int modes, int size, const double *mean, const double *covariance, const double *probability,
-    double *whole_mean, double *whole);
+    int chains, int modes, int size, const double mean[chains * modes * size],
+    const double covariance[chains * modes * size * size], const double probability[chains * modes],
+    double whole_mean[chains * size], double whole[chains * size * size]);
 
 /* palm.c */
 KERNEL int palm_ahead(
@@ -51,16 +62,16 @@ KERNEL int recentred(
     int modes, const double *mean, const double *covariance, const double *probability, const double *value,
     const double *rotation, double *out_mean, double *out_covariance, double *out_value, double *out_rotation);
 KERNEL int log_odds(
-    int markers, int blobs, const double *expected, const double *covariance, const double *measured,
-    const double *variance, double prior, double depth_range, double outlier, double gate2, double impossible,
-    double *out, uint8_t *with_depth);
+    int markers, int blobs, const double expected[markers * 3], const double covariance[markers * 9],
+    const double measured[blobs * 3], const double variance[blobs * 3], double prior, double depth_range,
+    double outlier, double gate2, double impossible, double out[markers * blobs], uint8_t with_depth[markers * blobs]);
 KERNEL int wrist_read(
     const double *axes, const double *sensitivity, const double *place, const double *value, const double *rotation,
     const double *covariance, const double *start, const double *stays, double side, double undefined_below,
     double *position, double *shown, double *rate, double *angles, double *sd, double *zyz);
 KERNEL int adapted_factors(
-    int markers, const double *factor, const double *residual, const uint8_t *measured, double weight, double least,
-    double most, double *out);
+    int markers, const double factor[markers * 3], const double residual[markers * 3],
+    const uint8_t measured[markers * 3], double weight, double least, double most, double out[markers * 3]);
 
 /* surface.c */
 KERNEL int surface_fit(
@@ -74,17 +85,21 @@ KERNEL int surface_fit(
 
 /* detection.c */
 KERNEL int blobs_measured(
-    int blobs, const uint16_t *own, const double *rough, int left, int top, int height, int width,
-    const uint16_t *labels, const uint8_t *hsv, int whole_width, const uint8_t *color, const uint16_t *raw, int has_depth,
-    double unit_m, int pixels, const int64_t *row, const int64_t *column, const uint8_t *reach, int core, int near,
-    int rim_from, int rim_to, const float *wedge, const int64_t *pick, const uint8_t *cell, const uint8_t *is_skin,
-    int cells, const double *reference, double low, double high, double fewest_rim, double fewest_core, double iqr_m,
-    double valid_share, double fewest_readings, double edge_step, double edge_sd, double slope_share, double fixed_m,
-    double square_per_m, double patch, int averages, double *centre, double *area, double *similarity,
-    double *skin_share, double *depth, double *depth_sd);
+    int blobs, const uint16_t own[blobs], const double rough[blobs * 2], int left, int top, int height, int width,
+    const uint16_t labels[height * width], const uint8_t hsv[height * width * 3], int whole_height, int whole_width,
+    const uint8_t color[whole_height * whole_width * 3], const uint16_t raw[whole_height * whole_width],
+    int has_depth, double unit_m, int pixels, const int64_t row[pixels], const int64_t column[pixels],
+    const uint8_t reach[pixels], int core, int near, int rim_from, int rim_to,
+    const float wedge[(rim_to - rim_from) * 8], const int64_t pick[pixels], const uint8_t cell[65536],
+    const uint8_t is_skin[65536], int cells, const double reference[cells], double low, double high,
+    double fewest_rim, double fewest_core, double iqr_m, double valid_share, double fewest_readings, double edge_step,
+    double edge_sd, double slope_share, double fixed_m, double square_per_m, double patch, int averages,
+    double centre[blobs * 2], double area[blobs], double similarity[blobs], double skin_share[blobs],
+    double depth[blobs], double depth_sd[blobs]);
 KERNEL int readings_within(
-    int height, int width, const uint16_t *raw, double unit_m, int corners, const double *corner, double wider,
-    double margin, int step, int most, double *pixel, double *depth, int32_t *found);
+    int height, int width, const uint16_t raw[height * width], double unit_m, int corners,
+    const double corner[corners * 2], double wider, double margin, int step, int most, double pixel[most * 2],
+    double depth[most], int32_t *found);
 
 /* digits.c */
 KERNEL int rays_spread(

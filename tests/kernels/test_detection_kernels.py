@@ -68,3 +68,15 @@ def test_readings_on_the_back_of_the_hand() -> None:
     assert both(lambda: surface_samples(seen, np.full((4, 2), np.nan), SamplingSettings())) is None
     empty = replace(seen, depth_raw=np.zeros((240, 320), dtype=np.uint16))
     assert not len(both(lambda: surface_samples(empty, corners, SamplingSettings())).depth_m)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_a_depth_picture_of_another_size_is_refused(level: str) -> None:
+    """Its readings lie elsewhere: as many pixels on or beyond its end they would be another place's, or nobody's."""
+    rng, look = np.random.default_rng(5), Look()
+    looks, _ = learnt(look, rng)
+    seen = frame(picture(PALM_PX, look, rng), depth_picture(rng))
+    assert seen.depth_raw is not None
+    wider = replace(seen, depth_raw=np.pad(seen.depth_raw, ((0, 0), (0, 16))))
+    with choice.forced(level), pytest.raises(ValueError):
+        Detector(looks, CAMERA, SETTINGS).detect(wider)

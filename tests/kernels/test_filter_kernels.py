@@ -107,3 +107,35 @@ def test_an_array_of_another_type_is_refused(level: str) -> None:
     narrow = Bank(bank.mean.astype(np.float32), bank.covariance, bank.probability)
     with choice.forced(level), pytest.raises(TypeError):
         narrow.merged()
+
+
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("wrong", ["mean", "about", "measured", "variance", "shared"])
+def test_an_array_of_another_size_is_refused_before_it_is_read(level: str, wrong: str) -> None:
+    """NumPy would repeat it for every chain; in C what lies behind it would be read."""
+    rng = np.random.default_rng(13)
+    bank, line = bank_of(rng, 5, 2, 6), line_of(rng, 5, 6, 4)
+    given = {name: np.ones((5, 4)) for name in ("measured", "variance")} | {"shared": covariances(rng, 5, 4)}
+    if wrong == "mean":
+        bank = Bank(bank.mean, bank.covariance[:1], bank.probability)
+    elif wrong == "about":
+        line = Line(line.value, line.slope, line.error, line.about[:1])
+    else:
+        given[wrong] = given[wrong][:1]
+    with choice.forced(level), pytest.raises(ValueError):
+        kernel.corrected(bank, line, **given)
+
+
+@pytest.mark.parametrize("modes", [2, 3])
+@pytest.mark.parametrize("level", LEVELS)
+def test_a_switch_of_fewer_modes_is_refused(level: str, modes: int) -> None:
+    rng = np.random.default_rng(14)
+    bank, noise = bank_of(rng, 1, modes, 6), covariances(rng, 1, modes, 6)
+    with choice.forced(level), pytest.raises(ValueError):
+        kernel.predicted(bank, np.eye(6)[None], noise, switching(1, 0.5, 0.033))
+
+
+def test_numbers_of_another_byte_order_are_read_as_they_are() -> None:
+    rng = np.random.default_rng(15)
+    bank, line = bank_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
+    both(lambda: kernel.corrected(bank, line, np.ones((1, 4), dtype=">f8"), np.ones((1, 4))).nis)
