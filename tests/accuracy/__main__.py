@@ -11,6 +11,7 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeVar
 
+from carpus.core.provenance import revision
 from tests.accuracy import badly, cameras, check_cards, hand21_table, papers, readings_table, second, short_table
 from tests.accuracy.hand21 import ROWS, HandRun, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
@@ -88,6 +89,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("", told, sep="\n")
     if options.group == "all" and pictures and not options.only:
         print("", marked("short", short_table.markdown(_kinds(read))), sep="\n")
+        print("", marked("made", _made(seeds, pictures)), sep="\n")
     print(f"{time.monotonic() - begin:.0f} s", file=sys.stderr)
     return 0
 
@@ -132,6 +134,14 @@ def _hand_tables(runs: Sequence[HandRun], scenarios: Sequence[HandScenario]) -> 
         if some:
             yield from (marked(name, hand21_table.markdown(runs, some)), "")
             yield from (marked(f"{name} read", readings_table.markdown(hand21_table.read_rows(runs, some))), "")
+
+
+def _made(seeds: int, pictures: int) -> str:
+    """Where the tables of a run of all come from."""
+    return (
+        f"The tables below were made by one run of revision {revision()[:12] or 'unknown'}: {pictures} of every row\n"
+        f"that is rendered, {seeds} or more of every row of simulated measurements."
+    )
 
 
 def _kinds(read: Sequence[ReadRow]) -> list[tuple[str, list[ReadRow]]]:
