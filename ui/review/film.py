@@ -135,7 +135,10 @@ class FilmSheet(Sheet):
     def _check(self, agreed: bool) -> None:
         """Without agreement there is no film, and Enter makes none."""
         self.take.setEnabled(agreed)
-        self.set_default(self.take if agreed else self.close_button)
+        answer = self.take if agreed else self.close_button
+        self.set_default(answer)
+        if self.isVisible():
+            answer.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _take(self) -> None:
         self.close_sheet()
