@@ -32,7 +32,7 @@ _FLAGS = (
 )
 _WIDE_FLAGS = ("-mavx2", "-mfma", "-ffp-contract=fast")
 PLAIN, WIDE = "plain", "wide"
-"""For every processor of this kind; and for those of x86-64 with AVX2 and FMA, on which it takes half the time."""
+"""For every processor of this kind; and for those of x86-64 with AVX2 and FMA, on which a frame takes a tenth less."""
 
 
 def sources() -> list[Path]:
