@@ -102,6 +102,24 @@ def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
     assert active_passive(session_figures(session()), ()) is None, "one way alone has no table"
 
 
+def test_where_passive_went_less_far_the_table_says_so() -> None:
+    found = active_passive(session_figures(helped_session((0.0, PASSIVE), (HELPED_S, ACTIVE))), ())
+    assert found is not None
+    arc = next(row for row in found.rows if row[0] == "Whole arc")
+    assert arc[3].startswith("\N{MINUS SIGN}")
+    assert "error" in arc[3]
+
+
+def test_the_sentence_keeps_the_sign_of_what_does_not_reach_neutral() -> None:
+    figures = session_figures(helped_session((HELPED_S, PASSIVE)))
+    row = figures.row("flexion", 1)
+    assert row is not None
+    made = replace(figures, rows=tuple(replace(one, mean_deg=-12.0) if one is row else one for one in figures.rows))
+    found = active_passive(made, ())
+    assert found is not None
+    assert "\N{MINUS SIGN}12° by itself" in found.said
+
+
 def test_beside_at_least_stands_what_the_goniometer_said() -> None:
     figures = session_figures(FakeHandSessions().session("hand-7"))
     found = active_passive(figures, hand_values_today())

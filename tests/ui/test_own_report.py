@@ -220,6 +220,14 @@ def test_the_sheet_for_home_has_no_bad_news() -> None:
     assert way.goal_deg == 60.0
     assert len(way.days) == len(way.values_deg) >= 2
     assert own_way(last, [last], {}) is None, "one session is no way"
+    fair = [one for one in history if one.when.date() in way.days[1:-1]]
+    fallen = [replace(one, rows=tuple(replace(row, mean_deg=2.0 * row.mean_deg) for row in one.rows)) for one in fair]
+    first = next(one for one in history if one.when.date() == way.days[0])
+    as_at_first = replace(last, rows=first.rows)
+    held = own_way(as_at_first, [first], {})
+    assert held is not None
+    assert not held.further
+    assert own_way(as_at_first, [first, *fallen], {}) is None, "what was reached in between is not held"
     worse = replace(last, rows=tuple(replace(row, mean_deg=0.3 * row.mean_deg) for row in last.rows))
     assert own_way(worse, history, {}) is None
 

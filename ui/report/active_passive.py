@@ -123,15 +123,15 @@ def _key(item: Comparison) -> RowKey:
 
 
 def _gap(item: Comparison | None) -> str:
-    """``21° (error 10°)``; a gap within the error is none."""
+    """``21° (error 10°)``, below zero where less was reached; a gap within the error is none."""
     if item is None:
         return ""
     if item.verdict == "not_judged":
         return tr("not judged: {why}").format(why=reason_words(item.reasons))
-    if item.verdict != "improved":
+    if item.verdict == "no_change":
         return tr("within the error")
     limit = numbers.degrees(item.limit_deg)
-    return tr("{gap} (error {limit})").format(gap=numbers.degrees(item.shown_difference_deg), limit=limit)
+    return tr("{gap} (error {limit})").format(gap=numbers.signed_degrees(item.shown_difference_deg), limit=limit)
 
 
 def _sentence(figures: SessionFigures) -> str:
@@ -148,7 +148,7 @@ def _sentence(figures: SessionFigures) -> str:
         name = figure_of(most.joint).long_name if most.joint else terms.movement_name(most.movement)
         words = tr("{name}: {active} by itself, {passive} when helped. The {gap} between them are more than the error.")
         return words.format(
-            name=name, active=numbers.degrees(most.before_deg), passive=numbers.degrees(most.after_deg),
+            name=name, active=numbers.signed_degrees(most.before_deg), passive=numbers.signed_degrees(most.after_deg),
             gap=numbers.degrees(most.shown_difference_deg),
         )  # fmt: skip
     if any(item.verdict != "not_judged" for item in gaps):

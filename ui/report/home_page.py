@@ -98,6 +98,9 @@ def own_way(figures: SessionFigures, history: Sequence[SessionFigures], goals: G
     change = compare_rows(found[0][0], figures, [found[-1][1]])
     if not change or change[0].verdict not in ("improved", "no_change"):
         return None
+    since = [compare_rows(one, figures, [found[-1][1]]) for one, _ in found[1:-1]]
+    if change[0].verdict == "no_change" and any(item.verdict == "worse" for items in since for item in items):
+        return None  # what was reached in between is not held
     goal = goals.get((exercise.id, figures.side), figures.targets_deg)[0]
     values = tuple(row.mean_deg for _, row in found)
     return OwnWay(tuple(one.when.date() for one, _ in found), values, goal, change[0].verdict == "improved")
