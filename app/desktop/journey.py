@@ -170,7 +170,7 @@ class Journey(QObject):
             self, SetUpScreens(self.exercise, self.camera, self.markers), self.way, tell, now, library,
             self._find_patient, self.opener, places, self.background,
             camera_there=lambda: self.watch.there, keep_pictures=self.settings.recording.keep_pictures,
-            free_bytes=lambda: free_bytes(library.folder),
+            free_bytes=lambda: free_bytes(library.folder), is_demo=self._parts.is_demo,
         )  # fmt: skip
         self.measuring = MeasuringFlow(self, self.live, self.way, tell, now)
         self.patient_view = PatientViewing(self._shell, self.live, theme, lambda: self.settings.patient.sound)

@@ -81,8 +81,10 @@ class SettingUp(QObject):
         camera_there: Callable[[], bool],
         keep_pictures: bool,
         free_bytes: Callable[[], float],
+        is_demo: bool = False,
     ) -> None:
         super().__init__(parent)
+        self._is_demo = is_demo
         self._exercise, self._camera, self._markers = screens.exercise, screens.camera, screens.markers
         self._way, self._tell, self._now, self._memory = way, tell, now, memory
         self._find_patient, self._opener, self._places, self._background = find_patient, opener, places, background
@@ -142,7 +144,7 @@ class SettingUp(QObject):
         now.set_up = set_up
         self._camera.start_folder = self._places.folder("recordings")
         is_practice = set_up.patient_id == PRACTICE_PATIENT
-        if not is_practice and now.kind == "practice":
+        if not is_practice and now.kind == "practice" and not self._is_demo:
             now.choice = SourceChoice("camera")  # nobody else is measured on the practice patient's without being asked
         self._camera.begin(set_up, "practice" if is_practice else now.kind)
         self._way.go("camera")

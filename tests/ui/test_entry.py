@@ -112,3 +112,14 @@ def test_a_sign_that_cannot_be_seen_is_told_in_the_form_and_nothing_typed_is_los
     form.diagnosis.setText("Radius fracture")
     form.save.click()
     assert [one.diagnosis for one in given] == ["Radius fracture"]
+
+
+def test_the_letter_of_a_field_leads_to_it(qtbot: QtBot, theme: Theme) -> None:
+    host = QWidget()
+    qtbot.addWidget(host)
+    host.show()
+    form = PatientForm(host, theme, FakeStore(), lambda: TODAY)
+    form.begin(None, frozenset())
+    for letter, field in ((Qt.Key.Key_D, form.diagnosis), (Qt.Key.Key_S, form.onset_day), (Qt.Key.Key_N, form.name)):
+        qtbot.keyClick(host.focusWidget(), letter, Qt.KeyboardModifier.AltModifier)
+        assert host.focusWidget() is field

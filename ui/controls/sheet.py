@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QKeySequence, QPainter, QPaintEvent, QResizeEvent
-from PySide6.QtWidgets import QAbstractButton, QApplication, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QAbstractButton, QApplication, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from shiboken6 import isValid
 
 from carpus.ui.controls.button import Button
@@ -129,16 +129,25 @@ class Sheet(QWidget):
             self.leave()
         elif is_enter(event):
             press(self.default)
-        elif event.modifiers() == Qt.KeyboardModifier.AltModifier:
+        else:
             self._press_mnemonic(event)
         event.accept()  # nothing goes through to what lies below
 
-    def _press_mnemonic(self, event: QKeyEvent) -> None:
+    def _press_mnemonic(self, event: QKeyEvent) -> bool:
+        """Press the button, or go to the field, whose letter was pressed with Alt; whether there is one."""
+        if event.modifiers() != Qt.KeyboardModifier.AltModifier:
+            return False
         pressed = QKeySequence(event.keyCombination())
         for button in self.findChildren(QAbstractButton):
             if button.isVisible() and button.isEnabled() and QKeySequence.mnemonic(button.text()) == pressed:
                 button.click()
-                return
+                return True
+        for label in self.findChildren(QLabel):
+            field: QWidget | None = label.buddy()
+            if field is not None and label.isVisible() and QKeySequence.mnemonic(label.text()) == pressed:
+                field.setFocus(Qt.FocusReason.ShortcutFocusReason)
+                return True
+        return False
 
     def focusNextPrevChild(self, forward: bool) -> bool:
         stops = [
@@ -167,6 +176,8 @@ class Sheet(QWidget):
                 event.accept()  # no shortcut of the window fires; the key itself goes to who has the keyboard
         elif isinstance(watched, QWidget) and watched is not self and self._rules(watched.window()):
             outside = not self.isAncestorOf(watched) and watched is not self.window()
+            if kind == QEvent.Type.KeyPress and self._press_mnemonic(event):  # type: ignore[arg-type]
+                return True  # a line to type in would take the letter
             if kind == QEvent.Type.KeyPress and outside:
                 self._take_keyboard()
                 self.keyPressEvent(event)  # type: ignore[arg-type]

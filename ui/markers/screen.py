@@ -174,9 +174,12 @@ class MarkersScreen(QWidget):
         crowded = self.height() > 0 and room_px < CROWDED_BELOW_PX * self._theme.text_scale
         clicks = self.clicking is not None and not self.clicking.complete
         self.panel.setVisible(not (crowded and (clicks or asks)))
-        self.panel.show_close(crowded)
+        self.panel.show_close(False)
         if crowded:
             self.hand.setVisible(clicks)
+            self._right.invalidate()
+            needed_px = self._right.minimumHeightForWidth(self._theme.px(376)) + 2 * (MARGIN_PX - 4) + guided_px
+            self.panel.show_close(needed_px > self.height())
         elif clicks and self.height() > 0:
             # A long name of a marker may take a line more than there is: the checks, not known yet, wait.
             self._right.invalidate()
