@@ -10553,6 +10553,10 @@ Umschalt+F8 von der Seite</translation>
         <translation>Noch keine Sitzung</translation>
     </message>
     <message>
+        <source>No session counted yet</source>
+        <translation>Noch keine Sitzung gezählt</translation>
+    </message>
+    <message>
         <source>Note of {day}</source>
         <translation>Notiz vom {day}</translation>
     </message>

@@ -10553,6 +10553,10 @@ Maiusc+F8 di lato</translation>
         <translation>Ancora nessuna seduta</translation>
     </message>
     <message>
+        <source>No session counted yet</source>
+        <translation>Nessuna seduta ancora contata</translation>
+    </message>
+    <message>
         <source>Note of {day}</source>
         <translation>Nota, {day}</translation>
     </message>

@@ -148,6 +148,19 @@ def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: 
     qtbot.waitUntil(lambda: len(lines.lines) == 2)
 
 
+def test_it_is_said_to_whom_a_session_was_given(qtbot: QtBot, opened: Open) -> None:
+    desktop = opened()
+    journey = desktop.journey
+    journey.viewing.open_sessions(linden(desktop))
+    (heron,) = (one.patient_id for one in desktop.library.patients.listed("heron"))
+    journey.sessions.move_sheet.chosen.emit(heron)
+    said = "The session is now one of Heron 17."
+    qtbot.waitUntil(lambda: said in visible_words(desktop.shell), timeout=60_000)
+    assert len(desktop.library.sessions(heron)) == 1
+    journey.way.go("patients")
+    assert said not in visible_words(desktop.shell)
+
+
 def test_a_patient_is_erased_from_the_form(qtbot: QtBot, opened: Open, data: Path) -> None:
     desktop = opened()
     patients, sheet = desktop.journey.patients, desktop.safe.erasing.sheet
@@ -161,6 +174,7 @@ def test_a_patient_is_erased_from_the_form(qtbot: QtBot, opened: Open, data: Pat
     qtbot.waitUntil(lambda: [one.entry.pseudonym for one in desktop.library.patients.listed()] == ["Heron 17"])
     qtbot.waitUntil(lambda: desktop.journey.place == "patients" and not desktop.journey.background.busy)
     assert traces(data, "Linden", "Mustermann") == []
+    qtbot.waitUntil(lambda: "The patient is erased." in visible_words(desktop.shell), timeout=60_000)
     patients.new_patient()
     assert not patients.form.remove.isVisible()
 

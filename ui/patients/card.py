@@ -151,7 +151,8 @@ class PatientCardView(Card):
         self._show_why(row)
         day = numbers.day_month(row.last_session) if row.last_session else ""
         self._photo.show_picture(card.marker_picture_rgb, self.tr("Markers as on {day}").format(day=day) if day else "")
-        self._exercise.setText(terms.exercise_name(row.exercise) if row.exercise else self.tr("No session yet"))
+        none = self.tr("No session counted yet") if card.has_sessions else self.tr("No session yet")
+        self._exercise.setText(terms.exercise_name(row.exercise) if row.exercise else none)
         self._last.setText(self._last_words(card, practice))
         self._about.setText(card.about)
         self._about.setVisible(bool(card.about))
