@@ -3656,6 +3656,10 @@
         <translation>Mittel aus {count} Wiederholungen</translation>
     </message>
     <message>
+        <source>no active repetition</source>
+        <translation>keine aktive Wiederholung</translation>
+    </message>
+    <message>
         <source>1 passive beside it</source>
         <translation>daneben 1 passive</translation>
     </message>
@@ -3758,6 +3762,10 @@
     <message>
         <source>No change beyond measurement error since {when}.</source>
         <translation type="vanished">Seit {when} keine Änderung über den Messfehler hinaus.</translation>
+    </message>
+    <message>
+        <source>No active range was measured.</source>
+        <translation>Kein aktiver Bewegungsumfang gemessen.</translation>
     </message>
     <message>
         <source>{name} {size} better</source>

@@ -3656,6 +3656,10 @@
         <translation>media di {count} ripetizioni</translation>
     </message>
     <message>
+        <source>no active repetition</source>
+        <translation>nessuna ripetizione attiva</translation>
+    </message>
+    <message>
         <source>1 passive beside it</source>
         <translation>accanto 1 passiva</translation>
     </message>
@@ -3758,6 +3762,10 @@
     <message>
         <source>No change beyond measurement error since {when}.</source>
         <translation type="vanished">Confronto con {when}: nessun cambiamento oltre l’errore di misura.</translation>
+    </message>
+    <message>
+        <source>No active range was measured.</source>
+        <translation>Nessun movimento attivo è stato misurato.</translation>
     </message>
     <message>
         <source>{name} {size} better</source>

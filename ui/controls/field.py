@@ -176,8 +176,8 @@ class Choices(QWidget):
 class ChoiceButton(Button):
     """One of several; chosen = accent outline, soft fill and a check. The space bar chooses; Enter is not its own."""
 
-    def __init__(self, theme: Theme, text: str) -> None:
-        super().__init__(theme, text, "plain", height_px=40)
+    def __init__(self, theme: Theme, text: str, *, height_px: int = 40) -> None:
+        super().__init__(theme, text, "plain", height_px=height_px)
         self.on_enter = "pass"
         self.setCheckable(True)
         self.toggled.connect(lambda on: self.set_face(self.text(), icon="check" if on else ""))

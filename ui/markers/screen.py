@@ -581,6 +581,10 @@ class MarkersScreen(QWidget):
         self.step.show_state("none", self.tr("Marker {number} of {asked}").format(number=number, asked=asked))
         self.title.setText(click_instruction(clicking.current))
         self.place.setText(marker_place(clicking.current))
+        if clicking.complete:  # nothing is left to click while they are checked
+            self.step.show_state("good", self.tr("All markers found"))
+            self.title.setText(self.tr("Checking the markers…"))
+            self.place.setText(self.tr("Hold the hand in this position until the measuring begins."))
         self.hand.show_markers(clicking.side, self._hand_states(clicking, ()))
         words = self.tr("Checking…") if clicking.complete else self.tr("Good so far") if done else self.tr("Checks")
         state = "good" if done and not clicking.complete else "none"

@@ -132,11 +132,12 @@ class Page:
         self.painter.drawRoundedRect(self.box(left, top, width, height), 6 * self.point, 6 * self.point)
 
     def facts(self, pairs: Sequence[tuple[str, str]], top: float, shares: Sequence[float]) -> None:
-        """Small names over values, side by side."""
+        """Small names over values, side by side; what is too wide for its share moves the next ones to the right."""
+        end = self.left
         for (name, value), share in zip(pairs, shares, strict=True):
-            left = self.left + share * (self.right - self.left)
-            self.text(name, left, top + 9, 8.5, REGULAR, "text2")
-            self.text(value, left, top + 23, 10.0, MEDIUM)
+            left = max(self.left + share * (self.right - self.left), end)
+            named = self.text(name, left, top + 9, 8.5, REGULAR, "text2")
+            end = max(named, self.text(value, left, top + 23, 10.0, MEDIUM)) + 8.0
 
     def title(self, text: str, baseline: float, aside: str = "") -> float:
         """Title of a section, with a small remark at the right or, where it is too long, below; returns how much lower

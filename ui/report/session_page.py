@@ -158,7 +158,9 @@ def what_words(report: SessionReport) -> str:
 
 def _paint_facts(page: Page, report: SessionReport, top: float) -> float:
     figures = report.figures
-    session = tr("active") if figures.passive is None else tr("active and passive")
+    session = tr("active")
+    if figures.passive is not None:
+        session = tr("active and passive") if figures.counted else tr("passive")
     if report.session_number:
         session = f"{numbers.ordinal(report.session_number)}, {session}"
     handed = {"right": tr("right-handed"), "left": tr("left-handed"), "both": tr("both-handed")}.get(

@@ -78,7 +78,9 @@ def repetition_words(figures: SessionFigures) -> str:
         words = _why_none(figures)
     else:
         counted = figures.counted
-        words = tr("1 repetition") if counted == 1 else tr("mean of {count} repetitions").format(count=counted)
+        words = tr("mean of {count} repetitions").format(count=counted) if counted else tr("no active repetition")
+        if counted == 1:
+            words = tr("1 repetition")
     parts = [words]
     if helped := sum(repetition.helped for repetition in figures.repetitions):
         parts.append(tr("1 passive beside it") if helped == 1 else tr("{count} passive beside it").format(count=helped))

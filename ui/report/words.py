@@ -26,7 +26,7 @@ def summary(figures: SessionFigures, previous: SessionFigures | None, first: Ses
         for row in rows
     )
     if not today:
-        return tr("No range could be measured.")
+        return tr("No range could be measured.") if figures.passive is None else tr("No active range was measured.")
     parts = [f"{today[0].upper()}{today[1:]}."]
     if previous is not None:
         parts.append(since_words(compare(previous, figures), numbers.day_beside(previous.when, figures.when)))

@@ -162,7 +162,7 @@ class ReviewScreen(QWidget):
         self.correct_button.setProperty("floats", True)
         self.correct_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.correct_button.setToolTip(self.tr("A marker is wrong or missing here (Shift+F10)"))
-        self.angle_button = ChoiceButton(theme, self.tr("Angle"))
+        self.angle_button = ChoiceButton(theme, self.tr("Angle"), height_px=36)
         self.angle_button.setToolTip(self.tr("The angle drawn on the picture (A)"))
         self.angle_button.toggled.connect(lambda _: self.picture.update())
         self.angle_button.toggled.connect(lambda _: self._place_button())
@@ -616,7 +616,7 @@ class ReviewScreen(QWidget):
             top -= button.height() + 8
         for other in others:
             right -= other.width()
-            other.move(right, top + others[0].height() - other.height())
+            other.move(right, top)
             right -= 8
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
