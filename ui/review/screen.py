@@ -390,12 +390,11 @@ class ReviewScreen(QWidget):
         self.film_button.hide()  # until there is a picture of it
         self._place_button()
         self._compute()
-        counted = (
-            [n for n, repetition in enumerate(self.figures.repetitions) if repetition.counts] if self.figures else []
-        )
-        self._current = counted[0] if counted else -1
+        all_of_them = self.figures.repetitions if self.figures else ()
+        counted = (n for n, repetition in enumerate(all_of_them) if repetition.counts)
+        self._current = next(counted, 0 if all_of_them else -1)  # also where all are passive: they have films too
         self._refresh()
-        self.seek(self.figures.repetitions[self._current].start_s if counted and self.figures else 0.0)
+        self.seek(all_of_them[self._current].start_s if all_of_them else 0.0)
         self.arrived.emit()
 
     def _lay_out_for(self, whole_hand: bool) -> None:
