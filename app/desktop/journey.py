@@ -545,7 +545,8 @@ class Journey(QObject):
             actions[name]()
 
     def _escape(self) -> None:
-        if self.teller.busy or not self.takes_escape():
+        taken = not self.teller.busy and (self.takes_escape() or (self.place == "report" and self.report.to_report()))
+        if not taken:
             self.way.back()
 
     def _camera_looked_for(self, there: bool, name: str) -> None:

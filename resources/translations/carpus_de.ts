@@ -8664,7 +8664,7 @@
     </message>
     <message>
         <source>Counts and dates only: no measured value leaves a patient’s own record. Therapists stand in the order in which they joined and are never ranked.</source>
-        <translation>Nur Anzahl und Datum: Kein Messwert verlässt die Akte eines Patienten. Therapeuten stehen in der Reihenfolge, in der sie dazukamen, und werden nie gereiht.</translation>
+        <translation>Nur Anzahl und Datum: Kein Messwert verlässt die Akte eines Patienten. Therapeuten stehen in der Reihenfolge, in der sie dazukamen, nie nach einer Zahl geordnet.</translation>
     </message>
     <message>
         <source>Due for a re-test: {count}</source>
@@ -10706,6 +10706,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Since when? Day, month, year</source>
         <translation>Seit wann? Tag, Monat, Jahr</translation>
+    </message>
+    <message>
+        <source>Since when? It is yet to come</source>
+        <translation>Seit wann? Der Tag kommt erst</translation>
     </message>
     <message>
         <source>Operation or injury?</source>

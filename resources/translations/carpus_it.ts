@@ -10708,6 +10708,10 @@ Maiusc+F8 di lato</translation>
         <translation>Da quando? Giorno, mese, anno</translation>
     </message>
     <message>
+        <source>Since when? It is yet to come</source>
+        <translation>Da quando? Il giorno deve venire</translation>
+    </message>
+    <message>
         <source>Operation or injury?</source>
         <translation>Intervento o lesione?</translation>
     </message>

@@ -70,7 +70,7 @@ def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(
     assert store.listed[-1] == "Mallet finger"
     form.listed.click()
     assert (form.listed.isChecked(), "Mallet finger" in store.listed) == (False, False)
-    for typed, asked in (("21.8.", "Since"), ("20.12.2026", "Since"), ("21.8.2026", "Operation or injury?")):
+    for typed, asked in (("21.8.", "Since"), ("20.12.2026", "Since when? It"), ("21.8.2026", "Operation or injury?")):
         form.onset_day.setText(typed)
         assert form.save.text().startswith(asked), typed
         assert not form.save.isEnabled()

@@ -262,6 +262,7 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(qtbot: QtBot, theme
     assert suggested_name(asked[0]).endswith("_wrist-fe_home.pdf")
     screen.back_button.click()
     assert screen.shown == asked[0].report
+    assert not screen.to_report(), "from the report itself Esc leads on"
 
 
 def test_a_letter_names_nobody_unless_asked(tmp_path: Path) -> None:

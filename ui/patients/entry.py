@@ -185,6 +185,8 @@ class PatientForm(Sheet):
             asked = self.tr("Which hand writes?")
         elif typed and day is None:
             asked = self.tr("Since when? Day, month, year")
+            if numbers.day_typed(typed) is not None:
+                asked = self.tr("Since when? It is yet to come")
         elif typed and self.onset.value() is None:
             asked = self.tr("Operation or injury?")
         self.save.set_face(asked or self._words)

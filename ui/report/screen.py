@@ -67,7 +67,7 @@ class ReportScreen(QWidget):
         self.panel.changed.connect(self._show_changed)
         self.letter_button.clicked.connect(self._ask_letter)
         self.home_button.clicked.connect(self._ask_home)
-        self.back_button.clicked.connect(self._to_report)
+        self.back_button.clicked.connect(self.to_report)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
         bind(self, keys, "report", self.save_button.click)
@@ -175,9 +175,12 @@ class ReportScreen(QWidget):
         if isinstance(self._report, SessionReport):
             self.home_wanted.emit(self._report)
 
-    def _to_report(self) -> None:
-        if isinstance(self._report, LetterReport | HomeReport):
-            self.begin(self._report.report, self._folder)
+    def to_report(self) -> bool:
+        """Back from a letter or sheet to the report it was made of; whether there was one."""
+        if not isinstance(self._report, LetterReport | HomeReport):
+            return False
+        self.begin(self._report.report, self._folder)
+        return True
 
     def print_out(self) -> None:
         """Ask for a printer, then paint the same pages on its paper."""
