@@ -39,7 +39,7 @@ int corrected(
            *own = white + m * n, *root = own + m * m, *inverse = root + m * m, *unit = inverse + m * m, *off = unit + m,
            *innovation = off + m, *apart = innovation + m, *line = apart + m, *each = line + n,
            *likelihood = each + modes * m, *square = likelihood + modes;
-    int used[m], failed = 0;
+    int used[m > 0 ? m : 1], failed = 0;
     for (int c = 0; c < chains && !failed; c++) {
         const double *expected = value + c * m, *seen = measured + c * m, *noise = variance + c * m;
         int u = 0;

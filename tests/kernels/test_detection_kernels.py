@@ -12,7 +12,7 @@ from carpus.core.detection.detector import Detector, Region
 from carpus.core.detection.surface_samples import SamplingSettings, surface_samples
 from carpus.core.kernels import choice
 from carpus.core.types import Detections, Frame
-from tests.detection.pictures import CAMERA, PALM_PX, Extra, Look, depth_picture, frame, picture
+from tests.detection.pictures import CAMERA, DISTANCE_M, PALM_PX, Extra, Look, depth_picture, frame, picture
 from tests.detection.test_detector import SETTINGS, learnt
 from tests.kernels.pairs import LEVELS, both
 
@@ -45,6 +45,18 @@ def test_discs_in_the_picture_at_its_edge_and_without_depth(sensor: DepthSensor)
     assert seen.depth_raw is not None
     holed = seen.depth_raw * (rng.uniform(size=seen.depth_raw.shape) < 0.3)
     alike(detector, replace(seen, depth_raw=holed.astype(np.uint16)))
+
+
+def test_a_reading_far_from_a_discs_others_is_no_part_of_its_depth() -> None:
+    rng, look = np.random.default_rng(5), Look()
+    looks, _ = learnt(look, rng)
+    seen = frame(picture(PALM_PX, look, rng), depth_picture())
+    assert seen.depth_raw is not None
+    for u, v in np.rint(PALM_PX).astype(int):
+        seen.depth_raw[v + 1, u] += 2000  # not the middle, where the disc's size is looked up
+    found = alike(Detector(looks, CAMERA, SETTINGS), seen)
+    assert len(found) == len(PALM_PX)
+    np.testing.assert_allclose(found.depth_m, DISTANCE_M, rtol=1e-9)
 
 
 def test_nothing_in_the_picture() -> None:

@@ -139,3 +139,20 @@ def test_numbers_of_another_byte_order_are_read_as_they_are() -> None:
     rng = np.random.default_rng(15)
     bank, line = bank_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
     both(lambda: kernel.corrected(bank, line, np.ones((1, 4), dtype=">f8"), np.ones((1, 4))).nis)
+
+
+def test_a_mode_that_is_far_off_keeps_the_same_little_chance() -> None:
+    rng = np.random.default_rng(16)
+    bank, line = bank_of(rng, 1, 3, 6), line_of(rng, 1, 6, 4)
+    bank.mean[0, 2] += 1e3
+    found = both(lambda: kernel.corrected(bank, line, np.ones((1, 4)), np.ones((1, 4))))
+    assert found.bank.probability[0, 2] == pytest.approx(1e-6, rel=1e-3)
+
+
+@pytest.mark.parametrize("how", [choice.NUMPY, *LEVELS])
+def test_no_correction_by_what_has_no_scatter_at_all(how: str) -> None:
+    rng = np.random.default_rng(17)
+    bank, line = bank_of(rng, 1, 2, 6), line_of(rng, 1, 6, 2)
+    none = Line(line.value, np.zeros((1, 2, 6)), -np.eye(2)[None], line.about)
+    with choice.forced(how), pytest.raises(np.linalg.LinAlgError):
+        kernel.corrected(bank, none, np.ones((1, 2)), np.ones((1, 2)))

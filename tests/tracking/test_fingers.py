@@ -18,7 +18,7 @@ from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.palm_association import measurements_of
 from carpus.core.tracking.palm_state import InitialSd, resting_belief
-from carpus.core.tracking.ray_filter import ANATOMY
+from carpus.core.tracking.ray_filter import ANATOMY, RATES
 from carpus.core.tracking.readout import Readout, ReadoutSettings
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
@@ -110,6 +110,19 @@ def test_fingers_that_rest_are_slow_and_fingers_out_of_sight_may_be_fast() -> No
     assert fingers.speeds == (0.0, 0.0)
     fingers.begin_anywhere()
     assert 0.5 < min(fingers.speeds) <= max(fingers.speeds) <= settings.tissue.fastest_rad_s
+
+
+def test_speeds_are_of_the_thumbs_base_and_the_fingers_knuckles_alone() -> None:
+    seen = sequence()
+    hand, _ = measured_hand(seen, CalibrationSettings())
+    assert hand.calibration is not None
+    fingers = Fingers(hand.calibration, seen.truth.camera, TrackerSettings())
+    mean = fingers.known.mean.copy()
+    mean[1:, :, RATES] = [3.0, 0.5, 3.0, 3.0, 3.0]
+    mean[0, :, RATES] = [1.0, 0.8, 3.0, 3.0, 3.0]
+    turning = replace(fingers.known, mean=mean)
+    fingers._take(turning, turning.merged())
+    assert fingers.speeds == pytest.approx((np.sqrt((1.0 + 0.64) / 2.0), 0.5))
 
 
 def weighed(place_m: float, off_px: tuple[float, float], own: FingerSettings) -> tuple[FingerTrial, FloatArray]:

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.hand.back_surface import BackSurfaceSettings, back_surface_from
+from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import hand_filter
+from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan
 from carpus.core.tracking.palm_state import RATE, SHAPE, SKIN
 from carpus.core.tracking.reacquire import Facing, FoundPalm
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import settled_covariance
+from carpus.core.tracking.soft_tissue import NO_DIGITS, settled_covariance
+from carpus.core.types import Detections
+from tests.accuracy.carpus import measured_hand
+from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, CMC1, DT_S, MCP2, MCP3, MCP4, MCP5, WRIST, Pose, blobs, calibration, swing
 
 FOUND = FoundPalm(np.array([0.02, 0.01, -0.01]), np.eye(3), np.ones(6, dtype=bool))
@@ -97,3 +105,39 @@ def test_a_prediction_is_worked_out_once_and_of_another_time_anew() -> None:
     posterior, scan = updated(own, 1.0, swing(1, 40.0, 1.0)(10 * DT_S))
     own.accept(posterior, scan, is_seen=True, linked=True)
     assert own.predict(DT_S) is not again, "the state is another"
+
+
+def with_fingers(use_surface: bool) -> tuple[HandFilter, Detections]:
+    """The filter of a hand with fingers, all known as calibrated, and the blobs of its first picture."""
+    seen = measurement_sequence(RecordingSpec(seed=61, protocol="hand21", motion="fist", seconds=1.0))
+    hand, _ = measured_hand(seen, CalibrationSettings())
+    assert hand.calibration is not None
+    corner = palm_of(hand.calibration).marker_position_w0_m[:4]
+    x, y = (grid.ravel() for grid in np.meshgrid(np.arange(-0.02, 0.11, 0.0015), np.arange(-0.05, 0.05, 0.0015)))
+    level = np.full(x.size, np.median(corner[:, 2]))
+    surface = back_surface_from(np.stack((x, y, level), axis=1), corner, BackSurfaceSettings())
+    assert surface is not None
+    settings = TrackerSettings(use_surface=use_surface)
+    return HandFilter(replace(hand.calibration, surface=surface), seen.truth.camera, settings), seen.detections[0]
+
+
+def test_the_skin_moves_while_the_joints_beneath_it_do() -> None:
+    own, _ = with_fingers(use_surface=True)
+    assert own.fingers is not None
+    rest = np.diagonal(own.predict(DT_S).nominal.covariance)[SKIN]
+    own.fingers.begin_anywhere()
+    assert min(own.fingers.speeds) > 0.5
+    moving = np.diagonal(own.predict(DT_S).nominal.covariance)[SKIN]
+    assert (moving[3:] > 1.5 * rest[3:]).all()
+
+
+@pytest.mark.parametrize("use_surface", [False, True])
+def test_an_accepted_step_tells_how_fast_the_digits_moved_where_the_skin_goes_by_it(use_surface: bool) -> None:
+    own, found = with_fingers(use_surface)
+    assert own.fingers is not None
+    own.fingers.begin_anywhere()
+    predicted = own.predict(DT_S)
+    scan = own.scan(predicted, found, DT_S, DT_S).without_blobs()
+    step, _ = own.accept(own.update(predicted, scan), scan, is_seen=False, linked=True)
+    assert min(own.fingers.speeds) > 0.5
+    assert step.digits == (own.fingers.speeds if use_surface else NO_DIGITS)

@@ -199,6 +199,29 @@ def test_skin_leaves_home_while_joints_turn() -> None:
     assert FOLLOWING.at_rest[home].sum() > 0.9
 
 
+def test_tissue_that_came_home_was_pushed_there_from_anywhere() -> None:
+    home, away = (int(np.flatnonzero((FOLLOWING.tissue_of == HOME) == is_home)[0]) for is_home in (True, False))
+    stayed, came = np.zeros((2, FOLLOWING.modes, FOLLOWING.modes))
+    stayed[home, home] = came[away, home] = 1.0
+    rest, push = (FOLLOWING.tissue_noise(went, np.zeros(3), 1.0 / 30.0) for went in (stayed, came))
+    np.testing.assert_allclose(push - rest, settled_covariance(SoftTissue())[SOFT, SOFT], atol=1e-15)
+
+
+def test_looking_back_tissue_moves_from_a_frame_on_as_the_digits_did_in_it() -> None:
+    vague = np.full(FOLLOWING.modes, 1.0 / FOLLOWING.modes)
+    speeds = DigitSpeeds(fingers=2.0), DigitSpeeds(), DigitSpeeds()
+    steps = [FilterStep(k / 30.0, moving(0), vague, k > 0, None, digits) for k, digits in enumerate(speeds)]
+    walk = PalmWalk(steps, FOLLOWING)
+    fast, rest = (walk.passage(frame, moving(0), moving(0), 1.0 / 30.0) for frame in (0, 1))
+    knuckles = slice(SKIN.start + 6, SKIN.stop)
+    fast_m2, rest_m2 = (np.diagonal(step.noise[0])[knuckles] for step in (fast, rest))
+    for went, digits, noise in zip(walk.went_over, speeds, (fast, rest), strict=False):
+        assert went is not None
+        pushed = FOLLOWING.tissue_noise(went, moving(0).rate_rad_s, 1.0 / 30.0, digits)
+        np.testing.assert_allclose(noise.noise[0, SOFT, SOFT], pushed)
+    assert (fast_m2 > 1.5 * rest_m2).all()
+
+
 def test_what_came_after_tells_when_tissue_moved() -> None:
     """Named by the last frame alone: the frame before cannot have been the arch's unless it is likely to stay so."""
     cup = int(np.flatnonzero(RESTING.tissue_of == CUP)[0])
