@@ -12,7 +12,8 @@ from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.durable import replace_file
 from carpus.core.library.library import Library
-from carpus.core.records.clinic_week import ClinicWeek, clinic_week
+from carpus.core.records.clinic_week import clinic_week
+from carpus.core.records.values import ClinicWeek
 from carpus.ui.background import Background
 from carpus.ui.clinic.screen import ClinicScreen
 from carpus.ui.clinic.words import write_clinic_page

@@ -19,51 +19,14 @@ from sqlalchemy import Row, func, select
 from carpus.core.records.changes import PRACTICE
 from carpus.core.records.schema import PATIENT, SESSION
 from carpus.core.records.store import Store
-from carpus.core.records.values import moment
+from carpus.core.records.values import WEEKS, ClinicWeek, Counted, DueTest, moment
 from carpus.core.types import Side
 
-WEEKS = 8
-"""So many weeks beside each other, the one asked for last."""
 FEWEST_WEEKS = 4
 """With fewer weeks before nothing is called usual."""
 SOON_DAYS = 7
 GONE_DAYS = 182
 """Who was not here for half a year has finished, and is nobody's to remind of."""
-
-
-@dataclass(frozen=True, slots=True)
-class Counted:
-    """Sessions of one therapist, by initials, empty for nobody's: ``days`` Monday to Sunday of the week, ``weeks`` of
-    the last ones, the week asked for at the end; ``usual`` the median of those before, NaN where there are too few."""
-
-    by: str
-    days: tuple[int, ...]
-    weeks: tuple[int, ...]
-    usual: float
-
-
-@dataclass(frozen=True, slots=True)
-class DueTest:
-    """A patient's newest exercise and hand; ``overdue_days`` below 0 where there is time left."""
-
-    patient_id: str
-    pseudonym: str
-    exercise: str
-    hand: Side
-    last: date
-    by: str
-    overdue_days: int
-
-
-@dataclass(frozen=True, slots=True)
-class ClinicWeek:
-    """One week; ``therapists`` in the order in which they joined, never by how much they did. ``due`` longest first."""
-
-    monday: date
-    everybody: Counted
-    therapists: tuple[Counted, ...]
-    patients: int
-    due: tuple[DueTest, ...]
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,8 +32,7 @@ from carpus.core.output.report_content import (
     session_figures,
 )
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
-from carpus.core.records.clinic_week import ClinicWeek, Counted, DueTest
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import ClinicWeek, Counted, DueTest, PatientEntry
 from carpus.core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec

@@ -8,7 +8,7 @@ from datetime import date, timedelta
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from carpus.core.records.clinic_week import ClinicWeek
+from carpus.core.records.values import ClinicWeek
 from carpus.ui.clinic.words import due_rows, heads_of_days, heads_of_due, session_rows, sessions_words, week_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card

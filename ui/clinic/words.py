@@ -6,7 +6,7 @@ import math
 from datetime import date, timedelta
 from pathlib import Path
 
-from carpus.core.records.clinic_week import WEEKS, ClinicWeek, Counted, DueTest
+from carpus.core.records.values import WEEKS, ClinicWeek, Counted, DueTest
 from carpus.ui import language, numbers, terms
 from carpus.ui.fonts import REGULAR, SEMIBOLD
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
