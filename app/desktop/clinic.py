@@ -8,6 +8,7 @@ from datetime import date
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
+from carpus.app.desktop.files_written import tell_written
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.durable import replace_file
@@ -70,5 +71,5 @@ class Clinic(QObject):
         if path is not None:
             self._background.run(
                 lambda: replace_file(path, lambda part: write_clinic_page(part, week)),
-                lambda _: None, self._tell.fault, self,
+                lambda _: tell_written(self._tell, str(path.parent), [path.name]), self._tell.fault, self,
             )  # fmt: skip

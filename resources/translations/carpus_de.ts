@@ -2908,8 +2908,12 @@
         <translation>Carpus Klinik</translation>
     </message>
     <message>
+        <source>Counts and dates only, without simulated sessions</source>
+        <translation>Nur Anzahl und Datum, ohne simulierte Sitzungen</translation>
+    </message>
+    <message>
         <source>Counts and dates only</source>
-        <translation>Nur Anzahl und Datum</translation>
+        <translation type="vanished">Nur Anzahl und Datum</translation>
     </message>
     <message>
         <source>The clinic</source>
@@ -8648,15 +8652,15 @@
     <name>ClinicScreen</name>
     <message>
         <source>Week before</source>
-        <translation>Woche davor</translation>
+        <translation type="vanished">Woche davor</translation>
     </message>
     <message>
         <source>Week after</source>
-        <translation>Woche danach</translation>
+        <translation type="vanished">Woche danach</translation>
     </message>
     <message>
         <source>Save page…</source>
-        <translation>Seite speichern…</translation>
+        <translation type="vanished">Seite speichern…</translation>
     </message>
     <message>
         <source>The clinic</source>
@@ -8664,7 +8668,23 @@
     </message>
     <message>
         <source>Counts and dates only: no measured value leaves a patient’s own record. Therapists stand in the order in which they joined and are never ranked.</source>
-        <translation>Nur Anzahl und Datum: Kein Messwert verlässt die Akte eines Patienten. Therapeuten stehen in der Reihenfolge, in der sie dazukamen, nie nach einer Zahl geordnet.</translation>
+        <translation type="vanished">Nur Anzahl und Datum: Kein Messwert verlässt die Akte eines Patienten. Therapeuten stehen in der Reihenfolge, in der sie dazukamen, nie nach einer Zahl geordnet.</translation>
+    </message>
+    <message>
+        <source>Week &amp;before</source>
+        <translation>Woche &amp;davor</translation>
+    </message>
+    <message>
+        <source>Week &amp;after</source>
+        <translation>Woche da&amp;nach</translation>
+    </message>
+    <message>
+        <source>&amp;Save page…</source>
+        <translation>&amp;Seite speichern…</translation>
+    </message>
+    <message>
+        <source>Counts and dates only, without simulated sessions: no measured value leaves a patient’s own record. Therapists stand in the order in which they joined and are never ranked.</source>
+        <translation>Nur Anzahl und Datum, ohne simulierte Sitzungen: Kein Messwert verlässt die Akte eines Patienten. Therapeuten stehen in der Reihenfolge, in der sie dazukamen, nie nach einer Zahl geordnet.</translation>
     </message>
     <message>
         <source>Due for a re-test: {count}</source>
@@ -10672,6 +10692,18 @@ Umschalt+F8 von der Seite</translation>
         <translation>N&amp;otiz (keine Namen)</translation>
     </message>
     <message>
+        <source>Name: {count} letters too many</source>
+        <translation>Name: {count} Zeichen zu viel</translation>
+    </message>
+    <message>
+        <source>Real name: {count} letters too many</source>
+        <translation>Echter Name: {count} Zeichen zu viel</translation>
+    </message>
+    <message>
+        <source>Diagnosis: {count} letters too many</source>
+        <translation>Diagnose: {count} Zeichen zu viel</translation>
+    </message>
+    <message>
         <source>N&amp;ote (no diagnosis, no names)</source>
         <translation type="vanished">N&amp;otiz (keine Diagnose, keine Namen)</translation>
     </message>
@@ -10717,7 +10749,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>A name has up to {count} letters: what goes beyond is not taken.</source>
-        <translation>Ein Name hat höchstens {count} Zeichen: Was darüber hinausgeht, wird nicht übernommen.</translation>
+        <translation type="vanished">Ein Name hat höchstens {count} Zeichen: Was darüber hinausgeht, wird nicht übernommen.</translation>
     </message>
     <message>
         <source>Give the patient a name.</source>
@@ -10770,7 +10802,11 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Clinic…</source>
-        <translation>Klinik…</translation>
+        <translation type="vanished">Klinik…</translation>
+    </message>
+    <message>
+        <source>&amp;Clinic…</source>
+        <translation>&amp;Klinik…</translation>
     </message>
     <message>
         <source>Sessions by day and therapist, and who is due for a re-test</source>
@@ -12349,7 +12385,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all formats of an export, the order of the angles, streaming, agreement. No value changes by it.</source>
-        <translation>Zeigt, was der Alltag einer Praxis nicht braucht: Bahn und Achsen, Geschwindigkeiten, die Bewegungsseite in Berichten, alle Formate eines Exports, die Reihenfolge der Winkel, Streaming, Übereinstimmung. Kein Wert ändert sich dadurch.</translation>
+        <translation>Zeigt, was der Alltag einer Klinik nicht braucht: Bahn und Achsen, Geschwindigkeiten, die Bewegungsseite in Berichten, alle Formate eines Exports, die Reihenfolge der Winkel, Streaming, Übereinstimmung. Kein Wert ändert sich dadurch.</translation>
     </message>
     <message>
         <source>Order of the angles</source>
@@ -12433,7 +12469,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Report and clinic</source>
-        <translation>Bericht und Praxis</translation>
+        <translation>Bericht und Klinik</translation>
     </message>
     <message>
         <source>Safety</source>

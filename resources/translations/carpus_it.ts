@@ -2908,8 +2908,12 @@
         <translation>Carpus clinica</translation>
     </message>
     <message>
+        <source>Counts and dates only, without simulated sessions</source>
+        <translation>Solo numeri e date, senza sedute simulate</translation>
+    </message>
+    <message>
         <source>Counts and dates only</source>
-        <translation>Solo numeri e date</translation>
+        <translation type="vanished">Solo numeri e date</translation>
     </message>
     <message>
         <source>The clinic</source>
@@ -8648,15 +8652,15 @@
     <name>ClinicScreen</name>
     <message>
         <source>Week before</source>
-        <translation>Settimana prima</translation>
+        <translation type="vanished">Settimana prima</translation>
     </message>
     <message>
         <source>Week after</source>
-        <translation>Settimana dopo</translation>
+        <translation type="vanished">Settimana dopo</translation>
     </message>
     <message>
         <source>Save page…</source>
-        <translation>Salva pagina…</translation>
+        <translation type="vanished">Salva pagina…</translation>
     </message>
     <message>
         <source>The clinic</source>
@@ -8664,7 +8668,23 @@
     </message>
     <message>
         <source>Counts and dates only: no measured value leaves a patient’s own record. Therapists stand in the order in which they joined and are never ranked.</source>
-        <translation>Solo numeri e date: nessun valore misurato lascia la cartella del paziente. I terapisti stanno nell’ordine in cui sono arrivati e non sono mai classificati.</translation>
+        <translation type="vanished">Solo numeri e date: nessun valore misurato lascia la cartella del paziente. I terapisti stanno nell’ordine in cui sono arrivati e non sono mai classificati.</translation>
+    </message>
+    <message>
+        <source>Week &amp;before</source>
+        <translation>Settimana &amp;prima</translation>
+    </message>
+    <message>
+        <source>Week &amp;after</source>
+        <translation>Settimana &amp;dopo</translation>
+    </message>
+    <message>
+        <source>&amp;Save page…</source>
+        <translation>&amp;Salva pagina…</translation>
+    </message>
+    <message>
+        <source>Counts and dates only, without simulated sessions: no measured value leaves a patient’s own record. Therapists stand in the order in which they joined and are never ranked.</source>
+        <translation>Solo numeri e date, senza sedute simulate: nessun valore misurato lascia la cartella del paziente. I terapisti stanno nell’ordine in cui sono arrivati, e non sono mai classificati.</translation>
     </message>
     <message>
         <source>Due for a re-test: {count}</source>
@@ -10672,6 +10692,18 @@ Maiusc+F8 di lato</translation>
         <translation>N&amp;ota (nessun nome)</translation>
     </message>
     <message>
+        <source>Name: {count} letters too many</source>
+        <translation>Nome: {count} lettere di troppo</translation>
+    </message>
+    <message>
+        <source>Real name: {count} letters too many</source>
+        <translation>Nome vero: {count} lettere di troppo</translation>
+    </message>
+    <message>
+        <source>Diagnosis: {count} letters too many</source>
+        <translation>Diagnosi: {count} lettere di troppo</translation>
+    </message>
+    <message>
         <source>N&amp;ote (no diagnosis, no names)</source>
         <translation type="vanished">N&amp;ota (niente diagnosi, niente nomi)</translation>
     </message>
@@ -10717,7 +10749,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>A name has up to {count} letters: what goes beyond is not taken.</source>
-        <translation>Un nome ha al massimo {count} lettere: il resto non viene preso.</translation>
+        <translation type="vanished">Un nome ha al massimo {count} lettere: il resto non viene preso.</translation>
     </message>
     <message>
         <source>Give the patient a name.</source>
@@ -10770,7 +10802,11 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Clinic…</source>
-        <translation>Clinica…</translation>
+        <translation type="vanished">Clinica…</translation>
+    </message>
+    <message>
+        <source>&amp;Clinic…</source>
+        <translation>&amp;Clinica…</translation>
     </message>
     <message>
         <source>Sessions by day and therapist, and who is due for a re-test</source>

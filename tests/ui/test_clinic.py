@@ -7,11 +7,13 @@ from dataclasses import replace
 from datetime import timedelta
 from pathlib import Path
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from carpus.app import compose
+from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.settings import RecordingSettings, Settings
 from carpus.core.library.library import Library
 from carpus.ui.clinic.screen import ClinicScreen
@@ -53,6 +55,8 @@ def test_the_page_says_the_same(tmp_path: Path) -> None:
     assert f"{sum(week.everybody.days)} sessions of {week.patients} patients" in words
     assert all(one.pseudonym in words for one in week.due)
     assert "16 days overdue" in words
+    assert f"{week.monday.year}" in words
+    assert "without simulated sessions" in words
     assert "°" not in words, "no measured value"
 
 
@@ -82,7 +86,7 @@ def test_two_presses_go_two_weeks_back_though_the_first_is_still_read(qtbot: QtB
 
 
 def test_in_the_window_from_the_patients_to_who_is_due_and_back(
-    qtbot: QtBot, qapp: QApplication, tmp_path: Path
+    qtbot: QtBot, qapp: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     library = Library(tmp_path / "data")
     linden = library.patients.add(LINDEN)
@@ -98,6 +102,13 @@ def test_in_the_window_from_the_patients_to_who_is_due_and_back(
         qtbot.mouseClick(journey.patients.clinic_button, Qt.MouseButton.LeftButton)
         qtbot.waitUntil(lambda: journey.place == "clinic", timeout=60_000)
         assert journey.clinic.due.rows[0][-1] == "2 days overdue"
+        page = tmp_path / "clinic.pdf"
+        monkeypatch.setattr(LastPlaces, "ask_where_to_save", lambda *_: page)
+        journey.clinic.save.click()
+        qtbot.waitUntil(lambda: journey.teller.busy, timeout=60_000)
+        assert page.is_file(), "and it is said"
+        qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
+        assert not journey.teller.busy
         qtbot.keyClick(journey.clinic.due.buttons[0], Qt.Key.Key_Return)
         assert journey.place == "patients"
         assert journey.patients.card.isVisible()

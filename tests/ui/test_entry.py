@@ -11,15 +11,15 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.names import MOST_CHARACTERS
 from carpus.core.records.values import PatientEntry
-from carpus.ui.patients.entry import MOST_LETTERS, PatientForm
+from carpus.ui.patients.entry import PatientForm
 from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeStore
 
 TODAY = date(2026, 11, 20)
 
 
-@pytest.mark.parametrize("letters", [5, MOST_LETTERS, MOST_CHARACTERS])
-def test_a_name_is_kept_whole_however_long_it_is(qtbot: QtBot, theme: Theme, letters: int) -> None:
+@pytest.mark.parametrize("letters", [5, MOST_CHARACTERS])
+def test_what_is_typed_is_kept_whole_however_long_it_is(qtbot: QtBot, theme: Theme, letters: int) -> None:
     host = QWidget()
     qtbot.addWidget(host)
     host.resize(1280, 800)
@@ -30,10 +30,13 @@ def test_a_name_is_kept_whole_however_long_it_is(qtbot: QtBot, theme: Theme, let
     form.begin(PatientEntry("n" * letters, "left", "right"), frozenset())
     form.save.click()
     assert [entry.pseudonym for entry in given] == ["n" * letters]
-    form.begin(None, frozenset())
-    form.name.clear()
-    qtbot.keyClicks(form.name, "m" * (MOST_LETTERS + 5))
-    assert form.name.text() == "m" * MOST_LETTERS
+    too_long = "m" * (MOST_CHARACTERS + 5)
+    for line in (form.name, form.real_name, form.diagnosis):
+        form.begin(given[0], frozenset())
+        line.setText(too_long)
+        assert (line.text(), form.save.isEnabled()) == (too_long, False), "nothing is cut"
+        assert form.save.text().endswith("5 letters too many")
+    form.close_sheet()
 
 
 def test_no_hand_is_chosen_by_itself(qtbot: QtBot, theme: Theme) -> None:
@@ -84,6 +87,36 @@ def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(
     form.onset_day.clear()
     form.save.click()
     assert (given[1].onset, given[1].onset_day) == ("injury", None), "no date, no weeks"
+
+
+def test_a_day_that_is_none_is_told_on_leaving_its_field_and_the_list_is_no_stop_of_tab(
+    qtbot: QtBot, theme: Theme
+) -> None:
+    host = QWidget()
+    qtbot.addWidget(host)
+    host.resize(1280, 800)
+    host.show()
+    with qtbot.waitActive(host, timeout=60_000):
+        host.activateWindow()
+    form = PatientForm(host, theme, FakeStore(), lambda: TODAY)
+    form.begin(None, frozenset())  # no hand is chosen yet: the button asks for that first
+    form.diagnosis.setFocus()
+    qtbot.keyClicks(form.diagnosis, "Mallet finger")
+    form.focusNextPrevChild(True)
+    assert (form.listed.isVisible(), host.focusWidget()) == (True, form.onset_day)
+    for typed, told in (("31.2.2026", "Since when? Day, month, year"), ("20.12.2026", "yet to come")):
+        form.onset_day.setFocus()
+        form.onset_day.selectAll()
+        qtbot.keyClicks(form.onset_day, typed)
+        assert not form._fault.isVisible(), "not while it is typed"
+        form.focusNextPrevChild(True)
+        assert form._fault.isVisible()
+        assert told in form._fault.text()
+    form.onset_day.setFocus()
+    form.onset_day.selectAll()
+    qtbot.keyClick(form.onset_day, Qt.Key.Key_Delete)
+    form.focusNextPrevChild(True)
+    assert not form._fault.isVisible()
 
 
 def test_a_sign_that_cannot_be_seen_is_told_in_the_form_and_nothing_typed_is_lost(qtbot: QtBot, theme: Theme) -> None:

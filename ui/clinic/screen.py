@@ -32,9 +32,9 @@ class ClinicScreen(QWidget):
         self.shown: ClinicWeek | None = None
         self._asked = date.min
         self.days = Text(theme, "", 16, REGULAR, "text2")
-        self.before = Button(theme, self.tr("Week before"), height_px=44)
-        self.after = Button(theme, self.tr("Week after"), height_px=44)
-        self.save = Button(theme, self.tr("Save page…"), "primary", hint="Ctrl+P", height_px=44)
+        self.before = Button(theme, self.tr("Week &before"), height_px=44)
+        self.after = Button(theme, self.tr("Week &after"), height_px=44)
+        self.save = Button(theme, self.tr("&Save page…"), "primary", hint="Ctrl+P", height_px=44)
         self.sessions_title = Text(theme, "", 20, SEMIBOLD)
         self.sessions = WordsTable(theme)
         self.due_title = Text(theme, "", 20, SEMIBOLD)
@@ -64,8 +64,8 @@ class ClinicScreen(QWidget):
             card.body.addWidget(table)
             column.addWidget(card)
         words = self.tr(
-            "Counts and dates only: no measured value leaves a patient’s own record. Therapists stand in the order in "
-            "which they joined and are never ranked."
+            "Counts and dates only, without simulated sessions: no measured value leaves a patient’s own record. "
+            "Therapists stand in the order in which they joined and are never ranked."
         )
         column.addWidget(Text(theme, words, 12, REGULAR, "text2", wrap=True))
         column.addStretch(1)

@@ -16,9 +16,10 @@ from carpus.ui.translate import inside, tr
 
 
 def week_words(monday: date) -> str:
-    """``Mon 16 Nov to Sun 22 Nov``."""
+    """``Mon 16 Nov to Sun 22 Nov 2026``."""
     sunday = monday + timedelta(days=6)
-    return tr("{first} to {last}").format(first=numbers.short_date(monday), last=numbers.short_date(sunday))
+    last = f"{language.locale().dayName(7, language.locale().FormatType.ShortFormat)} {numbers.day_of_year(sunday)}"
+    return tr("{first} to {last}").format(first=numbers.short_date(monday), last=last)
 
 
 def sessions_words(week: ClinicWeek) -> str:
@@ -66,7 +67,7 @@ def due_rows(week: ClinicWeek) -> list[tuple[str, ...]]:
     return [
         (
             one.pseudonym, f"{terms.exercise_name(one.exercise)}, {inside(terms.hand_name(one.hand))}",
-            numbers.short_date(one.last), one.by or numbers.UNKNOWN, _overdue(one),
+            numbers.day_of_year(one.last), one.by or numbers.UNKNOWN, _overdue(one),
         )
         for one in week.due
     ]  # fmt: skip
@@ -87,7 +88,8 @@ def write_clinic_page(path: Path, week: ClinicWeek) -> Path:
 
 
 def _paint(page: Page, week: ClinicWeek) -> None:
-    y = paint_head(page, tr("Counts and dates only"), tr("The clinic"), week_words(week.monday)) + 22
+    said = tr("Counts and dates only, without simulated sessions")
+    y = paint_head(page, said, tr("The clinic"), week_words(week.monday)) + 22
     page.text(sessions_words(week), page.left, y, 12.0, SEMIBOLD)
     has_usual = not math.isnan(week.everybody.usual)
     y = paint_words(page, heads_of_days(has_usual=has_usual), session_rows(week), y + 4) + 26

@@ -10,7 +10,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QCompleter, QHBoxLayout, QLineEdit, QPlainTextEdit, QVBoxLayout, QWidget
 
 from carpus.core.errors import NameUnsuited
-from carpus.core.names import folded, name_of
+from carpus.core.names import MOST_CHARACTERS, folded, name_of
 from carpus.core.records.values import PatientEntry
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
@@ -25,8 +25,6 @@ from carpus.ui.ports import PatientStore
 from carpus.ui.theme import Theme
 
 NOTE_HEIGHT_PX = 84
-MOST_LETTERS = 40
-MOST_DIAGNOSIS = 80
 
 
 class PatientForm(Sheet):
@@ -42,9 +40,6 @@ class PatientForm(Sheet):
         self._fault = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self._title = Text(theme, "", 20, SEMIBOLD)
         self.name = QLineEdit()
-        self.name.setMaxLength(MOST_LETTERS)
-        self.name.inputRejected.connect(self._say_too_long)
-        self.name.textEdited.connect(lambda _: self._fault.hide())
         another = Button(theme, self.tr("&Another"), "plain", height_px=40)
         another.clicked.connect(lambda: self.name.setText(store.suggest_pseudonym()))
         name_row = QWidget()
@@ -60,13 +55,13 @@ class PatientForm(Sheet):
         )  # fmt: skip
         self.real_name = QLineEdit()
         self.diagnosis = QLineEdit()
-        self.diagnosis.setMaxLength(MOST_DIAGNOSIS)
         self._known = QStringListModel(self)
         completer = QCompleter(self._known, self.diagnosis)
         completer.setFilterMode(Qt.MatchFlag.MatchContains)
         completer.setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
         self.diagnosis.setCompleter(completer)
         self.listed = Tick(theme, self.tr("In the clinic’s &list"))
+        self.listed.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # its letter leads to it; Tab goes on to the next fact
         diagnosis_row = QWidget()
         row = QHBoxLayout(diagnosis_row)
         row.setContentsMargins(0, 0, 0, 0)
@@ -126,7 +121,10 @@ class PatientForm(Sheet):
         self.save.clicked.connect(self._accept)
         for chips in (self.side, self.dominance, self.onset):
             chips.chosen.connect(lambda _: self._judge())
-        self.onset_day.textChanged.connect(lambda _: self._judge())
+        for line in (self.name, self.real_name, self.diagnosis, self.onset_day):
+            line.textChanged.connect(lambda _: self._judge())
+            line.textEdited.connect(lambda _: self._fault.hide())
+        self.onset_day.editingFinished.connect(lambda: self._show_fault(self._wrong_day()))
         self.diagnosis.textChanged.connect(lambda _: self._look_into_list())
         self.listed.clicked.connect(self._list)
         self.set_default(self.save)
@@ -143,7 +141,6 @@ class PatientForm(Sheet):
         self.remove.setVisible(entry is not None)
         is_new = entry is None
         entry = entry or PatientEntry(name or self._store.suggest_pseudonym(), "right", "unknown")
-        self.name.setMaxLength(max(MOST_LETTERS, len(entry.pseudonym)))  # a longer one of old is not cut
         self.name.setText(entry.pseudonym)
         self.side.choose(entry.side)
         self.dominance.choose(entry.dominance if entry.dominance != "both" else "unknown")
@@ -176,19 +173,15 @@ class PatientForm(Sheet):
 
     def _judge(self) -> None:
         """What is still to be said stands on the button."""
-        typed, day = self.onset_day.text().strip(), self._day()
+        day = self._day()
         self.since.setText(numbers.weeks_since(day, self._today()) if day is not None else "")
-        asked = ""
+        asked = self._too_long() or self._wrong_day()
         if self.side.value() is None:
             asked = self.tr("Which hand is affected?")
         elif self.dominance.value() is None:
             asked = self.tr("Which hand writes?")
-        elif typed and day is None:
-            asked = self.tr("Since when? Day, month, year")
-            if numbers.day_typed(typed) is not None:
-                asked = self.tr("Since when? It is yet to come")
-        elif typed and self.onset.value() is None:
-            asked = self.tr("Operation or injury?")
+        elif day is not None and self.onset.value() is None:
+            asked = asked or self.tr("Operation or injury?")
         self.save.set_face(asked or self._words)
         self.save.setEnabled(not asked)
 
@@ -196,6 +189,25 @@ class PatientForm(Sheet):
         """The day that is typed, where it is one and not to come."""
         day = numbers.day_typed(self.onset_day.text())
         return day if day is not None and day <= self._today() else None
+
+    def _wrong_day(self) -> str:
+        """What is asked where something is typed that is no day, or one to come."""
+        typed = self.onset_day.text().strip()
+        if not typed or self._day() is not None:
+            return ""
+        to_come = numbers.day_typed(typed) is not None
+        return self.tr("Since when? It is yet to come") if to_come else self.tr("Since when? Day, month, year")
+
+    def _too_long(self) -> str:
+        """Which line has no room in the store; nothing that is typed is ever cut."""
+        for line, words in (
+            (self.name, self.tr("Name: {count} letters too many")),
+            (self.real_name, self.tr("Real name: {count} letters too many")),
+            (self.diagnosis, self.tr("Diagnosis: {count} letters too many")),
+        ):
+            if (count := len(" ".join(line.text().split())) - MOST_CHARACTERS) > 0:
+                return words.format(count=count)
+        return ""
 
     def _why(self) -> str:
         return " ".join(self.diagnosis.text().split())
@@ -214,12 +226,6 @@ class PatientForm(Sheet):
         self._known.setStringList(list(self._store.diagnoses()))
         self._look_into_list()
 
-    def _say_too_long(self) -> None:
-        """A letter, or the end of what was pasted, had no more room: never cut without a word."""
-        words = self.tr("A name has up to {count} letters: what goes beyond is not taken.")
-        self._fault.setText(words.format(count=self.name.maxLength()))
-        self._fault.show()
-
     def _accept(self) -> None:
         name = " ".join(self.name.text().split())
         if not name or name.casefold() in self._taken:
@@ -228,8 +234,7 @@ class PatientForm(Sheet):
                 if not name
                 else self.tr("“{name}” is taken. Choose another name.").format(name=name)
             )
-            self._fault.setText(words)
-            self._fault.show()
+            self._show_fault(words)
             self.name.setFocus(Qt.FocusReason.OtherFocusReason)
             return
         side, dominance = str(self.side.value()), str(self.dominance.value())
@@ -248,5 +253,8 @@ class PatientForm(Sheet):
 
     def _say(self, fault: NameUnsuited) -> None:
         words = fault_words(fault)
-        self._fault.setText(f"{words.happened} {words.do}")
-        self._fault.show()
+        self._show_fault(f"{words.happened} {words.do}")
+
+    def _show_fault(self, words: str) -> None:
+        self._fault.setText(words)
+        self._fault.setVisible(bool(words))

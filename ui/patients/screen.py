@@ -63,7 +63,7 @@ class PatientsScreen(QWidget):
         self.notice_place = QVBoxLayout()
         self.welcome: WelcomePanel | None = None
         self._nobody = _Nobody(theme)
-        self.clinic_button = Button(theme, self.tr("Clinic…"), "quiet", height_px=36)
+        self.clinic_button = Button(theme, self.tr("&Clinic…"), "quiet", height_px=36)
         self.clinic_button.setToolTip(self.tr("Sessions by day and therapist, and who is due for a re-test"))
         self.archive_button = Button(theme, "", "quiet", icon="archive", height_px=36)
         self.archive_button.hide()
