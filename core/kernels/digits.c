@@ -1,27 +1,27 @@
-/* Thumb and fingers: core/tracking/hand_geometry.py, ray_filter.py, digit_association.py and finger_model.py in C. */
+/* Thumb and fingers: core/tracking/hand_geometry.py, digit_filter.py, digit_association.py and finger_model.py in C. */
 #include "algebra.h"
 #include "kernels.h"
 
-enum { RAYS = 5, RAY = 21, SLOTS = 5, BENT = 6, OTHER = 10, JOINED = 16, POINTS = 2 * BENT + 1, SEEN = 9 };
+enum { CHAINS = 5, DIGIT = 21, SLOTS = 5, BENT = 6, OTHER = 10, JOINED = 16, POINTS = 2 * BENT + 1, SEEN = 9 };
 enum { LENGTH = 5, FAN = 8, ROLL = 9, ROOT = 10, HEIGHT = 13 }; /* in slots and constants side by side */
 
 static const double DIP_PER_PIP = 2.0 / 3.0;
 static const int BENT_AT[BENT] = {0, 1, 2, 3, 4, 14};
 static const int OTHER_AT[OTHER] = {10, 11, 12, 13, 15, 16, 17, 18, 19, 20};
 
-/* Slots and constants (16) of a ray's state (21). */
+/* Slots and constants (16) of a digit's state (21). */
 static void joined(const double *state, double *out)
 {
     memcpy(out, state, sizeof(double) * SLOTS);
     memcpy(out + SLOTS, state + 2 * SLOTS, sizeof(double) * (JOINED - SLOTS));
 }
 
-/* Discs (3, 3) of a ray in W. */
-static void discs_of(int ray, const double *s, const double *root, double *out)
+/* Discs (3, 3) of a digit in W. */
+static void discs_of(int chain, const double *s, const double *root, double *out)
 {
     double ahead[3], aside[3], up[3];
     const double azimuth = s[0] + s[FAN], c0 = cos(azimuth), s0 = sin(azimuth);
-    if (ray == 0) {
+    if (chain == 0) {
         const double c1 = cos(s[1]), s1 = -sin(s[1]), c2 = cos(s[2]), s2 = -sin(s[2]), c3 = cos(s[3]), s3 = sin(s[3]);
         const double c4 = cos(s[4]), s4 = -sin(s[4]), c5 = cos(0.5 * s[4]), s5 = -sin(0.5 * s[4]);
         const double cr = cos(s[ROLL]), sr = sin(s[ROLL]);
@@ -61,10 +61,10 @@ static void discs_of(int ray, const double *s, const double *root, double *out)
 }
 
 /* Directions of the bones and normals of the discs, (3, 3) each. */
-static void frames_of(int ray, const double *s, double *direction, double *normal)
+static void frames_of(int chain, const double *s, double *direction, double *normal)
 {
     const double azimuth = s[0] + s[FAN], c0 = cos(azimuth), s0 = sin(azimuth);
-    if (ray) {
+    if (chain) {
         const double pitch[3] = {s[1], s[1] + s[2], s[1] + (1.0 + DIP_PER_PIP) * s[2] + s[3]};
         const double tilt[3] = {s[1] + 0.5 * s[2], s[1] + (1.0 + 0.5 * DIP_PER_PIP) * s[2] + 0.5 * s[3], pitch[2]};
         for (int d = 0; d < 3; d++) {
@@ -101,24 +101,24 @@ static void joints_of(const double *s, const double *root, const double *directi
             out[3 * (d + 1) + k] = out[3 * d + k] + s[LENGTH + d] * direction[3 * d + k];
 }
 
-int rays_spread(
+int digits_spread(
     const double *mean, const double *covariance, const double *roots, double floor, double scale, double *disc_m,
     double *unroot, double *along, double *by_constants, double *normal)
 {
-    for (int r = 0; r < RAYS; r++) {
-        const double *wide = covariance + r * RAY * RAY, *root_m = roots + 3 * r;
+    for (int r = 0; r < CHAINS; r++) {
+        const double *wide = covariance + r * DIGIT * DIGIT, *root_m = roots + 3 * r;
         double root[BENT * BENT], other[BENT * OTHER], *inverse = unroot + r * BENT * BENT, *goes = along + r * BENT * OTHER;
         for (int i = 0; i < BENT; i++) {
             for (int j = 0; j < BENT; j++)
-                root[i * BENT + j] = wide[BENT_AT[i] * RAY + BENT_AT[j]] + (i == j ? floor : 0.0);
+                root[i * BENT + j] = wide[BENT_AT[i] * DIGIT + BENT_AT[j]] + (i == j ? floor : 0.0);
             for (int j = 0; j < OTHER; j++)
-                other[i * OTHER + j] = wide[BENT_AT[i] * RAY + OTHER_AT[j]];
+                other[i * OTHER + j] = wide[BENT_AT[i] * DIGIT + OTHER_AT[j]];
         }
         if (root_and_inverse(root, inverse, BENT))
             return 1;
         product(goes, OTHER, inverse, BENT, 1, other, OTHER, BENT, BENT, OTHER, SET);
-        double middle[RAY], moved[RAY], s[JOINED];
-        memcpy(middle, mean + r * RAY, sizeof middle);
+        double middle[DIGIT], moved[DIGIT], s[JOINED];
+        memcpy(middle, mean + r * DIGIT, sizeof middle);
         joined(middle, s);
         double *discs = disc_m + r * POINTS * 9;
         discs_of(r, s, root_m, discs);
@@ -156,15 +156,15 @@ int rays_spread(
     return 0;
 }
 
-int rays_forecast(
+int digits_linearised(
     const double *disc_m, const double *unroot, const double *along, const double *by_constants, const double *covariance,
     const double *rotation, const double *translation, double fx, double fy, double cx, double cy, double mean_middle,
     double mean_other, double spread_middle, double spread_other, double scale, double *out_value, double *out_slope,
     double *out_error, double *out_spread, double *centre_m, double *by_place)
 {
-    for (int r = 0; r < RAYS; r++) {
+    for (int r = 0; r < CHAINS; r++) {
         double image[POINTS][SEEN], half[BENT * SEEN], bend[BENT][SEEN], constants[SEEN * OTHER];
-        double *value = out_value + r * SEEN, *slope = out_slope + r * SEEN * RAY, *error = out_error + r * SEEN * SEEN;
+        double *value = out_value + r * SEEN, *slope = out_slope + r * SEEN * DIGIT, *error = out_error + r * SEEN * SEEN;
         for (int p = 0; p < POINTS; p++)
             for (int d = 0; d < 3; d++) {
                 double at[3];
@@ -203,7 +203,7 @@ int rays_forecast(
             product(constants + 3 * d * OTHER, OTHER, turned, 3, 1, by_constants + (size_t)(3 * r + d) * 3 * OTHER, OTHER, 3,
                     3, OTHER, SET);
         }
-        memset(slope, 0, sizeof(double) * SEEN * RAY);
+        memset(slope, 0, sizeof(double) * SEEN * DIGIT);
         for (int a = 0; a < SEEN; a++) {
             double own[BENT];
             for (int p = 0; p < BENT; p++)
@@ -212,19 +212,19 @@ int rays_forecast(
                 double sum = 0.0;
                 for (int p = 0; p < BENT; p++)
                     sum += own[p] * unroot[(r * BENT + p) * BENT + i];
-                slope[a * RAY + BENT_AT[i]] = sum;
+                slope[a * DIGIT + BENT_AT[i]] = sum;
             }
             for (int j = 0; j < OTHER; j++)
-                slope[a * RAY + OTHER_AT[j]] = constants[a * OTHER + j];
+                slope[a * DIGIT + OTHER_AT[j]] = constants[a * OTHER + j];
         }
-        double cross[SEEN * RAY], turned[RAY * SEEN];
-        product(cross, RAY, slope, RAY, 1, covariance + r * RAY * RAY, RAY, SEEN, RAY, RAY, SET);
+        double cross[SEEN * DIGIT], turned[DIGIT * SEEN];
+        product(cross, DIGIT, slope, DIGIT, 1, covariance + r * DIGIT * DIGIT, DIGIT, SEEN, DIGIT, DIGIT, SET);
         for (int a = 0; a < SEEN; a++)
-            for (int j = 0; j < RAY; j++)
-                turned[j * SEEN + a] = slope[a * RAY + j];
+            for (int j = 0; j < DIGIT; j++)
+                turned[j * SEEN + a] = slope[a * DIGIT + j];
         double *spread = out_spread + r * SEEN * SEEN;
         memcpy(spread, error, sizeof(double) * SEEN * SEEN);
-        product(spread, SEEN, cross, RAY, 1, turned, SEEN, SEEN, RAY, SEEN, ADD);
+        product(spread, SEEN, cross, DIGIT, 1, turned, SEEN, SEEN, DIGIT, SEEN, ADD);
     }
     return 0;
 }
@@ -246,7 +246,7 @@ static void by_turn(const double *by_place, const double *from, const double *at
     }
 }
 
-int rays_scene(
+int digits_scene(
     const double *covariance, const double *line_spread, const double *centre_m, const double *by_place,
     const double *normal, const double *rotation, const double *translation, const double *pose_covariance,
     const double *bends, const double *visible, double dt_s, double shown_s, double hidden_s, double steepest,
@@ -254,10 +254,10 @@ int rays_scene(
     double *out_spread, double *out_visible, double *tilt, double *facing_m2)
 {
     const double stays = exp(-dt_s / shown_s), comes = -expm1(-dt_s / hidden_s);
-    for (int r = 0; r < RAYS; r++) {
+    for (int r = 0; r < CHAINS; r++) {
         double flat[SEEN * 6], half[SEEN * 6], turned[6 * SEEN], variance = 0.0;
         for (int slot = 0; slot < 2; slot++)
-            variance += covariance[(r * RAY + slot) * RAY + slot] * bends[SLOTS * r + slot];
+            variance += covariance[(r * DIGIT + slot) * DIGIT + slot] * bends[SLOTS * r + slot];
         for (int d = 0; d < 3; d++) {
             const double *at = centre_m + 9 * r + 3 * d, *place = by_place + (size_t)(3 * r + d) * 9;
             double by[9], facing[3];
@@ -271,7 +271,7 @@ int rays_scene(
             const double across = facing[0] * at[0] + facing[1] * at[1] + facing[2] * at[2];
             const double distance = sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
             const double tilted = acos(between(-across / distance, -1.0, 1.0));
-            variance += covariance[(r * RAY + d + 2) * RAY + d + 2] * bends[SLOTS * r + d + 2];
+            variance += covariance[(r * DIGIT + d + 2) * DIGIT + d + 2] * bends[SLOTS * r + d + 2];
             const double sd = sqrt(variance + steepest_sd * steepest_sd), seen = visible[3 * r + d];
             const double chance = 1.0 / (1.0 + exp(between(1.7 * (tilted - steepest) / sd, -30.0, 30.0)));
             out_visible[3 * r + d] = between((seen * stays + (1.0 - seen) * comes) * chance, least_seen, most_seen);
@@ -292,12 +292,12 @@ int rays_scene(
 
 /* What the blobs as named measure of the discs, and how surely. */
 int digits_measured(
-    int blobs, const int64_t *taken, const uint8_t *with_depth, const double *value, const double *blob_variance,
+    int blobs, const int64_t *assigned, const uint8_t *with_depth, const double *value, const double *blob_variance,
     const double *area_px, const double *whole_px, const double *expected, const double *noise_factor, double whole_from,
     double shade_share, double radius_m, double fx, double crowded_radii, double crowded_px, double pixel_sd,
     double skin_px, double *measured, double *variance)
 {
-    for (int r = 0; r < RAYS; r++) {
+    for (int r = 0; r < CHAINS; r++) {
         double radius[3];
         int crowded[3] = {0};
         for (int d = 0; d < 3; d++)
@@ -310,7 +310,7 @@ int digits_measured(
         }
         for (int d = 0; d < 3; d++) {
             const int disc = 3 * r + d;
-            const int64_t blob = taken[disc];
+            const int64_t blob = assigned[disc];
             double *y = measured + 3 * disc, *of = variance + 3 * disc;
             y[0] = y[1] = y[2] = NAN;
             of[0] = of[1] = of[2] = 1.0;
@@ -367,15 +367,15 @@ static int solved(double *a, double *b, int n, int m)
 }
 
 /* Places of joints and discs, and the covariance (5, 5, 5) that the slots inherit. */
-int rays_read(
+int digits_read(
     const double *mean, const double *covariance, const double *slope, const double *centre_m, const double *by_place,
     const double *roots, const double *rotation, const double *translation, const double *turn_covariance, double fx,
     double fy, double across_m, double depth_stays, double share, double narrow2, int coupled, double *inherited,
     double *centres, double *disc_cam)
 {
-    for (int r = 0; r < RAYS; r++) {
+    for (int r = 0; r < CHAINS; r++) {
         double s[JOINED], direction[9], normal[9], joint[12], bound[9];
-        joined(mean + r * RAY, s);
+        joined(mean + r * DIGIT, s);
         frames_of(r, s, direction, normal);
         joints_of(s, roots + 3 * r, direction, joint);
         memcpy(centres + 12 * r, joint, sizeof joint);
@@ -401,7 +401,7 @@ int rays_read(
             for (int k = 0; k < 3; k++) {
                 const int row = 3 * d + k;
                 for (int j = 0; j < SLOTS; j++)
-                    by[row * SLOTS + j] = slope[((size_t)r * SEEN + row) * RAY + j] * unit[row];
+                    by[row * SLOTS + j] = slope[((size_t)r * SEEN + row) * DIGIT + j] * unit[row];
                 for (int j = 0; j < 3; j++)
                     turned[3 * row + j] = whole[3 * k + j] * unit[row];
                 seen[row] = (place[3 * k] * moved[0] + place[3 * k + 1] * moved[1] + place[3 * k + 2] * moved[2]) *
@@ -411,7 +411,7 @@ int rays_read(
         double joints[SLOTS * SLOTS], doubt[SLOTS * SLOTS] = {0.0}, response[SLOTS * SEEN];
         for (int i = 0; i < SLOTS; i++) {
             for (int j = 0; j < SLOTS; j++)
-                joints[i * SLOTS + j] = covariance[(r * RAY + i) * RAY + j] + (i == j ? narrow2 : 0.0);
+                joints[i * SLOTS + j] = covariance[(r * DIGIT + i) * DIGIT + j] + (i == j ? narrow2 : 0.0);
             doubt[i * SLOTS + i] = share;
         }
         if (solved(joints, doubt, SLOTS, SLOTS))
@@ -464,14 +464,14 @@ static void softened(double *mean, double *variance, double edge, double soft)
     *variance -= *variance * *variance * ratio * (z + ratio) / total;
 }
 
-/* The rays with the limits of their joints taken into account; `pulled` tells of each ray whether any was near. */
-int rays_limited(
+/* The digits with the limits of their joints taken into account; `pulled` tells of each digit whether any was near. */
+int digits_limited(
     int modes, int size, const double *mean, const double *covariance, const double *slots, const double *limits,
     const double *direction, double abduction, double soft, double near_sd, double *out_mean, double *out_covariance,
     uint8_t *pulled)
 {
     const int n = size, nn = n * n;
-    for (int r = 0; r < RAYS; r++) {
+    for (int r = 0; r < CHAINS; r++) {
         double edge[SLOTS][2], across[modes][n * SLOTS], shared[modes][SLOTS * SLOTS], angle[modes][SLOTS];
         uint8_t near[modes][SLOTS];
         const double *turn = direction + r * SLOTS * SLOTS;

@@ -190,12 +190,12 @@ int merged(
     return 0;
 }
 
-int carried(
-    int modes, int size, int mixing, int settling, const double *change, const double *mean, const double *covariance,
-    const double *probability, const double *moving, const double *driven, const double *kept, const double *settled,
+int transitioned(
+    int modes, int size, int mixing, int relaxing, const double *change, const double *mean, const double *covariance,
+    const double *probability, const double *moving, const double *driven, const double *kept, const double *stationary,
     const double *nominal, double *out_mean, double *out_covariance, double *out_probability)
 {
-    const int n = size, m = mixing, r = settling, nn = n * n, first = n - r;
+    const int n = size, m = mixing, r = relaxing, nn = n * n, first = n - r;
     double rows[m * n], turned[m * m], moved[m > 0 ? m : 1];
     for (int i = 0; i < m; i++)
         for (int j = 0; j < m; j++)
@@ -222,7 +222,7 @@ int carried(
         product(wide, n, rows, n, 1, turned, m, m, m, m, ADD);
         for (int i = 0; i < r; i++)
             for (int j = 0; j < r; j++)
-                wide[(first + i) * n + first + j] += settled[(k * r + i) * r + j];
+                wide[(first + i) * n + first + j] += stationary[(k * r + i) * r + j];
     }
     return 0;
 }

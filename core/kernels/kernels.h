@@ -26,11 +26,11 @@ KERNEL int corrected(
     const double share_covariance[size * size], double out_mean[chains * modes * size],
     double out_covariance[chains * modes * size * size], double out_probability[chains * modes], double nis[chains],
     int64_t dof[chains], double residual[chains * count]);
-KERNEL int carried(
-    int modes, int size, int mixing, int settling, const double change[modes * modes],
+KERNEL int transitioned(
+    int modes, int size, int mixing, int relaxing, const double change[modes * modes],
     const double mean[modes * size], const double covariance[modes * size * size], const double probability[modes],
     const double moving[mixing * mixing], const double driven[modes * mixing * mixing],
-    const double kept[modes * size], const double settled[modes * settling * settling], const double nominal[size],
+    const double kept[modes * size], const double stationary[modes * relaxing * relaxing], const double nominal[size],
     double out_mean[modes * size], double out_covariance[modes * size * size], double out_probability[modes]);
 KERNEL int predicted(
     int chains, int modes, int size, const double change[modes * modes], const double mean[chains * modes * size],
@@ -46,11 +46,11 @@ KERNEL int merged(
 /* palm.c */
 KERNEL int palm_ahead(
     int modes, int tissues, int resting, int scales, double dt, const double *scale_of, const int64_t *tissue_of,
-    const double *settled, const double *between, const double *soft, double dwell, double push,
+    const double *stationary, const double *between, const double *soft, double dwell, double push,
     double turning, double unseen_scale, const double *unseen, const double *mean, const double *covariance,
     const double *probability, const double *value, const double *rotation, double *out_mean, double *out_covariance,
     double *out_probability, double *out_value, double *out_rotation, double *whole);
-KERNEL int palm_line(
+KERNEL int palm_linearised(
     const double *value, const double *covariance, const double *rotation, const double *palm, const double *hidden,
     const double *image, const double *shift, const double *rotation_w0_cam, double fx, double fy, double cx, double cy,
     double floor, double mean_middle, double mean_other, double spread_middle, double spread_other, double scale,
@@ -58,7 +58,7 @@ KERNEL int palm_line(
 KERNEL int palm_expected(
     int modes, const double *covariance, const double *mean, const double *probability, const double *value,
     const double *slope, const double *error, double *out_mean, double *out_covariance);
-KERNEL int recentred(
+KERNEL int error_reset(
     int modes, const double *mean, const double *covariance, const double *probability, const double *value,
     const double *rotation, double *out_mean, double *out_covariance, double *out_value, double *out_rotation);
 KERNEL int log_odds(
@@ -77,7 +77,7 @@ KERNEL int adapted_factors(
 KERNEL int surface_fit(
     int count, const double *pixel, const double *depth, double fx, double fy, double cx, double cy,
     const double *rotation_w0_cam,
-    const double *translation, const double *belief_rotation, const double *value, int rows, int columns,
+    const double *translation, const double *estimate_rotation, const double *value, int rows, int columns,
     const double *plane, const double *to_node, const double *middle, int steps, double huber, double most, int least,
     double share_in, double reading_per_m, double reading_fixed, double reading_square, double stays_fixed,
     double stays_square, double stays_px, double patch, int averages, double turn_sd, double up_sd, double goes_on,
@@ -102,31 +102,31 @@ KERNEL int readings_within(
     double depth[most], int32_t *found);
 
 /* digits.c */
-KERNEL int rays_spread(
+KERNEL int digits_spread(
     const double *mean, const double *covariance, const double *roots, double floor, double scale, double *disc_m,
     double *unroot, double *along, double *by_constants, double *normal);
-KERNEL int rays_forecast(
+KERNEL int digits_linearised(
     const double *disc_m, const double *unroot, const double *along, const double *by_constants, const double *covariance,
     const double *rotation, const double *translation, double fx, double fy, double cx, double cy, double mean_middle,
     double mean_other, double spread_middle, double spread_other, double scale, double *out_value, double *out_slope,
     double *out_error, double *out_spread, double *centre_m, double *by_place);
-KERNEL int rays_scene(
+KERNEL int digits_scene(
     const double *covariance, const double *line_spread, const double *centre_m, const double *by_place,
     const double *normal, const double *rotation, const double *translation, const double *pose_covariance,
     const double *bends, const double *visible, double dt_s, double shown_s, double hidden_s, double steepest,
     double steepest_sd, double least_seen, double most_seen, double least_facing, double fx, double *shift,
     double *out_spread, double *out_visible, double *tilt, double *facing_m2);
 KERNEL int digits_measured(
-    int blobs, const int64_t *taken, const uint8_t *with_depth, const double *value, const double *blob_variance,
+    int blobs, const int64_t *assigned, const uint8_t *with_depth, const double *value, const double *blob_variance,
     const double *area_px, const double *whole_px, const double *expected, const double *noise_factor, double whole_from,
     double shade_share, double radius_m, double fx, double crowded_radii, double crowded_px, double pixel_sd,
     double skin_px, double *measured, double *variance);
-KERNEL int rays_read(
+KERNEL int digits_read(
     const double *mean, const double *covariance, const double *slope, const double *centre_m, const double *by_place,
     const double *roots, const double *rotation, const double *translation, const double *turn_covariance, double fx,
     double fy, double across_m, double depth_stays, double share, double narrow2, int coupled, double *inherited,
     double *centres, double *disc_cam);
-KERNEL int rays_limited(
+KERNEL int digits_limited(
     int modes, int size, const double *mean, const double *covariance, const double *slots, const double *limits,
     const double *direction, double abduction, double soft, double near_sd, double *out_mean, double *out_covariance,
     uint8_t *pulled);

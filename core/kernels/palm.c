@@ -26,7 +26,7 @@ static void observed(
     }
 }
 
-int palm_line(
+int palm_linearised(
     const double *value, const double *covariance, const double *rotation, const double *palm, const double *hidden,
     const double *image, const double *shift, const double *rotation_w0_cam, double fx, double fy, double cx, double cy,
     double floor, double mean_middle, double mean_other, double spread_middle, double spread_other, double scale,
@@ -148,14 +148,14 @@ static void right_jacobian(const double *turn, double *out)
 
 int palm_ahead(
     int modes, int tissues, int resting, int scales, double dt, const double *scale_of, const int64_t *tissue_of,
-    const double *settled, const double *between, const double *soft, double dwell, double push,
+    const double *stationary, const double *between, const double *soft, double dwell, double push,
     double turning, double unseen_scale, const double *unseen, const double *mean, const double *covariance,
     const double *probability, const double *value, const double *rotation, double *out_mean, double *out_covariance,
     double *out_probability, double *out_value, double *out_rotation, double *whole)
 {
     enum { SOFT = SIZE - SKIN, MOVING = SHAPE };
     double change[modes * modes];
-    double kept[modes * SIZE], driven[modes * MOVING * MOVING], settling[modes * SOFT * SOFT];
+    double kept[modes * SIZE], driven[modes * MOVING * MOVING], relaxing[modes * SOFT * SOFT];
     double moving[MOVING * MOVING] = {0.0}, turn[3], turned[9], jr[9], across[9], middle[SIZE];
     for (int k = 0; k < 3; k++)
         turn[k] = value[RATE + k] * dt;
@@ -194,7 +194,7 @@ int palm_ahead(
     memset(driven, 0, sizeof driven);
     for (int k = 0; k < modes; k++) {
         const double by = scale_of[k] * scale_of[k], *own = soft + tissue_of[k] * SOFT;
-        const double *rest = settled + tissue_of[k] * SOFT * SOFT;
+        const double *rest = stationary + tissue_of[k] * SOFT * SOFT;
         double *pushed = driven + k * MOVING * MOVING, *left = kept + k * SIZE;
         for (int i = 0; i < 3; i++) {
             pushed[(POSITION + i) * (MOVING + 1)] = by * (push * dt * dt * dt / 3.0);
@@ -218,9 +218,9 @@ int palm_ahead(
             left[j] = j < SKIN ? 1.0 : own[j - SKIN];
         for (int i = 0; i < SOFT; i++)
             for (int j = 0; j < SOFT; j++)
-                settling[(k * SOFT + i) * SOFT + j] = rest[i * SOFT + j] * (1.0 - own[i] * own[j]);
+                relaxing[(k * SOFT + i) * SOFT + j] = rest[i * SOFT + j] * (1.0 - own[i] * own[j]);
     }
-    carried(modes, SIZE, MOVING, SOFT, change, mean, covariance, probability, moving, driven, kept, settling, value,
+    transitioned(modes, SIZE, MOVING, SOFT, change, mean, covariance, probability, moving, driven, kept, relaxing, value,
             out_mean, out_covariance, out_probability);
     merged(1, modes, SIZE, out_mean, out_covariance, out_probability, middle, whole);
     memcpy(out_value, value, sizeof(double) * SIZE);
@@ -232,8 +232,8 @@ int palm_ahead(
     return 0;
 }
 
-/* The bank as errors from its own mean: those of the turn to second order. */
-int recentred(
+/* The mixture as errors from its own mean: those of the turn to second order. */
+int error_reset(
     int modes, const double *mean, const double *covariance, const double *probability, const double *value,
     const double *rotation, double *out_mean, double *out_covariance, double *out_value, double *out_rotation)
 {

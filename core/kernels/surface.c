@@ -46,7 +46,7 @@ static double between(double x, double least, double most)
 int surface_fit(
     int count, const double *pixel, const double *depth, double fx, double fy, double cx, double cy,
     const double *rotation_w0_cam,
-    const double *translation, const double *belief_rotation, const double *value, int rows, int columns,
+    const double *translation, const double *estimate_rotation, const double *value, int rows, int columns,
     const double *plane, const double *to_node, const double *middle, int steps, double huber, double most, int least,
     double share_in, double reading_per_m, double reading_fixed, double reading_square, double stays_fixed,
     double stays_square, double stays_px, double patch, int averages, double turn_sd, double up_sd, double goes_on,
@@ -66,7 +66,7 @@ int surface_fit(
         x0[i] = place[0], y0[i] = place[1], z0[i] = place[2];
     }
     double rotation[9], position[3], shifted[3] = {0.0}, turned[3] = {0.0}, inverse[9] = {0.0};
-    memcpy(rotation, belief_rotation, sizeof rotation);
+    memcpy(rotation, estimate_rotation, sizeof rotation);
     memcpy(position, value + POSITION, sizeof position);
     int near = 0, failed = 0;
     for (int step = 0; step < steps && !failed; step++) {
@@ -198,7 +198,7 @@ int surface_fit(
                                    by_pose[1] + middle[2] * s[0] - middle[0] * s[2],
                                    by_pose[2] - middle[1] * s[0] + middle[0] * s[1]};
         double *row = out_slope + a * SIZE;
-        times3(belief_rotation, s, row + POSITION);
+        times3(estimate_rotation, s, row + POSITION);
         memcpy(row + TURN, by_turn, sizeof by_turn);
         row[RELIEF + a] = row[BACK + a] = 1.0;
         out_value[a] = -value[RELIEF + a] - value[BACK + a];

@@ -13,7 +13,7 @@ from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.sites import SITES
 from carpus.core.tracking.finger_settings import FingerSettings
-from carpus.core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS, is_crowded
+from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, SLOTS, is_crowded
 from carpus.core.types import FloatArray
 
 _NARROW_RAD = 1e-6
@@ -21,7 +21,7 @@ _NARROW_RAD = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class RayStart:
+class DigitStart:
     """Slots and constants (5, 16) at the neutral pose, their covariance (5, 16, 16), and the fit they come from."""
 
     mean: FloatArray
@@ -29,7 +29,7 @@ class RayStart:
     fit: AnatomyFit
 
 
-def ray_start(
+def digit_start(
     calibration: Calibration,
     camera: Camera,
     *,
@@ -37,7 +37,7 @@ def ray_start(
     skin_offsets: bool,
     marker_radius_m: float,
     own: FingerSettings,
-) -> RayStart:
+) -> DigitStart:
     """The anatomy of a calibrated hand; of a digit without discs it is the average hand's."""
     seen = _seen(calibration, camera, marker_radius_m, own)
     fit = fit_anatomy(
@@ -48,23 +48,23 @@ def ray_start(
         prior=own.anatomy,
         straight=calibration.clicks.straight_fingers,
     )
-    mean = np.zeros((RAYS, SLOTS + CONSTANTS))
-    covariance = np.zeros((RAYS, SLOTS + CONSTANTS, SLOTS + CONSTANTS))
-    for ray in range(RAYS):
-        count = fit.neutral_rays[ray].mean.size
+    mean = np.zeros((CHAINS, SLOTS + CONSTANTS))
+    covariance = np.zeros((CHAINS, SLOTS + CONSTANTS, SLOTS + CONSTANTS))
+    for chain in range(CHAINS):
+        count = fit.neutral_rays[chain].mean.size
         to_slots = np.eye(count)
-        if ray:
+        if chain:
             to_slots[3, 2] = -DIP_PER_PIP
-        cross = to_slots @ fit.neutral_cross[ray]
-        mean[ray, :count] = to_slots @ fit.neutral_rays[ray].mean
-        mean[ray, SLOTS:] = fit.rays.mean[ray]
-        covariance[ray, :count, :count] = to_slots @ fit.neutral_rays[ray].covariance @ to_slots.T
-        covariance[ray, :count, SLOTS:] = cross
-        covariance[ray, SLOTS:, :count] = cross.T
-        covariance[ray, SLOTS:, SLOTS:] = fit.rays.covariance[ray]
+        cross = to_slots @ fit.neutral_cross[chain]
+        mean[chain, :count] = to_slots @ fit.neutral_rays[chain].mean
+        mean[chain, SLOTS:] = fit.rays.mean[chain]
+        covariance[chain, :count, :count] = to_slots @ fit.neutral_rays[chain].covariance @ to_slots.T
+        covariance[chain, :count, SLOTS:] = cross
+        covariance[chain, SLOTS:, :count] = cross.T
+        covariance[chain, SLOTS:, SLOTS:] = fit.rays.covariance[chain]
     index = np.arange(SLOTS)
     covariance[:, index, index] += _NARROW_RAD**2
-    return RayStart(mean, covariance, fit)
+    return DigitStart(mean, covariance, fit)
 
 
 def _seen(calibration: Calibration, camera: Camera, marker_radius_m: float, own: FingerSettings) -> SeenDiscs:

@@ -115,10 +115,10 @@ def resolve(odds: FloatArray) -> NDArray[np.int64]:
 
     Leaving a blob to clutter costs nothing, so only positive odds are taken.
     """
-    taken = [-1] * odds.shape[0]
+    assigned = [-1] * odds.shape[0]
     if odds.shape[1]:
         rows, columns = linear_sum_assignment(np.maximum(odds, 0.0), maximize=True)
         for marker, blob in zip(rows.tolist(), columns.tolist(), strict=True):
             if odds.item(marker, blob) > 0.0:
-                taken[marker] = blob
-    return np.array(taken, dtype=np.int64)
+                assigned[marker] = blob
+    return np.array(assigned, dtype=np.int64)

@@ -74,7 +74,7 @@ class ConsistencyTest:
 def passed_over(
     disc_px: FloatArray,
     disc_depth_m: FloatArray,
-    taken: NDArray[np.int64],
+    assigned: NDArray[np.int64],
     blob_px: FloatArray,
     blob_depth_m: FloatArray,
     focal_px: float,
@@ -82,19 +82,19 @@ def passed_over(
 ) -> NDArray[np.bool_]:
     """Markers (M,) without a blob although one that is nobody's lies at their place ``disc_px`` (M, 2).
 
-    ``taken`` (M,) blob of every marker or -1; ``blob_px`` (B, 2) and ``blob_depth_m`` (B,) of all blobs.
+    ``assigned`` (M,) blob of every marker or -1; ``blob_px`` (B, 2) and ``blob_depth_m`` (B,) of all blobs.
     """
-    out = np.zeros(taken.size, dtype=bool)
-    missing = np.flatnonzero(taken < 0)
+    out = np.zeros(assigned.size, dtype=bool)
+    missing = np.flatnonzero(assigned < 0)
     if not missing.size:
         return out
-    is_spare = np.ones(len(blob_px), dtype=bool)
-    is_spare[taken[taken >= 0]] = False
-    spare = np.flatnonzero(is_spare)
-    if not spare.size:
+    is_unassigned = np.ones(len(blob_px), dtype=bool)
+    is_unassigned[assigned[assigned >= 0]] = False
+    unassigned = np.flatnonzero(is_unassigned)
+    if not unassigned.size:
         return out
-    apart_px = np.linalg.norm(blob_px[spare][None] - disc_px[missing][:, None], axis=-1)
+    apart_px = np.linalg.norm(blob_px[unassigned][None] - disc_px[missing][:, None], axis=-1)
     near = apart_px < settings.near_m * focal_px / disc_depth_m[missing][:, None]
-    deep = np.abs(blob_depth_m[spare][None] - disc_depth_m[missing][:, None]) < settings.near_depth_m
-    out[missing] = (near & (deep | ~np.isfinite(blob_depth_m[spare])[None])).any(axis=1)
+    deep = np.abs(blob_depth_m[unassigned][None] - disc_depth_m[missing][:, None]) < settings.near_depth_m
+    out[missing] = (near & (deep | ~np.isfinite(blob_depth_m[unassigned])[None])).any(axis=1)
     return out

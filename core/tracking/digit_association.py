@@ -1,8 +1,8 @@
 """Which blob is which disc of thumb and fingers, the palm being known.
 
 First every disc by itself, eq. (12) of the wrist paper resolved for all discs at once; a disc that is turned away or
-was hidden a moment ago is less likely to be seen. Then ray by ray: where the discs of one ray do not hold together,
-all ways to name them are weighed jointly.
+was hidden a moment ago is less likely to be seen. Then digit by digit: where the discs of one are not
+jointly compatible, all ways to name them are weighed jointly.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from carpus.core.kernels.choice import in_c
 from carpus.core.tracking import association
+from carpus.core.tracking.digit_filter import ANATOMY, DIGIT_SIZE, SEEN, DigitsLinearisation, DigitView
 from carpus.core.tracking.finger_settings import FingerSettings
-from carpus.core.tracking.hand_geometry import DISCS, RAYS, SHOWS, SLOTS, is_crowded, ray_frames
+from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SHOWS, SLOTS, digit_frames, is_crowded
 from carpus.core.tracking.joint_association import is_jointly_compatible
 from carpus.core.tracking.joint_limits import outside_limits
-from carpus.core.tracking.kernel import Bank, Update, corrected, learning_shares
+from carpus.core.tracking.kernel import ModeMixture, Update, corrected, partial_update
 from carpus.core.tracking.palm_association import Measurements
-from carpus.core.tracking.ray_filter import ANATOMY, RAY_SIZE, SEEN, RayForecast, RayView
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
 
@@ -34,15 +34,15 @@ _LOG_2_PI = float(np.log(2.0 * np.pi))
 
 @dataclass(frozen=True, slots=True)
 class DigitAssignment:
-    """``taken`` (5, 3) blob of every disc or -1, ``with_depth`` (5, 3) whether its depth is believed."""
+    """``assigned`` (5, 3) blob of every disc or -1, ``with_depth`` (5, 3) whether its depth is believed."""
 
-    taken: NDArray[np.int64]
+    assigned: NDArray[np.int64]
     with_depth: NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
 class UpdatedDigits:
-    """The rays corrected by the blobs as named; ``measured`` and ``variance`` (5, 9) what they were corrected by."""
+    """The digits corrected by the blobs as named; ``measured`` and ``variance`` (5, 9) what they were corrected by."""
 
     names: DigitAssignment
     update: Update
@@ -54,15 +54,15 @@ class UpdatedDigits:
 class DigitScene:
     """One frame before the fingers are named.
 
-    ``covariance`` (5, n, n) of the rays; ``line`` forecast; ``spread`` (5, 9, 9) covariance of the discs' images, the
+    ``covariance`` (5, n, n) of the digits; ``linearised`` h; ``spread`` (5, 9, 9) covariance of the discs' images, the
     palm's error included; ``palm_part`` that error alone; ``visible`` (5, 3) chance that each disc is to be seen;
     ``free`` (D,) blobs that are not the palm's; ``area_px`` (D,) of the blobs, ``whole_px`` (5, 3) of each disc where
     nothing hides it, NaN where not known yet; ``noise_factor`` (5, 9); ``learning`` share of what is said of the
-    anatomy that is believed; ``has_discs`` (5,) rays that carry discs at all.
+    anatomy that is believed; ``has_discs`` (5,) digits that carry discs at all.
     """
 
     covariance: FloatArray
-    line: RayForecast
+    linearised: DigitsLinearisation
     spread: FloatArray
     palm_part: FloatArray
     visible: FloatArray
@@ -72,59 +72,59 @@ class DigitScene:
     whole_px: FloatArray
     noise_factor: FloatArray
     resolution_px2: float
-    view: RayView
+    view: DigitView
     learning: float
     has_discs: NDArray[np.bool_]
 
 
-def associate_digits(beliefs: Bank, scene: DigitScene, settings: TrackerSettings) -> UpdatedDigits:
-    """Names and corrects all rays."""
+def associate_digits(estimates: ModeMixture, scene: DigitScene, settings: TrackerSettings) -> UpdatedDigits:
+    """Names and corrects all digits."""
     names = _each_by_itself(scene, settings)
-    found = updated_as_associated(beliefs, scene, names, settings)
+    found = updated_as_associated(estimates, scene, names, settings)
     nis, dof = found.update.nis.tolist(), found.update.dof.tolist()
-    doubtful = [r for r in range(RAYS) if not is_jointly_compatible(nis[r], dof[r], settings.association)]
+    doubtful = [r for r in range(CHAINS) if not is_jointly_compatible(nis[r], dof[r], settings.association)]
     if doubtful:
-        taken, with_depth = names.taken.copy(), names.with_depth.copy()
-        taken[doubtful] = -1
-        for ray in doubtful:
-            others = np.setdiff1d(np.flatnonzero(scene.free), taken.ravel())
-            taken[ray], with_depth[ray] = _ray_jointly(ray, scene, others, settings)
-        names = DigitAssignment(taken, with_depth)
-        found = updated_as_associated(beliefs, scene, names, settings)
+        assigned, with_depth = names.assigned.copy(), names.with_depth.copy()
+        assigned[doubtful] = -1
+        for chain in doubtful:
+            others = np.setdiff1d(np.flatnonzero(scene.free), assigned.ravel())
+            assigned[chain], with_depth[chain] = _digit_jointly(chain, scene, others, settings)
+        names = DigitAssignment(assigned, with_depth)
+        found = updated_as_associated(estimates, scene, names, settings)
     impossible = _impossible(found, scene, settings.fingers) | _lone(names, scene, settings.fingers)
-    return without(impossible, found, beliefs, scene, settings) if impossible.any() else found
+    return without(impossible, found, estimates, scene, settings) if impossible.any() else found
 
 
 def without(
-    discs: NDArray[np.bool_], found: UpdatedDigits, beliefs: Bank, scene: DigitScene, settings: TrackerSettings
+    discs: NDArray[np.bool_], found: UpdatedDigits, estimates: ModeMixture, scene: DigitScene, settings: TrackerSettings
 ) -> UpdatedDigits:
-    """The rays corrected anew without the names of some ``discs`` (5, 3)."""
-    names = DigitAssignment(np.where(discs, -1, found.names.taken), found.names.with_depth & ~discs)
-    return updated_as_associated(beliefs, scene, names, settings)
+    """The digits corrected anew without the names of some ``discs`` (5, 3)."""
+    names = DigitAssignment(np.where(discs, -1, found.names.assigned), found.names.with_depth & ~discs)
+    return updated_as_associated(estimates, scene, names, settings)
 
 
 def _lone(names: DigitAssignment, scene: DigitScene, own: FingerSettings) -> NDArray[np.bool_]:
-    """Discs (5, 3) further out than the first that stand without the one before them on a ray that may be far from
+    """Discs (5, 3) further out than the first that stand without the one before them on a digit that may be far from
     where it is expected: those that come back alone, and the end of the thumb, whose joints can bring it anywhere. Any
     blob would do for them."""
-    is_named = names.taken >= 0
+    is_named = names.assigned >= 0
     lone = is_named & (is_named.sum(axis=1) == 1)[:, None] & (scene.visible < own.was_seen)
     lone[:, 0] = False
     lone[0, 2] |= is_named[0, 2] & ~is_named[0, 1]
     if not lone.any():
         return np.asarray(lone)
-    return np.asarray(lone & far_rays(scene.covariance, is_named, own)[:, None])
+    return np.asarray(lone & far_digits(scene.covariance, is_named, own)[:, None])
 
 
-def far_rays(covariance: FloatArray, named: NDArray[np.bool_], own: FingerSettings) -> NDArray[np.bool_]:
-    """Rays (5,) whose discs (5, 3) that are seen may find their joints far from where they were expected, with
+def far_digits(covariance: FloatArray, named: NDArray[np.bool_], own: FingerSettings) -> NDArray[np.bool_]:
+    """Digits (5,) whose discs (5, 3) that are seen may find their joints far from where they were expected, with
     covariances (5, n, n)."""
     shown = (SHOWS & named[:, None, :]).any(axis=-1)
     return np.asarray((shown & (covariance[:, _SLOT, _SLOT] > own.far_rad**2)).any(axis=1))
 
 
 def beyond_reach(mean: FloatArray, covariance: FloatArray, own: FingerSettings) -> NDArray[np.bool_]:
-    """Rays (5,) bent surely beyond their limits, by means (5, n) and covariances (5, n, n)."""
+    """Digits (5,) bent surely beyond their limits, by means (5, n) and covariances (5, n, n)."""
     sd = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)[:, :SLOTS] + own.limits.soft_rad**2)
     return np.asarray((np.abs(outside_limits(mean[:, :SLOTS])) > own.surely_sd * sd).any(axis=1))
 
@@ -132,19 +132,19 @@ def beyond_reach(mean: FloatArray, covariance: FloatArray, own: FingerSettings) 
 def _impossible(found: UpdatedDigits, scene: DigitScene, own: FingerSettings) -> NDArray[np.bool_]:
     """Discs (5, 3) that were hidden a moment ago and are where, if they were there, they could not be seen, or where
     no finger can reach."""
-    back = (found.names.taken >= 0) & (scene.visible < own.was_seen)
-    rays = np.flatnonzero(back.any(axis=1))
-    if not rays.size:
+    back = (found.names.assigned >= 0) & (scene.visible < own.was_seen)
+    chains = np.flatnonzero(back.any(axis=1))
+    if not chains.size:
         return back
-    mean, covariance = found.update.bank.merged()
-    frames = ray_frames(mean[:, SEEN])
-    tilt = tilt_to(scene.view, frames.normal, scene.line.centre_m)
+    mean, covariance = found.update.mixture.merged()
+    frames = digit_frames(mean[:, SEEN])
+    tilt = tilt_to(scene.view, frames.normal, scene.linearised.centre_m)
     bend = tilt_variance(covariance)
     hidden = tilt - own.steepest_rad > own.surely_sd * np.sqrt(bend + own.steepest_sd_rad**2)
     return back & (hidden | beyond_reach(mean, covariance, own)[:, None])
 
 
-def tilt_to(view: RayView, normal: FloatArray, centre_m: FloatArray) -> FloatArray:
+def tilt_to(view: DigitView, normal: FloatArray, centre_m: FloatArray) -> FloatArray:
     """Tilt (5, 3) of discs with normals (5, 3, 3) in W2 to the line of sight; ``centre_m`` (5, 3, 3) in camera axes."""
     across = ((normal @ view.rotation.T) * centre_m).sum(axis=-1)
     distance = np.sqrt((centre_m * centre_m).sum(axis=-1))
@@ -158,13 +158,13 @@ def tilt_variance(covariance: FloatArray) -> FloatArray:
 
 def _each_by_itself(scene: DigitScene, settings: TrackerSettings) -> DigitAssignment:
     free = np.flatnonzero(scene.free)
-    taken = np.full(RAYS * DISCS, -1, dtype=np.int64)
+    assigned = np.full(CHAINS * DISCS, -1, dtype=np.int64)
     if not free.size:
-        return DigitAssignment(taken.reshape(RAYS, DISCS), np.zeros((RAYS, DISCS), dtype=bool))
+        return DigitAssignment(assigned.reshape(CHAINS, DISCS), np.zeros((CHAINS, DISCS), dtype=bool))
     place = 3 * np.arange(DISCS)[:, None] + _AXES
     own = scene.spread[:, place[:, :, None], place[:, None, :]].reshape(-1, 3, 3)
     odds = association.log_odds(
-        scene.line.value.reshape(-1, 3),
+        scene.linearised.value.reshape(-1, 3),
         own,
         scene.blobs.value[free],
         scene.blobs.variance[free],
@@ -177,9 +177,9 @@ def _each_by_itself(scene: DigitScene, settings: TrackerSettings) -> DigitAssign
     value[~np.repeat(scene.has_discs, DISCS)] = association.IMPOSSIBLE
     found = association.resolve(value)
     named = found >= 0
-    taken[named] = free[found[named]]
+    assigned[named] = free[found[named]]
     with_depth = odds.with_depth[np.arange(found.size), found] & named
-    return DigitAssignment(taken.reshape(RAYS, DISCS), with_depth.reshape(RAYS, DISCS))
+    return DigitAssignment(assigned.reshape(CHAINS, DISCS), with_depth.reshape(CHAINS, DISCS))
 
 
 def measured_as_named(
@@ -188,16 +188,16 @@ def measured_as_named(
     """What the blobs as named measure (5, 9), NaN where there is none, and its variance (5, 9)."""
     noise, fingers = settings.noise, settings.fingers
     if (kernels := in_c()) is not None:
-        measured, variance = np.empty((RAYS, 9)), np.empty((RAYS, 9))
+        measured, variance = np.empty((CHAINS, 9)), np.empty((CHAINS, 9))
         kernels.digits_measured(
-            len(scene.blobs), names.taken, names.with_depth, scene.blobs.value, scene.blobs.variance, scene.area_px,
-            scene.whole_px, scene.line.value, scene.noise_factor, noise.whole_from, noise.shade_share,
+            len(scene.blobs), names.assigned, names.with_depth, scene.blobs.value, scene.blobs.variance, scene.area_px,
+            scene.whole_px, scene.linearised.value, scene.noise_factor, noise.whole_from, noise.shade_share,
             settings.marker_radius_m, scene.view.camera.fx_px, fingers.crowded_radii, fingers.crowded_px,
             noise.pixel_sd_px, fingers.skin_px, measured, variance,
         )  # fmt: skip
         return measured, variance
-    blob = np.maximum(names.taken, 0)
-    is_named = names.taken >= 0
+    blob = np.maximum(names.assigned, 0)
+    is_named = names.assigned >= 0
     if len(scene.blobs):
         measured = np.where(is_named[..., None], scene.blobs.value[blob], np.nan)
         variance = np.where(is_named[..., None], scene.blobs.variance[blob], 1.0)
@@ -205,37 +205,37 @@ def measured_as_named(
         # Now that the disc is known, so is the size it would have if it were whole.
         missing = noise.whole_from - scene.area_px[blob] / scene.whole_px
         wander_px = noise.shade_share * np.sqrt(scene.whole_px / np.pi) * np.maximum(missing, 0.0)
-        expected = scene.line.value.reshape(RAYS, DISCS, 3)
+        expected = scene.linearised.value.reshape(CHAINS, DISCS, 3)
         radius_px = settings.marker_radius_m * scene.view.camera.fx_px / expected[..., 2]
         crowded_px = np.where(is_crowded(expected[..., :2], radius_px, fingers.crowded_radii), fingers.crowded_px, 0.0)
         own = (noise.pixel_sd_px**2 + fingers.skin_px**2 + wander_px**2 + crowded_px**2)[..., None]
         variance[..., :2] = np.where(np.isfinite(own) & is_named[..., None], own, variance[..., :2])
     else:
-        measured, variance = np.full((RAYS, DISCS, 3), np.nan), np.ones((RAYS, DISCS, 3))
-    return measured.reshape(RAYS, 9), variance.reshape(RAYS, 9) * scene.noise_factor
+        measured, variance = np.full((CHAINS, DISCS, 3), np.nan), np.ones((CHAINS, DISCS, 3))
+    return measured.reshape(CHAINS, 9), variance.reshape(CHAINS, 9) * scene.noise_factor
 
 
 def updated_as_associated(
-    beliefs: Bank, scene: DigitScene, names: DigitAssignment, settings: TrackerSettings
+    estimates: ModeMixture, scene: DigitScene, names: DigitAssignment, settings: TrackerSettings
 ) -> UpdatedDigits:
-    """All rays corrected by the blobs as named."""
+    """All digits corrected by the blobs as named."""
     measured, variance = measured_as_named(scene, names, settings)
     update = corrected(
-        beliefs,
-        scene.line,
+        estimates,
+        scene.linearised,
         measured,
         variance,
         scene.palm_part,
-        learning_shares(RAY_SIZE, ANATOMY, scene.learning),
+        partial_update(DIGIT_SIZE, ANATOMY, scene.learning),
     )
     return UpdatedDigits(names, update, measured, variance)
 
 
-def _ray_jointly(
-    ray: int, scene: DigitScene, blobs: NDArray[np.int64], settings: TrackerSettings
+def _digit_jointly(
+    chain: int, scene: DigitScene, blobs: NDArray[np.int64], settings: TrackerSettings
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """Most probable names (3,) of one ray's discs among ``blobs``, and whether the depths are believed."""
-    value, spread = scene.line.value[ray], scene.spread[ray]
+    """Most probable names (3,) of one digit's discs among ``blobs``, and whether the depths are believed."""
+    value, spread = scene.linearised.value[chain], scene.spread[chain]
     nothing = np.full(DISCS, -1, dtype=np.int64), np.zeros(DISCS, dtype=bool)
     if not blobs.size:
         return nothing
@@ -261,15 +261,15 @@ def _ray_jointly(
                 own.append((int(blob), False))
         candidates.append(own)
     ways = [way for way in product(*candidates) if len({b for b, _ in way if b >= 0}) == sum(b >= 0 for b, _ in way)]
-    taken = np.array([[b for b, _ in way] for way in ways])
+    assigned = np.array([[b for b, _ in way] for way in ways])
     depth = np.array([[d for _, d in way] for way in ways])
-    named = taken >= 0
+    named = assigned >= 0
     used = np.repeat(named[..., None], 3, axis=-1)
     used[..., 2] = depth
     used = used.reshape(-1, 9)
-    variance = np.where(named[..., None], scene.blobs.variance[np.maximum(taken, 0)], 1.0).reshape(-1, 9)
-    variance = np.where(used, variance * scene.noise_factor[ray], 1.0)
-    measured = np.where(named[..., None], scene.blobs.value[np.maximum(taken, 0)], 0.0).reshape(-1, 9)
+    variance = np.where(named[..., None], scene.blobs.variance[np.maximum(assigned, 0)], 1.0).reshape(-1, 9)
+    variance = np.where(used, variance * scene.noise_factor[chain], 1.0)
+    measured = np.where(named[..., None], scene.blobs.value[np.maximum(assigned, 0)], 0.0).reshape(-1, 9)
     unit = np.where(used, 1.0 / np.sqrt(variance), 0.0)
     s = spread * (unit[:, :, None] * unit[:, None, :]) + np.eye(9)
     off = np.where(used, measured - value, 0.0) * unit
@@ -277,16 +277,16 @@ def _ray_jointly(
     log_normal = -0.5 * (nis + np.linalg.slogdet(s)[1] + used.sum(axis=1) * _LOG_2_PI) + np.sum(
         np.log(np.where(used, unit, 1.0)), axis=1
     )
-    by_seen = np.log(scene.visible[ray] / (1.0 - scene.visible[ray]))
+    by_seen = np.log(scene.visible[chain] / (1.0 - scene.visible[chain]))
     per_blob = float(np.log(scene.resolution_px2 / settings.fingers.clutter))
     with_depth = float(np.log(settings.association.depth_range_m))
     without = np.where(
-        np.isfinite(scene.blobs.value[np.maximum(taken, 0), 2]), np.log(settings.noise.depth_outlier), 0.0
+        np.isfinite(scene.blobs.value[np.maximum(assigned, 0), 2]), np.log(settings.noise.depth_outlier), 0.0
     )
     clutter = per_blob + np.where(depth, with_depth, without)
     score = log_normal + np.sum(np.where(named, by_seen + clutter, 0.0), axis=1)
     best = int(np.argmax(score))
-    return taken[best], depth[best]
+    return assigned[best], depth[best]
 
 
 def seen_chance(

@@ -11,13 +11,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.palm_association import Measurements, update
-from carpus.core.tracking.palm_state import SHAPE, SKIN, PalmBelief
-from carpus.core.tracking.palm_view import View, recentred
+from carpus.core.tracking.palm_state import SHAPE, SKIN, PalmEstimate
+from carpus.core.tracking.palm_view import View, error_reset
 from carpus.core.tracking.predicted_measurement import PredictedMeasurement, predicted_measurement
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import settled_covariance
+from carpus.core.tracking.soft_tissue import stationary_covariance
 from carpus.core.types import BoolArray, FloatArray
 
 _TWICE = 2.0
@@ -26,37 +26,37 @@ _TWICE = 2.0
 
 def disc_anew(
     ahead: PredictedMeasurement, view: View, disc: int, blob: int, blobs: Measurements, settings: TrackerSettings
-) -> tuple[PalmBelief, Bank, View]:
-    """Belief and bank with the palm's ``disc`` (its row of 6) at a blob, and the view to go on with."""
+) -> tuple[PalmEstimate, ModeMixture, View]:
+    """Estimate and mixture with the palm's ``disc`` (its row of 6) at a blob, and the view to go on with."""
     u_px, v_px, depth_m = blobs.value[blob]
     depth_m = depth_m if np.isfinite(depth_m) else float(ahead.mean[disc, 2])
-    belief = ahead.nominal
+    estimate = ahead.nominal
     in_camera = view.camera.back_project(np.array([[u_px, v_px]]), np.array([depth_m]))[0]
     in_w0 = view.rotation_w0_cam.T @ (in_camera - view.translation_w0_cam_m)
-    on_palm_m = belief.rotation_w2_w0.T @ (in_w0 - belief.position_m)
+    on_palm_m = estimate.rotation_w2_w0.T @ (in_w0 - estimate.position_m)
 
     shape, skin = (np.arange(part.start + 3 * disc, part.start + 3 * disc + 3) for part in (SHAPE, SKIN))
     own = np.concatenate((shape, skin))
     fresh = np.zeros((6, 6))
     fresh[:3, :3] = settings.said.anywhere_m**2 * np.eye(3)
-    fresh[3:, 3:] = settled_covariance(settings.tissue)[skin[:, None], skin]
-    value = belief.value.copy()
+    fresh[3:, 3:] = stationary_covariance(settings.tissue)[skin[:, None], skin]
+    value = estimate.value.copy()
     value[shape], value[skin] = on_palm_m - view.palm_m[disc], 0.0
-    belief = PalmBelief(belief.rotation_w2_w0, value, _with_block(belief.covariance, own, fresh))
-    mean = ahead.bank.mean.copy()
+    estimate = PalmEstimate(estimate.rotation_w2_w0, value, _with_block(estimate.covariance, own, fresh))
+    mean = ahead.mixture.mean.copy()
     mean[..., own] = 0.0
-    bank = Bank(mean, _with_block(ahead.bank.covariance, own, fresh), ahead.bank.probability)
+    mixture = ModeMixture(mean, _with_block(ahead.mixture.covariance, own, fresh), ahead.mixture.probability)
 
     # How wrong its depth was at the calibration says nothing of it any more.
     hidden = view.hidden.copy()
     hidden[disc, 3 * disc : 3 * disc + 3] = 0.0
     view = replace(view, hidden=hidden)
-    taken: NDArray[np.int64] = np.full(len(ahead.mean), -1, dtype=np.int64)
-    taken[disc] = blob
-    with_depth: BoolArray = (taken >= 0) & np.isfinite(blobs.value[blob, 2])
-    whole = predicted_measurement(belief, bank, view, settings.spread)
-    measured = update(whole, blobs, taken, with_depth, np.full((taken.size, 3), _TWICE))
-    return *recentred(belief, measured.bank), view
+    assigned: NDArray[np.int64] = np.full(len(ahead.mean), -1, dtype=np.int64)
+    assigned[disc] = blob
+    with_depth: BoolArray = (assigned >= 0) & np.isfinite(blobs.value[blob, 2])
+    whole = predicted_measurement(estimate, mixture, view, settings.spread)
+    measured = update(whole, blobs, assigned, with_depth, np.full((assigned.size, 3), _TWICE))
+    return *error_reset(estimate, measured.mixture), view
 
 
 def with_discs_as_known(view: View, shape: FloatArray, named: BoolArray) -> View:

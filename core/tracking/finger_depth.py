@@ -13,9 +13,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from carpus.core.tracking.hand_geometry import RAYS, SLOTS
-from carpus.core.tracking.kernel import Bank, Line, corrected
-from carpus.core.tracking.ray_filter import SEEN, RayView
+from carpus.core.tracking.digit_filter import SEEN, DigitView
+from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, corrected
 from carpus.core.types import FINGER_STEP_PX, FloatArray, SurfaceSamples
 
 FLEXION = 1
@@ -58,7 +58,7 @@ class KnuckleBends:
     @staticmethod
     def none() -> KnuckleBends:
         """Depth says nothing of any."""
-        return KnuckleBends(np.full(RAYS, np.nan), np.ones(RAYS))
+        return KnuckleBends(np.full(CHAINS, np.nan), np.ones(CHAINS))
 
     @property
     def is_any(self) -> bool:
@@ -69,21 +69,21 @@ def knuckle_bends(
     asked: list[int],
     mean: FloatArray,
     root_m: FloatArray,
-    view: RayView,
+    view: DigitView,
     samples: SurfaceSamples,
     settings: FingerDepthSettings,
 ) -> KnuckleBends:
-    """What the readings say of the rays ``asked`` (fingers), with means (5, n), that begin under ``root_m`` (5, 3)."""
+    """What the readings say of the digits ``asked`` (fingers), means (5, n), that begin under ``root_m`` (5, 3)."""
     out = KnuckleBends.none()
     depth_at = _lattice(samples)
     bend_rad, share = _grid_rad(settings), np.array(settings.along)
     sin, cos = np.sin(bend_rad), np.cos(bend_rad)
-    for ray in asked:
-        state = mean[ray, SEEN]
+    for chain in asked:
+        state = mean[chain, SEEN]
         azimuth = state[_FAN] + state[0]
         ahead = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
         up = np.array([0.0, 0.0, 1.0])
-        knuckle = root_m[ray] + state[_START] * _DOWN
+        knuckle = root_m[chain] + state[_START] * _DOWN
         along = cos[:, None] * ahead - sin[:, None] * up  # (Q, 3)
         normal = sin[:, None] * ahead + cos[:, None] * up
         reach = share * state[_LENGTH]
@@ -100,8 +100,8 @@ def knuckle_bends(
         value = float(weight @ bend_rad)
         variance = float(weight @ (bend_rad - value) ** 2)
         if variance < settings.most_sd_rad**2:
-            out.value_rad[ray] = value
-            out.variance_rad2[ray] = settings.alike * max(variance, settings.least_sd_rad**2)
+            out.value_rad[chain] = value
+            out.variance_rad2[chain] = settings.alike * max(variance, settings.least_sd_rad**2)
     return out
 
 
@@ -112,14 +112,14 @@ def _grid_rad(settings: FingerDepthSettings) -> FloatArray:
     return np.asarray(np.radians(np.arange(settings.straightest_deg, end_deg, settings.step_deg)))
 
 
-def with_bends(bank: Bank, bends: KnuckleBends) -> Bank:
-    """Rays corrected by what depth says of their knuckles."""
-    chains, _, size = bank.mean.shape
+def with_bends(mixture: ModeMixture, bends: KnuckleBends) -> ModeMixture:
+    """Digits corrected by what depth says of their knuckles."""
+    chains, _, size = mixture.mean.shape
     slope = np.zeros((chains, 1, size))
     slope[:, 0, FLEXION] = 1.0
     nothing = np.zeros((chains, 1, 1))
-    line = Line(np.zeros((chains, 1)), slope, nothing, np.zeros((chains, size)))
-    return corrected(bank, line, bends.value_rad[:, None], bends.variance_rad2[:, None]).bank
+    linearised = Linearisation(np.zeros((chains, 1)), slope, nothing, np.zeros((chains, size)))
+    return corrected(mixture, linearised, bends.value_rad[:, None], bends.variance_rad2[:, None]).mixture
 
 
 def _lattice(samples: SurfaceSamples) -> Callable[[FloatArray], FloatArray]:

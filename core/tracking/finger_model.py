@@ -13,26 +13,35 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand.sites import DIGITS
 from carpus.core.kernels.choice import in_c
-from carpus.core.tracking.anatomy_refinement import RayStart, ray_start
+from carpus.core.tracking.anatomy_refinement import DigitStart, digit_start
+from carpus.core.tracking.digit_filter import (
+    DIGIT_SIZE,
+    JOINTS,
+    RATES,
+    SEEN,
+    DigitMotion,
+    DigitsLinearisation,
+    DigitView,
+    Forgetting,
+)
 from carpus.core.tracking.finger_depth import FLEXION
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_geometry import (
+    CHAINS,
     DISCS,
-    RAYS,
     SLOTS,
     JointMoment,
     JointReading,
     PalmInBody,
+    digit_frames,
+    digit_joints_m,
     direct_markers,
-    ray_frames,
-    ray_joints_m,
 )
 from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD, constrained, outside_limits
-from carpus.core.tracking.kernel import Bank, switching
+from carpus.core.tracking.kernel import ModeMixture, switching
 from carpus.core.tracking.motion import REFERENCE_DT_S
-from carpus.core.tracking.palm_state import POSE, PalmBelief
+from carpus.core.tracking.palm_state import POSE, PalmEstimate
 from carpus.core.tracking.palm_view import View
-from carpus.core.tracking.ray_filter import JOINTS, RATES, RAY_SIZE, SEEN, Forgetting, RayForecast, RayMotion, RayView
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
@@ -50,26 +59,26 @@ class Seat:
     """
 
     palm: PalmInBody
-    view: RayView
+    view: DigitView
     pose_covariance: FloatArray
     turn_covariance: FloatArray
 
 
-def seat_of(belief: PalmBelief, view: View, readout: Readout) -> Seat:
-    """The seat that a belief about the palm gives to the fingers."""
-    palm, turn_covariance = readout.palm(belief)
-    body_cam = view.rotation_w0_cam @ belief.rotation_w2_w0
+def seat_of(estimate: PalmEstimate, view: View, readout: Readout) -> Seat:
+    """The seat that an estimate about the palm gives to the fingers."""
+    palm, turn_covariance = readout.palm(estimate)
+    body_cam = view.rotation_w0_cam @ estimate.rotation_w2_w0
     to_camera = np.zeros((6, 6))
     to_camera[:3, :3], to_camera[3:, 3:] = view.rotation_w0_cam, body_cam
-    pose = to_camera @ belief.covariance[POSE[:, None], POSE] @ to_camera.T
-    return Seat(palm, ray_view(belief, view, palm), pose, body_cam @ turn_covariance @ body_cam.T)
+    pose = to_camera @ estimate.covariance[POSE[:, None], POSE] @ to_camera.T
+    return Seat(palm, digit_view(estimate, view, palm), pose, body_cam @ turn_covariance @ body_cam.T)
 
 
-def ray_view(belief: PalmBelief, view: View, palm: PalmInBody) -> RayView:
+def digit_view(estimate: PalmEstimate, view: View, palm: PalmInBody) -> DigitView:
     """How the camera sees W2 of a right hand on that palm."""
-    body_cam = view.rotation_w0_cam @ belief.rotation_w2_w0
-    origin = body_cam @ palm.origin_m + view.rotation_w0_cam @ belief.position_m + view.translation_w0_cam_m
-    return RayView(body_cam @ palm.axes, origin, view.camera)
+    body_cam = view.rotation_w0_cam @ estimate.rotation_w2_w0
+    origin = body_cam @ palm.origin_m + view.rotation_w0_cam @ estimate.position_m + view.translation_w0_cam_m
+    return DigitView(body_cam @ palm.axes, origin, view.camera)
 
 
 class FingerModel:
@@ -83,15 +92,15 @@ class FingerModel:
         self.reading = JointReading.of(dip_free, protocol.digits)
         self.direct_markers = direct_markers(protocol, dip_free)
         self.has_discs = np.array([digit in protocol.digits for digit in DIGITS])
-        """(5,) rays that carry discs; the others are believed to be anywhere and are not told of."""
+        """(5,) digits that carry discs; the others are believed to be anywhere and are not told of."""
         self._dip_free = dip_free
         self.markers = np.array(list(protocol.chains.values()))[:, 2:]
-        """Rows (R, 3) of the moving discs of those rays."""
+        """Rows (R, 3) of the moving discs of those digits."""
         self._sites = list(protocol.sites)
         self.resolution_px2 = float(camera.width_px * camera.height_px)
         self.calibrated_palm = PalmInBody.of(palm_of(calibration).marker_position_w0_m, np.eye(3), self.side)
         self.scales = np.array(settings.mode_scales)
-        self._start: RayStart = ray_start(
+        self._start: DigitStart = digit_start(
             calibration,
             camera,
             dip_free=dip_free,
@@ -102,33 +111,33 @@ class FingerModel:
         self._wrist_depth_m = -float(self._start.fit.anatomy.palm_joint_m[0, 2])
         self._focal_px = np.array([camera.fx_px, camera.fy_px])
         motion = settings.motion_noise
-        sd = np.full((RAYS, SLOTS), motion.joint_acceleration_rad_s2)
+        sd = np.full((CHAINS, SLOTS), motion.joint_acceleration_rad_s2)
         sd[0, [0, 1, 3]] *= own.abduction_share
         sd[1:, 0] *= own.abduction_share
         sd[1:, 4] = 0.0
         sd[0, 3] = 0.0
-        settled2 = np.zeros((RAYS, SLOTS))
-        settled2[0, 3] = own.thumb_aside_rad**2
+        stationary2 = np.zeros((CHAINS, SLOTS))
+        stationary2[0, 3] = own.thumb_aside_rad**2
         if not dip_free:
             sd[1:, 3] = 0.0
-            settled2[1:, 3] = own.dip_slack_rad**2
+            stationary2[1:, 3] = own.dip_slack_rad**2
         self._moves = sd > 0.0
-        self._settled2 = np.maximum(settled2, 1e-12)
-        self._range2 = np.where(self._moves, RANGE_SD_RAD**2, self._settled2)
+        self._stationary2 = np.maximum(stationary2, 1e-12)
+        self._range2 = np.where(self._moves, RANGE_SD_RAD**2, self._stationary2)
         drift = own.drift_per_s * np.diagonal(self._start.fit.rays.covariance, axis1=1, axis2=2)
-        self.motion = RayMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, settled2, own.settles_s)
+        self.motion = DigitMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, stationary2, own.settles_s)
 
-    def at_neutral(self) -> Bank:
+    def at_neutral(self) -> ModeMixture:
         """At the neutral pose, at rest."""
         seen = SEEN
-        mean, covariance = np.zeros((RAYS, RAY_SIZE)), np.zeros((RAYS, RAY_SIZE, RAY_SIZE))
+        mean, covariance = np.zeros((CHAINS, DIGIT_SIZE)), np.zeros((CHAINS, DIGIT_SIZE, DIGIT_SIZE))
         mean[:, seen] = self._start.mean
         covariance[:, seen[:, None], seen] = self._start.covariance
         rate = np.arange(RATES.start, RATES.stop)
         covariance[:, rate, rate] = np.where(self._moves, self.settings.initial.joint_rates_rad_s**2, 1e-12)
         return self.alike(mean, covariance)
 
-    def anywhere(self, mean: FloatArray, covariance: FloatArray) -> Bank:
+    def anywhere(self, mean: FloatArray, covariance: FloatArray) -> ModeMixture:
         """The anatomy as known by now, (5, n) and (5, n, n), the joints anywhere in their range."""
         moving = np.arange(RATES.stop)
         mean, covariance = mean.copy(), covariance.copy()
@@ -141,38 +150,38 @@ class FingerModel:
         covariance[:, rate, rate] = np.where(self._moves, self.settings.fingers.begins_rate_sd**2, 1e-12)
         return self.alike(mean, covariance)
 
-    def at_postures(self, beliefs: Bank, postures: dict[int, FloatArray]) -> Bank:
-        """Some rays begun anew about postures, slots (5,) by ray, the anatomy as known by now."""
-        rays, slots = np.array(list(postures)), np.array(list(postures.values()))
-        kept = self.begun_anew(beliefs, np.isin(np.arange(RAYS), rays), beliefs)
+    def at_postures(self, estimates: ModeMixture, postures: dict[int, FloatArray]) -> ModeMixture:
+        """Some digits begun anew about postures, slots (5,) by digit, the anatomy as known by now."""
+        chains, slots = np.array(list(postures)), np.array(list(postures.values()))
+        kept = self.begun_anew(estimates, np.isin(np.arange(CHAINS), chains), estimates)
         mean, covariance = kept.mean, kept.covariance
-        mean[rays, :, :SLOTS] = slots[:, None]
+        mean[chains, :, :SLOTS] = slots[:, None]
         own = self.settings.fingers
-        moving = np.where(self._moves[rays], own.posture_sd_rad**2, self._settled2[rays])
-        covariance[rays[:, None], :, _SLOT, _SLOT] = moving[..., None]
+        moving = np.where(self._moves[chains], own.posture_sd_rad**2, self._stationary2[chains])
+        covariance[chains[:, None], :, _SLOT, _SLOT] = moving[..., None]
         rate = SLOTS + _SLOT
-        moving = np.where(self._moves[rays], own.posture_rate_sd**2, 1e-12)
-        covariance[rays[:, None], :, rate, rate] = moving[..., None]
+        moving = np.where(self._moves[chains], own.posture_rate_sd**2, 1e-12)
+        covariance[chains[:, None], :, rate, rate] = moving[..., None]
         return kept
 
-    def begun_anew(self, beliefs: Bank, rays: NDArray[np.bool_], known: Bank) -> Bank:
-        """Beliefs of which ``rays`` (5,) may be anywhere, on the anatomy as ``known``."""
-        fresh, chosen = self.anywhere(*known.merged()), rays[:, None]
-        return Bank(
-            np.where(chosen[..., None], fresh.mean, beliefs.mean),
-            np.where(chosen[..., None, None], fresh.covariance, beliefs.covariance),
-            np.where(chosen, fresh.probability, beliefs.probability),
+    def begun_anew(self, estimates: ModeMixture, chains: NDArray[np.bool_], known: ModeMixture) -> ModeMixture:
+        """Estimates of which ``chains`` (5,) may be anywhere, on the anatomy as ``known``."""
+        fresh, chosen = self.anywhere(*known.merged()), chains[:, None]
+        return ModeMixture(
+            np.where(chosen[..., None], fresh.mean, estimates.mean),
+            np.where(chosen[..., None, None], fresh.covariance, estimates.covariance),
+            np.where(chosen, fresh.probability, estimates.probability),
         )
 
     def within_reach(
-        self, beliefs: Bank, before: Bank
-    ) -> tuple[Bank, tuple[FloatArray, FloatArray], NDArray[np.bool_]]:
-        """Beliefs with the limits taken into account, and rays (5,) that a picture has bent as no finger bends: it was
-        misread there, so their joints may be anywhere, on the anatomy as it was ``before``. Between them the beliefs
-        merged."""
-        merged = beliefs.merged()
-        kept = constrained(beliefs, merged[0][:, :SLOTS], self.settings.fingers.limits)
-        if kept is not beliefs:
+        self, estimates: ModeMixture, before: ModeMixture
+    ) -> tuple[ModeMixture, tuple[FloatArray, FloatArray], NDArray[np.bool_]]:
+        """Estimates with the limits taken into account, and digits (5,) that a picture has bent as no finger bends: it
+        was misread there, so their joints may be anywhere, on the anatomy as it was ``before``. Between them the
+        estimates merged."""
+        merged = estimates.merged()
+        kept = constrained(estimates, merged[0][:, :SLOTS], self.settings.fingers.limits)
+        if kept is not estimates:
             merged = kept.merged()
         beyond_rad = np.abs(outside_limits(merged[0][:, :SLOTS]))
         misread = np.asarray((beyond_rad > self.settings.fingers.most_beyond_rad).any(axis=1))
@@ -181,34 +190,35 @@ class FingerModel:
             merged = kept.merged()
         return kept, merged, misread
 
-    def alike(self, mean: FloatArray, covariance: FloatArray) -> Bank:
+    def alike(self, mean: FloatArray, covariance: FloatArray) -> ModeMixture:
         """All modes alike and as probable, of means (5, n) and covariances (5, n, n)."""
         count = self.scales.size
-        return Bank(
+        return ModeMixture(
             np.repeat(mean[:, None], count, axis=1),
             np.repeat(covariance[:, None], count, axis=1),
-            np.full((RAYS, count), 1.0 / count),
+            np.full((CHAINS, count), 1.0 / count),
         )
 
-    def predicted(self, beliefs: Bank, unseen_s: FloatArray, dt_s: float) -> Bank:
-        """The rays ``dt_s`` later; ``unseen_s`` (5, 5) for how long nothing has shown each slot.
+    def predicted(self, estimates: ModeMixture, unseen_s: FloatArray, dt_s: float) -> ModeMixture:
+        """The digits ``dt_s`` later; ``unseen_s`` (5, 5) for how long nothing has shown each slot.
 
-        After a gap between pictures a rate has led anywhere, full turns of a joint among it, between which no line
-        tells: there the limits are heard before the picture as well, and a long gap leaves nothing of the joints.
+        After a gap between pictures a rate has led anywhere, full turns of a joint among it, between which nothing
+        linear tells: there the limits are heard before the picture as well, and a long gap leaves nothing of the
+        joints.
         """
         if dt_s <= 0.0:
-            return beliefs
+            return estimates
         switch = switching(self.scales.size, self.settings.mode_dwell_s, dt_s)
-        mean = (beliefs.probability[:, None] @ beliefs.mean)[:, 0]
+        mean = (estimates.probability[:, None] @ estimates.mean)[:, 0]
         if dt_s >= self.settings.fingers.range_after_s:
-            return self.anywhere(*beliefs.merged())
-        ahead = self.motion.predicted(beliefs, dt_s, self.forgetting(mean, unseen_s, dt_s), switch)
+            return self.anywhere(*estimates.merged())
+        ahead = self.motion.predicted(estimates, dt_s, self.forgetting(mean, unseen_s, dt_s), switch)
         if dt_s < self.settings.fingers.gap_s:
             return ahead
         return constrained(ahead, ahead.merged()[0][:, :SLOTS], self.settings.fingers.limits)
 
     def forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
-        """What becomes of the slots of rays at ``mean`` (5, n) that nothing shows; None where all are shown.
+        """What becomes of the slots of digits at ``mean`` (5, n) that nothing shows; None where all are shown.
 
         The angle is spread over the range of the joint in ``range_after_s``, slowly at first. The rate fades, and as
         much of it as is given up becomes possible in either direction.
@@ -219,7 +229,7 @@ class FingerModel:
         whole_s = self.settings.fingers.range_after_s
         before = np.minimum(unseen_s, whole_s) / whole_s
         after = np.minimum(unseen_s + dt_s, whole_s) / whole_s
-        # Once it may be anywhere it goes on moving as it likes: else looking back would carry what is seen at its
+        # Once it may be anywhere it goes on moving as it likes: else smoothing would carry what is seen at its
         # return far into the time it was hidden.
         goes_on = np.where(before >= 1.0, dt_s / whole_s, 0.0)
         angle2 = np.where(is_unseen, RANGE_SD_RAD**2 * (after**3 - before**3 + goes_on), 0.0)
@@ -235,12 +245,12 @@ class FingerModel:
         return own.learning / (1.0 + (variance / own.sure_turn_rad**2) ** 2)
 
     @staticmethod
-    def palm_part(line: RayForecast, seat: Seat) -> FloatArray:
+    def palm_part(linearised: DigitsLinearisation, seat: Seat) -> FloatArray:
         """Covariance (5, 9, 9) of the discs' images from that of the palm's place and turn."""
-        by_pose = np.empty((RAYS, DISCS, 3, 6))
-        by_pose[..., :3] = line.by_place
-        by_pose[..., 3:] = line.by_place @ so3.skew(seat.view.translation_m - line.centre_m)
-        flat = by_pose.reshape(RAYS, 9, 6)
+        by_pose = np.empty((CHAINS, DISCS, 3, 6))
+        by_pose[..., :3] = linearised.by_place
+        by_pose[..., 3:] = linearised.by_place @ so3.skew(seat.view.translation_m - linearised.centre_m)
+        flat = by_pose.reshape(CHAINS, 9, 6)
         return np.asarray(flat @ seat.pose_covariance @ np.swapaxes(flat, 1, 2))
 
     @staticmethod
@@ -249,12 +259,14 @@ class FingerModel:
         much an end joint strays is for the discs alone, and is no measurement of the joint."""
         bound = state.copy()
         bound[1:, _DIP_OFF] = 0.0
-        return ray_joints_m(palm.disc_m[1:], bound, ray_frames(bound))
+        return digit_joints_m(palm.disc_m[1:], bound, digit_frames(bound))
 
-    def read(self, mean: FloatArray, covariance: FloatArray, seat: Seat, line: RayForecast) -> JointMoment:
-        """Joints of rays (5, n) with covariance (5, n, n) on that palm; ``line`` what the camera saw of them."""
+    def read(
+        self, mean: FloatArray, covariance: FloatArray, seat: Seat, linearised: DigitsLinearisation
+    ) -> JointMoment:
+        """Joints of digits (5, n) with covariance (5, n, n) on that palm; ``linearised`` as the camera saw them."""
         palm, joints = seat.palm, covariance[:, :SLOTS, :SLOTS]
-        inherited, chain, disc_cam = self.placed(mean, covariance, seat, line)
+        inherited, joint_m, disc_cam = self.placed(mean, covariance, seat, linearised)
         # A knuckle's flexion is against its own metacarpal.
         slots, own = mean[:, :SLOTS].copy(), joints.copy()
         slots[:, FLEXION] -= palm.cup_rad
@@ -265,58 +277,60 @@ class FingerModel:
         angles = self.reading.angles(slots)
         variance = self.reading.variances(own + inherited)
         rates = self.reading.angles(mean[:, RATES])
-        centre = np.empty((1 + RAYS * (DISCS + 1), 3))
+        centre = np.empty((1 + CHAINS * (DISCS + 1), 3))
         centre[0] = 0.0, 0.0, -self._wrist_depth_m
-        centre[1:] = chain.reshape(-1, 3)
+        centre[1:] = joint_m.reshape(-1, 3)
         if self.side == "left":
             centre[:, 1] *= -1.0
         return JointMoment(angles, np.sqrt(np.maximum(variance, 0.0)), rates, centre[self._sites], disc_cam)
 
     def placed(
-        self, mean: FloatArray, covariance: FloatArray, seat: Seat, line: RayForecast
+        self, mean: FloatArray, covariance: FloatArray, seat: Seat, linearised: DigitsLinearisation
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Of rays (5, n) with covariance (5, n, n): the covariance (5, 5, 5) that the slots inherit, the joint centres
+        """Of digits (5, n) with covariance (5, n, n): the covariance (5, 5, 5) that the slots inherit, joint centres
         (5, 4, 3) in W of a right hand as the angles have them, and the discs (5, 3, 3) in camera axes."""
         palm, own = seat.palm, self.settings.fingers
         if (kernels := in_c()) is not None:
-            out = np.empty((RAYS, SLOTS, SLOTS)), np.empty((RAYS, DISCS + 1, 3)), np.empty((RAYS, DISCS, 3))
-            kernels.rays_read(
-                mean, covariance, line.slope, line.centre_m, line.by_place, palm.disc_m[1:], seat.view.rotation,
-                seat.view.translation_m, seat.turn_covariance, *self._focal_px.tolist(),
+            out = np.empty((CHAINS, SLOTS, SLOTS)), np.empty((CHAINS, DISCS + 1, 3)), np.empty((CHAINS, DISCS, 3))
+            kernels.digits_read(
+                mean, covariance, linearised.slope, linearised.centre_m, linearised.by_place, palm.disc_m[1:],
+                seat.view.rotation, seat.view.translation_m, seat.turn_covariance, *self._focal_px.tolist(),
                 own.across_m, own.depth_stays_m, own.inherited, _NARROW2, not self._dip_free, *out,
             )  # fmt: skip
             return out
         state = mean[:, SEEN]
-        frames = ray_frames(state)
-        chain = ray_joints_m(palm.disc_m[1:], state, frames)
-        disc = chain[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal
+        frames = digit_frames(state)
+        joint_m = digit_joints_m(palm.disc_m[1:], state, frames)
+        disc = joint_m[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal
         return (
-            self._inherited(covariance[:, :SLOTS, :SLOTS], seat, line, frames.normal),
-            chain if self._dip_free else self._coupled(palm, state),
+            self._inherited(covariance[:, :SLOTS, :SLOTS], seat, linearised, frames.normal),
+            joint_m if self._dip_free else self._coupled(palm, state),
             disc @ seat.view.rotation.T + seat.view.translation_m,
         )
 
-    def _inherited(self, joints: FloatArray, seat: Seat, line: RayForecast, normal: FloatArray) -> FloatArray:
+    def _inherited(
+        self, joints: FloatArray, seat: Seat, linearised: DigitsLinearisation, normal: FloatArray
+    ) -> FloatArray:
         """Covariance (5, 5, 5) that the slots inherit from the turn of W2 and from depths that stay wrong.
 
         What such a depth moves a disc along its normal (5, 3, 3) is taken for height, at the neutral pose and after,
         and part of what is not known of the heights; what it moves it across, the joints take.
         """
         depth_m = self.settings.fingers.depth_stays_m
-        unit = np.empty((RAYS, DISCS, 3, 1))
-        unit[..., :2, 0] = line.centre_m[..., 2:] / (self._focal_px * self.settings.fingers.across_m)
+        unit = np.empty((CHAINS, DISCS, 3, 1))
+        unit[..., :2, 0] = linearised.centre_m[..., 2:] / (self._focal_px * self.settings.fingers.across_m)
         unit[..., 2, 0] = 1.0 / depth_m
-        slope = line.slope[..., :SLOTS] * unit.reshape(RAYS, 9, 1)
+        slope = linearised.slope[..., :SLOTS] * unit.reshape(CHAINS, 9, 1)
         across = np.swapaxes(slope, 1, 2)
         doubt = self.settings.fingers.inherited * np.linalg.inv(joints + _NARROW2 * np.eye(SLOTS))
         response = np.linalg.solve(across @ slope + doubt, across)
         root_m = seat.palm.disc_m[1:, None] @ seat.view.rotation.T + seat.view.translation_m
-        turned = response @ (line.by_place @ so3.skew(root_m - line.centre_m) * unit).reshape(RAYS, 9, 3)
+        turned = response @ (linearised.by_place @ so3.skew(root_m - linearised.centre_m) * unit).reshape(CHAINS, 9, 3)
         in_camera = normal @ seat.view.rotation.T
         moved = -in_camera[..., 2:] * in_camera
         moved[..., 2] += 1.0
-        seen = line.by_place @ moved[..., None] * (depth_m * unit)
-        by_disc = (response.reshape(RAYS, SLOTS, DISCS, 1, 3) @ seen[:, None])[..., 0, 0]
+        seen = linearised.by_place @ moved[..., None] * (depth_m * unit)
+        by_disc = (response.reshape(CHAINS, SLOTS, DISCS, 1, 3) @ seen[:, None])[..., 0, 0]
         return np.asarray(
             turned @ seat.turn_covariance @ np.swapaxes(turned, 1, 2) + by_disc @ np.swapaxes(by_disc, 1, 2)
         )

@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass, field
 
 from carpus.core.hand.anatomy_prior import AnatomyPrior
+from carpus.core.tracking.digit_search import DigitSearchSettings
 from carpus.core.tracking.finger_depth import FingerDepthSettings
 from carpus.core.tracking.joint_limits import LimitSettings
-from carpus.core.tracking.ray_search import RaySearchSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,14 +26,14 @@ class FingerSettings:
     ``clutter``: other blobs expected in a picture. ``skin_sd_rad``: how far discs
     that ride on gliding skin mislead about a joint, however long it is seen. ``anatomy``: how far a hand may
     differ from the average one. ``depth``: what depth says where discs are hidden. ``limits`` of joints; ``search`` of
-    a ray that is lost.
+    a digit that is lost.
 
     ``dip_slack_rad``: how far end joints that follow the middle ones stray from two thirds of them;
     ``thumb_aside_rad``: how far the thumb's MCP joint, which hardly moves sideways, strays from straight; both return
     within ``settles_s``.
-    ``patience_frames`` for which a ray may show fewer than two discs before it is searched; ``posture_sd_rad`` of the
+    ``patience_frames`` for which a digit may show fewer than two discs before it is searched; ``posture_sd_rad`` of the
     grid on which it is, ``posture_rate_sd`` of its rates then, ``begins_rate_sd`` of those of a hand found again.
-    A joint expected less surely than ``far_rad`` may be far from where a line was drawn; a disc seen with less than the
+    A joint expected less surely than ``far_rad`` may be far from where h was linearised; a disc seen with less than the
     chance ``was_seen`` was hidden a moment ago; ``surely_sd`` beyond its reach a joint surely is not.
     ``size_grows``, ``size_shrinks``: how much of a picture's is taken into a disc's size, which half a disc understates
     and nothing overstates, while it is tilted by less than ``flat_rad``; tilted discs show no less than
@@ -43,12 +43,12 @@ class FingerSettings:
     ``gap_s`` between pictures from which on limits count before a picture too; a
     finger ``most_beyond_rad`` past its limits was misread.
 
-    The chance that a disc is to be seen stays between ``least_seen`` and ``most_seen``, is ``seen_anew`` on a ray begun
-    anew, and one that is in sight goes without a name with the chance ``missed``. Where a ray's names are weighed
-    jointly each disc may be one of ``candidates`` blobs, one without its depth counted ``without_depth2`` (squared
-    standard deviations) further off. ``pinnings``: how often the line of a ray found far from where it was expected is
-    drawn again about what its discs say. ``inherited``: share of a joint's information that resists errors of its
-    discs that stay.
+    The chance that a disc is to be seen stays between ``least_seen`` and ``most_seen``, is ``seen_anew`` on a digit
+    begun anew, and one that is in sight goes without a name with the chance ``missed``. Where a digit's names are
+    weighed jointly each disc may be one of ``candidates`` blobs, one without its depth counted ``without_depth2``
+    (squared standard deviations) further off. ``pinnings``: how often h is linearised again, of a digit found far from
+    where it was expected, about what its discs say. ``inherited``: share of a joint's information that resists errors
+    of its discs that stay.
     """
 
     skin_offsets: bool = True
@@ -67,7 +67,7 @@ class FingerSettings:
     anatomy: AnatomyPrior = field(default_factory=AnatomyPrior)
     depth: FingerDepthSettings = field(default_factory=FingerDepthSettings)
     limits: LimitSettings = field(default_factory=LimitSettings)
-    search: RaySearchSettings = field(default_factory=RaySearchSettings)
+    search: DigitSearchSettings = field(default_factory=DigitSearchSettings)
     dip_slack_rad: float = math.radians(6.0)
     thumb_aside_rad: float = math.radians(6.0)
     settles_s: float = 1.0

@@ -1,4 +1,4 @@
-"""Looking back at thumb and fingers: filtered again over the smoothed palm, then smoothed themselves.
+"""Smoothing of thumb and fingers: filtered again over the smoothed palm, then smoothed themselves.
 
 The names of the blobs are those of the first pass. The smoother runs over joints, rates and anatomy, so what a movement
 teaches of the bones also serves the frames before it. Where a finger was found anew only its anatomy is carried back.
@@ -12,21 +12,28 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.tracking.digit_association import far_rays
+from carpus.core.tracking.digit_association import far_digits
+from carpus.core.tracking.digit_filter import (
+    ANATOMY,
+    DIGIT_SIZE,
+    RATES,
+    DigitsLinearisation,
+    digits_linearised,
+    spread_points,
+)
 from carpus.core.tracking.finger_depth import KnuckleBends, with_bends
 from carpus.core.tracking.finger_model import FingerModel, Seat
-from carpus.core.tracking.hand_geometry import RAYS, SHOWS, SLOTS, JointMoment
-from carpus.core.tracking.kernel import Bank, corrected, learning_shares
-from carpus.core.tracking.ray_filter import ANATOMY, RATES, RAY_SIZE, RayForecast, forecast, spread_points
+from carpus.core.tracking.hand_geometry import CHAINS, SHOWS, SLOTS, JointMoment
+from carpus.core.tracking.kernel import ModeMixture, corrected, partial_update
 from carpus.core.tracking.smoother import Passage, Smoother
 from carpus.core.types import FloatArray
 
-_LOWER = np.tril_indices(RAY_SIZE)
+_LOWER = np.tril_indices(DIGIT_SIZE)
 
 
 @dataclass(frozen=True, slots=True)
 class FingerStep:
-    """What one frame told: ``measured`` and ``variance`` (5, 9), ``shown`` (5, 3) discs named, ``postures`` of rays
+    """What one frame told: ``measured`` and ``variance`` (5, 9), ``shown`` (5, 3) discs named, ``postures`` of digits
     found anew; ``begins`` at the neutral pose; ``bends`` what depth said of knuckles."""
 
     timestamp_s: float
@@ -43,7 +50,7 @@ class _Filtered:
     """One frame filtered again: ``mean`` (5, n) and the lower triangles of ``covariance`` (5, n (n + 1) / 2).
 
     ``scale`` (5,) of the process noise that led to it, ``unseen_s`` (5, 5) for how long each slot had not been shown,
-    ``is_linked`` whether it follows from the frame before; ``anew`` (5,) rays of which only the anatomy does.
+    ``is_linked`` whether it follows from the frame before; ``anew`` (5,) digits of which only the anatomy does.
     """
 
     mean: FloatArray
@@ -58,15 +65,15 @@ class _Filtered:
 class FingerStart:
     """What was believed after the frame before the first step, at its time; ``unseen_s`` (5, 5) as in the tracker."""
 
-    beliefs: Bank
+    estimates: ModeMixture
     unseen_s: FloatArray
     timestamp_s: float
     is_lost: bool
 
 
 @dataclass(frozen=True, slots=True)
-class FingersLookedBack:
-    """The joints of every frame, None where the hand was lost, and what a later look back can go on from."""
+class SmoothedFingers:
+    """The joints of every frame, None where the hand was lost, and what a later pass can go on from."""
 
     moments: list[JointMoment | None]
     filtered: list[_Filtered | None]
@@ -90,15 +97,15 @@ class FingersLookedBack:
 
 
 @dataclass(frozen=True, slots=True)
-class _RayBelief:
-    """Gaussians of the rays: ``mean`` (5, n) and ``covariance`` (5, n, n)."""
+class _DigitEstimate:
+    """Gaussians of the digits: ``mean`` (5, n) and ``covariance`` (5, n, n)."""
 
     mean: FloatArray
     covariance: FloatArray
 
 
 @dataclass(frozen=True, slots=True)
-class FingerWalk:
+class FingerTrajectory:
     """Thumb and fingers as ``filtered_again`` over the smoothed palm, by the ``steps`` of the first pass."""
 
     model: FingerModel
@@ -108,9 +115,9 @@ class FingerWalk:
     def __len__(self) -> int:
         return len(self.filtered_again)
 
-    def filtered(self, frame: int) -> _RayBelief | None:
+    def filtered(self, frame: int) -> _DigitEstimate | None:
         now = self.filtered_again[frame]
-        return None if now is None else _RayBelief(now.mean, _whole(now.covariance))
+        return None if now is None else _DigitEstimate(now.mean, _whole(now.covariance))
 
     def seconds_on(self, frame: int) -> float | None:
         if frame + 1 == len(self):
@@ -120,21 +127,21 @@ class FingerWalk:
             return None
         return after.timestamp_s - now.timestamp_s
 
-    def passage(self, frame: int, now: _RayBelief, later: _RayBelief, dt_s: float) -> Passage:
+    def passage(self, frame: int, now: _DigitEstimate, later: _DigitEstimate, dt_s: float) -> Passage:
         after = self.filtered_again[frame + 1]
         assert after is not None
         forgetting = self.model.forgetting(now.mean, after.unseen_s, dt_s)
         forward, noise = self.model.motion.step(dt_s, after.scale, forgetting)
         moving = np.arange(RATES.stop)
-        for ray in np.flatnonzero(after.anew):
+        for chain in np.flatnonzero(after.anew):
             # Nothing of the joints passes through: only what the later frames say of the anatomy goes back.
-            forward[ray][moving] = 0.0
-            noise[ray][moving, moving] = 1.0
+            forward[chain][moving] = 0.0
+            noise[chain][moving, moving] = 1.0
         apart = later.mean - (forward @ now.mean[..., None])[..., 0]
         return Passage(now.covariance, forward, noise, apart, later.covariance)
 
-    def moved(self, now: _RayBelief, correction: FloatArray, covariance: FloatArray) -> _RayBelief:
-        return _RayBelief(now.mean + correction, covariance)
+    def moved(self, now: _DigitEstimate, correction: FloatArray, covariance: FloatArray) -> _DigitEstimate:
+        return _DigitEstimate(now.mean + correction, covariance)
 
 
 def smoothed_fingers(
@@ -142,23 +149,23 @@ def smoothed_fingers(
     steps: Sequence[FingerStep | None],
     seats: Sequence[Seat | None],
     start: FingerStart | None = None,
-) -> FingersLookedBack:
+) -> SmoothedFingers:
     """The joints of every frame. ``seats`` are those of the smoothed palm; without ``start`` the first frame begins
     at the neutral pose."""
     filtered = _filtered(model, steps, seats, start)
     out: list[JointMoment | None] = [None] * len(steps)
-    for frame, belief in Smoother(FingerWalk(model, steps, filtered)).backwards():
+    for frame, estimate in Smoother(FingerTrajectory(model, steps, filtered)).backwards():
         seat = seats[frame]
-        if belief is not None and seat is not None:
-            line = _line(model, belief.mean, belief.covariance, seat)
-            out[frame] = model.read(belief.mean, belief.covariance, seat, line)
-    return FingersLookedBack(out, filtered, steps)
+        if estimate is not None and seat is not None:
+            linearised = _linearised(model, estimate.mean, estimate.covariance, seat)
+            out[frame] = model.read(estimate.mean, estimate.covariance, seat, linearised)
+    return SmoothedFingers(out, filtered, steps)
 
 
-def _line(model: FingerModel, mean: FloatArray, covariance: FloatArray, seat: Seat) -> RayForecast:
+def _linearised(model: FingerModel, mean: FloatArray, covariance: FloatArray, seat: Seat) -> DigitsLinearisation:
     spread = model.settings.spread
     points = spread_points(mean, covariance, seat.palm.disc_m[1:], spread)
-    return forecast(points, seat.view, spread)
+    return digits_linearised(points, seat.view, spread)
 
 
 def _filtered(
@@ -168,10 +175,10 @@ def _filtered(
     start: FingerStart | None,
 ) -> list[_Filtered | None]:
     out: list[_Filtered | None] = []
-    beliefs, unseen_s, time_s = model.at_neutral(), np.zeros((RAYS, SLOTS)), float("nan")
+    estimates, unseen_s, time_s = model.at_neutral(), np.zeros((CHAINS, SLOTS)), float("nan")
     is_lost = False
     if start is not None:
-        beliefs, unseen_s, time_s, is_lost = start.beliefs, start.unseen_s, start.timestamp_s, start.is_lost
+        estimates, unseen_s, time_s, is_lost = start.estimates, start.unseen_s, start.timestamp_s, start.is_lost
     for step, seat in zip(steps, seats, strict=True):
         if step is None or seat is None:
             out.append(None)
@@ -181,24 +188,26 @@ def _filtered(
         is_linked = not (step.begins or is_lost or is_gap)
         before_s = unseen_s
         if step.begins:
-            beliefs, unseen_s = model.at_neutral(), np.zeros((RAYS, SLOTS))
+            estimates, unseen_s = model.at_neutral(), np.zeros((CHAINS, SLOTS))
         elif is_lost:
-            beliefs = model.anywhere(*beliefs.merged())
-            unseen_s = np.full((RAYS, SLOTS), model.settings.fingers.range_after_s)
+            estimates = model.anywhere(*estimates.merged())
+            unseen_s = np.full((CHAINS, SLOTS), model.settings.fingers.range_after_s)
         elif step.timestamp_s > time_s:
-            beliefs = model.predicted(beliefs, unseen_s, step.timestamp_s - time_s)
+            estimates = model.predicted(estimates, unseen_s, step.timestamp_s - time_s)
         if step.postures:
-            beliefs = model.at_postures(beliefs, step.postures)
-        anew = np.isin(np.arange(RAYS), list(step.postures))
-        nearest, shares = beliefs, learning_shares(RAY_SIZE, ANATOMY, model.learning(seat))
-        is_far = bool(step.postures) or bool(far_rays(beliefs.merged()[1], step.shown, model.settings.fingers).any())
+            estimates = model.at_postures(estimates, step.postures)
+        anew = np.isin(np.arange(CHAINS), list(step.postures))
+        nearest, partial = estimates, partial_update(DIGIT_SIZE, ANATOMY, model.learning(seat))
+        is_far = bool(step.postures) or bool(
+            far_digits(estimates.merged()[1], step.shown, model.settings.fingers).any()
+        )
         for _ in range(1 + (model.settings.fingers.pinnings if is_far else 0)):
-            line = _line(model, *nearest.merged(), seat)
-            palm_part = model.palm_part(line, seat)
-            nearest = corrected(beliefs, line, step.measured, step.variance, palm_part, shares).bank
+            linearised = _linearised(model, *nearest.merged(), seat)
+            palm_part = model.palm_part(linearised, seat)
+            nearest = corrected(estimates, linearised, step.measured, step.variance, palm_part, partial).mixture
         bent = with_bends(nearest, step.bends) if step.bends.is_any else nearest
-        beliefs, (mean, covariance), misread = model.within_reach(bent, beliefs)
-        scale = np.sqrt(beliefs.probability @ model.scales**2)
+        estimates, (mean, covariance), misread = model.within_reach(bent, estimates)
+        scale = np.sqrt(estimates.probability @ model.scales**2)
         out.append(_Filtered(mean, covariance[:, _LOWER[0], _LOWER[1]], scale, before_s, is_linked, anew | misread))
         shown = (SHOWS & step.shown[:, None, :]).any(axis=-1)
         unseen_s = np.where(shown, 0.0, unseen_s + (step.timestamp_s - time_s if is_linked else 0.0))
@@ -208,7 +217,7 @@ def _filtered(
 
 def _whole(triangle: FloatArray) -> FloatArray:
     """Symmetric matrices (5, n, n) from their lower triangles."""
-    out = np.zeros((RAYS, RAY_SIZE, RAY_SIZE))
+    out = np.zeros((CHAINS, DIGIT_SIZE, DIGIT_SIZE))
     out[:, _LOWER[0], _LOWER[1]] = triangle
     out[:, _LOWER[1], _LOWER[0]] = triangle
     return out

@@ -19,29 +19,37 @@ from carpus.core.tracking.digit_association import (
     UpdatedDigits,
     associate_digits,
     beyond_reach,
-    far_rays,
+    far_digits,
     seen_chance,
     tilt_to,
     tilt_variance,
     updated_as_associated,
     without,
 )
+from carpus.core.tracking.digit_filter import (
+    DIGIT_SIZE,
+    RATES,
+    SEEN,
+    DigitPoints,
+    DigitsLinearisation,
+    digits_linearised,
+    spread_points,
+)
+from carpus.core.tracking.digit_search import in_reach, search_digits
 from carpus.core.tracking.finger_depth import FLEXION, KnuckleBends, knuckle_bends, with_bends
 from carpus.core.tracking.finger_model import FingerModel, Seat
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
-from carpus.core.tracking.hand_geometry import DISCS, RAYS, SHOWS, SLOTS, JointMoment
+from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SHOWS, SLOTS, JointMoment
 from carpus.core.tracking.joint_association import is_jointly_compatible
-from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.predicted_measurement import PredictedDigits
-from carpus.core.tracking.ray_filter import RATES, RAY_SIZE, SEEN, RayForecast, RayPoints, forecast, spread_points
-from carpus.core.tracking.ray_search import in_reach, search_rays
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import DigitSpeeds
 from carpus.core.types import FloatArray, SurfaceSamples
 
-_RATE, _THUMB_BASE = np.arange(RAY_SIZE)[RATES], slice(0, 2)
+_RATE, _THUMB_BASE = np.arange(DIGIT_SIZE)[RATES], slice(0, 2)
 _UV = 3 * np.arange(DISCS)[:, None] + np.arange(2)
 
 
@@ -49,8 +57,8 @@ _UV = 3 * np.arange(DISCS)[:, None] + np.arange(2)
 class FingerTrial:
     """What one frame would tell of thumb and fingers on the palm at ``seat``.
 
-    ``disc_m2`` (5, 3) areas of the discs as seen, NaN where not or too tilted; ``postures`` slots (5,) of rays found
-    anew, by ray.
+    ``disc_m2`` (5, 3) areas of the discs as seen, NaN where not or too tilted; ``postures`` slots (5,) of digits found
+    anew, by digit.
     """
 
     seat: Seat
@@ -63,7 +71,7 @@ class FingerTrial:
     @property
     def predicted_px(self) -> FloatArray:
         """Where each disc was expected, (5, 3, 2), given the palm."""
-        return self.scene.line.value.reshape(RAYS, DISCS, 3)[..., :2]
+        return self.scene.linearised.value.reshape(CHAINS, DISCS, 3)[..., :2]
 
     @property
     def predicted_cov_px2(self) -> FloatArray:
@@ -73,11 +81,11 @@ class FingerTrial:
     @property
     def surprise(self) -> FloatArray:
         """Sum of squared residuals (5, 3) of each disc."""
-        return np.asarray((self.named.update.residual**2).reshape(RAYS, DISCS, 3).sum(axis=-1))
+        return np.asarray((self.named.update.residual**2).reshape(CHAINS, DISCS, 3).sum(axis=-1))
 
     @property
     def nis(self) -> float:
-        """Normalised innovation squared of all rays together."""
+        """Normalised innovation squared of all digits together."""
         return float(self.named.update.nis.sum())
 
     @property
@@ -85,19 +93,21 @@ class FingerTrial:
         """Its degrees of freedom."""
         return int(self.named.update.dof.sum())
 
-    def is_jointly_compatible(self, rays: NDArray[np.int64], settings: AssociationSettings) -> bool:
-        """Whether what was measured of those rays is what was foreseen."""
+    def is_jointly_compatible(self, chains: NDArray[np.int64], settings: AssociationSettings) -> bool:
+        """Whether what was measured of those digits is what was foreseen."""
         update = self.named.update
-        return all(is_jointly_compatible(float(update.nis[ray]), int(update.dof[ray]), settings) for ray in rays)
+        return all(
+            is_jointly_compatible(float(update.nis[chain]), int(update.dof[chain]), settings) for chain in chains
+        )
 
     @property
     def blob(self) -> NDArray[np.int64]:
         """Blob (5, 3) taken for every disc or -1."""
-        return self.named.names.taken
+        return self.named.names.assigned
 
 
 class Fingers:
-    """Remembers the rays' beliefs from frame to frame."""
+    """Remembers the digits' estimates from frame to frame."""
 
     def __init__(self, calibration: Calibration, camera: Camera, settings: TrackerSettings) -> None:
         self.model = FingerModel(calibration, camera, settings)
@@ -107,11 +117,11 @@ class Fingers:
     def begin_at_neutral(self) -> None:
         """Start (again) from the neutral pose, at rest."""
         self._palm = self.model.calibrated_palm
-        self._visible = np.full((RAYS, DISCS), self._settings.fingers.most_seen)
-        self._missing = np.zeros(RAYS, dtype=np.int64)
-        self._unseen_s = np.zeros((RAYS, SLOTS))
-        self._noise_factor = np.ones((RAYS, 3 * DISCS))
-        self._disc_m2 = np.full((RAYS, DISCS), np.nan)
+        self._visible = np.full((CHAINS, DISCS), self._settings.fingers.most_seen)
+        self._missing = np.zeros(CHAINS, dtype=np.int64)
+        self._unseen_s = np.zeros((CHAINS, SLOTS))
+        self._noise_factor = np.ones((CHAINS, 3 * DISCS))
+        self._disc_m2 = np.full((CHAINS, DISCS), np.nan)
         self._begins = True
         neutral = self.model.at_neutral()
         self._take(neutral, neutral.merged())
@@ -124,22 +134,22 @@ class Fingers:
 
     def begin_anywhere(self) -> None:
         """Start again after the hand was lost: the anatomy is known, the joints may be anywhere."""
-        self._visible = np.full((RAYS, DISCS), self._settings.fingers.seen_anew)
-        self._missing = np.full(RAYS, self._settings.fingers.patience_frames)
-        self._unseen_s = np.full((RAYS, SLOTS), self._settings.fingers.range_after_s)
+        self._visible = np.full((CHAINS, DISCS), self._settings.fingers.seen_anew)
+        self._missing = np.full(CHAINS, self._settings.fingers.patience_frames)
+        self._unseen_s = np.full((CHAINS, SLOTS), self._settings.fingers.range_after_s)
         anywhere = self.model.anywhere(self._mean, self._covariance)
         self._take(anywhere, anywhere.merged())
 
-    def look_anew(self, ray: int) -> None:
-        """A person shows a disc of a ray where it was not believed: its joints may be anywhere."""
-        beliefs = self.model.begun_anew(self._beliefs, np.arange(RAYS) == ray, self._beliefs)
-        self._visible[ray] = self._settings.fingers.seen_anew
-        self._missing[ray] = self._settings.fingers.patience_frames
-        self._unseen_s[ray] = self._settings.fingers.range_after_s
-        self._take(beliefs, beliefs.merged())
+    def look_anew(self, chain: int) -> None:
+        """A person shows a disc of a digit where it was not believed: its joints may be anywhere."""
+        estimates = self.model.begun_anew(self._estimates, np.arange(CHAINS) == chain, self._estimates)
+        self._visible[chain] = self._settings.fingers.seen_anew
+        self._missing[chain] = self._settings.fingers.patience_frames
+        self._unseen_s[chain] = self._settings.fingers.range_after_s
+        self._take(estimates, estimates.merged())
 
-    def _take(self, beliefs: Bank, merged: tuple[FloatArray, FloatArray]) -> None:
-        self._beliefs, (self._mean, self._covariance) = beliefs, merged
+    def _take(self, estimates: ModeMixture, merged: tuple[FloatArray, FloatArray]) -> None:
+        self._estimates, (self._mean, self._covariance) = estimates, merged
 
     @property
     def speeds(self) -> DigitSpeeds:
@@ -152,16 +162,16 @@ class Fingers:
         return DigitSpeeds(min(math.sqrt(thumb), fastest), min(math.sqrt(fingers), fastest))
 
     @property
-    def known(self) -> Bank:
-        """What is believed of the rays; another object whenever anything of them has changed."""
-        return self._beliefs
+    def known(self) -> ModeMixture:
+        """What is believed of the digits; another object whenever anything of them has changed."""
+        return self._estimates
 
     def ahead(self, dt_s: float) -> PredictedDigits:
-        """The rays ``dt_s`` later, and their discs on the palm as it was known last."""
-        beliefs = self.model.predicted(self._beliefs, self._unseen_s, dt_s)
-        mean, covariance = beliefs.merged()
+        """The digits ``dt_s`` later, and their discs on the palm as it was known last."""
+        estimates = self.model.predicted(self._estimates, self._unseen_s, dt_s)
+        mean, covariance = estimates.merged()
         points = spread_points(mean, covariance, self._palm.disc_m[1:], self._settings.spread)
-        return PredictedDigits(beliefs, points, self._palm)
+        return PredictedDigits(estimates, points, self._palm)
 
     def weigh(
         self,
@@ -175,7 +185,7 @@ class Fingers:
     ) -> FingerTrial:
         """Name the blobs that are ``free`` (D,), not the palm's, as if the palm were there; nothing is remembered.
 
-        ``ahead`` the rays ``dt_s`` after the last frame.
+        ``ahead`` the digits ``dt_s`` after the last frame.
         ``area_px`` (D,) of the blobs; ``samples`` depth readings about the fingers.
         """
         return self._bent(self._named(ahead, dt_s, seat, blobs, area_px, free), samples)
@@ -183,15 +193,15 @@ class Fingers:
     def _bent(self, trial: FingerTrial, samples: SurfaceSamples | None) -> FingerTrial:
         """The trial with what depth says of knuckles whose fingers' discs are hidden."""
         unseen = self.model.has_discs & (trial.blob[:, 0] < 0) & (self._unseen_s[:, FLEXION] > 0.0)
-        hidden = [ray for ray in range(1, RAYS) if unseen[ray]]
+        hidden = [chain for chain in range(1, CHAINS) if unseen[chain]]
         if samples is None or not hidden:
             return trial
-        mean = trial.named.update.bank.merged()[0]
+        mean = trial.named.update.mixture.merged()[0]
         own = self._settings.fingers.depth
         bends = knuckle_bends(hidden, mean, self._palm.disc_m[1:], trial.seat.view, samples, own)
         if not bends.is_any:
             return trial
-        update = replace(trial.named.update, bank=with_bends(trial.named.update.bank, bends))
+        update = replace(trial.named.update, mixture=with_bends(trial.named.update.mixture, bends))
         return replace(trial, named=replace(trial.named, update=update), bends=bends)
 
     def _named(
@@ -203,113 +213,115 @@ class Fingers:
         area_px: FloatArray,
         free: NDArray[np.bool_],
     ) -> FingerTrial:
-        beliefs, points = ahead.beliefs, ahead.points
-        trial, given_up = self._found_far(beliefs, self._tried(beliefs, points, dt_s, seat, blobs, area_px, free))
+        estimates, points = ahead.estimates, ahead.points
+        trial, given_up = self._found_far(estimates, self._tried(estimates, points, dt_s, seat, blobs, area_px, free))
         anew = self._searched(trial, points, seat, blobs, free, given_up)
         if not anew:
             return trial
-        rays = np.array(list(anew))
-        restarted = self.model.at_postures(beliefs, anew)
+        chains = np.array(list(anew))
+        restarted = self.model.at_postures(estimates, anew)
         points = spread_points(*restarted.merged(), self._palm.disc_m[1:], self._settings.spread)
         other = self._pinned(restarted, self._tried(restarted, points, dt_s, seat, blobs, area_px, free))
-        better = np.count_nonzero(other.blob[rays] >= 0) > np.count_nonzero(trial.blob[rays] >= 0)
-        believed = better and other.is_jointly_compatible(rays, self._settings.association)
+        better = np.count_nonzero(other.blob[chains] >= 0) > np.count_nonzero(trial.blob[chains] >= 0)
+        believed = better and other.is_jointly_compatible(chains, self._settings.association)
         return replace(other, postures=anew) if believed else trial
 
-    def _found_far(self, beliefs: Bank, trial: FingerTrial) -> tuple[FingerTrial, NDArray[np.bool_]]:
-        """The trial, its line drawn anew where joints may be far from where they were expected (iterated posterior
-        linearisation, Garcia-Fernandez 2015), and rays (5,) given up because they would be where they cannot be."""
-        far = far_rays(trial.scene.covariance, trial.blob >= 0, self._settings.fingers)
+    def _found_far(self, estimates: ModeMixture, trial: FingerTrial) -> tuple[FingerTrial, NDArray[np.bool_]]:
+        """The trial, linearised anew where joints may be far from where they were expected (iterated posterior
+        linearisation, Garcia-Fernandez 2015), and digits (5,) given up because they would be where they cannot be."""
+        far = far_digits(trial.scene.covariance, trial.blob >= 0, self._settings.fingers)
         if not far.any():
             return trial, far
-        pinned = self._pinned(beliefs, trial)
-        wrong = far & beyond_reach(*pinned.named.update.bank.merged(), self._settings.fingers)
+        pinned = self._pinned(estimates, trial)
+        wrong = far & beyond_reach(*pinned.named.update.mixture.merged(), self._settings.fingers)
         names = self._settings.association
-        wrong |= far & np.array([not pinned.is_jointly_compatible(np.array([ray]), names) for ray in range(RAYS)])
+        wrong |= far & np.array([not pinned.is_jointly_compatible(np.array([chain]), names) for chain in range(CHAINS)])
         if not wrong.any():
             return pinned, wrong
         discs = np.repeat(wrong[:, None], DISCS, axis=1)
-        return replace(pinned, named=without(discs, pinned.named, beliefs, pinned.scene, self._settings)), wrong
+        return replace(pinned, named=without(discs, pinned.named, estimates, pinned.scene, self._settings)), wrong
 
-    def _pinned(self, beliefs: Bank, trial: FingerTrial) -> FingerTrial:
-        """The same names, the line drawn anew about what they say: what was expected is some way off."""
+    def _pinned(self, estimates: ModeMixture, trial: FingerTrial) -> FingerTrial:
+        """The same names, h linearised anew about what they say: what was expected is some way off."""
         for _ in range(self._settings.fingers.pinnings):
-            nearer = spread_points(*trial.named.update.bank.merged(), self._palm.disc_m[1:], self._settings.spread)
-            line = forecast(nearer, trial.seat.view, self._settings.spread)
-            scene = replace(trial.scene, line=line)
-            named = updated_as_associated(beliefs, scene, trial.named.names, self._settings)
+            nearer = spread_points(*trial.named.update.mixture.merged(), self._palm.disc_m[1:], self._settings.spread)
+            linearised = digits_linearised(nearer, trial.seat.view, self._settings.spread)
+            scene = replace(trial.scene, linearised=linearised)
+            named = updated_as_associated(estimates, scene, trial.named.names, self._settings)
             trial = replace(trial, named=named)
         return trial
 
     def _searched(
         self,
         trial: FingerTrial,
-        points: RayPoints,
+        points: DigitPoints,
         seat: Seat,
         blobs: Measurements,
         free: NDArray[np.bool_],
         given_up: NDArray[np.bool_],
     ) -> dict[int, FloatArray]:
-        """Postures (5,) of rays just given up or missing for some frames, if the blobs left over show them."""
+        """Postures (5,) of digits just given up or missing for some frames, if the blobs left over show them."""
         named = np.count_nonzero(trial.blob >= 0, axis=1)
         is_due = given_up | ((self._missing >= self._settings.fingers.patience_frames) & (self._missing % 2 == 0))
-        rays = np.flatnonzero((named < self._settings.fingers.search.least_discs) & is_due & self.model.has_discs)
-        if not rays.size:
+        chains = np.flatnonzero((named < self._settings.fingers.search.least_discs) & is_due & self.model.has_discs)
+        if not chains.size:
             return {}
-        spare = free & np.isfinite(blobs.value[:, 2])
-        spare[trial.blob[(trial.blob >= 0) & (named >= self._settings.fingers.search.least_discs)[:, None]]] = False
-        value, camera = blobs.value[spare], seat.view.camera
+        unassigned = free & np.isfinite(blobs.value[:, 2])
+        unassigned[trial.blob[(trial.blob >= 0) & (named >= self._settings.fingers.search.least_discs)[:, None]]] = (
+            False
+        )
+        value, camera = blobs.value[unassigned], seat.view.camera
         in_camera = camera.back_project(value[:, :2], value[:, 2])
         point = (in_camera - seat.view.translation_m) @ seat.view.rotation
-        return search_rays(rays, points.mean[:, SEEN], self._palm.disc_m[1:], point, self._settings.fingers.search)
+        return search_digits(chains, points.mean[:, SEEN], self._palm.disc_m[1:], point, self._settings.fingers.search)
 
     def _tried(
         self,
-        beliefs: Bank,
-        points: RayPoints,
+        estimates: ModeMixture,
+        points: DigitPoints,
         dt_s: float,
         seat: Seat,
         blobs: Measurements,
         area_px: FloatArray,
         free: NDArray[np.bool_],
     ) -> FingerTrial:
-        line = forecast(points, seat.view, self._settings.spread)
-        sight = in_sight(points, line, seat, self._visible, dt_s, self._settings.fingers)
+        linearised = digits_linearised(points, seat.view, self._settings.spread)
+        visibility = disc_visibility(points, linearised, seat, self._visible, dt_s, self._settings.fingers)
         scene = DigitScene(
             points.covariance,
-            line,
-            sight.spread,
-            sight.palm_part,
-            sight.visible,
+            linearised,
+            visibility.spread,
+            visibility.palm_part,
+            visibility.visible,
             blobs,
             free,
             area_px,
-            self._disc_m2 * sight.facing_m2,
+            self._disc_m2 * visibility.facing_m2,
             self._noise_factor,
             self.model.resolution_px2,
             seat.view,
             self.model.learning(seat),
             self.model.has_discs,
         )
-        named = associate_digits(beliefs, scene, self._settings)
-        taken = named.names.taken
-        disc_m2 = np.full((RAYS, DISCS), np.nan)
+        named = associate_digits(estimates, scene, self._settings)
+        assigned = named.names.assigned
+        disc_m2 = np.full((CHAINS, DISCS), np.nan)
         if area_px.size:
             disc_m2 = np.where(
-                (taken >= 0) & (sight.tilt_rad < self._settings.fingers.flat_rad),
-                area_px[taken] / sight.facing_m2,
+                (assigned >= 0) & (visibility.tilt_rad < self._settings.fingers.flat_rad),
+                area_px[assigned] / visibility.facing_m2,
                 np.nan,
             )
         return FingerTrial(seat, scene, named, disc_m2, {})
 
     def start(self, timestamp_s: float, is_lost: bool) -> FingerStart:
-        """What is believed now, for looking back over the frames to come."""
-        return FingerStart(self._beliefs, self._unseen_s, timestamp_s, is_lost)
+        """What is believed now, for smoothing over the frames to come."""
+        return FingerStart(self._estimates, self._unseen_s, timestamp_s, is_lost)
 
     def accept(self, trial: FingerTrial, timestamp_s: float, dt_s: float) -> FingerStep:
         """Go on from a trial; what the smoother needs of it."""
         named = trial.named
-        is_named = named.names.taken >= 0
+        is_named = named.names.assigned >= 0
         own, visible = self._settings.fingers, trial.scene.visible
         # Bayes: a disc that is in sight goes without a name with the chance ``missed``.
         unnamed = visible * own.missed / (1.0 - (1.0 - own.missed) * visible)
@@ -318,12 +330,12 @@ class Fingers:
         self._unseen_s = np.where(shown, 0.0, self._unseen_s + dt_s)
         count = np.count_nonzero(is_named, axis=1)
         self._missing = np.where(count < self._settings.fingers.search.least_discs, self._missing + 1, 0)
-        residual, measured = (values.reshape(RAYS, DISCS, 3) for values in (named.update.residual, named.measured))
-        factor = self._noise_factor.reshape(RAYS, DISCS, 3)
+        residual, measured = (values.reshape(CHAINS, DISCS, 3) for values in (named.update.residual, named.measured))
+        factor = self._noise_factor.reshape(CHAINS, DISCS, 3)
         adapted = adapted_factor(factor, residual, np.isfinite(measured), dt_s, self._settings.noise)
-        self._noise_factor = adapted.reshape(RAYS, 3 * DISCS)
+        self._noise_factor = adapted.reshape(CHAINS, 3 * DISCS)
         self._disc_m2 = learnt_sizes(self._disc_m2, trial.disc_m2, self._settings.fingers)
-        kept, merged, misread = self.model.within_reach(named.update.bank, self._beliefs)
+        kept, merged, misread = self.model.within_reach(named.update.mixture, self._estimates)
         self._missing[misread] = self._settings.fingers.patience_frames
         self._take(kept, merged)
         self._palm = trial.seat.palm
@@ -332,11 +344,11 @@ class Fingers:
 
     def read(self, trial: FingerTrial) -> JointMoment:
         """The joints after that trial was accepted."""
-        return self.model.read(self._mean, self._covariance, trial.seat, trial.scene.line)
+        return self.model.read(self._mean, self._covariance, trial.seat, trial.scene.linearised)
 
 
 @dataclass(frozen=True, slots=True)
-class DiscSight:
+class DiscVisibility:
     """How the discs are to be seen on a palm: ``palm_part`` (5, 9, 9) of the covariance of their images, ``spread`` (5,
     9, 9) all of it; chance (5, 3) that each is ``visible``, its ``tilt_rad`` (5, 3) to the line of sight, and
     ``facing_m2`` (5, 3) pixels for each square metre of it."""
@@ -348,25 +360,31 @@ class DiscSight:
     facing_m2: FloatArray
 
 
-def in_sight(
-    points: RayPoints, line: RayForecast, seat: Seat, visible: FloatArray, dt_s: float, own: FingerSettings
-) -> DiscSight:
+def disc_visibility(
+    points: DigitPoints,
+    linearised: DigitsLinearisation,
+    seat: Seat,
+    visible: FloatArray,
+    dt_s: float,
+    own: FingerSettings,
+) -> DiscVisibility:
     """How the discs at ``points`` are to be seen ``dt_s`` after they were ``visible`` (5, 3)."""
     if (kernels := in_c()) is not None:
-        sight = DiscSight(np.empty((RAYS, 9, 9)), np.empty((RAYS, 9, 9)), *np.empty((3, RAYS, DISCS)))
-        kernels.rays_scene(
-            points.covariance, line.spread, line.centre_m, line.by_place, points.normal, seat.view.rotation,
-            seat.view.translation_m, seat.pose_covariance, BENDS, visible, dt_s, own.shown_s, own.hidden_s,
-            own.steepest_rad, own.steepest_sd_rad, own.least_seen, own.most_seen, own.least_facing,
-            seat.view.camera.fx_px, sight.palm_part, sight.spread, sight.visible, sight.tilt_rad, sight.facing_m2,
+        visibility = DiscVisibility(np.empty((CHAINS, 9, 9)), np.empty((CHAINS, 9, 9)), *np.empty((3, CHAINS, DISCS)))
+        kernels.digits_scene(
+            points.covariance, linearised.spread, linearised.centre_m, linearised.by_place, points.normal,
+            seat.view.rotation, seat.view.translation_m, seat.pose_covariance, BENDS, visible, dt_s, own.shown_s,
+            own.hidden_s, own.steepest_rad, own.steepest_sd_rad, own.least_seen, own.most_seen, own.least_facing,
+            seat.view.camera.fx_px, visibility.palm_part, visibility.spread, visibility.visible,
+            visibility.tilt_rad, visibility.facing_m2,
         )  # fmt: skip
-        return sight
-    tilt = tilt_to(seat.view, points.normal, line.centre_m)
+        return visibility
+    tilt = tilt_to(seat.view, points.normal, linearised.centre_m)
     chance = seen_chance(visible, tilt, np.sqrt(tilt_variance(points.covariance)), dt_s, own)
-    shift = FingerModel.palm_part(line, seat)
+    shift = FingerModel.palm_part(linearised, seat)
     facing = np.maximum(np.cos(tilt), own.least_facing)
-    facing_m2 = facing * (seat.view.camera.fx_px / line.centre_m[..., 2]) ** 2
-    return DiscSight(shift, line.spread + shift, chance, tilt, facing_m2)
+    facing_m2 = facing * (seat.view.camera.fx_px / linearised.centre_m[..., 2]) ** 2
+    return DiscVisibility(shift, linearised.spread + shift, chance, tilt, facing_m2)
 
 
 def learnt_sizes(known_m2: FloatArray, seen_m2: FloatArray, own: FingerSettings) -> FloatArray:

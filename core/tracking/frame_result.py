@@ -35,7 +35,7 @@ class FrameResults:
     ) -> None:
         self._order, self._model, self._readout, self._settings = order, model, readout, settings
         self._markers = len(protocol.markers)
-        joint_count = 0 if model is None else model.reading.ray.size
+        joint_count = 0 if model is None else model.reading.chain.size
         self.lost_moment: Moment = lost_moment(joint_count, self._markers)
         self._doubt = ConsistencyTest(self._markers, settings.doubt)
         self._recent: deque[tuple[float, NDArray[np.int64]]] = deque()
@@ -57,22 +57,22 @@ class FrameResults:
         dropped_before: int,
     ) -> TrackedFrame:
         """The row of a tracked or predicted frame."""
-        belief, fingers, by_marker = posterior.belief, posterior.fingers, self._order.by_marker
-        taken = by_marker(posterior.palm.taken, None if fingers is None else fingers.blob)
-        self._remember(scan.timestamp_s, self._directly(posterior.seen, taken))
-        used = np.flatnonzero(taken >= 0)
-        measured_px, measured_depth_m = np.full((taken.size, 2), np.nan), np.full(taken.size, np.nan)
-        measured_px[used], measured_depth_m[used] = detections.pixel[taken[used]], detections.depth_m[taken[used]]
+        estimate, fingers, by_marker = posterior.estimate, posterior.fingers, self._order.by_marker
+        assigned = by_marker(posterior.palm.assigned, None if fingers is None else fingers.blob)
+        self._remember(scan.timestamp_s, self._directly(posterior.seen, assigned))
+        used = np.flatnonzero(assigned >= 0)
+        measured_px, measured_depth_m = np.full((assigned.size, 2), np.nan), np.full(assigned.size, np.nan)
+        measured_px[used], measured_depth_m[used] = detections.pixel[assigned[used]], detections.depth_m[assigned[used]]
         predicted_px, predicted_cov_px2 = self._predicted_px(posterior)
         view = posterior.predicted.view
-        discs, moment = view.discs_cam_m(belief), self._readout.moment(belief)
+        discs, moment = view.discs_cam_m(estimate), self._readout.moment(estimate)
         if joints is not None:
-            moment = self._readout.with_joints(moment, joints, belief)
+            moment = self._readout.with_joints(moment, joints, estimate)
             discs = by_marker(discs, joints.disc_cam_m)
         nis, dof = posterior.palm.nis, posterior.palm.dof
         if fingers is not None:
             nis, dof = float(np.nansum([nis, fingers.nis])), dof + fingers.dof
-        doubt = self._doubted(posterior, scan, taken, discs, nis, dof)
+        doubt = self._doubted(posterior, scan, assigned, discs, nis, dof)
         if doubt.is_any and status is TrackStatus.TRACKED:
             status, moment = TrackStatus.DOUBTFUL, _widened(moment, doubt.widens)
         return TrackedFrame(
@@ -115,7 +115,7 @@ class FrameResults:
         self,
         posterior: Posterior,
         scan: Scan,
-        taken: NDArray[np.int64],
+        assigned: NDArray[np.int64],
         discs_cam_m: FloatArray,
         nis: float,
         dof: int,
@@ -124,16 +124,16 @@ class FrameResults:
         surprise = (posterior.palm.raw_residual**2).sum(axis=-1)
         surprise = self._order.by_marker(surprise, None if fingers is None else fingers.surprise)
         over = passed_over(
-            camera.project(discs_cam_m), discs_cam_m[:, 2], taken, scan.ideal.pixel, scan.ideal.depth_m,
+            camera.project(discs_cam_m), discs_cam_m[:, 2], assigned, scan.ideal.pixel, scan.ideal.depth_m,
             camera.fx_px, self._settings.doubt,
         )  # fmt: skip
         return self._doubt.watch(scan.dt_s, over, nis, dof, int(surprise.argmax()))
 
-    def _directly(self, palm_seen: int, taken: NDArray[np.int64]) -> NDArray[np.int64]:
+    def _directly(self, palm_seen: int, assigned: NDArray[np.int64]) -> NDArray[np.int64]:
         """Discs of the palm (3,), or whether each joint (J,), that were measured directly."""
         if self._model is None:
             return np.full(3, palm_seen)
-        return np.asarray((taken >= 0)[self._model.direct_markers].all(axis=-1), dtype=np.int64)
+        return np.asarray((assigned >= 0)[self._model.direct_markers].all(axis=-1), dtype=np.int64)
 
     def _remember(self, timestamp_s: float, measured: NDArray[np.int64]) -> None:
         self._recent.append((timestamp_s, measured))

@@ -20,8 +20,8 @@ from carpus.core.tracking.finger_model import seat_of
 from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.fingers import Fingers, FingerTrial
 from carpus.core.tracking.geometry import palm_of
-from carpus.core.tracking.hand_geometry import RAYS, JointMoment
-from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.hand_geometry import CHAINS, JointMoment
+from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.motion import PalmMotion, palm_ahead, slowing, slowing_unseen, unseen_turns
 from carpus.core.tracking.operator_hints import NamedSpot
 from carpus.core.tracking.palm_association import Measurements, UpdatedPalm, associate_and_update, measurements_of
@@ -35,24 +35,29 @@ from carpus.core.tracking.palm_state import (
     SKIN,
     TURN,
     InitialSd,
-    PalmBelief,
-    resting_belief,
+    PalmEstimate,
+    resting_estimate,
 )
-from carpus.core.tracking.palm_view import View, recentred
+from carpus.core.tracking.palm_view import View, error_reset
 from carpus.core.tracking.predicted_measurement import MarkerOrder, PredictedMeasurement, predicted_measurement
 from carpus.core.tracking.reacquire import Facing, FoundPalm, find_palm
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.shape_learning import fresh_share, hidden_by_calibration, shape_covariance, shape_shares
+from carpus.core.tracking.shape_learning import (
+    fresh_share,
+    hidden_by_calibration,
+    shape_covariance,
+    shape_partial_update,
+)
 from carpus.core.tracking.soft_tissue import (
     NO_DIGITS,
     DigitSpeeds,
     always_pushed,
     moved_by_joints,
     resting_or_moving,
-    settled_covariance,
+    stationary_covariance,
 )
-from carpus.core.tracking.surface_fit import calibrated_covariance, levelled_bank, surface_measurement
+from carpus.core.tracking.surface_fit import calibrated_covariance, levelled_mixture, surface_measurement
 from carpus.core.types import Detections, FloatArray
 
 _NEAREST_M = 0.1
@@ -90,19 +95,19 @@ def as_ideal(detections: Detections, camera: Camera) -> Detections:
 @dataclass(frozen=True, slots=True)
 class Posterior:
     """The hand updated by one scan from what was ``predicted``: the ``palm`` as associated, its modes as errors from
-    ``belief``, and the fingers on it.
+    ``estimate``, and the fingers on it.
 
-    ``seen`` discs of the palm; ``spare`` (D,) blobs that are neither's, ``is_finger`` (D,) blobs that are the fingers';
-    ``levelled``: the back of the hand was measured too.
+    ``seen`` discs of the palm; ``unassigned`` (D,) blobs that are neither's, ``is_finger`` (D,) blobs that are the
+    fingers'; ``levelled``: the back of the hand was measured too.
     """
 
     predicted: PredictedMeasurement
     palm: UpdatedPalm
-    belief: PalmBelief
-    bank: Bank
+    estimate: PalmEstimate
+    mixture: ModeMixture
     seen: int
     fingers: FingerTrial | None
-    spare: NDArray[np.bool_]
+    unassigned: NDArray[np.bool_]
     is_finger: NDArray[np.bool_]
     levelled: bool
 
@@ -121,7 +126,7 @@ class HandFilter:
         protocol = calibration.clicks.protocol
         rows = np.array(protocol.palm)
         if self.fingers is None:
-            self.order = MarkerOrder(rows, np.empty((0, 3), dtype=np.int64), np.zeros(RAYS, dtype=bool))
+            self.order = MarkerOrder(rows, np.empty((0, 3), dtype=np.int64), np.zeros(CHAINS, dtype=bool))
         else:
             self.order = MarkerOrder(rows, self.fingers.model.markers, self.fingers.model.has_discs)
         self._surface = calibration.surface if settings.use_surface and settings.use_depth else None
@@ -141,7 +146,7 @@ class HandFilter:
             settings.motion_noise, tissue, np.array(settings.mode_scales), settings.unseen_scale, settings.mode_dwell_s
         )
         self._calibrated = self._as_calibrated(calibration)
-        self._settled = settled_covariance(settings.tissue)
+        self._stationary = stationary_covariance(settings.tissue)
         self._resolution_px2 = float(camera.width_px * camera.height_px)
         self._noise_factor = np.ones((rows.size, 3))
         self._placed_anew = np.zeros(rows.size, dtype=bool)
@@ -151,7 +156,7 @@ class HandFilter:
     def begin_at_neutral(self) -> None:
         """Start (again) from the calibrated pose, the hand at rest."""
         self._learnt, self._learnt_covariance = np.zeros(LEARNT.stop - LEARNT.start), self._calibrated
-        start = resting_belief(self._settings.initial, self._learnt_covariance)
+        start = resting_estimate(self._settings.initial, self._learnt_covariance)
         self.begin(start, self.motion.at_rest)
         self._placed_anew[:] = False
         if self.fingers is not None:
@@ -167,15 +172,15 @@ class HandFilter:
             out[shapes:, shapes:] = calibrated_covariance(self._surface, self.view, settings.surface)
         return out
 
-    def begin(self, belief: PalmBelief, probability: FloatArray | None = None) -> None:
+    def begin(self, estimate: PalmEstimate, probability: FloatArray | None = None) -> None:
         """Start from a state estimate of the palm, its modes of a ``probability`` (K,), or all alike."""
-        bank = self._resting_bank(belief)
-        bank = bank if probability is None else replace(bank, probability=probability[None])
-        self._known: tuple[PalmBelief, Bank] | None = (belief, bank)
+        mixture = self._resting_mixture(estimate)
+        mixture = mixture if probability is None else replace(mixture, probability=probability[None])
+        self._known: tuple[PalmEstimate, ModeMixture] | None = (estimate, mixture)
         self._unseen: NDArray[np.float64] | None = None
 
-    def _resting_bank(self, belief: PalmBelief) -> Bank:
-        return Bank.alike(np.zeros((1, SIZE)), belief.covariance[None], self.motion.modes)
+    def _resting_mixture(self, estimate: PalmEstimate) -> ModeMixture:
+        return ModeMixture.alike(np.zeros((1, SIZE)), estimate.covariance[None], self.motion.modes)
 
     def lose(self) -> None:
         """Nothing is known any more but the hand's anatomy."""
@@ -193,15 +198,15 @@ class HandFilter:
             self._ahead = self._known, fingers, dt_s, self._predicted(*self._known, dt_s)
         return self._ahead[3]
 
-    def _predicted(self, belief: PalmBelief, bank: Bank, dt_s: float) -> PredictedMeasurement:
+    def _predicted(self, estimate: PalmEstimate, mixture: ModeMixture, dt_s: float) -> PredictedMeasurement:
         settings, fresh = self._settings, 0.0
         if dt_s > 0.0:
-            before = belief
-            belief, bank = palm_ahead(belief, bank, self.motion, dt_s, self._unseen, self._digit_speeds)
-            fresh = fresh_share(self.view.discs_cam_m(before), self.view.discs_cam_m(belief), self.view.camera)
-        shares = shape_shares(settings.shape_news * max(fresh, settings.shape_stale))
+            before = estimate
+            estimate, mixture = palm_ahead(estimate, mixture, self.motion, dt_s, self._unseen, self._digit_speeds)
+            fresh = fresh_share(self.view.discs_cam_m(before), self.view.discs_cam_m(estimate), self.view.camera)
+        partial = shape_partial_update(settings.shape_news * max(fresh, settings.shape_stale))
         digits = None if self.fingers is None else self.fingers.ahead(dt_s)
-        return predicted_measurement(belief, bank, self.view, settings.spread, shares, digits, self.order)
+        return predicted_measurement(estimate, mixture, self.view, settings.spread, partial, digits, self.order)
 
     def scan(self, predicted: PredictedMeasurement, ideal: Detections, timestamp_s: float, dt_s: float) -> Scan:
         """The blobs as measurements at the distance at which the hand was predicted."""
@@ -213,32 +218,34 @@ class HandFilter:
         """Associate the blobs with the discs that were predicted and update by them."""
         blobs, enough = scan.blobs, self._settings.holding.least_discs + 1
         palm = associate_and_update(predicted, blobs, enough, self._resolution_px2, self._noise_factor, self._settings)
-        belief, bank = recentred(predicted.nominal, palm.bank)
-        by_surface = self._by_surface(scan, belief, bank, predicted.shares)
-        belief, bank = by_surface or (belief, bank)
-        spare, is_finger = np.ones(len(blobs), dtype=bool), np.zeros(len(blobs), dtype=bool)
-        is_named = palm.taken >= 0
-        spare[palm.taken[is_named]] = False
+        estimate, mixture = error_reset(predicted.nominal, palm.mixture)
+        by_surface = self._by_surface(scan, estimate, mixture, predicted.partial)
+        estimate, mixture = by_surface or (estimate, mixture)
+        unassigned, is_finger = np.ones(len(blobs), dtype=bool), np.zeros(len(blobs), dtype=bool)
+        is_named = palm.assigned >= 0
+        unassigned[palm.assigned[is_named]] = False
         fingers = None
         if self.fingers is not None and predicted.digits is not None:
-            seat = seat_of(belief, self.view, self.readout)
+            seat = seat_of(estimate, self.view, self.readout)
             fingers = self.fingers.weigh(
-                predicted.digits, scan.dt_s, seat, blobs, scan.ideal.area_px, spare, scan.ideal.fingers
+                predicted.digits, scan.dt_s, seat, blobs, scan.ideal.area_px, unassigned, scan.ideal.fingers
             )
             is_finger[fingers.blob[fingers.blob >= 0]] = True
         seen, levelled = int(np.count_nonzero(is_named)), by_surface is not None
-        return Posterior(predicted, palm, belief, bank, seen, fingers, spare & ~is_finger, is_finger, levelled)
+        return Posterior(
+            predicted, palm, estimate, mixture, seen, fingers, unassigned & ~is_finger, is_finger, levelled
+        )
 
     def _by_surface(
-        self, scan: Scan, belief: PalmBelief, bank: Bank, shares: tuple[FloatArray, FloatArray] | None
-    ) -> tuple[PalmBelief, Bank] | None:
+        self, scan: Scan, estimate: PalmEstimate, mixture: ModeMixture, partial: tuple[FloatArray, FloatArray] | None
+    ) -> tuple[PalmEstimate, ModeMixture] | None:
         """The palm updated by the surface of the back of the hand; None where that says nothing."""
         if self._surface is None or scan.ideal.surface is None:
             return None
         own = self._settings.surface
-        found = surface_measurement(belief, scan.ideal.surface, self._surface, self.view, own)
-        levelled = None if found is None else levelled_bank(bank, found, shares, own)
-        return None if levelled is None else recentred(belief, levelled)
+        found = surface_measurement(estimate, scan.ideal.surface, self._surface, self.view, own)
+        levelled = None if found is None else levelled_mixture(mixture, found, partial, own)
+        return None if levelled is None else error_reset(estimate, levelled)
 
     def fits(self, posterior: Posterior) -> bool:
         """Whether the discs lie where the updated pose puts them."""
@@ -248,8 +255,8 @@ class HandFilter:
         """Take what outlives a lost track: each disc's noise, and the palm's shape."""
         palm, noise = posterior.palm, self._settings.noise
         self._noise_factor = adapted_factor(self._noise_factor, palm.raw_residual, palm.measured, dt_s, noise)
-        self._learnt = posterior.belief.value[LEARNT]
-        self._learnt_covariance = posterior.belief.covariance[LEARNT, LEARNT]
+        self._learnt = posterior.estimate.value[LEARNT]
+        self._learnt_covariance = posterior.estimate.covariance[LEARNT, LEARNT]
 
     def accept(
         self, posterior: Posterior, scan: Scan, *, is_seen: bool, linked: bool
@@ -258,20 +265,20 @@ class HandFilter:
         ``linked``: the step follows from the one before."""
         unseen, self._unseen = self._unseen, None
         kept = float(np.exp(-scan.dt_s / self._settings.rate_memory_s))
-        belief, bank = posterior.belief, posterior.bank
+        estimate, mixture = posterior.estimate, posterior.mixture
         if not is_seen:
             # An unseen hand is not taken to go on for ever: its velocity fades, its uncertainty grows.
-            belief, bank = _slowed(belief, bank, np.diag(slowing(kept)))
+            estimate, mixture = _slowed(estimate, mixture, np.diag(slowing(kept)))
         elif not posterior.levelled:
-            self._unseen = unseen_turns(self.view.palm_m[posterior.palm.taken >= 0], self._settings.holding.narrow_m)
+            self._unseen = unseen_turns(self.view.palm_m[posterior.palm.assigned >= 0], self._settings.holding.narrow_m)
             if self._unseen is not None:
-                belief, bank = _slowed(belief, bank, slowing_unseen(kept, self._unseen))
-        self._known = belief, bank
+                estimate, mixture = _slowed(estimate, mixture, slowing_unseen(kept, self._unseen))
+        self._known = estimate, mixture
         fingers = None
         if self.fingers is not None and posterior.fingers is not None:
             fingers = self.fingers.accept(posterior.fingers, scan.timestamp_s, scan.dt_s)
-        probability, speeds = posterior.bank.probability[0], self._digit_speeds
-        return FilterStep(scan.timestamp_s, belief, probability, linked, unseen, speeds), fingers
+        probability, speeds = posterior.mixture.probability[0], self._digit_speeds
+        return FilterStep(scan.timestamp_s, estimate, probability, linked, unseen, speeds), fingers
 
     @property
     def _digit_speeds(self) -> DigitSpeeds:
@@ -287,36 +294,36 @@ class HandFilter:
         elsewhere."""
         shapes = SHAPE.stop - SHAPE.start
         view = with_discs_as_known(self.view, self._learnt[:shapes], self._placed_anew)
-        strays = self._settled[SKIN, SKIN] + self._learnt_covariance[:shapes, :shapes]
+        strays = self._stationary[SKIN, SKIN] + self._learnt_covariance[:shapes, :shapes]
         reach = None if self.fingers is None else self.fingers.reach
         return find_palm(ideal, view, strays, facing, self._settings.finding, reach)
 
-    def estimate_at(self, found: FoundPalm) -> PalmBelief:
+    def estimate_at(self, found: FoundPalm) -> PalmEstimate:
         """The state estimate of a palm found without any prediction."""
         finding = self._settings.finding
         initial = InitialSd(velocity_m_s=finding.velocity_m_s, rate_rad_s=finding.rate_rad_s)
-        belief = resting_belief(initial, self._learnt_covariance)
-        belief.covariance[POSE[:, None], POSE] = found.pose_covariance(self.view.palm_m, finding)
-        belief.covariance[SKIN, SKIN] = self._settled[SKIN, SKIN]
-        belief.covariance[RELIEF, RELIEF] = self._settled[RELIEF, RELIEF]
-        belief.value[LEARNT], belief.value[:3] = self._learnt, found.position_m
-        return replace(belief, rotation_w2_w0=found.rotation_w2_w0)
+        estimate = resting_estimate(initial, self._learnt_covariance)
+        estimate.covariance[POSE[:, None], POSE] = found.pose_covariance(self.view.palm_m, finding)
+        estimate.covariance[SKIN, SKIN] = self._stationary[SKIN, SKIN]
+        estimate.covariance[RELIEF, RELIEF] = self._stationary[RELIEF, RELIEF]
+        estimate.value[LEARNT], estimate.value[:3] = self._learnt, found.position_m
+        return replace(estimate, rotation_w2_w0=found.rotation_w2_w0)
 
     def predicted_at(self, found: FoundPalm, predicted: PredictedMeasurement) -> PredictedMeasurement:
         """What was predicted, should the palm be where it was found."""
-        belief = self.estimate_at(found)
-        return predicted.about(belief, self._resting_bank(belief))
+        estimate = self.estimate_at(found)
+        return predicted.about(estimate, self._resting_mixture(estimate))
 
     def place_disc(self, named: NamedSpot, predicted: PredictedMeasurement, scan: Scan) -> PredictedMeasurement | None:
         """The prediction with a disc of the palm begun anew where a person says that it is; None for another disc."""
         if named.marker not in self.order.palm:
             return None
         disc = int(np.flatnonzero(self.order.palm == named.marker)[0])
-        belief, bank, self.view = disc_anew(predicted, self.view, disc, named.blob, scan.blobs, self._settings)
+        estimate, mixture, self.view = disc_anew(predicted, self.view, disc, named.blob, scan.blobs, self._settings)
         self._noise_factor[disc] = 1.0
         self._placed_anew[disc] = True
-        self._known = belief, bank
-        return predicted.about(belief, bank, self.view)
+        self._known = estimate, mixture
+        return predicted.about(estimate, mixture, self.view)
 
     def look_anew(self, named: NamedSpot) -> None:
         """Look for the digit anew of which a person has said which spot a disc is."""
@@ -331,7 +338,9 @@ class HandFilter:
         return self.fingers.read(posterior.fingers)
 
 
-def _slowed(belief: PalmBelief, bank: Bank, kept: NDArray[np.float64]) -> tuple[PalmBelief, Bank]:
+def _slowed(
+    estimate: PalmEstimate, mixture: ModeMixture, kept: NDArray[np.float64]
+) -> tuple[PalmEstimate, ModeMixture]:
     """Velocities faded: the estimate times ``kept`` (n, n)."""
-    belief = PalmBelief(belief.rotation_w2_w0, kept @ belief.value, kept @ belief.covariance @ kept.T)
-    return belief, Bank(bank.mean @ kept.T, kept @ bank.covariance @ kept.T, bank.probability)
+    estimate = PalmEstimate(estimate.rotation_w2_w0, kept @ estimate.value, kept @ estimate.covariance @ kept.T)
+    return estimate, ModeMixture(mixture.mean @ kept.T, kept @ mixture.covariance @ kept.T, mixture.probability)

@@ -1,6 +1,6 @@
-"""The five rays of an articulated hand as the filter sees them: thumb first, then fingers 2 to 5.
+"""The five digits of an articulated hand as the filter sees them: thumb first, then fingers 2 to 5.
 
-Every ray has five joint slots and eleven constants, so that all five are computed together. Slots of the thumb:
+Every digit has five joint slots and eleven constants, so that all five are computed together. Slots of the thumb:
 its five angles; of a finger: MCP abduction, MCP flexion, PIP flexion, and by how much DIP flexion exceeds two
 thirds of PIP flexion (zero where the end joint is coupled, hand paper section 2); the fifth is not used.
 Constants as in :mod:`core.hand.ray_fitting`. Lengths in metres, axes of a right hand in W unless said otherwise.
@@ -21,16 +21,16 @@ from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.sites import DIGITS, joint_discs
 from carpus.core.types import FloatArray, Side
 
-RAYS, SLOTS, CONSTANTS = 5, 5, 11
+CHAINS, SLOTS, CONSTANTS = 5, 5, 11
 DISCS = 3
-"""Discs of a ray that move against the palm."""
+"""Discs of a digit that move against the palm."""
 
-# The first disc that moves with a slot: 0 the first of the ray's three; 3 none.
+# The first disc that moves with a slot: 0 the first of the digit's three; 3 none.
 _FIRST_DISC = np.array([[0, 0, 1, 1, 2], *([0, 0, 1, 2, 3],) * 4])
 SHOWS = np.arange(DISCS) >= _FIRST_DISC[..., None]
 """(5, 5, 3) whether a disc moves with a slot."""
 
-NO_CUP = np.zeros(RAYS)
+NO_CUP = np.zeros(CHAINS)
 """No metacarpal has flexed."""
 _DOWN = np.array([1.0, 1.0, -1.0])
 _AXES = np.arange(3)
@@ -80,16 +80,16 @@ _FINGER_TURNS = _FINGER_PHASES * np.array([1.0, -1.0, -1.0, -1.0, -1.0, -1.0, -1
 _TURNS = np.stack((_of_state(_THUMB_PHASES) * np.array([1.0, -1.0, -1.0, 1.0, -1.0, -1.0, 1.0]), *(_FINGER_TURNS,) * 4))
 
 
-def ray_discs_m(root_m: FloatArray, state: FloatArray, rays: list[int] | None = None) -> FloatArray:
-    """Discs (R, S, 3, 3) in W of all rays, or of some in their order, for S states (R, S, 16) of slots and constants
+def digit_discs_m(root_m: FloatArray, state: FloatArray, chains: list[int] | None = None) -> FloatArray:
+    """Discs (R, S, 3, 3) in W of all digits, or of some in their order, for S states (R, S, 16) of slots and constants
     side by side.
 
-    ``root_m`` (R, 3) discs CMC1 and MCP2 to MCP5, under which the rays begin. The chains of
-    :mod:`core.hand.kinematics` written for speed: every ray bends in a plane of its own azimuth, the thumb's rolled;
+    ``root_m`` (R, 3) discs CMC1 and MCP2 to MCP5, under which the digits begin. The chains of
+    :mod:`core.hand.kinematics` written for speed: every digit bends in a plane of its own azimuth, the thumb's rolled;
     a turn in a plane is a complex factor.
     """
-    turn = np.exp(1j * (state @ (_TURNS if rays is None else _TURNS[rays])))
-    thumbs = 1 if rays is None or rays[0] == 0 else 0
+    turn = np.exp(1j * (state @ (_TURNS if chains is None else _TURNS[chains])))
+    thumbs = 1 if chains is None or chains[0] == 0 else 0
     level, up = np.zeros((*state.shape[:2], DISCS), dtype=np.complex128), np.empty((*state.shape[:2], DISCS))
     level.real[thumbs:], up[thumbs:] = _finger_arcs(state[thumbs:], turn[thumbs:])
     if thumbs:
@@ -134,8 +134,8 @@ def _thumb_arc(state: FloatArray, turn: NDArray[np.complex128]) -> tuple[FloatAr
 
 
 def is_crowded(pixel: FloatArray, radius_px: FloatArray, radii: float) -> NDArray[np.bool_]:
-    """Which discs of each ray (5, 3) nearly touch the one before or after, from their middles (5, 3, 2) and the radius
-    (5, 3) of a large disc there: nearer than so many ``radii``, their edges blur into one."""
+    """Which discs of each digit (5, 3) nearly touch the one before or after, from their middles (5, 3, 2) and the
+    radius (5, 3) of a large disc there: nearer than so many ``radii``, their edges blur into one."""
     near = ((pixel[:, 1:] - pixel[:, :-1]) ** 2).sum(axis=-1) < (radii * radius_px[:, 1:]) ** 2
     out = np.zeros(radius_px.shape, dtype=bool)
     out[:, 1:], out[:, :-1] = near, near
@@ -144,16 +144,16 @@ def is_crowded(pixel: FloatArray, radius_px: FloatArray, radii: float) -> NDArra
 
 
 @dataclass(frozen=True, slots=True)
-class RayFrames:
-    """Unit ``direction`` of the three bones and ``normal`` of the three discs of each ray, both (5, 3, 3) in W."""
+class DigitFrames:
+    """Unit ``direction`` of the three bones and ``normal`` of the three discs of each digit, both (5, 3, 3) in W."""
 
     direction: FloatArray
     normal: FloatArray
 
 
-def ray_frames(state: FloatArray) -> RayFrames:
+def digit_frames(state: FloatArray) -> DigitFrames:
     """Directions and normals for states (5, 16) of slots and constants."""
-    both = np.empty((2, RAYS, DISCS, 3))
+    both = np.empty((2, CHAINS, DISCS, 3))
     phase = state[1:] @ _FINGER_PHASES
     sin, cos = np.sin(phase), np.cos(phase)
     azimuth_cos, azimuth_sin = cos[:, :1], sin[:, :1]
@@ -185,20 +185,20 @@ def ray_frames(state: FloatArray) -> RayFrames:
         (placed(1.0, 0.0, 0.0), placed(*phalanx), in_phalanx(cb, -sb)),
         (placed(0.0, 1.0, 0.0), in_phalanx(math.sin(0.5 * bend), math.cos(0.5 * bend)), in_phalanx(sb, cb)),
     )
-    return RayFrames(both[0], both[1])
+    return DigitFrames(both[0], both[1])
 
 
-def ray_joints_m(root_m: FloatArray, state: FloatArray, frames: RayFrames) -> FloatArray:
-    """Joint centres (5, 4, 3) of each ray in W, from its root's to the tip, for states (5, 16)."""
-    joints = np.empty((RAYS, DISCS + 1, 3))
+def digit_joints_m(root_m: FloatArray, state: FloatArray, frames: DigitFrames) -> FloatArray:
+    """Joint centres (5, 4, 3) of each digit in W, from its root's to the tip, for states (5, 16)."""
+    joints = np.empty((CHAINS, DISCS + 1, 3))
     joints[:, 0] = root_m + state[:, SLOTS + 5 : SLOTS + 8] * _DOWN
     joints[:, 1:] = state[:, SLOTS : SLOTS + 3, None] * frames.direction
     return np.asarray(np.cumsum(joints, axis=1, out=joints))
 
 
-def slope_by_constants(state: FloatArray, frames: RayFrames, joints_m: FloatArray) -> FloatArray:
+def slope_by_constants(state: FloatArray, frames: DigitFrames, joints_m: FloatArray) -> FloatArray:
     """Derivative (5, 3 discs, 3, 11) of the discs in W by the constants, for states (5, 16)."""
-    slope = np.zeros((RAYS, DISCS, 3, CONSTANTS))
+    slope = np.zeros((CHAINS, DISCS, 3, CONSTANTS))
     slope[..., :DISCS] = np.swapaxes(frames.direction[:, None] * _PAST, 2, 3)
     slope[:, _DISC, :, 8 + _DISC] = np.swapaxes(frames.normal, 0, 1)
     slope[..., _AXES, 5 + _AXES] = _DOWN
@@ -215,7 +215,7 @@ class PalmInBody:
 
     ``axes`` (3, 3) maps W of a right hand into the body: for a left hand it mirrors; ``origin_m`` (3,) the WRIST disc
     in the body; ``disc_m`` (6, 3) the palm's discs in W of a right hand, those of ring and little finger as their
-    metacarpals carry them. ``cup_rad`` (5,) by how much each ray's metacarpal has flexed, ``cup_sd_rad`` (5,).
+    metacarpals carry them. ``cup_rad`` (5,) by how much each digit's metacarpal has flexed, ``cup_sd_rad`` (5,).
     """
 
     axes: FloatArray
@@ -241,7 +241,7 @@ class PalmInBody:
 @dataclass(frozen=True, slots=True)
 class JointMoment:
     """Joint angles (J,), standard deviations and rates (NaN in the papers' model); joint centres and tips (M, 3) in
-    W2 of the hand's own side; the rays' discs (5, 3, 3) in camera axes."""
+    W2 of the hand's own side; the digits' discs (5, 3, 3) in camera axes."""
 
     angles_rad: FloatArray
     sd_rad: FloatArray
@@ -252,27 +252,27 @@ class JointMoment:
 
 @dataclass(frozen=True, slots=True)
 class JointReading:
-    """From the rays' slots to the joint angles of some digits: angle j is ``weight[j] @ slots[ray[j]]``."""
+    """From the digits' slots to the joint angles of some digits: angle j is ``weight[j] @ slots[chain[j]]``."""
 
-    ray: np.ndarray
+    chain: np.ndarray
     weight: FloatArray
 
     @staticmethod
     def of(dip_free: bool, digits: Sequence[int] = DIGITS) -> JointReading:
         rows = [(0, np.eye(SLOTS)[slot]) for slot in range(5) if 1 in digits]
-        for ray in (digit - 1 for digit in DIGITS[1:] if digit in digits):
-            rows += [(ray, np.eye(SLOTS)[slot]) for slot in range(3)]
+        for chain in (digit - 1 for digit in DIGITS[1:] if digit in digits):
+            rows += [(chain, np.eye(SLOTS)[slot]) for slot in range(3)]
             if dip_free:
-                rows.append((ray, np.array([0.0, 0.0, DIP_PER_PIP, 1.0, 0.0])))
-        return JointReading(np.array([ray for ray, _ in rows]), np.array([weight for _, weight in rows]))
+                rows.append((chain, np.array([0.0, 0.0, DIP_PER_PIP, 1.0, 0.0])))
+        return JointReading(np.array([chain for chain, _ in rows]), np.array([weight for _, weight in rows]))
 
     def angles(self, slots: FloatArray) -> FloatArray:
         """Joint angles (..., J) of slots (..., 5, 5)."""
-        return np.asarray(np.sum(slots[..., self.ray, :] * self.weight, axis=-1))
+        return np.asarray(np.sum(slots[..., self.chain, :] * self.weight, axis=-1))
 
     def variances(self, covariance: FloatArray) -> FloatArray:
         """Variances (J,) from covariances (5, 5, 5) of the slots."""
-        return np.asarray(np.einsum("ji,jik,jk->j", self.weight, covariance[self.ray], self.weight))
+        return np.asarray(np.einsum("ji,jik,jk->j", self.weight, covariance[self.chain], self.weight))
 
 
 def direct_markers(protocol: MarkerProtocol, dip_free: bool) -> np.ndarray:
@@ -283,7 +283,7 @@ def direct_markers(protocol: MarkerProtocol, dip_free: bool) -> np.ndarray:
 def slots_of(angles_rad: FloatArray) -> FloatArray:
     """Slots (..., 5, 5) of 17 or 21 joint angles (..., J)."""
     lead, per_finger = angles_rad.shape[:-1], (angles_rad.shape[-1] - 5) // 4
-    slots = np.zeros((*lead, RAYS, SLOTS))
+    slots = np.zeros((*lead, CHAINS, SLOTS))
     slots[..., 0, :] = angles_rad[..., :5]
     slots[..., 1:, :per_finger] = angles_rad[..., 5:].reshape(*lead, 4, per_finger)
     if per_finger == 4:

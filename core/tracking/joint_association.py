@@ -1,4 +1,4 @@
-"""Association when the easy one does not hold together.
+"""Association when the easy one is not jointly compatible.
 
 The discs are on one hand: where one is decides where the others can be. Judging each marker by itself, as
 (12) does, forgets that, and after a surprise neighbours are taken for each other. Here the joint posterior
@@ -33,20 +33,20 @@ def is_jointly_compatible(nis: float, dof: int, settings: AssociationSettings) -
 
 @dataclass(frozen=True, slots=True)
 class JointAssociation:
-    """``taken`` (M,) blob of every marker or -1, ``with_depth`` (M,) whether its depth was believed;
+    """``assigned`` (M,) blob of every marker or -1, ``with_depth`` (M,) whether its depth was believed;
     ``log_posterior`` over that of calling every blob clutter."""
 
-    taken: NDArray[np.int64]
+    assigned: NDArray[np.int64]
     with_depth: NDArray[np.bool_]
     log_posterior: float
 
 
 @dataclass(frozen=True, slots=True)
 class _Branches:
-    """B ways to name the first m markers, side by side: ``taken`` and ``with_depth`` (B, m), ``score`` (B,), and what
-    they leave of the prediction, ``mean`` (B, 3M) and ``covariance`` (B, 3M, 3M)."""
+    """B ways to name the first m markers, side by side: ``assigned`` and ``with_depth`` (B, m), ``score`` (B,), and
+    what they leave of the prediction, ``mean`` (B, 3M) and ``covariance`` (B, 3M, 3M)."""
 
-    taken: NDArray[np.int64]
+    assigned: NDArray[np.int64]
     with_depth: NDArray[np.bool_]
     score: FloatArray
     mean: FloatArray
@@ -86,7 +86,7 @@ def associate_jointly(
         ways = [branches.score[:, None]]
         difference = measured - branches.mean[:, None, block]
         own = branches.covariance[:, block, block]
-        is_used = (branches.taken[:, :, None] == np.arange(len(measured))).any(axis=1)
+        is_used = (branches.assigned[:, :, None] == np.arange(len(measured))).any(axis=1)
         for used in (3, 2):
             distance2, log_normal = _normal(difference[..., :used], own[:, :used, :used], noise_variance[:, :used])
             possible = (distance2 <= settings.gate_sd**2) & ~is_used
@@ -97,11 +97,11 @@ def associate_jointly(
         parent, way = np.divmod(order, score.shape[1])
         branches = _grown(branches, parent, way, score.ravel()[order], block, measured, noise_variance)
     best = int(np.argmax(branches.score))
-    taken = np.full(markers, -1, dtype=np.int64)
+    assigned = np.full(markers, -1, dtype=np.int64)
     with_depth = np.zeros(markers, dtype=bool)
-    taken[certain_first] = branches.taken[best]
+    assigned[certain_first] = branches.assigned[best]
     with_depth[certain_first] = branches.with_depth[best]
-    return JointAssociation(taken, with_depth, float(branches.score[best]))
+    return JointAssociation(assigned, with_depth, float(branches.score[best]))
 
 
 def _normal(
@@ -143,7 +143,7 @@ def _grown(
         mean = mean + (gain @ off[..., None])[..., 0]
         covariance = covariance - gain @ across
     return _Branches(
-        np.column_stack((branches.taken[parent], blob)),
+        np.column_stack((branches.assigned[parent], blob)),
         np.column_stack((branches.with_depth[parent], with_depth)),
         score,
         mean,

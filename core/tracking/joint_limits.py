@@ -17,8 +17,8 @@ from scipy.special import erfcx
 from carpus.core.hand.anatomy import ABDUCTION_LIMIT_RAD, HARD_LIMITS_RAD
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.kernels.choice import in_c
-from carpus.core.tracking.hand_geometry import RAYS, SLOTS
-from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
+from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.types import FloatArray
 
 _ROOT_HALF = math.sqrt(0.5)
@@ -29,8 +29,8 @@ _NAMES = (
     *((f"MCP{k}_abduction", f"MCP{k}_flexion", f"PIP{k}_flexion", f"DIP{k}_flexion", "") for k in (2, 3, 4, 5)),
 )
 _WIDE = (-1e3, 1e3)
-_LIMITS = np.array([[HARD_LIMITS_RAD.get(name, _WIDE) for name in ray] for ray in _NAMES])  # (5, 5, 2)
-_DIRECTION = np.broadcast_to(np.eye(SLOTS), (RAYS, SLOTS, SLOTS)).copy()
+_LIMITS = np.array([[HARD_LIMITS_RAD.get(name, _WIDE) for name in chain] for chain in _NAMES])  # (5, 5, 2)
+_DIRECTION = np.broadcast_to(np.eye(SLOTS), (CHAINS, SLOTS, SLOTS)).copy()
 _DIRECTION[1:, 3, 2] = DIP_PER_PIP
 
 RANGE_SD_RAD = np.where(_LIMITS[..., 1] < 1e2, (_LIMITS[..., 1] - _LIMITS[..., 0]) / math.sqrt(12.0), 0.0)
@@ -78,40 +78,42 @@ def _softened(
     return shifted, variance - variance**2 * ratio * (z + ratio) / total
 
 
-def constrained(beliefs: Bank, slots: FloatArray, settings: LimitSettings) -> Bank:
-    """Beliefs with the limits taken into account; ``slots`` (5, 5) the merged joints, for the abduction's limit.
+def constrained(estimates: ModeMixture, slots: FloatArray, settings: LimitSettings) -> ModeMixture:
+    """Estimates with the limits taken into account; ``slots`` (5, 5) the merged joints, for the abduction's limit.
 
-    Each angle's pull is found by itself, then all pulls of a ray act together, as measurements with independent
+    Each angle's pull is found by itself, then all pulls of a digit act together, as measurements with independent
     errors.
     """
     if (kernels := in_c()) is not None:
-        pulled = Bank(np.empty(beliefs.mean.shape), np.empty(beliefs.covariance.shape), beliefs.probability)
-        rays = np.empty(RAYS, dtype=np.bool_)
-        kernels.rays_limited(
-            *beliefs.mean.shape[1:], beliefs.mean, beliefs.covariance, slots, _LIMITS, _DIRECTION, ABDUCTION_LIMIT_RAD,
-            settings.soft_rad, settings.near_sd, pulled.mean, pulled.covariance, rays,
+        pulled = ModeMixture(
+            np.empty(estimates.mean.shape), np.empty(estimates.covariance.shape), estimates.probability
+        )
+        chains = np.empty(CHAINS, dtype=np.bool_)
+        kernels.digits_limited(
+            *estimates.mean.shape[1:], estimates.mean, estimates.covariance, slots, _LIMITS, _DIRECTION,
+            ABDUCTION_LIMIT_RAD, settings.soft_rad, settings.near_sd, pulled.mean, pulled.covariance, chains,
         )  # fmt: skip
-        return pulled if rays.any() else beliefs
-    angle = np.einsum("rks,rjs->rkj", beliefs.mean[..., :SLOTS], _DIRECTION)
-    across = beliefs.covariance[..., :SLOTS] @ np.swapaxes(_DIRECTION, 1, 2)[:, None]  # (5, K, n, 5)
+        return pulled if chains.any() else estimates
+    angle = np.einsum("rks,rjs->rkj", estimates.mean[..., :SLOTS], _DIRECTION)
+    across = estimates.covariance[..., :SLOTS] @ np.swapaxes(_DIRECTION, 1, 2)[:, None]  # (5, K, n, 5)
     shared = _DIRECTION[:, None] @ across[..., :SLOTS, :]  # (5, K, 5, 5)
     variance = np.diagonal(shared, axis1=-2, axis2=-1)
     limits = slot_limits_rad(slots)[:, None]
     reach = settings.near_sd * np.sqrt(variance + settings.soft_rad**2)
     near = (angle - reach < limits[..., 0]) | (angle + reach > limits[..., 1])
-    ray = np.flatnonzero(near.any(axis=(1, 2)))
-    if not ray.size:
-        return beliefs
-    angle, variance, limits, near = angle[ray], variance[ray], limits[ray], near[ray]
+    chain = np.flatnonzero(near.any(axis=(1, 2)))
+    if not chain.size:
+        return estimates
+    angle, variance, limits, near = angle[chain], variance[chain], limits[chain], near[chain]
     lifted, narrowed = _softened(angle, variance, limits[..., 0], settings.soft_rad)
     lowered, narrowed = _softened(-lifted, narrowed, -limits[..., 1], settings.soft_rad)
     known = near & (variance > 1e-9)
     safe, narrowed = np.where(known, variance, 1.0), np.where(known, narrowed, 1.0)
     precision = np.where(known, np.maximum(1.0 / narrowed - 1.0 / safe, 0.0), 0.0)
     pull = np.where(known, -lowered / narrowed - angle / safe - precision * angle, 0.0)
-    inner = np.eye(SLOTS) + precision[..., None] * shared[ray]
-    gain = np.swapaxes(np.linalg.solve(np.swapaxes(inner, -1, -2), np.swapaxes(across[ray], -1, -2)), -1, -2)
-    mean, covariance = beliefs.mean.copy(), beliefs.covariance.copy()
-    mean[ray] += (gain @ pull[..., None])[..., 0]
-    covariance[ray] -= (gain * precision[..., None, :]) @ np.swapaxes(across[ray], -1, -2)
-    return Bank(mean, covariance, beliefs.probability)
+    inner = np.eye(SLOTS) + precision[..., None] * shared[chain]
+    gain = np.swapaxes(np.linalg.solve(np.swapaxes(inner, -1, -2), np.swapaxes(across[chain], -1, -2)), -1, -2)
+    mean, covariance = estimates.mean.copy(), estimates.covariance.copy()
+    mean[chain] += (gain @ pull[..., None])[..., 0]
+    covariance[chain] -= (gain * precision[..., None, :]) @ np.swapaxes(across[chain], -1, -2)
+    return ModeMixture(mean, covariance, estimates.probability)

@@ -1,10 +1,10 @@
 """The filter, written once: Gaussians of several chains in several motion modes, predicted, mixed, corrected, merged.
 
 Arrays lead with the chain (C: the palm is one, thumb and fingers are five) and the mode (K). What a chain's numbers
-mean, how they move and what the camera sees of them are arguments: a transition and its noise, and a line through
-the measurement that the model drew by sigma points. The modes form an interacting multiple model (Blom and
+mean, how they move and what the camera sees of them are arguments: a transition and its noise, and h as the model
+linearised it by sigma points. The modes form an interacting multiple model (Blom and
 Bar-Shalom 1988): the same filter with other process noise, weighed by how well each foresaw the measurements.
-Where a chain lives on a manifold its numbers are small errors from a nominal belief that the model keeps.
+Where a chain lives on a manifold its numbers are small errors from a nominal estimate that the model keeps.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _LEAST_PROBABILITY = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Bank:
+class ModeMixture:
     """Gaussians: ``mean`` (C, K, n), ``covariance`` (C, K, n, n), ``probability`` (C, K) of each mode."""
 
     mean: FloatArray
@@ -31,9 +31,9 @@ class Bank:
     probability: FloatArray
 
     @staticmethod
-    def alike(mean: FloatArray, covariance: FloatArray, modes: int) -> Bank:
+    def alike(mean: FloatArray, covariance: FloatArray, modes: int) -> ModeMixture:
         """All modes alike and as probable, of means (C, n) and covariances (C, n, n)."""
-        return Bank(
+        return ModeMixture(
             np.repeat(mean[:, None], modes, axis=1),
             np.repeat(covariance[:, None], modes, axis=1),
             np.full((len(mean), modes), 1.0 / modes),
@@ -67,87 +67,93 @@ def switching(modes: int, dwell_s: float, dt_s: float) -> FloatArray:
     return out
 
 
-def mixed(bank: Bank, switch: FloatArray) -> Bank:
+def mixed(mixture: ModeMixture, switch: FloatArray) -> ModeMixture:
     """Each mode's start from all that may have switched to it; ``switch`` (K, K) from row to column."""
     if switch.shape[0] == 1:
-        return bank
-    joint = switch * bank.probability[:, :, None]
+        return mixture
+    joint = switch * mixture.probability[:, :, None]
     predicted = joint.sum(axis=1)
     share = np.swapaxes(joint / predicted[:, None, :], 1, 2)  # (C, to, from)
-    mean = share @ bank.mean
-    apart = bank.mean[:, None, :, :] - mean[:, :, None, :]  # (C, to, from, n)
+    mean = share @ mixture.mean
+    apart = mixture.mean[:, None, :, :] - mean[:, :, None, :]  # (C, to, from, n)
     chains, n = len(mean), mean.shape[-1]
-    covariance = (share @ bank.covariance.reshape(chains, -1, n * n)).reshape(*mean.shape, n)
+    covariance = (share @ mixture.covariance.reshape(chains, -1, n * n)).reshape(*mean.shape, n)
     covariance += _turned(apart) @ (apart * share[..., None])
-    return Bank(mean, covariance, predicted)
+    return ModeMixture(mean, covariance, predicted)
 
 
-def predicted(bank: Bank, forward: FloatArray, noise: FloatArray, switch: FloatArray | None = None) -> Bank:
+def predicted(
+    mixture: ModeMixture, forward: FloatArray, noise: FloatArray, switch: FloatArray | None = None
+) -> ModeMixture:
     """P <- F P F' + Q with ``forward`` (C, n, n) and ``noise`` (C, K, n, n), the modes :func:`mixed` before
     where there is a ``switch``."""
     if (kernels := in_c()) is not None:
-        out = _like(bank)
+        out = _like(mixture)
         kernels.predicted(
-            *bank.mean.shape, NOTHING if switch is None else switch, bank.mean, bank.covariance, bank.probability,
-            forward, noise, out.mean, out.covariance, out.probability,
+            *mixture.mean.shape, NOTHING if switch is None else switch, mixture.mean, mixture.covariance,
+            mixture.probability, forward, noise, out.mean, out.covariance, out.probability,
         )  # fmt: skip
         return out
-    bank = bank if switch is None else mixed(bank, switch)
+    mixture = mixture if switch is None else mixed(mixture, switch)
     forward = forward[:, None]
-    mean = (forward @ bank.mean[..., None])[..., 0]
-    covariance = forward @ bank.covariance @ np.swapaxes(forward, -1, -2)
+    mean = (forward @ mixture.mean[..., None])[..., 0]
+    covariance = forward @ mixture.covariance @ np.swapaxes(forward, -1, -2)
     covariance += noise
-    return Bank(mean, covariance, bank.probability)
+    return ModeMixture(mean, covariance, mixture.probability)
 
 
 @dataclass(frozen=True, slots=True)
-class Carrying:
+class Transition:
     """A step of a chain of which only the first m numbers mix: ``moving`` (m, m) of these with the ``driven`` noise
     (K, m, m); of every number the share ``kept`` (K, n) is left, one for the moving; the last r numbers are pushed by
-    ``settling`` (K, r, r)."""
+    ``relaxing`` (K, r, r)."""
 
     moving: FloatArray
     driven: FloatArray
     kept: FloatArray
-    settling: FloatArray
+    relaxing: FloatArray
 
 
-def carried(bank: Bank, step: Carrying, nominal: FloatArray, switch: FloatArray | None = None) -> Bank:
-    """The bank after the step, of errors from a ``nominal`` (n,) that moves with its first m numbers and else stays:
+def transitioned(
+    mixture: ModeMixture, step: Transition, nominal: FloatArray, switch: FloatArray | None = None
+) -> ModeMixture:
+    """The mixture after the step, of errors from a ``nominal`` (n,) that moves with its first m numbers and else stays:
     what of that a mode does not keep is an error of the mode. Its modes are :func:`mixed` before where there is a
     ``switch``."""
     if (kernels := in_c()) is not None:
-        out, (_, modes, n) = _like(bank), bank.mean.shape
-        kernels.carried(
-            modes, n, len(step.moving), step.settling.shape[1], NOTHING if switch is None else switch,
-            bank.mean, bank.covariance, bank.probability, step.moving, step.driven, step.kept, step.settling, nominal,
-            out.mean, out.covariance, out.probability,
+        out, (_, modes, n) = _like(mixture), mixture.mean.shape
+        kernels.transitioned(
+            modes, n, len(step.moving), step.relaxing.shape[1], NOTHING if switch is None else switch,
+            mixture.mean, mixture.covariance, mixture.probability, step.moving, step.driven, step.kept,
+            step.relaxing, nominal, out.mean, out.covariance, out.probability,
         )  # fmt: skip
         return out
-    bank = bank if switch is None else mixed(bank, switch)
-    mixing, first = len(step.moving), step.kept.shape[1] - step.settling.shape[1]
-    mean = bank.mean * step.kept + (step.kept - 1.0) * nominal
-    mean[..., :mixing] = bank.mean[..., :mixing] @ step.moving.T
-    covariance = step.kept[:, :, None] * bank.covariance
+    mixture = mixture if switch is None else mixed(mixture, switch)
+    mixing, first = len(step.moving), step.kept.shape[1] - step.relaxing.shape[1]
+    mean = mixture.mean * step.kept + (step.kept - 1.0) * nominal
+    mean[..., :mixing] = mixture.mean[..., :mixing] @ step.moving.T
+    covariance = step.kept[:, :, None] * mixture.covariance
     covariance *= step.kept[:, None, :]
     rows = step.moving @ covariance[..., :mixing, :]
     covariance[..., :mixing, mixing:] = rows[..., mixing:]
     covariance[..., mixing:, :mixing] = np.swapaxes(rows[..., mixing:], -1, -2)
     covariance[..., :mixing, :mixing] = rows[..., :mixing] @ step.moving.T + step.driven
-    covariance[..., first:, first:] += step.settling
-    return Bank(mean, covariance, bank.probability)
+    covariance[..., first:, first:] += step.relaxing
+    return ModeMixture(mean, covariance, mixture.probability)
 
 
-def _like(bank: Bank) -> Bank:
-    """A bank of the same shape, to be filled."""
-    return Bank(np.empty(bank.mean.shape), np.empty(bank.covariance.shape), np.empty(bank.probability.shape))
+def _like(mixture: ModeMixture) -> ModeMixture:
+    """A mixture of the same shape, to be filled."""
+    return ModeMixture(
+        np.empty(mixture.mean.shape), np.empty(mixture.covariance.shape), np.empty(mixture.probability.shape)
+    )
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class Linearisation:
     """A measurement linearised statistically: y = ``value`` + ``slope`` (x - ``about``) + error.
 
-    ``value`` (C, m), ``slope`` (C, m, n), ``error`` (C, m, m) covariance of what the line misses, ``about`` (C, n).
+    ``value`` (C, m), ``slope`` (C, m, n), ``error`` (C, m, m) covariance of what that misses, ``about`` (C, n).
     """
 
     value: FloatArray
@@ -158,17 +164,17 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Update:
-    """Corrected ``bank``; ``nis`` (C,) innovation' S^-1 innovation over all modes with ``dof`` (C,) components;
+    """Corrected ``mixture``; ``nis`` (C,) innovation' S^-1 innovation over all modes with ``dof`` (C,) components;
     ``residual`` (C, m) of each component in its own standard deviations, N(0, 1) when all is right, 0 where nothing
     was measured."""
 
-    bank: Bank
+    mixture: ModeMixture
     nis: FloatArray
     dof: NDArray[np.int64]
     residual: FloatArray
 
 
-def learning_shares(size: int, slow: slice, learning: float) -> tuple[FloatArray, FloatArray]:
+def partial_update(size: int, slow: slice, learning: float) -> tuple[FloatArray, FloatArray]:
     """Shares of a correction that mean (n,) and covariance (n, n) take: the numbers of ``slow`` only ``learning``.
 
     Partial-update Schmidt-Kalman filter (Brink 2017): errors that stay with a disc come again in every picture, and
@@ -180,39 +186,39 @@ def learning_shares(size: int, slow: slice, learning: float) -> tuple[FloatArray
 
 
 def corrected(
-    bank: Bank,
-    line: Line,
+    mixture: ModeMixture,
+    linearised: Linearisation,
     measured: FloatArray,
     variance: FloatArray,
     shared: FloatArray | None = None,
-    shares: tuple[FloatArray, FloatArray] | None = None,
+    partial: tuple[FloatArray, FloatArray] | None = None,
 ) -> Update:
     """Kalman correction of every chain and mode by ``measured`` (C, m), NaN where there is nothing.
 
     ``variance`` (C, m) of the measurements' own errors, ``shared`` (C, m, m) a covariance common to several of them;
-    ``shares`` of :func:`learning_shares`. Everything is taken in units of the noise, since pixels and metres differ by
+    ``partial`` of :func:`partial_update`. Everything is taken in units of the noise, since pixels and metres differ by
     orders of magnitude.
     """
     if (kernels := in_c()) is not None:
-        out, nis, dof = _like(bank), np.empty(len(bank.mean)), np.empty(len(bank.mean), dtype=np.int64)
+        out, nis, dof = _like(mixture), np.empty(len(mixture.mean)), np.empty(len(mixture.mean), dtype=np.int64)
         residual = np.empty(measured.shape)
         kernels.corrected(
-            *bank.mean.shape, measured.shape[1], bank.mean, bank.covariance, bank.probability,
-            line.value, line.slope, line.error, line.about, measured, variance, NOTHING if shared is None else shared,
-            *((NOTHING, NOTHING) if shares is None else shares),
+            *mixture.mean.shape, measured.shape[1], mixture.mean, mixture.covariance, mixture.probability,
+            linearised.value, linearised.slope, linearised.error, linearised.about, measured, variance,
+            NOTHING if shared is None else shared, *((NOTHING, NOTHING) if partial is None else partial),
             out.mean, out.covariance, out.probability, nis, dof, residual,
         )  # fmt: skip
         return Update(out, nis, dof, residual)
     used = np.isfinite(measured)
     unit = np.where(used, 1.0 / np.sqrt(np.where(used, variance, 1.0)), 0.0)
-    slope = line.slope * unit[..., None]
-    own = line.error if shared is None else line.error + shared
+    slope = linearised.slope * unit[..., None]
+    own = linearised.error if shared is None else linearised.error + shared
     own = own * (unit[:, :, None] * unit[:, None, :])
     diagonal = np.arange(measured.shape[1])
     own[:, diagonal, diagonal] += 1.0
-    guess = (slope[:, None] @ (bank.mean - line.about[:, None])[..., None])[..., 0]
-    value = (np.where(used, measured - line.value, 0.0) * unit)[:, None] - guess
-    cross = slope[:, None] @ bank.covariance  # (C, K, m, n)
+    guess = (slope[:, None] @ (mixture.mean - linearised.about[:, None])[..., None])[..., 0]
+    value = (np.where(used, measured - linearised.value, 0.0) * unit)[:, None] - guess
+    cross = slope[:, None] @ mixture.covariance  # (C, K, m, n)
     s = cross @ np.swapaxes(slope, 1, 2)[:, None] + own[:, None]
     # S = L L': with all taken through L^-1 the correction is a square, and its root tells the determinant too.
     whitening = _inverse_roots(s)
@@ -220,19 +226,19 @@ def corrected(
     apart = (whitening @ value[..., None])[..., 0]
     step = (apart[..., None, :] @ white)[..., 0, :]
     covariance = _turned(white) @ white
-    if shares is not None:
-        step *= shares[0]
-        covariance *= shares[1]
-    np.subtract(bank.covariance, covariance, out=covariance)
+    if partial is not None:
+        step *= partial[0]
+        covariance *= partial[1]
+    np.subtract(mixture.covariance, covariance, out=covariance)
     covariance += np.swapaxes(covariance, -1, -2).copy()
     covariance *= 0.5
     nis = np.vecdot(apart, apart)
     log_root = -np.log(whitening.diagonal(axis1=-2, axis2=-1)).sum(axis=-1)
-    probability = reweighed(bank.probability, -0.5 * nis - log_root)
+    probability = reweighed(mixture.probability, -0.5 * nis - log_root)
     surprise = (apart[..., None, :] @ whitening)[..., 0, :]
     residual = surprise / np.sqrt((whitening * whitening).sum(axis=-2))
     return Update(
-        Bank(bank.mean + step, covariance, probability),
+        ModeMixture(mixture.mean + step, covariance, probability),
         np.sum(probability * nis, axis=1),
         used.sum(axis=1),
         np.where(used, np.sum(probability[..., None] * residual, axis=1), 0.0),
@@ -264,7 +270,7 @@ def reweighed(probability: FloatArray, log_likelihood: FloatArray) -> FloatArray
     return np.asarray(weight / weight.sum(axis=-1, keepdims=True))
 
 
-def looked_back(
+def rts_step(
     covariance: FloatArray,
     forward: FloatArray,
     noise: FloatArray,
@@ -274,9 +280,9 @@ def looked_back(
     """One step of Rauch, Tung and Striebel's recursion: the correction (C, n) of a filtered mean and the smoothed
     covariance (C, n, n), from the filtered ``covariance``, the step's ``forward`` and ``noise`` (C, n, n), how far the
     later smoothed mean lies from the predicted one (C, n), and the later smoothed covariance."""
-    carried = forward @ covariance
-    ahead = carried @ np.swapaxes(forward, -1, -2) + noise
-    gain = np.swapaxes(np.linalg.solve(ahead, carried), -1, -2)
+    across = forward @ covariance
+    ahead = across @ np.swapaxes(forward, -1, -2) + noise
+    gain = np.swapaxes(np.linalg.solve(ahead, across), -1, -2)
     smoothed = covariance + gain @ (later_covariance - ahead) @ np.swapaxes(gain, -1, -2)
     correction = (gain @ later_less_predicted[..., None])[..., 0]
     return correction, 0.5 * (smoothed + np.swapaxes(smoothed, -1, -2))

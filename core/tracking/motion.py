@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from carpus.core import so3
 from carpus.core.kernels.choice import NOTHING, in_c
-from carpus.core.tracking.kernel import Bank, Carrying, carried, switching
-from carpus.core.tracking.palm_state import MOVING, POSITION, RATE, SIZE, SKIN, SOFT, TURN, VELOCITY, PalmBelief
+from carpus.core.tracking.kernel import ModeMixture, Transition, switching, transitioned
+from carpus.core.tracking.palm_state import MOVING, POSITION, RATE, SIZE, SKIN, SOFT, TURN, VELOCITY, PalmEstimate
 from carpus.core.tracking.soft_tissue import HOME, NO_DIGITS, STILL, DigitSpeeds, TissueModes
 from carpus.core.types import FloatArray
 
@@ -38,18 +38,18 @@ class MotionNoise:
 
 
 @dataclass(frozen=True, slots=True)
-class PalmStep(Carrying):
+class PalmTransition(Transition):
     """A step of the palm, and the turn (3, 3) that the rate makes of it."""
 
     turned: FloatArray
 
-    def carries(self, belief: PalmBelief, dt_s: float, covariance: FloatArray | None = None) -> PalmBelief:
-        """The nominal belief after the step, its covariance left as it is, or the one given."""
-        value = belief.value.copy()
-        value[POSITION] += belief.velocity_m_s * dt_s
+    def carries(self, estimate: PalmEstimate, dt_s: float, covariance: FloatArray | None = None) -> PalmEstimate:
+        """The nominal estimate after the step, its covariance left as it is, or the one given."""
+        value = estimate.value.copy()
+        value[POSITION] += estimate.velocity_m_s * dt_s
         value[TURN] = 0.0
-        covariance = belief.covariance if covariance is None else covariance
-        return PalmBelief(belief.rotation_w2_w0 @ self.turned, value, covariance)
+        covariance = estimate.covariance if covariance is None else covariance
+        return PalmEstimate(estimate.rotation_w2_w0 @ self.turned, value, covariance)
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,16 +115,16 @@ class PalmMotion:
         pushed[STILL, skin, skin] *= tissue.creep
         pushed[HOME] = pushed[STILL]
         came_home = float(joint[:, HOME].sum() - joint[HOME, HOME])
-        return np.asarray(np.tensordot(joint.sum(axis=0), pushed, 1) + came_home * tissue.settled[-1])
+        return np.asarray(np.tensordot(joint.sum(axis=0), pushed, 1) + came_home * tissue.stationary[-1])
 
 
-def palm_step(
+def palm_transition(
     rate_rad_s: FloatArray,
     motion: PalmMotion,
     dt_s: float,
     unseen: FloatArray | None = None,
     digits: DigitSpeeds = NO_DIGITS,
-) -> PalmStep:
+) -> PalmTransition:
     """The step of ``dt_s`` of a palm that turns at ``rate_rad_s`` (3,) while its ``digits`` move; ``unseen`` (3, 3)
     projects on the turns in W2 that nothing showed."""
     noise, tissue, scales = motion.noise, motion.tissue, motion.scale_of
@@ -157,36 +157,38 @@ def palm_step(
         by_mode[:, TURN, RATE] += more * (turning * dt_s**2 / 2.0) * along
         by_mode[:, RATE, TURN] = by_mode[:, TURN, RATE].transpose(0, 2, 1)
         by_mode[:, RATE, RATE] += more * (turning * dt_s) * unseen
-    settling = tissue.pushed(soft)[motion.tissue_of]
-    return PalmStep(moving, by_mode, kept, settling, turned)
+    relaxing = tissue.pushed(soft)[motion.tissue_of]
+    return PalmTransition(moving, by_mode, kept, relaxing, turned)
 
 
 def palm_ahead(
-    belief: PalmBelief,
-    bank: Bank,
+    estimate: PalmEstimate,
+    mixture: ModeMixture,
     motion: PalmMotion,
     dt_s: float,
     unseen: FloatArray | None = None,
     digits: DigitSpeeds = NO_DIGITS,
-) -> tuple[PalmBelief, Bank]:
-    """The palm ``dt_s`` later, its modes as errors from the nominal belief, whose covariance is that of them all."""
+) -> tuple[PalmEstimate, ModeMixture]:
+    """The palm ``dt_s`` later, its modes as errors from the nominal estimate, whose covariance is that of them all."""
     if (kernels := in_c()) is not None:
-        noise, tissue, turning_rad_s = motion.noise, motion.tissue, float(np.linalg.norm(belief.rate_rad_s))
-        later = Bank(np.empty(bank.mean.shape), np.empty(bank.covariance.shape), np.empty(bank.probability.shape))
-        nominal = PalmBelief(np.empty((3, 3)), np.empty(SIZE), np.empty((SIZE, SIZE)))
+        noise, tissue, turning_rad_s = motion.noise, motion.tissue, float(np.linalg.norm(estimate.rate_rad_s))
+        later = ModeMixture(
+            np.empty(mixture.mean.shape), np.empty(mixture.covariance.shape), np.empty(mixture.probability.shape)
+        )
+        nominal = PalmEstimate(np.empty((3, 3)), np.empty(SIZE), np.empty((SIZE, SIZE)))
         kernels.palm_ahead(
             motion.modes, tissue.count, tissue.resting, motion.scales.size, dt_s, motion.scale_of, motion.tissue_of,
-            tissue.settled, tissue.switch(turning_rad_s, dt_s, digits), tissue.kept(dt_s, turning_rad_s, digits),
+            tissue.stationary, tissue.switch(turning_rad_s, dt_s, digits), tissue.kept(dt_s, turning_rad_s, digits),
             motion.dwell_s,
             noise.acceleration_m_s2**2 * REFERENCE_DT_S, noise.turn_acceleration_rad_s2**2 * REFERENCE_DT_S,
-            motion.unseen_scale, NOTHING if unseen is None else unseen, bank.mean, bank.covariance, bank.probability,
-            belief.value, belief.rotation_w2_w0, later.mean, later.covariance, later.probability,
-            nominal.value, nominal.rotation_w2_w0, nominal.covariance,
+            motion.unseen_scale, NOTHING if unseen is None else unseen, mixture.mean, mixture.covariance,
+            mixture.probability, estimate.value, estimate.rotation_w2_w0, later.mean, later.covariance,
+            later.probability, nominal.value, nominal.rotation_w2_w0, nominal.covariance,
         )  # fmt: skip
         return nominal, later
-    step = palm_step(belief.rate_rad_s, motion, dt_s, unseen, digits)
-    later = carried(bank, step, belief.value, motion.switch(belief.rate_rad_s, dt_s, digits))
-    return step.carries(belief, dt_s, later.merged()[1][0]), later
+    step = palm_transition(estimate.rate_rad_s, motion, dt_s, unseen, digits)
+    later = transitioned(mixture, step, estimate.value, motion.switch(estimate.rate_rad_s, dt_s, digits))
+    return step.carries(estimate, dt_s, later.merged()[1][0]), later
 
 
 def slowing(keep: float) -> FloatArray:

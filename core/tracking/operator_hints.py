@@ -19,7 +19,7 @@ from carpus.core.types import BoolArray, Detections, FloatArray
 
 
 @dataclass(frozen=True, slots=True)
-class SaidSettings:
+class HintSettings:
     """What becomes of what a person says of spots.
 
     A spot is followed from picture to picture no further than ``step_px``; so near as ``back_within_px`` to where it
@@ -42,7 +42,7 @@ class SaidSettings:
 class RecentSpots:
     """The spots of the last pictures: what was said of one, a moment ago, is found in the newest."""
 
-    def __init__(self, settings: SaidSettings) -> None:
+    def __init__(self, settings: HintSettings) -> None:
         self._step_px = settings.step_px
         self._pictures: deque[tuple[int, FloatArray]] = deque(maxlen=settings.kept_pictures)
 
@@ -69,7 +69,7 @@ class NoDisc:
     """A spot that a person said is not a marker, row ``marker`` of the protocol."""
 
     def __init__(
-        self, marker: int, place_px: FloatArray, beside_px: FloatArray, time_s: float, settings: SaidSettings
+        self, marker: int, place_px: FloatArray, beside_px: FloatArray, time_s: float, settings: HintSettings
     ) -> None:
         self.marker, self._settings = marker, settings
         self._place_px, self._beside_px, self._said_s = place_px, beside_px, time_s
@@ -125,7 +125,7 @@ class Hinted:
 class OperatorHints:
     """Remembers what a person said, and finds the spots again in every picture."""
 
-    def __init__(self, markers: Sequence[str], settings: SaidSettings) -> None:
+    def __init__(self, markers: Sequence[str], settings: HintSettings) -> None:
         self._markers, self._settings = markers, settings
         self._spots = RecentSpots(settings)
         self._answers: list[tuple[SpotAnswer, float]] = []

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.tracking import association
 from carpus.core.tracking.joint_association import JointAssociation, associate_jointly, is_jointly_compatible
-from carpus.core.tracking.kernel import Bank, corrected
+from carpus.core.tracking.kernel import ModeMixture, corrected
 from carpus.core.tracking.predicted_measurement import PredictedMeasurement
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
 from carpus.core.types import Detections, FloatArray
@@ -34,13 +34,13 @@ class Measurements:
 class UpdatedPalm:
     """All modes corrected by the blobs as named.
 
-    ``taken`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``measured`` (M, 3) whether each
+    ``assigned`` (M,) blob of every marker or -1; ``nis`` over all modes with ``dof``; ``measured`` (M, 3) whether each
     component was, and its ``residual`` (M, 3) in standard deviations, ``raw_residual`` (M, 3) before the worst were
     given more noise; both 0 where nothing was measured.
     """
 
-    bank: Bank
-    taken: NDArray[np.int64]
+    mixture: ModeMixture
+    assigned: NDArray[np.int64]
     nis: float
     dof: int
     measured: NDArray[np.bool_]
@@ -77,24 +77,28 @@ def measurements_of(
 def update(
     predicted: PredictedMeasurement,
     blobs: Measurements,
-    taken: NDArray[np.int64],
+    assigned: NDArray[np.int64],
     with_depth: NDArray[np.bool_],
     noise_factor: FloatArray,
 ) -> UpdatedPalm:
     """Every mode corrected by the named blobs; ``noise_factor`` (M, 3) multiplies the variances."""
-    used = np.empty((taken.size, 3), dtype=bool)
-    used[:] = (taken >= 0)[:, None]
+    used = np.empty((assigned.size, 3), dtype=bool)
+    used[:] = (assigned >= 0)[:, None]
     used[:, 2] &= with_depth
     if not used.any():
         nothing = np.zeros(used.shape)
-        return UpdatedPalm(predicted.bank, taken, float("nan"), 0, used, nothing, nothing)
-    value = np.where(used, blobs.value.take(taken, 0), np.nan)
-    variance = blobs.variance.take(taken, 0) * noise_factor
+        return UpdatedPalm(predicted.mixture, assigned, float("nan"), 0, used, nothing, nothing)
+    value = np.where(used, blobs.value.take(assigned, 0), np.nan)
+    variance = blobs.variance.take(assigned, 0) * noise_factor
     found = corrected(
-        predicted.bank, predicted.line, value.reshape(1, -1), variance.reshape(1, -1), shares=predicted.shares
+        predicted.mixture,
+        predicted.linearised,
+        value.reshape(1, -1),
+        variance.reshape(1, -1),
+        partial=predicted.partial,
     )
     residual = found.residual.reshape(used.shape)
-    return UpdatedPalm(found.bank, taken, float(found.nis[0]), int(found.dof[0]), used, residual, residual)
+    return UpdatedPalm(found.mixture, assigned, float(found.nis[0]), int(found.dof[0]), used, residual, residual)
 
 
 def associate_and_update(
@@ -105,10 +109,9 @@ def associate_and_update(
     noise_factor: FloatArray,
     settings: TrackerSettings,
 ) -> UpdatedPalm:
-    """Names by (12), each marker judged by itself; where the whole does not hold together, all jointly.
+    """Names by (12), each marker judged by itself; where these are not jointly compatible, all jointly.
 
-    Holding together: the joint NIS is credible, and ``enough`` markers are named unless no blob is left that could
-    be one.
+    Compatible: the joint NIS is credible, and ``enough`` markers are named unless no blob is left that could be one.
     """
     mean, covariance = predicted.mean, predicted.covariance
     markers = len(mean)
@@ -124,21 +127,21 @@ def associate_and_update(
         settings.noise.depth_outlier,
         settings.association,
     )
-    taken = association.resolve(odds.value)
-    with_depth = odds.with_depth[np.arange(markers), taken]
-    taken = _in_company(taken, with_depth, blobs, settings.association)
-    simple = update(predicted, blobs, taken, with_depth, noise_factor)
-    named = np.count_nonzero(taken >= 0)
+    assigned = association.resolve(odds.value)
+    with_depth = odds.with_depth[np.arange(markers), assigned]
+    assigned = _in_company(assigned, with_depth, blobs, settings.association)
+    simple = update(predicted, blobs, assigned, with_depth, noise_factor)
+    named = np.count_nonzero(assigned >= 0)
     if (named >= enough or named == len(blobs)) and is_jointly_compatible(simple.nis, simple.dof, settings.association):
         return _without_outliers(simple, predicted, blobs, with_depth, noise_factor, settings.noise)
     found = _by_any_mode(predicted, blobs, resolution_px2, settings)
-    taken = _in_company(found.taken, found.with_depth, blobs, settings.association)
-    jointly = update(predicted, blobs, taken, found.with_depth, noise_factor)
+    assigned = _in_company(found.assigned, found.with_depth, blobs, settings.association)
+    jointly = update(predicted, blobs, assigned, found.with_depth, noise_factor)
     return _without_outliers(jointly, predicted, blobs, found.with_depth, noise_factor, settings.noise)
 
 
 def _in_company(
-    taken: NDArray[np.int64],
+    assigned: NDArray[np.int64],
     with_depth: NDArray[np.bool_],
     blobs: Measurements,
     settings: association.AssociationSettings,
@@ -147,13 +150,13 @@ def _in_company(
 
     What covers the hand may have blue on it: alone, a blob before or behind a disc's place is not that disc.
     """
-    elsewhere = (taken >= 0) & ~with_depth
+    elsewhere = (assigned >= 0) & ~with_depth
     if not elsewhere.any():
-        return taken
-    elsewhere &= np.isfinite(blobs.value[taken, 2])
-    if not elsewhere.any() or np.count_nonzero((taken >= 0) & ~elsewhere) >= settings.least_company:
-        return taken
-    return np.where(elsewhere, -1, taken)
+        return assigned
+    elsewhere &= np.isfinite(blobs.value[assigned, 2])
+    if not elsewhere.any() or np.count_nonzero((assigned >= 0) & ~elsewhere) >= settings.least_company:
+        return assigned
+    return np.where(elsewhere, -1, assigned)
 
 
 def _by_any_mode(
@@ -175,7 +178,7 @@ def _by_any_mode(
         )
         for mean, covariance in zip(*predicted.by_mode(), strict=True)
     ]
-    score = [one.log_posterior for one in every] + np.log(predicted.bank.probability[0])
+    score = [one.log_posterior for one in every] + np.log(predicted.mixture.probability[0])
     return every[int(np.argmax(score))]
 
 
@@ -200,5 +203,5 @@ def _without_outliers(
         factor = factor.copy()
         factor[marker, 2:] *= size**2 if axis == 2 else 1.0
         factor[marker, :2] *= 1.0 if axis == 2 else size**2
-        named = replace(update(predicted, blobs, named.taken, with_depth, factor), raw_residual=named.raw_residual)
+        named = replace(update(predicted, blobs, named.assigned, with_depth, factor), raw_residual=named.raw_residual)
     return named

@@ -1,4 +1,4 @@
-"""Looking back at the palm, on the tangent space of the filter's state.
+"""Smoothing of the palm, on the tangent space of the filter's state.
 
 Which mode the hand was in at each step is told by what came after as well (Kim 1994); the step back is then one of all
 modes together. What the tissue has done stays in it: it is not taken to relax. Where tissue rests, its displacement and
@@ -13,8 +13,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from carpus.core.tracking.motion import PalmMotion, palm_step
-from carpus.core.tracking.palm_state import MOVING, SIZE, SOFT, TURN, PalmBelief
+from carpus.core.tracking.motion import PalmMotion, palm_transition
+from carpus.core.tracking.palm_state import MOVING, SIZE, SOFT, TURN, PalmEstimate
 from carpus.core.tracking.smoother import Passage, Smoother
 from carpus.core.tracking.soft_tissue import NO_DIGITS, DigitSpeeds
 from carpus.core.types import FloatArray
@@ -22,14 +22,14 @@ from carpus.core.types import FloatArray
 
 @dataclass(frozen=True, slots=True)
 class FilterStep:
-    """One step of the filter: the corrected belief (None when lost), how it was predicted, when.
+    """One step of the filter: the corrected estimate (None when lost), how it was predicted, when.
 
     ``probability`` (K,) of the modes after it; ``linked`` False where the track began anew; ``unseen`` (3, 3)
     turns that nothing had shown before the step; ``digits`` how fast the thumb and fingers moved after it.
     """
 
     timestamp_s: float
-    belief: PalmBelief | None
+    estimate: PalmEstimate | None
     probability: FloatArray
     linked: bool
     unseen: FloatArray | None = None
@@ -37,7 +37,7 @@ class FilterStep:
 
 
 @dataclass(frozen=True, slots=True)
-class PalmWalk:
+class PalmTrajectory:
     """The palm through the ``steps`` of its filter, moved as ``motion`` says."""
 
     steps: Sequence[FilterStep]
@@ -51,10 +51,10 @@ class PalmWalk:
         later: FloatArray | None = None
         for frame in range(len(self.steps) - 1, -1, -1):
             now, dt_s = self.steps[frame], self.seconds_on(frame)
-            if now.belief is None or later is None or dt_s is None:
+            if now.estimate is None or later is None or dt_s is None:
                 later = now.probability
                 continue
-            switch = self.motion.switch(now.belief.rate_rad_s, max(dt_s, 0.0), now.digits)
+            switch = self.motion.switch(now.estimate.rate_rad_s, max(dt_s, 0.0), now.digits)
             joint = now.probability[:, None] * switch
             joint *= later / np.maximum(joint.sum(axis=0), 1e-300)
             out[frame], later = joint, joint.sum(axis=1)
@@ -63,17 +63,17 @@ class PalmWalk:
     def __len__(self) -> int:
         return len(self.steps)
 
-    def filtered(self, frame: int) -> PalmBelief | None:
-        return self.steps[frame].belief
+    def filtered(self, frame: int) -> PalmEstimate | None:
+        return self.steps[frame].estimate
 
     def seconds_on(self, frame: int) -> float | None:
         after = self.steps[frame + 1] if frame + 1 < len(self.steps) else None
         return after.timestamp_s - self.steps[frame].timestamp_s if after is not None and after.linked else None
 
-    def passage(self, frame: int, now: PalmBelief, later: PalmBelief, dt_s: float) -> Passage:
+    def passage(self, frame: int, now: PalmEstimate, later: PalmEstimate, dt_s: float) -> Passage:
         after = self.steps[frame + 1]
         digits = self.steps[frame].digits
-        step = palm_step(now.rate_rad_s, self.motion, dt_s, after.unseen, digits)
+        step = palm_transition(now.rate_rad_s, self.motion, dt_s, after.unseen, digits)
         joint = self.went_over[frame]
         assert joint is not None
         forward, noise = np.eye(SIZE), np.zeros((SIZE, SIZE))
@@ -83,18 +83,20 @@ class PalmWalk:
         apart = step.carries(now, dt_s).error_to(later)
         return Passage(now.covariance[None], forward[None], noise[None], apart[None], later.covariance[None])
 
-    def moved(self, now: PalmBelief, correction: FloatArray, covariance: FloatArray) -> PalmBelief:
+    def moved(self, now: PalmEstimate, correction: FloatArray, covariance: FloatArray) -> PalmEstimate:
         return now.moved(correction[0], covariance[0])
 
 
-def smoothed_palm(steps: Sequence[FilterStep], motion: PalmMotion) -> list[PalmBelief | None]:
-    """Smoothed belief of every step; None where the hand was lost."""
-    smoothed = [belief for _, belief in Smoother(PalmWalk(steps, motion)).backwards()][::-1]
-    return [_stated(step.belief, belief, motion.tissue.widens) for step, belief in zip(steps, smoothed, strict=True)]
+def smoothed_palm(steps: Sequence[FilterStep], motion: PalmMotion) -> list[PalmEstimate | None]:
+    """Smoothed estimate of every step; None where the hand was lost."""
+    smoothed = [estimate for _, estimate in Smoother(PalmTrajectory(steps, motion)).backwards()][::-1]
+    return [
+        _stated(step.estimate, estimate, motion.tissue.widens) for step, estimate in zip(steps, smoothed, strict=True)
+    ]
 
 
-def _stated(live: PalmBelief | None, smoothed: PalmBelief | None, widens: float) -> PalmBelief | None:
-    """The smoothed belief ``widens`` times as unsure, as long as its turn stays surer than the live one's."""
+def _stated(live: PalmEstimate | None, smoothed: PalmEstimate | None, widens: float) -> PalmEstimate | None:
+    """The smoothed estimate ``widens`` times as unsure, as long as its turn stays surer than the live one's."""
     if live is None or smoothed is None or smoothed is live:
         return smoothed
     gained = float(np.trace(live.covariance[TURN, TURN]) / np.trace(smoothed.covariance[TURN, TURN]))

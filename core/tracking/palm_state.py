@@ -34,7 +34,7 @@ POSE = np.r_[POSITION, TURN]
 
 
 @dataclass(frozen=True, slots=True)
-class PalmBelief:
+class PalmEstimate:
     """Gaussian over the palm's state: ``rotation_w2_w0`` (3, 3), all other numbers as ``value`` (n,), zero where the
     turn would stand, and the ``covariance`` (n, n) of the error vector."""
 
@@ -68,12 +68,12 @@ class PalmBelief:
         return self.value[SKIN].reshape(PALM_DISCS, 3)
 
     def moved(self, error: FloatArray, covariance: FloatArray) -> Self:
-        """The belief with its mean moved by an error vector (n,) and another covariance."""
+        """The estimate with its mean moved by an error vector (n,) and another covariance."""
         value = self.value + error
         value[TURN] = 0.0
         return type(self)(self.rotation_w2_w0 @ so3.exp(error[TURN]), value, covariance)
 
-    def error_to(self, other: PalmBelief) -> FloatArray:
+    def error_to(self, other: PalmEstimate) -> FloatArray:
         """Error vector (n,) that moves this mean to the other's; inverse of :meth:`moved`."""
         error = other.value - self.value
         error[TURN] = so3.log(self.rotation_w2_w0.T @ other.rotation_w2_w0)
@@ -95,7 +95,7 @@ class InitialSd:
     joint_rates_rad_s: float = 0.3
 
 
-def resting_belief(sd: InitialSd, learnt_covariance: FloatArray) -> PalmBelief:
+def resting_estimate(sd: InitialSd, learnt_covariance: FloatArray) -> PalmEstimate:
     """A hand at rest at the neutral pose, its discs where they were calibrated: by definition none has moved yet.
 
     ``learnt_covariance`` (21, 21) of the calibration's error.
@@ -111,4 +111,4 @@ def resting_belief(sd: InitialSd, learnt_covariance: FloatArray) -> PalmBelief:
     covariance[LEARNT, LEARNT] = learnt_covariance
     covariance[SKIN, SKIN] = _HARDLY_M**2 * np.eye(SKIN.stop - SKIN.start)
     covariance[RELIEF, RELIEF] = _HARDLY_M**2 * np.eye(3)
-    return PalmBelief(np.eye(3), np.zeros(SIZE), covariance)
+    return PalmEstimate(np.eye(3), np.zeros(SIZE), covariance)

@@ -1,7 +1,7 @@
-"""What the camera should see of the palm's discs, as a line through sigma points.
+"""What the camera should see of the palm's discs: h linearised statistically, through sigma points.
 
 Measured for a marker are its pixel u, v (eq. (2), (3) of the wrist paper) and the depth z of its disc along the
-camera's axis, as in the initialisation (13). The pose bends the pictures, so the line is drawn through sigma points of
+camera's axis, as in the initialisation (13). The pose bends the pictures, so h is linearised through sigma points of
 the pose (10), (11); in the discs' places it is all but straight, and its slope is the derivative.
 """
 
@@ -15,7 +15,7 @@ from scipy.linalg.lapack import dtrtrs
 from carpus.core import so3
 from carpus.core.camera import Camera
 from carpus.core.kernels.choice import in_c
-from carpus.core.tracking.kernel import Bank, Line
+from carpus.core.tracking.kernel import Linearisation, ModeMixture
 from carpus.core.tracking.palm_state import (
     PALM_DISCS,
     POSE,
@@ -23,7 +23,7 @@ from carpus.core.tracking.palm_state import (
     SIZE,
     SKIN,
     TURN,
-    PalmBelief,
+    PalmEstimate,
 )
 from carpus.core.tracking.unscented import Spread, make_roots, weights_for
 from carpus.core.types import FloatArray
@@ -59,10 +59,10 @@ class View:
         image = (camera @ self.rotation_w0_cam).T.copy(), camera @ self.translation_w0_cam_m
         object.__setattr__(self, "_w0_image", image)
 
-    def discs_cam_m(self, belief: PalmBelief) -> FloatArray:
+    def discs_cam_m(self, estimate: PalmEstimate) -> FloatArray:
         """Disc centres (6, 3) in camera axes, where the skin has carried them."""
-        place = self.palm_m + belief.shape_m + belief.skin_m
-        in_w0 = place @ belief.rotation_w2_w0.T + belief.position_m
+        place = self.palm_m + estimate.shape_m + estimate.skin_m
+        in_w0 = place @ estimate.rotation_w2_w0.T + estimate.position_m
         return np.asarray(in_w0 @ self.rotation_w0_cam.T + self.translation_w0_cam_m)
 
     def observe(self, position_m: FloatArray, rotation_w2_w0: FloatArray, place_m: FloatArray) -> FloatArray:
@@ -75,40 +75,40 @@ class View:
         return out
 
 
-def sight(belief: PalmBelief, view: View, spread: Spread) -> Line:
-    """The line of a belief about the palm: ``value`` (1, 18), ``slope`` (1, 18, n) about the belief's own mean."""
+def palm_linearised(estimate: PalmEstimate, view: View, spread: Spread) -> Linearisation:
+    """H linearised about an estimate of the palm: ``value`` (1, 18), ``slope`` (1, 18, n) about its own mean."""
     weights = weights_for(POSE.size, spread)
     if (kernels := in_c()) is not None:
-        line = Line(
+        linearised = Linearisation(
             np.empty((1, _COMPONENTS)),
             np.empty((1, _COMPONENTS, SIZE)),
             np.empty((1, _COMPONENTS, _COMPONENTS)),
             _ABOUT,
         )
         camera = view.camera
-        kernels.palm_line(
-            belief.value, belief.covariance, belief.rotation_w2_w0, view.palm_m, view.hidden, *view._w0_image,
+        kernels.palm_linearised(
+            estimate.value, estimate.covariance, estimate.rotation_w2_w0, view.palm_m, view.hidden, *view._w0_image,
             view.rotation_w0_cam, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, _FLOOR, *weights.numbers,
-            line.value, line.slope, line.error,
+            linearised.value, linearised.slope, linearised.error,
         )  # fmt: skip
-        return line
-    root = belief.covariance[POSE[:, None], POSE]
+        return linearised
+    root = estimate.covariance[POSE[:, None], POSE]
     root.reshape(-1)[:: POSE.size + 1] += _FLOOR
     make_roots(root[None])
     count = POSE.size
     offset = np.zeros((2 * count + 1, count))
     offset[1 : count + 1], offset[count + 1 :] = weights.scale * root.T, -weights.scale * root.T
-    place = view.palm_m + belief.shape_m + belief.skin_m
+    place = view.palm_m + estimate.shape_m + estimate.skin_m
     turned = np.empty((2 * count + 1, 3, 3))
     turned[0] = np.eye(3)
     turned[1 : count + 1] = so3.exp(offset[1 : count + 1, 3:])
     turned[count + 1 :] = turned[1 : count + 1].swapaxes(1, 2)
-    image = view.observe(belief.position_m + offset[:, :3], belief.rotation_w2_w0 @ turned, place)
+    image = view.observe(estimate.position_m + offset[:, :3], estimate.rotation_w2_w0 @ turned, place)
     centre = image[0]
     flat = image.reshape(len(image), _COMPONENTS)
     value = weights.mean @ flat
     half = (flat[1 : count + 1] - flat[count + 1 :]) * (0.5 / weights.scale)
-    # The even part of the spread is what no line can follow.
+    # The even part of the spread is what nothing linear can follow.
     bend = 0.5 * (flat[1 : count + 1] + flat[count + 1 :]) - value
     error = (2.0 * weights.covariance[1]) * (bend.T @ bend)
     middle = flat[0] - value
@@ -116,11 +116,11 @@ def sight(belief: PalmBelief, view: View, spread: Spread) -> Line:
     slope = np.zeros((_COMPONENTS, SIZE))
     slope[:, POSE] = dtrtrs(root.T, half)[0].T
     slope[_OF_DISC, _BY_SHAPE] = slope[_OF_DISC, _BY_SKIN] = _by_camera_place(view.camera, centre) @ (
-        view.rotation_w0_cam @ belief.rotation_w2_w0
+        view.rotation_w0_cam @ estimate.rotation_w2_w0
     )
     slope[2::3, SHAPE] -= view.hidden
-    value[2::3] -= view.hidden @ belief.value[SHAPE]
-    return Line(value[None], slope[None], error[None], _ABOUT)
+    value[2::3] -= view.hidden @ estimate.value[SHAPE]
+    return Linearisation(value[None], slope[None], error[None], _ABOUT)
 
 
 def _by_camera_place(camera: Camera, image: FloatArray) -> FloatArray:
@@ -134,22 +134,22 @@ def _by_camera_place(camera: Camera, image: FloatArray) -> FloatArray:
     return out
 
 
-def recentred(nominal: PalmBelief, bank: Bank) -> tuple[PalmBelief, Bank]:
-    """The nominal belief moved to the bank's mean and given its covariance; the bank as errors from there."""
+def error_reset(nominal: PalmEstimate, mixture: ModeMixture) -> tuple[PalmEstimate, ModeMixture]:
+    """The nominal estimate moved to the mixture's mean and given its covariance; the mixture as errors from there."""
     if (kernels := in_c()) is not None:
         error, covariance, value, rotation = (
-            np.empty(bank.mean.shape),
+            np.empty(mixture.mean.shape),
             np.empty((SIZE, SIZE)),
             np.empty(SIZE),
             np.empty((3, 3)),
         )
-        kernels.recentred(
-            bank.mean.shape[1], bank.mean, bank.covariance, bank.probability, nominal.value, nominal.rotation_w2_w0,
-            error, covariance, value, rotation,
+        kernels.error_reset(
+            mixture.mean.shape[1], mixture.mean, mixture.covariance, mixture.probability, nominal.value,
+            nominal.rotation_w2_w0, error, covariance, value, rotation,
         )  # fmt: skip
-        return PalmBelief(rotation, value, covariance), Bank(error, bank.covariance, bank.probability)
-    mean, covariance = bank.merged()
-    apart = bank.mean - mean[:, None]
+        return PalmEstimate(rotation, value, covariance), ModeMixture(error, mixture.covariance, mixture.probability)
+    mean, covariance = mixture.merged()
+    apart = mixture.mean - mean[:, None]
     # The turns are measured from another rotation now: log(Exp(-m) Exp(e)) to second order.
-    apart[..., TURN] += 0.5 * (bank.mean[..., TURN] @ so3.skew(mean[0, TURN]))
-    return nominal.moved(mean[0], covariance[0]), Bank(apart, bank.covariance, bank.probability)
+    apart[..., TURN] += 0.5 * (mixture.mean[..., TURN] @ so3.skew(mean[0, TURN]))
+    return nominal.moved(mean[0], covariance[0]), ModeMixture(apart, mixture.covariance, mixture.probability)

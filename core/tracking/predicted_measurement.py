@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.kernels.choice import in_c
-from carpus.core.tracking.finger_model import ray_view
-from carpus.core.tracking.hand_geometry import DISCS, RAYS, PalmInBody
-from carpus.core.tracking.kernel import Bank, Line
-from carpus.core.tracking.palm_state import PALM_DISCS, PalmBelief
-from carpus.core.tracking.palm_view import View, sight
-from carpus.core.tracking.ray_filter import RayPoints
+from carpus.core.tracking.digit_filter import DigitPoints
+from carpus.core.tracking.finger_model import digit_view
+from carpus.core.tracking.hand_geometry import CHAINS, DISCS, PalmInBody
+from carpus.core.tracking.kernel import Linearisation, ModeMixture
+from carpus.core.tracking.palm_state import PALM_DISCS, PalmEstimate
+from carpus.core.tracking.palm_view import View, palm_linearised
 from carpus.core.tracking.unscented import Spread, weights_for
 from carpus.core.types import FloatArray
 
@@ -39,14 +39,14 @@ class MarkerOrder:
     def __post_init__(self) -> None:
         source = np.empty(self.palm.size + self.digits.size, dtype=np.int64)
         source[self.palm] = np.arange(self.palm.size)
-        source[self.digits] = self.palm.size + np.arange(RAYS * DISCS).reshape(RAYS, DISCS)[self.has_discs]
+        source[self.digits] = self.palm.size + np.arange(CHAINS * DISCS).reshape(CHAINS, DISCS)[self.has_discs]
         object.__setattr__(self, "_source", source)
 
     def by_marker(self, palm: NDArray[Any], digits: NDArray[Any] | None) -> NDArray[Any]:
         """Rows (M, ...) of the protocol from those of the palm (6, ...) and of the digits' discs (5, 3, ...)."""
         if digits is None:
             return palm
-        every = digits.reshape(RAYS * DISCS, *palm.shape[1:])
+        every = digits.reshape(CHAINS * DISCS, *palm.shape[1:])
         return np.asarray(np.concatenate((palm, every)).take(self._source, 0))
 
 
@@ -54,13 +54,13 @@ class MarkerOrder:
 class PredictedDigits:
     """Thumb and fingers as predicted, and sigma points of them on the ``palm`` as it was known last."""
 
-    beliefs: Bank
-    points: RayPoints
+    estimates: ModeMixture
+    points: DigitPoints
     palm: PalmInBody
 
-    def image(self, belief: PalmBelief, view: View, spread: Spread) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def image(self, estimate: PalmEstimate, view: View, spread: Spread) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
-        image = ray_view(belief, view, self.palm).observe(self.points.disc_m)
+        image = digit_view(estimate, view, self.palm).observe(self.points.disc_m)
         count = self.points.unroot.shape[-1]
         half = image[:, 1 : count + 1, :, :2] - image[:, count + 1 :, :, :2]
         by_disc = half.transpose(0, 2, 3, 1) * (0.5 / weights_for(count, spread).scale)
@@ -71,34 +71,34 @@ class PredictedDigits:
 class PredictedMeasurement:
     """The palm's state predicted, all modes as errors from ``nominal``, and what the camera should see of the hand.
 
-    ``bank`` (1, K, n), ``line`` of the measurement; of each of the palm's discs ``mean`` (6, 3) and ``covariance``
-    (6, 3, 3) of its own u, v and z over all modes. ``shares`` of an update that the numbers take; ``digits`` where
+    ``mixture`` (1, K, n), ``linearised`` h; of each of the palm's discs ``mean`` (6, 3) and ``covariance``
+    (6, 3, 3) of its own u, v and z over all modes. the ``partial`` update that the numbers take; ``digits`` where
     there are any. As properties, for the search of the picture, all markers in the protocol's ``order``.
     """
 
-    nominal: PalmBelief
-    bank: Bank
-    line: Line
+    nominal: PalmEstimate
+    mixture: ModeMixture
+    linearised: Linearisation
     mean: FloatArray
     covariance: FloatArray
     view: View
     spread: Spread
-    shares: tuple[FloatArray, FloatArray] | None = None
+    partial: tuple[FloatArray, FloatArray] | None = None
     digits: PredictedDigits | None = None
     order: MarkerOrder | None = None
 
-    def about(self, nominal: PalmBelief, bank: Bank, view: View | None = None) -> PredictedMeasurement:
+    def about(self, nominal: PalmEstimate, mixture: ModeMixture, view: View | None = None) -> PredictedMeasurement:
         """The same moment, should the palm be there."""
         view = self.view if view is None else view
-        return predicted_measurement(nominal, bank, view, self.spread, self.shares, self.digits, self.order)
+        return predicted_measurement(nominal, mixture, view, self.spread, self.partial, self.digits, self.order)
 
     def by_mode(self) -> tuple[FloatArray, FloatArray]:
         """Of all the palm's discs together, without the measurement noise, in every mode: mean (K, 18) as in (10) and
         covariance (K, 18, 18) as in (11)."""
-        slope = self.line.slope[0]
-        return self.line.value + self.bank.mean[0] @ slope.T, slope @ self.bank.covariance[
+        slope = self.linearised.slope[0]
+        return self.linearised.value + self.mixture.mean[0] @ slope.T, slope @ self.mixture.covariance[
             0
-        ] @ slope.T + self.line.error
+        ] @ slope.T + self.linearised.error
 
     @cached_property
     def _digit_image(self) -> tuple[FloatArray, FloatArray, FloatArray] | None:
@@ -140,27 +140,27 @@ class PredictedMeasurement:
 
 
 def predicted_measurement(
-    nominal: PalmBelief,
-    bank: Bank,
+    nominal: PalmEstimate,
+    mixture: ModeMixture,
     view: View,
     spread: Spread,
-    shares: tuple[FloatArray, FloatArray] | None = None,
+    partial: tuple[FloatArray, FloatArray] | None = None,
     digits: PredictedDigits | None = None,
     order: MarkerOrder | None = None,
 ) -> PredictedMeasurement:
-    """What to expect of a bank of errors about ``nominal``, whose covariance is that of the whole bank."""
-    line = sight(nominal, view, spread)
+    """What to expect of a mixture of errors about ``nominal``, whose covariance is that of the whole mixture."""
+    linearised = palm_linearised(nominal, view, spread)
     if (kernels := in_c()) is not None:
         mean, own = np.empty((PALM_DISCS, 3)), np.empty((PALM_DISCS, 3, 3))
         kernels.palm_expected(
-            bank.mean.shape[1], nominal.covariance, bank.mean, bank.probability, line.value, line.slope, line.error,
-            mean, own,
+            mixture.mean.shape[1], nominal.covariance, mixture.mean, mixture.probability, linearised.value,
+            linearised.slope, linearised.error, mean, own,
         )  # fmt: skip
-        return PredictedMeasurement(nominal, bank, line, mean, own, view, spread, shares, digits, order)
-    slope = line.slope[0]
-    mean = (line.value[0] + slope @ (bank.probability[0] @ bank.mean[0])).reshape(PALM_DISCS, 3)
-    # A line: what it makes of the whole bank's covariance is that of what it makes of the modes.
+        return PredictedMeasurement(nominal, mixture, linearised, mean, own, view, spread, partial, digits, order)
+    slope = linearised.slope[0]
+    mean = (linearised.value[0] + slope @ (mixture.probability[0] @ mixture.mean[0])).reshape(PALM_DISCS, 3)
+    # Linear: what it makes of the whole mixture's covariance is that of what it makes of the modes.
     whole = slope @ nominal.covariance @ slope.T
-    whole += line.error[0]
+    whole += linearised.error[0]
     own = whole.reshape(PALM_DISCS, 3, PALM_DISCS, 3)[_DISC, :, _DISC, :]
-    return PredictedMeasurement(nominal, bank, line, mean, own, view, spread, shares, digits, order)
+    return PredictedMeasurement(nominal, mixture, linearised, mean, own, view, spread, partial, digits, order)

@@ -302,7 +302,7 @@ def _best(
         return None
     best, misfit = _best_first(fits, model, seen, strays, about, settings)
     if best.count[0] == settings.least:
-        every = _every_naming(model, seen.point_m, best.named[0, best.named[0] >= 0], settings, reach)
+        every = _every_assignment(model, seen.point_m, best.named[0, best.named[0] >= 0], settings, reach)
         both = best.only(np.arange(1)).and_more(_believable(every, blobs, settings))
         best, misfit = _best_first(both, model, seen, strays, about, settings)
     beyond = _turned_beyond(best, about)
@@ -338,7 +338,7 @@ def _turned_beyond(fits: _Fits, about: Facing) -> NDArray[np.bool_]:
     return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)) > about.most_rad)
 
 
-def _every_naming(
+def _every_assignment(
     model: FloatArray,
     points: FloatArray,
     four: NDArray[np.int64],

@@ -1,4 +1,4 @@
-"""From the filter's belief to what people read: wrist frame, clinical angles, standard deviations.
+"""From the filter's estimate to what people read: wrist frame, clinical angles, standard deviations.
 
 The filter tracks the discs as a body whose axes are those of W0 as calibrated. While the palm's shape is
 refined, the true axes of W follow from the better known discs; the readout turns the result into them.
@@ -19,7 +19,7 @@ from carpus.core.hand import clinical_angles
 from carpus.core.hand.wrist_frame import wrist_axes_sensitivity
 from carpus.core.kernels.choice import NOTHING, in_c
 from carpus.core.tracking.hand_geometry import NO_CUP, JointMoment, PalmInBody
-from carpus.core.tracking.palm_state import SHAPE, SIZE, SKIN, TURN, PalmBelief
+from carpus.core.tracking.palm_state import SHAPE, SIZE, SKIN, TURN, PalmEstimate
 from carpus.core.tracking.soft_tissue import LOOSE
 from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
@@ -45,7 +45,7 @@ class ReadoutSettings:
 
 
 class Readout:
-    """Reads beliefs of one calibrated palm; remembers only the axes of the last shape."""
+    """Reads estimates of one calibrated palm; remembers only the axes of the last shape."""
 
     def __init__(
         self, calibration: Calibration, settings: ReadoutSettings, camera: Camera, disc_radius_m: float
@@ -72,52 +72,52 @@ class Readout:
             return self._axes, self._sensitivity
         return self._axes @ so3.exp(self._sensitivity @ moved_m), self._sensitivity
 
-    def palm(self, belief: PalmBelief) -> tuple[PalmInBody, FloatArray]:
+    def palm(self, estimate: PalmEstimate) -> tuple[PalmInBody, FloatArray]:
         """The palm as refined, for the fingers, and the covariance (3, 3) of its axes' turn, in the body."""
-        axes, sensitivity = self._axes_of(belief.value[SHAPE])
+        axes, sensitivity = self._axes_of(estimate.value[SHAPE])
         error = np.zeros((3, SIZE))
         error[_AXES, TURN.start + _AXES] = 1.0
         error[:, SHAPE] = axes @ sensitivity
-        disc_m = self._disc_m + belief.shape_m
+        disc_m = self._disc_m + estimate.shape_m
         # Ring and little metacarpal flex and take their fingers along; what else a disc moves is skin.
-        disc_m[LOOSE, 1:] += belief.skin_m[LOOSE, 1:]
+        disc_m[LOOSE, 1:] += estimate.skin_m[LOOSE, 1:]
         cup, cup_sd = NO_CUP.copy(), NO_CUP.copy()
-        cup[-2:] = -belief.skin_m[LOOSE, 2] / self._settings.metacarpal_m
+        cup[-2:] = -estimate.skin_m[LOOSE, 2] / self._settings.metacarpal_m
         down = SKIN.start + 3 * LOOSE + 2
-        cup_sd[-2:] = np.sqrt(belief.covariance[down, down]) / self._settings.metacarpal_m
+        cup_sd[-2:] = np.sqrt(estimate.covariance[down, down]) / self._settings.metacarpal_m
         palm = PalmInBody.of(disc_m, axes, self._side, cup, cup_sd)
-        return palm, error @ belief.covariance @ error.T
+        return palm, error @ estimate.covariance @ error.T
 
-    def moment(self, belief: PalmBelief) -> Moment:
-        """Wrist pose, rates, angles and their standard deviations of a single belief.
+    def moment(self, estimate: PalmEstimate) -> Moment:
+        """Wrist pose, rates, angles and their standard deviations of a single estimate.
 
         The origin of W2 is the WRIST disc where the skin has carried it; the axes are those of the fixed unit.
         """
-        axes, sensitivity = self._axes_of(belief.value[SHAPE])
+        axes, sensitivity = self._axes_of(estimate.value[SHAPE])
         if (kernels := in_c()) is not None:
             position, rate, angles, sd, zyz = np.empty((5, 3))
             shown = np.empty((3, 3))
             kernels.wrist_read(
-                axes, sensitivity, self._disc_m[0], belief.value, belief.rotation_w2_w0, belief.covariance,
+                axes, sensitivity, self._disc_m[0], estimate.value, estimate.rotation_w2_w0, estimate.covariance,
                 self._start if self._has_start else NOTHING,
-                self._tilt_covariance(belief) if self._has_stays else NOTHING,
+                self._tilt_covariance(estimate) if self._has_stays else NOTHING,
                 clinical_angles.side_sign(self._side), clinical_angles.ZYZ_UNDEFINED_BELOW_RAD,
                 position, shown, rate, angles, sd, zyz,
             )  # fmt: skip
             w0_turn = so3.log(axes @ self._start.T)
             return Moment(
-                position, belief.velocity_m_s, w0_turn, shown, rate, angles, sd, zyz, _NONE, _NONE, _NONE, _NOWHERE
+                position, estimate.velocity_m_s, w0_turn, shown, rate, angles, sd, zyz, _NONE, _NONE, _NONE, _NOWHERE
             )
-        place = self._disc_m[0] + belief.shape_m[0] + belief.skin_m[0]
-        position = belief.position_m + belief.rotation_w2_w0 @ place
-        rotation = axes.T @ belief.rotation_w2_w0 @ axes
+        place = self._disc_m[0] + estimate.shape_m[0] + estimate.skin_m[0]
+        position = estimate.position_m + estimate.rotation_w2_w0 @ place
+        rotation = axes.T @ estimate.rotation_w2_w0 @ axes
         error = np.zeros((3, SHAPE.stop - TURN.start))
         error[:, :3] = axes.T
         # The turn of the axes enters before and after: R' = Exp(-a) R Exp(a).
         error[:, SHAPE.start - TURN.start :] = (_IDENTITY - rotation.T) @ sensitivity
-        turn_covariance = error @ belief.covariance[_READ, _READ] @ error.T
+        turn_covariance = error @ estimate.covariance[_READ, _READ] @ error.T
         if self._has_stays:
-            turn_covariance = turn_covariance + axes.T @ self._tilt_covariance(belief) @ axes
+            turn_covariance = turn_covariance + axes.T @ self._tilt_covariance(estimate) @ axes
         shown = self._start @ rotation if self._has_start else rotation
         angles, by_turn, zyz = clinical_angles.read_one(shown, self._side)
         variance = np.vecdot(by_turn @ turn_covariance, by_turn)
@@ -125,10 +125,10 @@ class Readout:
         # axes as they are known by now, and what lies between the two goes with them.
         return Moment(
             position,
-            belief.velocity_m_s,
+            estimate.velocity_m_s,
             so3.log(axes @ self._start.T),
             shown,
-            axes.T @ belief.rate_rad_s,
+            axes.T @ estimate.rate_rad_s,
             angles,
             np.sqrt(np.maximum(variance, 0.0)),
             zyz,
@@ -138,12 +138,12 @@ class Readout:
             _NOWHERE,
         )
 
-    def _tilt_covariance(self, belief: PalmBelief) -> FloatArray:
+    def _tilt_covariance(self, estimate: PalmEstimate) -> FloatArray:
         """Covariance (3, 3) of the palm's turn, in the body, by the error of its discs' depths that stays: they tell
         how it is tilted to the camera, by their distances from the middle; pixels tell the rest."""
         calibration = self._calibration
-        disc_w0_m = belief.position_m + (self._disc_m + belief.shape_m) @ belief.rotation_w2_w0.T
-        turned = calibration.rotation_w0_cam @ belief.rotation_w2_w0
+        disc_w0_m = estimate.position_m + (self._disc_m + estimate.shape_m) @ estimate.rotation_w2_w0.T
+        turned = calibration.rotation_w0_cam @ estimate.rotation_w2_w0
         disc_cam_m = disc_w0_m @ calibration.rotation_w0_cam.T + calibration.translation_w0_cam_m
         middle = disc_cam_m.mean(axis=0)
         arm_m = np.cross((disc_cam_m - middle) @ turned, (middle / np.linalg.norm(middle)) @ turned)
@@ -152,11 +152,11 @@ class Readout:
         sd_m = self._sensor.disc_stays_sd_m(depth_m, np.pi * (self._disc_px_m / depth_m) ** 2)
         return np.asarray((solved * sd_m**2) @ solved.T)
 
-    def with_joints(self, moment: Moment, joints: JointMoment, belief: PalmBelief) -> Moment:
-        """The moment of a belief with what is known of the fingers, whose bones stand on the fixed unit, not on the
+    def with_joints(self, moment: Moment, joints: JointMoment, estimate: PalmEstimate) -> Moment:
+        """The moment of an estimate with what is known of the fingers, whose bones stand on the fixed unit, not on the
         skin."""
         rotation = so3.exp(moment.w0_turn_rad) @ moment.rotation_w2_w0
-        origin_m = moment.position_m - belief.rotation_w2_w0 @ belief.skin_m[0]
+        origin_m = moment.position_m - estimate.rotation_w2_w0 @ estimate.skin_m[0]
         return replace(
             moment,
             joint_angles_rad=joints.angles_rad,

@@ -10,7 +10,7 @@ from carpus.core.tracking.association import AssociationSettings
 from carpus.core.tracking.consistency import ConsistencySettings
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.motion import MotionNoise
-from carpus.core.tracking.operator_hints import SaidSettings
+from carpus.core.tracking.operator_hints import HintSettings
 from carpus.core.tracking.palm_state import InitialSd
 from carpus.core.tracking.reacquire import FindingSettings
 from carpus.core.tracking.readout import ReadoutSettings
@@ -115,7 +115,7 @@ class TrackerSettings:
     doubt: ConsistencySettings = field(default_factory=ConsistencySettings)
     holding: HoldingSettings = field(default_factory=HoldingSettings)
     finding: FindingSettings = field(default_factory=FindingSettings)
-    said: SaidSettings = field(default_factory=SaidSettings)
+    said: HintSettings = field(default_factory=HintSettings)
     readout: ReadoutSettings = field(default_factory=ReadoutSettings)
     marker_radius_m: float = 0.006
     lost_after_s: float = 1.5

@@ -15,7 +15,7 @@ import numpy as np
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.depth_sensor import DepthSensor
-from carpus.core.tracking.kernel import learning_shares
+from carpus.core.tracking.kernel import partial_update
 from carpus.core.tracking.palm_state import LEARNT, SIZE
 from carpus.core.tracking.settings import MeasurementNoise
 from carpus.core.types import FloatArray
@@ -57,9 +57,9 @@ def fresh_share(before_m: FloatArray, after_m: FloatArray, camera: Camera) -> fl
     return 1.0 - math.exp(-2.0 * windows - along_m / float(camera.sensor.reading_sd_m(np.array(depth_m))))
 
 
-def shape_shares(news: float) -> tuple[FloatArray, FloatArray]:
+def shape_partial_update(news: float) -> tuple[FloatArray, FloatArray]:
     """Shares of a correction that mean and covariance take, what is learnt only ``news`` (0 to 1) of what is told."""
-    return learning_shares(SIZE, LEARNT, 1.0 - math.sqrt(1.0 - news))
+    return partial_update(SIZE, LEARNT, 1.0 - math.sqrt(1.0 - news))
 
 
 def shape_covariance(calibration: Calibration, sensor: DepthSensor, noise: MeasurementNoise) -> FloatArray:

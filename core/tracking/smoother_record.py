@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from carpus.core.tracking.finger_model import FingerModel, seat_of
-from carpus.core.tracking.finger_smoother import FingersLookedBack, FingerStart, FingerStep, smoothed_fingers
+from carpus.core.tracking.finger_smoother import FingerStart, FingerStep, SmoothedFingers, smoothed_fingers
 from carpus.core.tracking.motion import PalmMotion
 from carpus.core.tracking.palm_smoother import FilterStep, smoothed_palm
 from carpus.core.tracking.palm_view import View
@@ -43,7 +43,7 @@ class SmootherRecord:
         self._hand = hand
         self.history: list[FilterStep] = []
         self.finger_history: list[FingerStep | None] = []
-        self.looked_back: FingersLookedBack | None = None
+        self.smoothed_digits: SmoothedFingers | None = None
         self._finger_start: FingerStart | None = None
 
     def append(self, step: FilterStep, fingers: FingerStep | None) -> None:
@@ -54,24 +54,24 @@ class SmootherRecord:
     def smoothed(self) -> list[Moment]:
         """Every frame so far in the light of all the others. Tracking may go on meanwhile."""
         hand, readout = self._hand, self._hand.readout()
-        beliefs = smoothed_palm(list(self.history), hand.motion)
-        moments = [hand.lost if belief is None else readout.moment(belief) for belief in beliefs]
+        estimates = smoothed_palm(list(self.history), hand.motion)
+        moments = [hand.lost if estimate is None else readout.moment(estimate) for estimate in estimates]
         if hand.fingers is None:
             return moments
-        seats = [None if belief is None else seat_of(belief, hand.view, readout) for belief in beliefs]
-        self.looked_back = smoothed_fingers(
-            hand.fingers, self.finger_history[: len(beliefs)], seats, self._finger_start
+        seats = [None if estimate is None else seat_of(estimate, hand.view, readout) for estimate in estimates]
+        self.smoothed_digits = smoothed_fingers(
+            hand.fingers, self.finger_history[: len(estimates)], seats, self._finger_start
         )
         return [
-            hand.lost if joints is None or belief is None else readout.with_joints(moment, joints, belief)
-            for moment, joints, belief in zip(moments, self.looked_back.moments, beliefs, strict=True)
+            hand.lost if joints is None or estimate is None else readout.with_joints(moment, joints, estimate)
+            for moment, joints, estimate in zip(moments, self.smoothed_digits.moments, estimates, strict=True)
         ]
 
     def forget(self, before_s: float) -> None:
         """Give up the frames before that time, which were just smoothed."""
         count = sum(step.timestamp_s < before_s for step in self.history)
-        if self.looked_back is not None and self._hand.fingers is not None and count:
-            self._finger_start = self.looked_back.start_after(count, self._hand.fingers)
+        if self.smoothed_digits is not None and self._hand.fingers is not None and count:
+            self._finger_start = self.smoothed_digits.start_after(count, self._hand.fingers)
         self._drop(count)
 
     def hand_over(self, finger_start: FingerStart | None) -> KeptSteps:
@@ -93,6 +93,6 @@ class SmootherRecord:
     def _drop(self, count: int) -> None:
         if not count:
             return
-        self.looked_back = None
+        self.smoothed_digits = None
         del self.finger_history[:count]
         del self.history[:count]

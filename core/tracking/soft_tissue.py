@@ -8,8 +8,9 @@ fingers are seen nobody needs to guess when tissue moves: home or not, it is pus
 turn, all of it at once, as in a grasp. Where only blobs are seen tissue cannot be told from bone, and all of it is
 pushed all the time.
 
-Sizes from clinical reference 2 and 10: skin over knuckles glides 2 to 6 mm, mostly along
-the ray; metacarpals 4 and 5 flex by 20 and 27 degrees at most, tied to each other; the wrist's and thumb's skin 2 to 5.
+Sizes from clinical reference 2 and 10: skin over knuckles glides 2 to 6 mm, mostly
+along the digit; metacarpals 4 and 5 flex by 20 and 27 degrees at most, tied to each other; the wrist's and thumb's
+skin 2 to 5.
 """
 
 from __future__ import annotations
@@ -108,13 +109,13 @@ NO_DIGITS = DigitSpeeds()
 @dataclass(frozen=True, slots=True)
 class TissueModes:
     """What skin and relief (r numbers) may be doing, J modes, the first ``resting`` of them at rest: they settle at
-    ``settled`` (J, r, r), each number over ``lasts_s`` (J, r); ``rates`` (J, J) per second of going over from row to
+    ``stationary`` (J, r, r), each number over ``lasts_s`` (J, r); ``rates`` (J, J) per second of going over from row to
     column, that to the wrist's by how fast the hand turns, in ``turning_rad_s``; looking back, resting skin is pushed
     ``creep`` times as much, and all is ``widens`` times as unsure; ``elsewhere`` is the chance of each mode but home of
     tissue just calibrated. Where joints are told, each number lasts besides for ``lasts_rad`` of them, and home ends at
     ``leaving_per_rad``."""
 
-    settled: FloatArray
+    stationary: FloatArray
     lasts_s: FloatArray
     rates: FloatArray
     resting: int
@@ -127,7 +128,7 @@ class TissueModes:
 
     @property
     def count(self) -> int:
-        return len(self.settled)
+        return len(self.stationary)
 
     @property
     def follows_joints(self) -> bool:
@@ -144,7 +145,7 @@ class TissueModes:
 
     def pushed(self, kept: FloatArray) -> FloatArray:
         """Noise (J, r, r) of a step that keeps so much."""
-        return np.asarray(self.settled * (1.0 - kept[:, :, None] * kept[:, None, :]))
+        return np.asarray(self.stationary * (1.0 - kept[:, :, None] * kept[:, None, :]))
 
     def switch(self, turning_rad_s: float, dt_s: float, digits: DigitSpeeds) -> FloatArray:
         """Probability (J, J) to go from row to column mode in ``dt_s``, of a hand that turns so fast."""
@@ -180,13 +181,13 @@ def always_pushed(tissue: SoftTissue) -> TissueModes:
 @lru_cache(maxsize=8)
 def moved_by_joints(tissue: SoftTissue) -> TissueModes:
     """Two modes, home or not; elsewhere it moves as the joints beneath it do."""
-    settled = np.repeat(_scatter(tissue)[None], 2, axis=0)
+    stationary = np.repeat(_scatter(tissue)[None], 2, axis=0)
     lasts_s = np.full((2, _SOFT), tissue.creeps_s)
     lasts_s[1, _RELIEF] = tissue.relief_still_s
-    settled[HOME], lasts_s[HOME] = _at_home(tissue)
+    stationary[HOME], lasts_s[HOME] = _at_home(tissue)
     rates = np.array([[0.0, tissue.home_ends_per_s], [tissue.homing_per_s, 0.0]])
     return TissueModes(
-        settled,
+        stationary,
         lasts_s,
         rates,
         2,
@@ -200,17 +201,17 @@ def moved_by_joints(tissue: SoftTissue) -> TissueModes:
 @lru_cache(maxsize=8)
 def resting_or_moving(tissue: SoftTissue) -> TissueModes:
     """The six modes."""
-    settled = np.repeat(_scatter(tissue)[None], 6, axis=0)
+    stationary = np.repeat(_scatter(tissue)[None], 6, axis=0)
     lasts_s = np.full((6, _SOFT), tissue.rests_s)
-    settled[GLIDE, : _RELIEF.start, : _RELIEF.start] -= _cupping(tissue)
+    stationary[GLIDE, : _RELIEF.start, : _RELIEF.start] -= _cupping(tissue)
     for modes, numbers in (((GLIDE, CUP), _OF_KNUCKLES), ((THUMB,), _OF_THUMB), ((WRIST,), _OF_WRIST)):
         lasts_s[list(modes), numbers] = tissue.lasts_s
     lasts_s[_MOVING, _RELIEF] = tissue.lasts_s
     # The thumb's skin does not lie on the surface that is measured.
     for mode in (STILL, THUMB):
-        settled[mode, _RELIEF, _RELIEF] = np.diag(tissue.relief_still) ** 2
+        stationary[mode, _RELIEF, _RELIEF] = np.diag(tissue.relief_still) ** 2
         lasts_s[mode, _RELIEF] = tissue.relief_still_s
-    settled[HOME], lasts_s[HOME] = _at_home(tissue)
+    stationary[HOME], lasts_s[HOME] = _at_home(tissue)
     rates = np.zeros((6, 6))
     rates[:GLIDE, _MOVING] = tissue.leaving_per_s / len(_MOVING)
     rates[STILL, HOME], rates[HOME, STILL] = tissue.homing_per_s, tissue.home_ends_per_s
@@ -218,19 +219,19 @@ def resting_or_moving(tissue: SoftTissue) -> TissueModes:
     rates[_MOVING, HOME] = tissue.homing_share / tissue.dwell_s
     creep = tissue.rests_s / tissue.creeps_s
     return TissueModes(
-        settled, lasts_s, rates, 2, tissue.turning_rad_s, creep, tissue.looked_back, tissue.elsewhere_at_start
+        stationary, lasts_s, rates, 2, tissue.turning_rad_s, creep, tissue.looked_back, tissue.elsewhere_at_start
     )
 
 
 def _at_home(tissue: SoftTissue) -> tuple[FloatArray, FloatArray]:
     """Covariance (r, r) of what lies as calibrated, and how long it lasts (r,)."""
-    settled, lasts_s = tissue.home_m**2 * np.eye(_SOFT), np.full(_SOFT, _AT_ONCE_S)
-    settled[_RELIEF, _RELIEF], lasts_s[_RELIEF] = np.diag(tissue.relief_home) ** 2, tissue.relief_home_s
-    return settled, lasts_s
+    stationary, lasts_s = tissue.home_m**2 * np.eye(_SOFT), np.full(_SOFT, _AT_ONCE_S)
+    stationary[_RELIEF, _RELIEF], lasts_s[_RELIEF] = np.diag(tissue.relief_home) ** 2, tissue.relief_home_s
+    return stationary, lasts_s
 
 
 @lru_cache(maxsize=8)
-def settled_covariance(tissue: SoftTissue) -> FloatArray:
+def stationary_covariance(tissue: SoftTissue) -> FloatArray:
     """Covariance (n, n) that skin and relief have when nothing was seen for long; zero elsewhere."""
     out = np.zeros((SIZE, SIZE))
     out[SOFT, SOFT] = _scatter(tissue)

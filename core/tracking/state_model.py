@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from carpus.core.tracking.digit_filter import ANATOMY, JOINTS, RATES
 from carpus.core.tracking.palm_state import BACK, POSITION, RATE, RELIEF, SHAPE, SKIN, TURN, VELOCITY
-from carpus.core.tracking.ray_filter import ANATOMY, JOINTS, RATES
 
 
 class StatePart(NamedTuple):
@@ -80,7 +80,7 @@ PALM_STATE = (
 PALM_MEASUREMENTS = (
     MeasurementPart(
         "discs", 18, "px, px, m: u, v and depth z of each disc that is associated",
-        ("View.observe", "palm_view.sight"),
+        ("View.observe", "palm_view.palm_linearised"),
         ("palm_association.measurements_of", "adaptive_noise.adapted_factor"),
     ),
     MeasurementPart(
@@ -102,14 +102,14 @@ DIGIT_STATE = (
     StatePart(
         "anatomy", ANATOMY, "m; fan and roll in rad",
         "three lengths, fan, roll, the root from its disc (x, y, depth), the heights of three discs",
-        (), "c", "a share a second of what was not known at the start", ("FingerSettings.drift_per_s", "ray_start"),
+        (), "c", "a share a second of what was not known at the start", ("FingerSettings.drift_per_s", "digit_start"),
     ),
 )  # fmt: skip
 
 DIGIT_MEASUREMENTS = (
     MeasurementPart(
         "discs", 9, "px, px, m: u, v and depth z of three discs",
-        ("RayView.observe", "ray_filter.forecast"),
+        ("DigitView.observe", "digit_filter.digits_linearised"),
         ("digit_association.updated_as_associated", "FingerModel.palm_part"),
     ),
     MeasurementPart(

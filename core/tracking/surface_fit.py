@@ -14,8 +14,8 @@ import numpy as np
 from carpus.core import so3
 from carpus.core.hand.back_surface import BackSurface
 from carpus.core.kernels.choice import in_c
-from carpus.core.tracking.kernel import Bank, Line, corrected
-from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmBelief
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, corrected
+from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate
 from carpus.core.tracking.palm_view import View
 from carpus.core.types import FloatArray, SurfaceSamples
 
@@ -50,30 +50,30 @@ class SurfaceSettings:
 
 @dataclass(frozen=True, slots=True)
 class SurfaceMeasurement:
-    """What the surface says of a belief's error: ``value`` (3,) turn about X and Y and height at the surface's middle,
-    its ``covariance`` (3, 3), as a ``slope`` (3, n) of the palm's error vector; ``count`` readings used."""
+    """What the surface says of an estimate's error: ``value`` (3,) turn about X and Y and height at the surface's
+    middle, its ``covariance`` (3, 3), as a ``slope`` (3, n) of the palm's error vector; ``count`` readings used."""
 
     value: FloatArray
     covariance: FloatArray
     slope: FloatArray
     count: int
 
-    def line(self) -> Line:
-        """As a line through the belief's mean."""
-        return Line(np.zeros((1, 3)), self.slope[None], self.covariance[None], np.zeros((1, SIZE)))
+    def linearised(self) -> Linearisation:
+        """Linear about the estimate's mean."""
+        return Linearisation(np.zeros((1, 3)), self.slope[None], self.covariance[None], np.zeros((1, SIZE)))
 
 
 def surface_measurement(
-    belief: PalmBelief, samples: SurfaceSamples, surface: BackSurface, view: View, settings: SurfaceSettings
+    estimate: PalmEstimate, samples: SurfaceSamples, surface: BackSurface, view: View, settings: SurfaceSettings
 ) -> SurfaceMeasurement | None:
-    """Fit the surface to the readings, from the belief's pose on; None where too few lie on it."""
+    """Fit the surface to the readings, from the estimate's pose on; None where too few lie on it."""
     if (kernels := in_c()) is not None:
         camera, sensor, used = view.camera, view.camera.sensor, np.empty(1)
         told = np.empty(3), np.empty((3, 3)), np.empty((3, SIZE))
         kernels.surface_fit(
             len(samples.depth_m), samples.pixel, samples.depth_m,
             camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px,
-            view.rotation_w0_cam, view.translation_w0_cam_m, belief.rotation_w2_w0, belief.value,
+            view.rotation_w0_cam, view.translation_w0_cam_m, estimate.rotation_w2_w0, estimate.value,
             *surface.height_m.shape, surface._plane, surface._to_node, surface.middle_m,
             settings.steps, settings.huber_m, settings.most_m, settings.least, settings.shared, settings.reading_per_m,
             sensor.reading.fixed_m, sensor.reading.square_per_m, sensor.stays.fixed_m, sensor.stays.square_per_m,
@@ -85,7 +85,7 @@ def surface_measurement(
     in_camera = view.camera.back_project(samples.pixel, samples.depth_m)
     in_w0 = np.ones((len(in_camera), 4))
     in_w0[:, :3] = (in_camera - view.translation_w0_cam_m) @ view.rotation_w0_cam
-    rotation, position = belief.rotation_w2_w0, belief.position_m
+    rotation, position = estimate.rotation_w2_w0, estimate.position_m
     middle = surface.middle_m
     middle_x, middle_y, middle_z = middle.tolist()
     to_body = np.eye(4)
@@ -109,7 +109,7 @@ def surface_measurement(
         weighed = about * weight
         inverse = np.linalg.inv(weighed @ about.T)
         about_x, about_y, up = (inverse @ (weighed @ over)).tolist()
-        # The turn is about the middle of the surface; the belief's error is a turn about its origin.
+        # The turn is about the middle of the surface; the estimate's error is a turn about its origin.
         turn = np.array((about_x, about_y, 0.0))
         shift = np.array((-about_y * middle_z, about_x * middle_z, up - about_x * middle_y + about_y * middle_x))
         shifted += shift
@@ -135,10 +135,10 @@ def surface_measurement(
     by_turn = by_pose[:, :3] + by_shift @ so3.skew(middle).T
     out = np.zeros((3, SIZE))
     out[:, TURN] = by_turn
-    out[:, POSITION] = by_shift @ belief.rotation_w2_w0.T
+    out[:, POSITION] = by_shift @ estimate.rotation_w2_w0.T
     out[:, RELIEF] = out[:, BACK] = np.eye(3)
-    # What the belief's own relief explains of it is no error.
-    value = by_shift @ shifted + by_turn @ turned - belief.value[RELIEF] - belief.value[BACK]
+    # What the estimate's own relief explains of it is no error.
+    value = by_shift @ shifted + by_turn @ turned - estimate.value[RELIEF] - estimate.value[BACK]
     return SurfaceMeasurement(value, np.asarray(covariance, dtype=np.float64), out, count)
 
 
@@ -148,20 +148,23 @@ def calibrated_covariance(surface: BackSurface, view: View, settings: SurfaceSet
     node = surface.places_m()
     in_camera = node @ view.rotation_w0_cam.T + view.translation_w0_cam_m
     samples = SurfaceSamples(view.camera.project(in_camera), in_camera[:, 2])
-    neutral = PalmBelief(np.eye(3), np.zeros(SIZE), np.eye(SIZE))
+    neutral = PalmEstimate(np.eye(3), np.zeros(SIZE), np.eye(SIZE))
     bare = replace(settings, turn_sd_rad=0.0, up_sd_m=0.0, goes_on=1.0)
     found = surface_measurement(neutral, samples, surface, view, bare)
     return np.eye(3) if found is None else settings.stays**2 * found.covariance
 
 
-def levelled_bank(
-    bank: Bank, found: SurfaceMeasurement, shares: tuple[FloatArray, FloatArray] | None, settings: SurfaceSettings
-) -> Bank | None:
-    """The palm's modes corrected by what the surface says, numbers taking their ``shares``; None where it is so far
+def levelled_mixture(
+    mixture: ModeMixture,
+    found: SurfaceMeasurement,
+    partial: tuple[FloatArray, FloatArray] | None,
+    settings: SurfaceSettings,
+) -> ModeMixture | None:
+    """The palm's modes corrected by what the surface says, numbers taking their ``partial``; None where it is so far
     from what was believed that it is another surface."""
-    # Its noise has no scale of its own: the covariance is that of the line.
-    update = corrected(bank, found.line(), found.value[None], _NO_NOISE, shares=shares)
-    return None if float(update.nis[0]) > settings.most_nis else update.bank
+    # Its noise has no scale of its own: the covariance is all there is.
+    update = corrected(mixture, found.linearised(), found.value[None], _NO_NOISE, partial=partial)
+    return None if float(update.nis[0]) > settings.most_nis else update.mixture
 
 
 def _turns_and_shifts(place: FloatArray, plane: FloatArray) -> FloatArray:

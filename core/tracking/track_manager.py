@@ -139,11 +139,11 @@ class TrackManager:
         """Whether a turn was predicted so unsurely that the filter may settle at a wrong one."""
         return turn_sd_rad > self._settings.vague_rad
 
-    def looks_anew(self, seen: int, spare: int, turn_sd_rad: float) -> bool:
+    def looks_anew(self, seen: int, unassigned: int, turn_sd_rad: float) -> bool:
         """Whether to look for the palm, of which ``seen`` discs are where they were predicted, without a prediction as
-        well: ``spare`` blobs are left over."""
+        well: ``unassigned`` blobs are left over."""
         few = seen <= self._settings.least_discs or self.stage is TrackStage.TENTATIVE
-        return (few or self.is_vague(turn_sd_rad)) and spare + seen > self._settings.least_discs
+        return (few or self.is_vague(turn_sd_rad)) and unassigned + seen > self._settings.least_discs
 
     def is_ambiguous(self, seen: int, turn_sd_rad: float) -> bool:
         """Whether any so many blobs would do for discs of a hand whose turn was predicted so unsurely."""

@@ -106,7 +106,7 @@ class Tracker:
         if self.is_lost:
             return self._lost(index, timestamp_s, hinted.detections, dropped_before)
 
-        predicted, scan, said = self._predicted_as_said(hinted, ideal, timestamp_s)
+        predicted, scan, said = self._predicted_as_hinted(hinted, ideal, timestamp_s)
         posterior = self._filter.update(predicted, scan)
         is_linked = is_linked and not said
         reacquired = self._reacquired(posterior, scan)
@@ -132,7 +132,7 @@ class Tracker:
         if found is not None and self._manager.initiates(found, timestamp_s):
             self._filter.begin(self._filter.estimate_at(found))
 
-    def _predicted_as_said(
+    def _predicted_as_hinted(
         self, hinted: Hinted, ideal: Detections, timestamp_s: float
     ) -> tuple[PredictedMeasurement, Scan, bool]:
         """The prediction, what the frame brings, and whether a disc of the palm begins anew where a person has just
@@ -153,7 +153,7 @@ class Tracker:
         """The update from a place found without prediction, where too little of the palm is where it was predicted or
         the prediction was vague; None where that explains the frame no better."""
         manager, turn_sd_rad, seen = self._manager, posterior.turn_sd_rad, posterior.seen
-        if not manager.looks_anew(seen, int(np.count_nonzero(posterior.spare)), turn_sd_rad):
+        if not manager.looks_anew(seen, int(np.count_nonzero(posterior.unassigned)), turn_sd_rad):
             return None
         is_vague, rotation = manager.is_vague(turn_sd_rad), posterior.predicted.nominal.rotation_w2_w0
         ideal = scan.ideal if is_vague else scan.ideal.only(~posterior.is_finger)
@@ -167,7 +167,7 @@ class Tracker:
         there = self._filter.update(self._filter.predicted_at(found, posterior.predicted), scan)
         is_agreed = (
             turn_sd_rad < holding.too_vague_rad
-            and np.array_equal(there.palm.taken, posterior.palm.taken)
+            and np.array_equal(there.palm.assigned, posterior.palm.assigned)
             and self._filter.fits(posterior)
         )
         if is_agreed or there.seen < max(holding.least_discs + 1, seen):

@@ -13,12 +13,12 @@ from dataclasses import replace
 import numpy as np
 
 from carpus.core.hand import clinical_angles
-from carpus.core.tracking.kernel import Bank, carried, mixed
-from carpus.core.tracking.motion import PalmMotion, palm_step, slowing
+from carpus.core.tracking.kernel import ModeMixture, mixed, transitioned
+from carpus.core.tracking.motion import PalmMotion, palm_transition, slowing
 from carpus.core.tracking.palm_association import Measurements, update
 from carpus.core.tracking.palm_smoother import FilterStep, smoothed_palm
-from carpus.core.tracking.palm_state import SIZE, TURN, PalmBelief, resting_belief
-from carpus.core.tracking.palm_view import View, recentred
+from carpus.core.tracking.palm_state import SIZE, TURN, PalmEstimate, resting_estimate
+from carpus.core.tracking.palm_view import View, error_reset
 from carpus.core.tracking.predicted_measurement import predicted_measurement
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import always_pushed
@@ -52,38 +52,42 @@ def informed_run(
     )
     scales = np.array(settings.mode_scales)
     motion = PalmMotion(settings.motion_noise, always_pushed(RIGID.tissue), scales)
-    belief = resting_belief(settings.initial, 1e-14 * np.eye(21))
-    bank = Bank.alike(np.zeros((1, SIZE)), belief.covariance[None], scales.size)
+    estimate = resting_estimate(settings.initial, 1e-14 * np.eye(21))
+    mixture = ModeMixture.alike(np.zeros((1, SIZE)), estimate.covariance[None], scales.size)
     steps: list[FilterStep] = []
-    beliefs: list[PalmBelief] = []
+    estimates: list[PalmEstimate] = []
     as_stated = np.ones(measured.shape[1:])
     times = truth.timestamp_s
     begin = time.process_time()
     for i, seen in enumerate(measured):
         dt_s = float(times[i] - times[i - 1]) if i else 1e-6
-        step = palm_step(belief.rate_rad_s, motion, dt_s)
-        bank = carried(mixed(bank, motion.switch(belief.rate_rad_s, dt_s)), step, belief.value)
-        ahead_of = replace(step.carries(belief, dt_s), covariance=bank.merged()[1][0])
-        ahead = predicted_measurement(ahead_of, bank, view, settings.spread)
+        step = palm_transition(estimate.rate_rad_s, motion, dt_s)
+        mixture = transitioned(mixed(mixture, motion.switch(estimate.rate_rad_s, dt_s)), step, estimate.value)
+        ahead_of = replace(step.carries(estimate, dt_s), covariance=mixture.merged()[1][0])
+        ahead = predicted_measurement(ahead_of, mixture, view, settings.spread)
         names = np.where(np.isfinite(seen[:, 0]), np.arange(len(seen)), -1)
         blobs = Measurements(seen, np.broadcast_to(variance, seen.shape))
-        belief, bank = recentred(ahead_of, update(ahead, blobs, names, np.isfinite(seen[:, 2]), as_stated).bank)
+        estimate, mixture = error_reset(
+            ahead_of, update(ahead, blobs, names, np.isfinite(seen[:, 2]), as_stated).mixture
+        )
         if np.count_nonzero(names >= 0) < LEAST_DISCS:
             kept = slowing(float(np.exp(-dt_s / settings.rate_memory_s)))
-            belief = replace(belief, value=belief.value * kept, covariance=belief.covariance * np.outer(kept, kept))
-            bank = Bank(bank.mean * kept, bank.covariance * np.outer(kept, kept), bank.probability)
-        beliefs.append(belief)
-        steps.append(FilterStep(float(times[i]), belief, bank.probability[0], True))
+            estimate = replace(
+                estimate, value=estimate.value * kept, covariance=estimate.covariance * np.outer(kept, kept)
+            )
+            mixture = ModeMixture(mixture.mean * kept, mixture.covariance * np.outer(kept, kept), mixture.probability)
+        estimates.append(estimate)
+        steps.append(FilterStep(float(times[i]), estimate, mixture.probability[0], True))
     ms = 1e3 * (time.process_time() - begin) / len(times)
     scored = scored_frames(truth, begin_s)
-    smoothed = [belief for belief in smoothed_palm(steps, motion) if belief is not None]
+    smoothed = [estimate for estimate in smoothed_palm(steps, motion) if estimate is not None]
     true_rad = truth.angles_rad[scored]
     return Run(
         scenario.name,
         truth.spec.seed,
         mode,
         INFORMED,
-        _estimate(_only(beliefs, scored), truth.spec.hand, true_rad),
+        _estimate(_only(estimates, scored), truth.spec.hand, true_rad),
         _estimate(_only(smoothed, scored), truth.spec.hand, true_rad),
         np.full(int(scored.sum()), TrackStatus.TRACKED),
         int(np.isfinite(measured[scored, :, 0]).sum()),
@@ -94,13 +98,13 @@ def informed_run(
     )
 
 
-def _only(beliefs: list[PalmBelief], scored: np.ndarray) -> list[PalmBelief]:
-    return [belief for belief, keep in zip(beliefs, scored, strict=True) if keep]
+def _only(estimates: list[PalmEstimate], scored: np.ndarray) -> list[PalmEstimate]:
+    return [estimate for estimate, keep in zip(estimates, scored, strict=True) if keep]
 
 
-def _estimate(beliefs: list[PalmBelief], side: Side, true_rad: FloatArray) -> Estimate:
-    rotation = np.array([belief.rotation_w2_w0 for belief in beliefs])
-    turn = np.array([belief.covariance[TURN, TURN] for belief in beliefs])
+def _estimate(estimates: list[PalmEstimate], side: Side, true_rad: FloatArray) -> Estimate:
+    rotation = np.array([estimate.rotation_w2_w0 for estimate in estimates])
+    turn = np.array([estimate.covariance[TURN, TURN] for estimate in estimates])
     by_turn = clinical_angles.angle_rates_matrix(rotation, side)
     variance = np.einsum("nij,njk,nik->ni", by_turn, turn, by_turn)
     angles = clinical_angles.angles_from_rotation(rotation, side)

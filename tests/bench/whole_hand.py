@@ -43,7 +43,7 @@ def measure(folder: Path, costs: Costs, rounds: int) -> None:
         spy.watch(palm_association.association, "log_odds", "names")
         spy.watch(palm_association.association, "resolve", "names")
         spy.watch(palm_association, "associate_jointly", "names")
-        spy.watch(digit_association, "_ray_jointly", "names")
+        spy.watch(digit_association, "_digit_jointly", "names")
         spy.watch(hand_filter, "surface_measurement", "surface")
         spy.watch(frame_walk, "surface_samples", "surface")
         try:

@@ -11,14 +11,14 @@ import pytest
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measured_as_named
+from carpus.core.tracking.digit_filter import DigitPoints, DigitsLinearisation, digits_linearised, spread_points
 from carpus.core.tracking.finger_model import Seat, seat_of
-from carpus.core.tracking.fingers import Fingers, in_sight
+from carpus.core.tracking.fingers import Fingers, disc_visibility
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.joint_limits import LimitSettings, constrained
-from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.palm_association import Measurements
-from carpus.core.tracking.ray_filter import RayForecast, RayPoints, forecast, spread_points
 from carpus.core.tracking.readout import Readout, ReadoutSettings
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.unscented import Spread
@@ -34,18 +34,18 @@ SETTINGS = TrackerSettings()
 
 @dataclass(frozen=True)
 class Hand:
-    """A calibrated hand whose palm sits somewhere, its rays bent at random."""
+    """A calibrated hand whose palm sits somewhere, its digits bent at random."""
 
     fingers: Fingers
     seat: Seat
     mean: FloatArray
     covariance: FloatArray
 
-    def points(self) -> RayPoints:
+    def points(self) -> DigitPoints:
         return spread_points(self.mean, self.covariance, self.seat.palm.disc_m[1:], Spread())
 
-    def line(self) -> RayForecast:
-        return forecast(self.points(), self.seat.view, Spread())
+    def linearised(self) -> DigitsLinearisation:
+        return digits_linearised(self.points(), self.seat.view, Spread())
 
 
 @cache
@@ -57,8 +57,8 @@ def hand(side: str, seed: int, dip: str = "coupled") -> Hand:
     settings = replace(SETTINGS, dip=dip)
     fingers = Fingers(found.calibration, seen.truth.camera, settings)
     view = HandFilter(found.calibration, seen.truth.camera, settings).view
-    belief = replace(moving(seed), covariance=1e-2 * moving(seed).covariance)
-    seat = seat_of(belief, view, Readout(palm_of(found.calibration), ReadoutSettings(), view.camera, 6e-3))
+    estimate = replace(moving(seed), covariance=1e-2 * moving(seed).covariance)
+    seat = seat_of(estimate, view, Readout(palm_of(found.calibration), ReadoutSettings(), view.camera, 6e-3))
     mean, covariance = fingers.model.at_neutral().merged()
     scale = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
     mean = mean + scale * rng.normal(size=mean.shape)
@@ -71,9 +71,9 @@ def hand(side: str, seed: int, dip: str = "coupled") -> Hand:
 def test_points_and_what_the_camera_sees_of_them(side: str, seed: int) -> None:
     it = hand(side, seed)
     points = both(it.points)
-    line = both(lambda: forecast(points, it.seat.view, Spread()))
+    linearised = both(lambda: digits_linearised(points, it.seat.view, Spread()))
     visible = np.random.default_rng(seed).uniform(0.0, 1.0, size=(5, 3))
-    both(lambda: in_sight(points, line, it.seat, visible, 0.04, SETTINGS.fingers))
+    both(lambda: disc_visibility(points, linearised, it.seat, visible, 0.04, SETTINGS.fingers))
 
 
 def test_rays_that_are_not_known_at_all_are_no_covariance() -> None:
@@ -89,23 +89,23 @@ def test_rays_that_are_not_known_at_all_are_no_covariance() -> None:
 @pytest.mark.parametrize("dip", ["coupled", "free"])
 def test_joints_as_they_are_read(side: str, dip: str) -> None:
     it = hand(side, 1, dip)
-    line = it.line()
-    both(lambda: it.fingers.model.placed(it.mean, it.covariance, it.seat, line))
-    both(lambda: it.fingers.model.read(it.mean, it.covariance, it.seat, line))
+    linearised = it.linearised()
+    both(lambda: it.fingers.model.placed(it.mean, it.covariance, it.seat, linearised))
+    both(lambda: it.fingers.model.read(it.mean, it.covariance, it.seat, linearised))
 
 
 @pytest.mark.parametrize("blobs", [0, 9])
 def test_what_named_blobs_measure(blobs: int) -> None:
     it, rng = hand("right", 2), np.random.default_rng(3)
-    line = it.line()
+    linearised = it.linearised()
     value = rng.normal(size=(blobs, 3)) + [300.0, 200.0, 0.7]
     value[1::3, 2] = np.nan
-    taken = np.where(rng.uniform(size=(5, 3)) < 0.6, rng.integers(0, max(blobs, 1), (5, 3)), -1) if blobs else None
-    taken = np.full((5, 3), -1) if taken is None else taken
-    names = DigitAssignment(taken.astype(np.int64), (taken >= 0) & (rng.uniform(size=(5, 3)) < 0.7))
+    assigned = np.where(rng.uniform(size=(5, 3)) < 0.6, rng.integers(0, max(blobs, 1), (5, 3)), -1) if blobs else None
+    assigned = np.full((5, 3), -1) if assigned is None else assigned
+    names = DigitAssignment(assigned.astype(np.int64), (assigned >= 0) & (rng.uniform(size=(5, 3)) < 0.7))
     whole_px = np.where(rng.uniform(size=(5, 3)) < 0.2, np.nan, 60.0)
-    crowded = replace(line, value=np.where(np.arange(9) % 3 == 2, 0.7, line.value * 0.05))
-    for seen in (line, crowded):
+    crowded = replace(linearised, value=np.where(np.arange(9) % 3 == 2, 0.7, linearised.value * 0.05))
+    for seen in (linearised, crowded):
         scene = DigitScene(
             it.covariance, seen, seen.spread, seen.spread, np.full((5, 3), 0.5),
             Measurements(value, rng.uniform(0.01, 0.1, size=(blobs, 3))), np.ones(blobs, dtype=bool),
@@ -123,9 +123,9 @@ def test_limits_of_joints(modes: int) -> None:
         mean[:, :, :5] += bent_rad
         for wide in (1.0, 30.0):
             covariance = np.repeat(wide * it.covariance[:, None], modes, axis=1)
-            bank = Bank(mean, covariance, np.full((5, modes), 1.0 / modes))
-            slots = bank.merged()[0][:, :5]
-            both(lambda bank=bank, slots=slots: constrained(bank, slots, LimitSettings()))
-    narrow = Bank(0.3 + 0.0 * mean, 1e-9 * covariance, bank.probability)
+            mixture = ModeMixture(mean, covariance, np.full((5, modes), 1.0 / modes))
+            slots = mixture.merged()[0][:, :5]
+            both(lambda mixture=mixture, slots=slots: constrained(mixture, slots, LimitSettings()))
+    narrow = ModeMixture(0.3 + 0.0 * mean, 1e-9 * covariance, mixture.probability)
     middle = np.full((5, 5), 0.3)
     both(lambda: constrained(narrow, middle, LimitSettings()))

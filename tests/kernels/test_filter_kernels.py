@@ -7,7 +7,7 @@ import pytest
 
 from carpus.core.kernels import choice
 from carpus.core.tracking import kernel
-from carpus.core.tracking.kernel import Bank, Carrying, Line, learning_shares, switching
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, Transition, partial_update, switching
 from carpus.core.types import FloatArray
 from tests.kernels.pairs import LEVELS, both
 
@@ -20,18 +20,18 @@ def covariances(rng: np.random.Generator, *shape: int) -> FloatArray:
     return np.asarray(root @ np.swapaxes(root, -1, -2) / shape[-1] + np.eye(shape[-1]))
 
 
-def bank_of(rng: np.random.Generator, chains: int, modes: int, n: int) -> Bank:
+def mixture_of(rng: np.random.Generator, chains: int, modes: int, n: int) -> ModeMixture:
     probability = rng.uniform(0.1, 1.0, size=(chains, modes))
-    return Bank(
+    return ModeMixture(
         rng.normal(size=(chains, modes, n)),
         covariances(rng, chains, modes, n),
         probability / probability.sum(axis=1, keepdims=True),
     )
 
 
-def line_of(rng: np.random.Generator, chains: int, n: int, m: int) -> Line:
+def line_of(rng: np.random.Generator, chains: int, n: int, m: int) -> Linearisation:
     slope = rng.normal(size=(chains, m, n)) * (rng.uniform(size=(chains, m, n)) < 0.4)
-    return Line(rng.normal(size=(chains, m)), slope, covariances(rng, chains, m), rng.normal(size=(chains, n)))
+    return Linearisation(rng.normal(size=(chains, m)), slope, covariances(rng, chains, m), rng.normal(size=(chains, n)))
 
 
 @pytest.mark.parametrize(("chains", "modes", "n", "m"), SIZES)
@@ -39,12 +39,12 @@ def line_of(rng: np.random.Generator, chains: int, n: int, m: int) -> Line:
 @pytest.mark.parametrize("extras", [False, True])
 def test_correction(chains: int, modes: int, n: int, m: int, unseen: float, extras: bool) -> None:
     rng = np.random.default_rng(7)
-    bank, line = bank_of(rng, chains, modes, n), line_of(rng, chains, n, m)
+    mixture, linearised = mixture_of(rng, chains, modes, n), line_of(rng, chains, n, m)
     measured = np.where(rng.uniform(size=(chains, m)) < unseen, np.nan, rng.normal(size=(chains, m)))
     variance = np.where(np.isnan(measured), np.nan, rng.uniform(1e-6, 2.0, size=(chains, m)))
     shared = covariances(rng, chains, m) if extras else None
-    shares = learning_shares(n, slice(1, 3), 0.3) if extras else None
-    found = both(lambda: kernel.corrected(bank, line, measured, variance, shared, shares))
+    partial = partial_update(n, slice(1, 3), 0.3) if extras else None
+    found = both(lambda: kernel.corrected(mixture, linearised, measured, variance, shared, partial))
     assert (found.dof == np.isfinite(measured).sum(axis=1)).all()
 
 
@@ -52,11 +52,11 @@ def test_correction(chains: int, modes: int, n: int, m: int, unseen: float, extr
 @pytest.mark.parametrize("switches", [False, True])
 def test_prediction_and_merging(chains: int, modes: int, n: int, m: int, switches: bool) -> None:
     rng = np.random.default_rng(8)
-    bank = bank_of(rng, chains, modes, n)
+    mixture = mixture_of(rng, chains, modes, n)
     switch = switching(modes, 0.5, 0.033) if switches else None
     forward, noise = np.eye(n) + 0.1 * rng.normal(size=(chains, n, n)), covariances(rng, chains, modes, n)
-    both(lambda: kernel.predicted(bank, forward, noise, switch))
-    both(bank.merged)
+    both(lambda: kernel.predicted(mixture, forward, noise, switch))
+    both(mixture.merged)
     assert m
 
 
@@ -64,47 +64,54 @@ def test_prediction_and_merging(chains: int, modes: int, n: int, m: int, switche
 @pytest.mark.parametrize("switches", [False, True])
 def test_carrying(modes: int, switches: bool) -> None:
     rng = np.random.default_rng(9)
-    bank = bank_of(rng, 1, modes, 54)
-    step = Carrying(
+    mixture = mixture_of(rng, 1, modes, 54)
+    step = Transition(
         np.eye(12) + 0.1 * rng.normal(size=(12, 12)),
         covariances(rng, modes, 12),
         np.where(np.arange(54) < 12, 1.0, rng.uniform(0.0, 1.0, size=(modes, 54))),
         covariances(rng, modes, 21),
     )
     nominal, switch = rng.normal(size=54), switching(modes, 0.5, 0.033) if switches else None
-    both(lambda: kernel.carried(bank, step, nominal, switch))
+    both(lambda: kernel.transitioned(mixture, step, nominal, switch))
 
 
 def test_arrays_that_are_not_stored_row_by_row_are_read_as_they_are() -> None:
     rng = np.random.default_rng(10)
-    bank, line = bank_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
-    turned = Line(line.value, np.asfortranarray(line.slope[0])[None], line.error[:, ::-1, ::-1], line.about)
-    both(lambda: kernel.corrected(bank, turned, np.ones((1, 8))[:, ::2], np.ones((1, 4))))
+    mixture, linearised = mixture_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
+    turned = Linearisation(
+        linearised.value,
+        np.asfortranarray(linearised.slope[0])[None],
+        linearised.error[:, ::-1, ::-1],
+        linearised.about,
+    )
+    both(lambda: kernel.corrected(mixture, turned, np.ones((1, 8))[:, ::2], np.ones((1, 4))))
 
 
 @pytest.mark.parametrize("how", [choice.NUMPY, *LEVELS])
 def test_no_correction_by_what_is_no_covariance(how: str) -> None:
     rng = np.random.default_rng(11)
-    bank, line = bank_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
-    bad = Line(line.value, line.slope, line.error - 1e3 * np.eye(4), line.about)
+    mixture, linearised = mixture_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
+    bad = Linearisation(linearised.value, linearised.slope, linearised.error - 1e3 * np.eye(4), linearised.about)
     with choice.forced(how), pytest.raises(np.linalg.LinAlgError):
-        kernel.corrected(bank, bad, np.ones((1, 4)), np.ones((1, 4)))
+        kernel.corrected(mixture, bad, np.ones((1, 4)), np.ones((1, 4)))
 
 
 @pytest.mark.parametrize("how", [choice.NUMPY, *LEVELS])
 def test_what_is_unknown_of_a_line_is_unknown_after_it(how: str) -> None:
     rng = np.random.default_rng(11)
-    bank, line = bank_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
-    bad = Line(line.value, line.slope, np.where(np.eye(4) > 0.0, np.nan, line.error), line.about)
+    mixture, linearised = mixture_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
+    bad = Linearisation(
+        linearised.value, linearised.slope, np.where(np.eye(4) > 0.0, np.nan, linearised.error), linearised.about
+    )
     with choice.forced(how):
-        assert np.isnan(kernel.corrected(bank, bad, np.ones((1, 4)), np.ones((1, 4))).bank.mean).all()
+        assert np.isnan(kernel.corrected(mixture, bad, np.ones((1, 4)), np.ones((1, 4))).mixture.mean).all()
 
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_an_array_of_another_type_is_refused(level: str) -> None:
     rng = np.random.default_rng(12)
-    bank = bank_of(rng, 1, 2, 6)
-    narrow = Bank(bank.mean.astype(np.float32), bank.covariance, bank.probability)
+    mixture = mixture_of(rng, 1, 2, 6)
+    narrow = ModeMixture(mixture.mean.astype(np.float32), mixture.covariance, mixture.probability)
     with choice.forced(level), pytest.raises(TypeError):
         narrow.merged()
 
@@ -114,45 +121,45 @@ def test_an_array_of_another_type_is_refused(level: str) -> None:
 def test_an_array_of_another_size_is_refused_before_it_is_read(level: str, wrong: str) -> None:
     """NumPy would repeat it for every chain; in C what lies behind it would be read."""
     rng = np.random.default_rng(13)
-    bank, line = bank_of(rng, 5, 2, 6), line_of(rng, 5, 6, 4)
+    mixture, linearised = mixture_of(rng, 5, 2, 6), line_of(rng, 5, 6, 4)
     given = {name: np.ones((5, 4)) for name in ("measured", "variance")} | {"shared": covariances(rng, 5, 4)}
     if wrong == "mean":
-        bank = Bank(bank.mean, bank.covariance[:1], bank.probability)
+        mixture = ModeMixture(mixture.mean, mixture.covariance[:1], mixture.probability)
     elif wrong == "about":
-        line = Line(line.value, line.slope, line.error, line.about[:1])
+        linearised = Linearisation(linearised.value, linearised.slope, linearised.error, linearised.about[:1])
     else:
         given[wrong] = given[wrong][:1]
     with choice.forced(level), pytest.raises(ValueError):
-        kernel.corrected(bank, line, **given)
+        kernel.corrected(mixture, linearised, **given)
 
 
 @pytest.mark.parametrize("modes", [2, 3])
 @pytest.mark.parametrize("level", LEVELS)
 def test_a_switch_of_fewer_modes_is_refused(level: str, modes: int) -> None:
     rng = np.random.default_rng(14)
-    bank, noise = bank_of(rng, 1, modes, 6), covariances(rng, 1, modes, 6)
+    mixture, noise = mixture_of(rng, 1, modes, 6), covariances(rng, 1, modes, 6)
     with choice.forced(level), pytest.raises(ValueError):
-        kernel.predicted(bank, np.eye(6)[None], noise, switching(1, 0.5, 0.033))
+        kernel.predicted(mixture, np.eye(6)[None], noise, switching(1, 0.5, 0.033))
 
 
 def test_numbers_of_another_byte_order_are_read_as_they_are() -> None:
     rng = np.random.default_rng(15)
-    bank, line = bank_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
-    both(lambda: kernel.corrected(bank, line, np.ones((1, 4), dtype=">f8"), np.ones((1, 4))).nis)
+    mixture, linearised = mixture_of(rng, 1, 2, 6), line_of(rng, 1, 6, 4)
+    both(lambda: kernel.corrected(mixture, linearised, np.ones((1, 4), dtype=">f8"), np.ones((1, 4))).nis)
 
 
 def test_a_mode_that_is_far_off_keeps_the_same_little_chance() -> None:
     rng = np.random.default_rng(16)
-    bank, line = bank_of(rng, 1, 3, 6), line_of(rng, 1, 6, 4)
-    bank.mean[0, 2] += 1e3
-    found = both(lambda: kernel.corrected(bank, line, np.ones((1, 4)), np.ones((1, 4))))
-    assert found.bank.probability[0, 2] == pytest.approx(1e-6, rel=1e-3)
+    mixture, linearised = mixture_of(rng, 1, 3, 6), line_of(rng, 1, 6, 4)
+    mixture.mean[0, 2] += 1e3
+    found = both(lambda: kernel.corrected(mixture, linearised, np.ones((1, 4)), np.ones((1, 4))))
+    assert found.mixture.probability[0, 2] == pytest.approx(1e-6, rel=1e-3)
 
 
 @pytest.mark.parametrize("how", [choice.NUMPY, *LEVELS])
 def test_no_correction_by_what_has_no_scatter_at_all(how: str) -> None:
     rng = np.random.default_rng(17)
-    bank, line = bank_of(rng, 1, 2, 6), line_of(rng, 1, 6, 2)
-    none = Line(line.value, np.zeros((1, 2, 6)), -np.eye(2)[None], line.about)
+    mixture, linearised = mixture_of(rng, 1, 2, 6), line_of(rng, 1, 6, 2)
+    none = Linearisation(linearised.value, np.zeros((1, 2, 6)), -np.eye(2)[None], linearised.about)
     with choice.forced(how), pytest.raises(np.linalg.LinAlgError):
-        kernel.corrected(bank, none, np.ones((1, 2)), np.ones((1, 2)))
+        kernel.corrected(mixture, none, np.ones((1, 2)), np.ones((1, 2)))

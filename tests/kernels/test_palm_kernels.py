@@ -13,10 +13,10 @@ from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.hand.back_surface import BackSurface
 from carpus.core.tracking.adaptive_noise import adapted_factor
 from carpus.core.tracking.association import AssociationSettings, log_odds
-from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_ahead
-from carpus.core.tracking.palm_state import BACK, RELIEF, SIZE, TURN, PalmBelief
-from carpus.core.tracking.palm_view import View, recentred, sight
+from carpus.core.tracking.palm_state import BACK, RELIEF, SIZE, TURN, PalmEstimate
+from carpus.core.tracking.palm_view import View, error_reset, palm_linearised
 from carpus.core.tracking.predicted_measurement import predicted_measurement
 from carpus.core.tracking.readout import Readout, ReadoutSettings
 from carpus.core.tracking.settings import MeasurementNoise
@@ -47,11 +47,11 @@ def view_of(rng: np.random.Generator, sensor: DepthSensor = PRIMESENSE) -> View:
     return View(replace(CAMERA, sensor=sensor), turned, MIDDLE_M, RIGHT_PALM_M, 0.3 * rng.normal(size=(6, 18)))
 
 
-def bank_about(belief: PalmBelief, rng: np.random.Generator, modes: int) -> Bank:
+def mixture_about(estimate: PalmEstimate, rng: np.random.Generator, modes: int) -> ModeMixture:
     probability = rng.uniform(0.1, 1.0, size=(1, modes))
-    return Bank(
+    return ModeMixture(
         0.01 * rng.normal(size=(1, modes, SIZE)),
-        belief.covariance * rng.uniform(0.5, 2.0, size=(1, modes, 1, 1)),
+        estimate.covariance * rng.uniform(0.5, 2.0, size=(1, modes, 1, 1)),
         probability / probability.sum(),
     )
 
@@ -60,31 +60,31 @@ def bank_about(belief: PalmBelief, rng: np.random.Generator, modes: int) -> Bank
 @pytest.mark.parametrize("modes", [1, 8])
 def test_sight_and_what_is_expected(seed: int, modes: int) -> None:
     rng = np.random.default_rng(seed)
-    belief, view = moving(seed), view_of(rng)
-    both(lambda: sight(belief, view, Spread()))
-    bank = bank_about(belief, rng, modes)
+    estimate, view = moving(seed), view_of(rng)
+    both(lambda: palm_linearised(estimate, view, Spread()))
+    mixture = mixture_about(estimate, rng, modes)
 
     def expected() -> tuple[FloatArray, FloatArray]:
-        predicted = predicted_measurement(belief, bank, view, Spread())
+        predicted = predicted_measurement(estimate, mixture, view, Spread())
         return predicted.mean, predicted.covariance
 
     both(expected)
-    both(lambda: recentred(belief, bank))
+    both(lambda: error_reset(estimate, mixture))
 
 
 def test_a_palm_that_is_not_known_at_all_is_no_covariance() -> None:
-    belief = moving()
-    broken = replace(belief, covariance=-belief.covariance)
+    estimate = moving()
+    broken = replace(estimate, covariance=-estimate.covariance)
     for level in ("numpy", "plain", "wide"):
         with pytest.raises(np.linalg.LinAlgError):
             _sight_by(level, broken)
 
 
-def _sight_by(level: str, belief: PalmBelief) -> None:
+def _sight_by(level: str, estimate: PalmEstimate) -> None:
     from carpus.core.kernels import choice
 
     with choice.forced(level):
-        sight(belief, view_of(np.random.default_rng(0)), Spread())
+        palm_linearised(estimate, view_of(np.random.default_rng(0)), Spread())
 
 
 @pytest.mark.parametrize("blobs", [0, 1, 25])
@@ -106,21 +106,21 @@ def test_odds_of_names(blobs: int) -> None:
 def test_surface(surface: BackSurface, sensor: DepthSensor, seed: int) -> None:
     rng = np.random.default_rng(seed)
     rotation, position = so3.exp(rng.normal(0.0, 0.1, 3)), rng.normal(0.0, 0.005, 3)
-    belief = moving(seed)
-    belief.value[RELIEF], belief.value[BACK] = 0.01 * rng.normal(size=(2, 3))
-    belief.value[:3] = position
-    belief = replace(belief, rotation_w2_w0=rotation @ so3.exp(0.01 * rng.normal(size=3)))
+    estimate = moving(seed)
+    estimate.value[RELIEF], estimate.value[BACK] = 0.01 * rng.normal(size=(2, 3))
+    estimate.value[:3] = position
+    estimate = replace(estimate, rotation_w2_w0=rotation @ so3.exp(0.01 * rng.normal(size=3)))
     view = View(replace(CAMERA, sensor=sensor), FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, np.zeros((6, 18)))
     samples = place_on(rotation, position)
     for every in (7, 8, 900):  # an odd and an even number of readings, and too few
         some = SurfaceSamples(samples.pixel[::every], samples.depth_m[::every] + 1e-3 * rng.normal(size=1))
-        found = both(lambda some=some: surface_measurement(belief, some, surface, view, SurfaceSettings()))
+        found = both(lambda some=some: surface_measurement(estimate, some, surface, view, SurfaceSettings()))
         assert (found is None) == (every == 900)
-    assert belief.value[TURN].any() == False  # noqa: E712
+    assert estimate.value[TURN].any() == False  # noqa: E712
     away = SurfaceSamples(samples.pixel[::9] + 1e4, samples.depth_m[::9])
-    assert both(lambda: surface_measurement(belief, away, surface, view, SurfaceSettings())) is None
+    assert both(lambda: surface_measurement(estimate, away, surface, view, SurfaceSettings())) is None
     none = SurfaceSamples(np.empty((0, 2)), np.empty(0))
-    assert both(lambda: surface_measurement(belief, none, surface, view, SurfaceSettings())) is None
+    assert both(lambda: surface_measurement(estimate, none, surface, view, SurfaceSettings())) is None
 
 
 @pytest.mark.parametrize("tissue", [always_pushed, resting_or_moving, moved_by_joints])
@@ -131,11 +131,15 @@ def test_the_palm_ahead(tissue: Callable[[SoftTissue], TissueModes], scales: tup
     motion, along = PalmMotion(MotionNoise(), tissue(SoftTissue()), np.array(scales)), rng.normal(size=3)
     unseen = np.outer(along, along) / (along @ along)
     for seed, some in ((1, None), (2, unseen)):
-        belief = moving(seed)
-        bank = bank_about(belief, rng, motion.modes)
-        both(lambda belief=belief, bank=bank, some=some: palm_ahead(belief, bank, motion, dt_s, some, SPEEDS))
+        estimate = moving(seed)
+        mixture = mixture_about(estimate, rng, motion.modes)
+        both(
+            lambda estimate=estimate, mixture=mixture, some=some: palm_ahead(
+                estimate, mixture, motion, dt_s, some, SPEEDS
+            )
+        )
     still = replace(moving(3), value=np.zeros(SIZE))
-    both(lambda: palm_ahead(still, bank_about(still, np.random.default_rng(1), motion.modes), motion, dt_s))
+    both(lambda: palm_ahead(still, mixture_about(still, np.random.default_rng(1), motion.modes), motion, dt_s))
 
 
 @pytest.mark.parametrize("side", ["right", "left"])
@@ -145,10 +149,10 @@ def test_the_wrist_as_it_is_read(side: Side, start_rad: tuple[float, ...], senso
     known = calibration(side, start_angles_rad=np.array(start_rad))
     camera = replace(CAMERA, sensor=replace(sensor, averages=sensor is D435, stays_px=0.0))
     for seed in range(3):
-        belief = moving(seed)
+        estimate = moving(seed)
         if seed == 2:
-            belief = replace(belief, rotation_w2_w0=np.eye(3))  # where ZYZ angles are not defined
-        both(lambda belief=belief: Readout(known, ReadoutSettings(), camera, 6e-3).moment(belief))
+            estimate = replace(estimate, rotation_w2_w0=np.eye(3))  # where ZYZ angles are not defined
+        both(lambda estimate=estimate: Readout(known, ReadoutSettings(), camera, 6e-3).moment(estimate))
 
 
 def test_adapted_noise() -> None:

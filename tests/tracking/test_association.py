@@ -39,13 +39,13 @@ odds_tables = st.integers(1, 4).flatmap(
 @settings(deadline=None, max_examples=200)
 @given(odds_tables)
 def test_resolved_names_are_the_best_of_all(odds: FloatArray) -> None:
-    taken = resolve(odds)
-    used = taken[taken >= 0]
+    assigned = resolve(odds)
+    used = assigned[assigned >= 0]
     assert len(set(used)) == len(used), "no blob twice"
-    reached = sum(odds[j, i] for j, i in enumerate(taken) if i >= 0)
+    reached = sum(odds[j, i] for j, i in enumerate(assigned) if i >= 0)
     best = max(sum(odds[j, i] for j, i in enumerate(a) if i >= 0) for a in assignments(*odds.shape))
     assert reached == pytest.approx(best, abs=1e-9)
-    assert all(odds[j, i] > 0.0 for j, i in enumerate(taken) if i >= 0), "clutter is likelier than such a name"
+    assert all(odds[j, i] > 0.0 for j, i in enumerate(assigned) if i >= 0), "clutter is likelier than such a name"
 
 
 def random_covariance(rng: np.random.Generator, count: int) -> FloatArray:
@@ -121,12 +121,12 @@ def joint_score(
     covariance: FloatArray,
     blobs: FloatArray,
     noise: FloatArray,
-    taken: tuple[int, ...],
+    assigned: tuple[int, ...],
     depths: tuple[bool, ...],
 ) -> float:
     """Log posterior of one set of names over all clutter, by the Gaussian of all named components at once."""
     rows, values, variances, extra = [], [], [], 0.0
-    for marker, (blob, with_depth) in enumerate(zip(taken, depths, strict=True)):
+    for marker, (blob, with_depth) in enumerate(zip(assigned, depths, strict=True)):
         if blob < 0:
             continue
         deep = bool(np.isfinite(blobs[blob, 2]))
@@ -147,22 +147,22 @@ def is_inside_gate(
     covariance: FloatArray,
     blobs: FloatArray,
     noise: FloatArray,
-    taken: tuple[int, ...],
+    assigned: tuple[int, ...],
     depths: tuple[bool, ...],
 ) -> bool:
     """Whether each name, the surest marker's first, is inside the gate given those before it."""
-    spread = [np.linalg.det(covariance[3 * j : 3 * j + 2, 3 * j : 3 * j + 2]) for j in range(len(taken))]
+    spread = [np.linalg.det(covariance[3 * j : 3 * j + 2, 3 * j : 3 * j + 2]) for j in range(len(assigned))]
     rows: list[int] = []
     variances: list[float] = []
     values: list[float] = []
     before = 0.0
     for j in np.argsort(spread, kind="stable"):
-        if taken[j] < 0:
+        if assigned[j] < 0:
             continue
         axes = range(3 if depths[j] else 2)
         rows += [3 * int(j) + axis for axis in axes]
-        variances += [noise[taken[j], axis] for axis in axes]
-        values += [blobs[taken[j], axis] for axis in axes]
+        variances += [noise[assigned[j], axis] for axis in axes]
+        values += [blobs[assigned[j], axis] for axis in axes]
         off = np.array(values) - mean[rows]
         distance2 = float(off @ np.linalg.solve(covariance[np.ix_(rows, rows)] + np.diag(variances), off))
         if distance2 - before > SETTINGS.gate_sd**2:
@@ -176,16 +176,16 @@ def all_scores(
 ) -> dict[tuple[tuple[int, ...], tuple[bool, ...]], float]:
     out = {}
     markers = mean.size // 3
-    for taken in assignments(markers, len(blobs)):
-        ways = [(False, True) if i >= 0 and np.isfinite(blobs[i, 2]) else (False,) for i in taken]
+    for assigned in assignments(markers, len(blobs)):
+        ways = [(False, True) if i >= 0 and np.isfinite(blobs[i, 2]) else (False,) for i in assigned]
         for depths in product(*ways):
-            if is_inside_gate(mean, covariance, blobs, noise, taken, depths):
-                out[taken, depths] = joint_score(mean, covariance, blobs, noise, taken, depths)
+            if is_inside_gate(mean, covariance, blobs, noise, assigned, depths):
+                out[assigned, depths] = joint_score(mean, covariance, blobs, noise, assigned, depths)
     return out
 
 
-def as_key(taken: NDArray[np.int64], with_depth: NDArray[np.bool_]) -> tuple[tuple[int, ...], tuple[bool, ...]]:
-    return tuple(int(i) for i in taken), tuple(bool(d) for d in with_depth)
+def as_key(assigned: NDArray[np.int64], with_depth: NDArray[np.bool_]) -> tuple[tuple[int, ...], tuple[bool, ...]]:
+    return tuple(int(i) for i in assigned), tuple(bool(d) for d in with_depth)
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -193,8 +193,8 @@ def test_joint_names_are_the_best_of_all_with_a_wide_beam(seed: int) -> None:
     mean, covariance, blobs, noise = scene(seed, clutter=seed % 3)
     found = associate_jointly(mean, covariance, blobs, noise, RES_PX2, OUTLIER, SETTINGS, beam=10_000)
     scores = all_scores(mean, covariance, blobs, noise)
-    key = as_key(found.taken, found.with_depth)
-    used = found.taken[found.taken >= 0]
+    key = as_key(found.assigned, found.with_depth)
+    used = found.assigned[found.assigned >= 0]
     assert len(set(used)) == len(used), "no blob twice"
     assert scores[key] == pytest.approx(found.log_posterior, abs=1e-6)
     assert found.log_posterior == pytest.approx(max(scores.values()), abs=1e-6)
@@ -222,7 +222,7 @@ def test_joint_names_see_what_single_ones_cannot() -> None:
     own = np.stack([covariance[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(3)])
     single = resolve(log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, OUTLIER, SETTINGS).value)
     jointly = associate_jointly(mean, covariance, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
-    assert list(jointly.taken) == [0, 1, 2]
+    assert list(jointly.assigned) == [0, 1, 2]
     assert list(single) != [0, 1, 2]
 
 
@@ -234,7 +234,7 @@ def test_blobs_of_strange_depth_are_named_by_their_pixels() -> None:
     assert resolve(odds.value)[0] == 0
     assert not odds.with_depth[0, 0]
     jointly = associate_jointly(mean, covariance, blob, noise, RES_PX2, OUTLIER, SETTINGS)
-    assert as_key(jointly.taken, jointly.with_depth) == ((0,), (False,))
+    assert as_key(jointly.assigned, jointly.with_depth) == ((0,), (False,))
 
 
 def test_the_whole_is_doubted_when_chance_would_hardly_make_it() -> None:

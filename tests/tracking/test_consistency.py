@@ -51,9 +51,9 @@ def test_only_a_free_blob_at_the_place_and_depth_is_passed_over() -> None:
     disc_px, depth = np.array([[100.0, 100.0], [200.0, 100.0]]), np.array([0.7, 0.7])
     settings = ConsistencySettings()
 
-    def over(taken: list[int], blob_px: list[list[float]], blob_m: list[float]) -> list[bool]:
+    def over(assigned: list[int], blob_px: list[list[float]], blob_m: list[float]) -> list[bool]:
         return passed_over(
-            disc_px, depth, np.array(taken), np.array(blob_px).reshape(-1, 2), np.array(blob_m), 525.0, settings
+            disc_px, depth, np.array(assigned), np.array(blob_px).reshape(-1, 2), np.array(blob_m), 525.0, settings
         ).tolist()
 
     assert over([-1, 0], [[200.0, 100.0], [103.0, 101.0]], [0.7, 0.7]) == [True, False]

@@ -51,14 +51,14 @@ def consistency(motion: Motion, settings: TrackerSettings, noise: float = 1.0) -
                 depth_sd_m=noise * DEPTH_SD_M,
             )
             frame = tracker.step(i, i * DT_S, found)
-            belief = tracker.record.history[-1].belief
-            if i < SETTLED or belief is None:
+            estimate = tracker.record.history[-1].estimate
+            if i < SETTLED or estimate is None:
                 continue
             if frame.nis_dof:
                 nis, dof = nis + frame.nis, dof + frame.nis_dof
-            error = Rotation.from_matrix(belief.rotation_w2_w0.T @ rotation_of(*pose.angles_deg)).as_rotvec()
-            turn.append(normalised(error, belief.covariance[6:9, 6:9]))
-            place.append(normalised(pose.position_m - belief.position_m, belief.covariance[:3, :3]))
+            error = Rotation.from_matrix(estimate.rotation_w2_w0.T @ rotation_of(*pose.angles_deg)).as_rotvec()
+            turn.append(normalised(error, estimate.covariance[6:9, 6:9]))
+            place.append(normalised(pose.position_m - estimate.position_m, estimate.covariance[:3, :3]))
     return nis / dof, float(np.mean(turn)), float(np.mean(place))
 
 

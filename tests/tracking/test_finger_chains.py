@@ -11,23 +11,23 @@ from carpus.core.hand.anatomy_prior import constants_of
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.kinematics import disc_centres, joint_centres, segment_frames
 from carpus.core.hand.sites import SITE_CHAINS, joint_angle_names
+from carpus.core.tracking.digit_filter import DIGIT_SIZE, RATES, SEEN, DigitView, digits_linearised, spread_points
 from carpus.core.tracking.hand_geometry import (
+    CHAINS,
     CONSTANTS,
-    RAYS,
     SLOTS,
     JointReading,
+    digit_discs_m,
+    digit_frames,
+    digit_joints_m,
     direct_markers,
-    ray_discs_m,
-    ray_frames,
-    ray_joints_m,
     slope_by_constants,
     slots_of,
 )
-from carpus.core.tracking.ray_filter import RATES, RAY_SIZE, SEEN, RayView, forecast, spread_points
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray
 
-RAY_MARKERS = np.array(SITE_CHAINS)[:, 2:]
+DIGIT_MARKERS = np.array(SITE_CHAINS)[:, 2:]
 
 
 def hand(seed: int) -> HandAnatomy:
@@ -55,32 +55,36 @@ def state_of(anatomy: HandAnatomy, joints: FloatArray) -> FloatArray:
 def test_discs_and_joints_are_those_of_the_plain_chains(seed: int, dip_free: bool) -> None:
     anatomy, joints = hand(seed), angles(seed, dip_free)
     state, roots = state_of(anatomy, joints), anatomy.palm_disc_m[1:]
-    frames = ray_frames(state)
-    assert np.allclose(ray_discs_m(roots, state[:, None])[:, 0], disc_centres(anatomy, joints)[RAY_MARKERS], atol=1e-12)
-    chain = ray_joints_m(roots, state, frames)
+    frames = digit_frames(state)
+    assert np.allclose(
+        digit_discs_m(roots, state[:, None])[:, 0], disc_centres(anatomy, joints)[DIGIT_MARKERS], atol=1e-12
+    )
+    chain = digit_joints_m(roots, state, frames)
     plain = joint_centres(anatomy, joints)
-    assert np.allclose(chain[:, 1:], plain[RAY_MARKERS], atol=1e-12)
-    assert np.allclose(chain[:, 0], plain[RAY_MARKERS[:, 0] - 1], atol=1e-12)
+    assert np.allclose(chain[:, 1:], plain[DIGIT_MARKERS], atol=1e-12)
+    assert np.allclose(chain[:, 0], plain[DIGIT_MARKERS[:, 0] - 1], atol=1e-12)
     bones = segment_frames(anatomy, joints)
-    direction = (bones.end_m - bones.start_m)[1:].reshape(RAYS, 3, 3)
+    direction = (bones.end_m - bones.start_m)[1:].reshape(CHAINS, 3, 3)
     direction /= np.linalg.norm(direction, axis=-1, keepdims=True)
     assert np.allclose(frames.direction, direction, atol=1e-12)
     assert np.allclose(np.linalg.norm(frames.normal, axis=-1), 1.0, atol=1e-12)
-    assert np.allclose(frames.normal[:, 2], bones.dorsal_normal[1:].reshape(RAYS, 3, 3)[:, 2], atol=1e-12)
+    assert np.allclose(frames.normal[:, 2], bones.dorsal_normal[1:].reshape(CHAINS, 3, 3)[:, 2], atol=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(3))
 def test_slope_by_the_constants_is_that_of_small_differences(seed: int) -> None:
     anatomy, joints = hand(seed), angles(seed, dip_free=True)
     state, roots = state_of(anatomy, joints), anatomy.palm_disc_m[1:]
-    frames = ray_frames(state)
-    slope = slope_by_constants(state, frames, ray_joints_m(roots, state, frames))
+    frames = digit_frames(state)
+    slope = slope_by_constants(state, frames, digit_joints_m(roots, state, frames))
     step = 1e-6
     for constant in range(CONSTANTS):
         ahead, back = state.copy(), state.copy()
         ahead[:, SLOTS + constant] += step
         back[:, SLOTS + constant] -= step
-        by_difference = (ray_discs_m(roots, ahead[:, None]) - ray_discs_m(roots, back[:, None]))[:, 0] / (2.0 * step)
+        by_difference = (digit_discs_m(roots, ahead[:, None]) - digit_discs_m(roots, back[:, None]))[:, 0] / (
+            2.0 * step
+        )
         if constant == 4:  # only the thumb has a roll
             by_difference = by_difference[:1]
         assert np.allclose(slope[: len(by_difference), ..., constant], by_difference, atol=1e-8), constant
@@ -90,29 +94,31 @@ def test_forecast_of_a_sure_state_is_the_projection_and_its_slope() -> None:
     """As the covariance goes to nothing, the statistical line becomes the tangent."""
     anatomy, joints = hand(1), angles(1, dip_free=True)
     roots = anatomy.palm_disc_m[1:]
-    mean = np.zeros((RAYS, RAY_SIZE))
+    mean = np.zeros((CHAINS, DIGIT_SIZE))
     mean[:, SEEN] = state_of(anatomy, joints)
-    covariance = np.broadcast_to(1e-8 * np.eye(RAY_SIZE), (RAYS, RAY_SIZE, RAY_SIZE))
+    covariance = np.broadcast_to(1e-8 * np.eye(DIGIT_SIZE), (CHAINS, DIGIT_SIZE, DIGIT_SIZE))
     down = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
-    view = RayView(down, np.array([0.01, 0.02, 0.7]), Camera(525.0, 530.0, 319.5, 239.5))
-    line = forecast(spread_points(mean, covariance, roots, Spread()), view, Spread())
+    view = DigitView(down, np.array([0.01, 0.02, 0.7]), Camera(525.0, 530.0, 319.5, 239.5))
+    linearised = digits_linearised(spread_points(mean, covariance, roots, Spread()), view, Spread())
 
     def images(about: FloatArray) -> FloatArray:
-        point = ray_discs_m(roots, about[:, None, SEEN])[:, 0] @ down.T + view.translation_m
+        point = digit_discs_m(roots, about[:, None, SEEN])[:, 0] @ down.T + view.translation_m
         z = point[..., 2]
         return np.stack(
             (525.0 * point[..., 0] / z + 319.5, 530.0 * point[..., 1] / z + 239.5, z), axis=-1
-        ).reshape(RAYS, 9)  # fmt: skip
+        ).reshape(CHAINS, 9)  # fmt: skip
 
-    assert np.allclose(line.value, images(mean), atol=1e-3)
+    assert np.allclose(linearised.value, images(mean), atol=1e-3)
     for slot in range(SLOTS):
         ahead, back = mean.copy(), mean.copy()
         ahead[:, slot] += 1e-5
         back[:, slot] -= 1e-5
         by_difference = (images(ahead) - images(back)) / 2e-5
-        assert np.allclose(line.slope[:, :, slot], by_difference, rtol=1e-3, atol=0.05), slot
-    assert np.allclose(line.slope[:, :, RATES], 0.0)
-    assert np.allclose(line.spread, line.slope @ covariance @ np.swapaxes(line.slope, 1, 2), rtol=1e-2, atol=1e-4)
+        assert np.allclose(linearised.slope[:, :, slot], by_difference, rtol=1e-3, atol=0.05), slot
+    assert np.allclose(linearised.slope[:, :, RATES], 0.0)
+    assert np.allclose(
+        linearised.spread, linearised.slope @ covariance @ np.swapaxes(linearised.slope, 1, 2), rtol=1e-2, atol=1e-4
+    )
 
 
 @pytest.mark.parametrize("dip_free", [False, True])
@@ -120,7 +126,7 @@ def test_slots_hold_the_angles_and_give_them_back(dip_free: bool) -> None:
     joints = angles(7, dip_free)
     reading = JointReading.of(dip_free)
     assert np.allclose(reading.angles(slots_of(joints)), joints, atol=1e-14)
-    variance = reading.variances(np.broadcast_to(np.diag([1.0, 2.0, 3.0, 4.0, 5.0]), (RAYS, SLOTS, SLOTS)))
+    variance = reading.variances(np.broadcast_to(np.diag([1.0, 2.0, 3.0, 4.0, 5.0]), (CHAINS, SLOTS, SLOTS)))
     by_name = dict(zip(joint_angle_names(dip_free), variance, strict=True))
     assert by_name["IP1_flexion"] == pytest.approx(5.0)
     assert by_name["PIP4_flexion"] == pytest.approx(3.0)

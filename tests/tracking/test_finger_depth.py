@@ -8,21 +8,21 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from carpus.core.tracking.digit_filter import DIGIT_SIZE, DigitView
 from carpus.core.tracking.finger_depth import FLEXION, FingerDepthSettings, knuckle_bends, with_bends
-from carpus.core.tracking.hand_geometry import RAYS, SLOTS
-from carpus.core.tracking.kernel import Bank
-from carpus.core.tracking.ray_filter import RAY_SIZE, RayView
+from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
+from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.types import FINGER_STEP_PX, FloatArray, SurfaceSamples
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 
 INDEX = 1
 LENGTH_M, HEIGHT_M, DEPTH_M = 0.044, 0.0075, 0.011
 TABLE_M = 0.06
-VIEW = RayView(FROM_ABOVE, MIDDLE_M, CAMERA)
+VIEW = DigitView(FROM_ABOVE, MIDDLE_M, CAMERA)
 
 
 def states() -> FloatArray:
-    mean = np.zeros((RAYS, RAY_SIZE))
+    mean = np.zeros((CHAINS, DIGIT_SIZE))
     anatomy = 2 * SLOTS
     mean[:, anatomy], mean[:, anatomy + 7], mean[:, anatomy + 8] = LENGTH_M, DEPTH_M, HEIGHT_M
     return mean
@@ -59,19 +59,19 @@ def test_where_nothing_is_read_nothing_is_said() -> None:
 
 
 def test_one_picture_is_taken_for_little_and_the_other_rays_stay() -> None:
-    covariance = np.broadcast_to(0.3**2 * np.eye(RAY_SIZE), (RAYS, RAY_SIZE, RAY_SIZE))
-    bank = Bank.alike(states(), covariance, 2)
+    covariance = np.broadcast_to(0.3**2 * np.eye(DIGIT_SIZE), (CHAINS, DIGIT_SIZE, DIGIT_SIZE))
+    mixture = ModeMixture.alike(states(), covariance, 2)
     found = knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, readings(60.0), FingerDepthSettings())
-    once = with_bends(bank, found)
+    once = with_bends(mixture, found)
     many = once
     for _ in range(30):
         many = with_bends(many, found)
     first, last = (math.degrees(one.merged()[0][INDEX, FLEXION]) for one in (once, many))
     assert 5.0 < first < 45.0
     assert last == pytest.approx(math.degrees(found.value_rad[INDEX]), abs=4.0)
-    others = np.delete(np.arange(RAYS), INDEX)
-    assert np.allclose(once.mean[others], bank.mean[others])
-    assert np.allclose(once.covariance[others], bank.covariance[others])
+    others = np.delete(np.arange(CHAINS), INDEX)
+    assert np.allclose(once.mean[others], mixture.mean[others])
+    assert np.allclose(once.covariance[others], mixture.covariance[others])
 
 
 def test_what_is_said_is_never_surer_than_frames_that_err_alike() -> None:

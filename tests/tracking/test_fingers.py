@@ -11,14 +11,14 @@ import pytest
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.protocols import HAND21
 from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.tracking.digit_filter import ANATOMY, RATES
 from carpus.core.tracking.finger_model import seat_of
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.fingers import Fingers, FingerTrial
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.palm_association import measurements_of
-from carpus.core.tracking.palm_state import InitialSd, resting_belief
-from carpus.core.tracking.ray_filter import ANATOMY, RATES
+from carpus.core.tracking.palm_state import InitialSd, resting_estimate
 from carpus.core.tracking.readout import Readout, ReadoutSettings
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
@@ -134,13 +134,13 @@ def weighed(place_m: float, off_px: tuple[float, float], own: FingerSettings) ->
     settings = TrackerSettings(fingers=own)
     fingers = Fingers(hand.calibration, seen.truth.camera, settings)
     view = HandFilter(hand.calibration, seen.truth.camera, settings).view
-    belief = resting_belief(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(21))
-    seat = seat_of(belief, view, Readout(palm_of(hand.calibration), ReadoutSettings(), view.camera, 6e-3))
+    estimate = resting_estimate(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(21))
+    seat = seat_of(estimate, view, Readout(palm_of(hand.calibration), ReadoutSettings(), view.camera, 6e-3))
     blobs, marker = seen.detections[0], seen.marker[0]
     pixel = blobs.pixel + np.column_stack((np.choose(marker % 2, off_px), np.zeros(marker.size)))
     found = measurements_of(replace(blobs, pixel=pixel), 5.0, settings, seen.truth.camera.sensor)
     trial = fingers.weigh(fingers.ahead(0.0), 0.0, seat, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
-    return trial, trial.named.update.bank.merged()[0] - fingers.model.at_neutral().merged()[0]
+    return trial, trial.named.update.mixture.merged()[0] - fingers.model.at_neutral().merged()[0]
 
 
 def test_discs_share_what_the_palm_may_be_off_by() -> None:

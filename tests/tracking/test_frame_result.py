@@ -31,7 +31,7 @@ def test_a_disc_passed_over_is_doubted_for_as_long_as_the_hand_is_the_same() -> 
         predicted = own.predict(0.0)
         scan = own.scan(predicted, beside, index * DT_S, DT_S)
         posterior = own.update(predicted, scan)
-        assert posterior.palm.taken[MCP3] < 0
+        assert posterior.palm.assigned[MCP3] < 0
         return results.told(index, TrackStatus.TRACKED, posterior, scan, None, beside, 0)
 
     patient = int(settings.doubt.unused_s / DT_S) + 1

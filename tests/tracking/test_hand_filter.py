@@ -17,7 +17,7 @@ from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan
 from carpus.core.tracking.palm_state import RATE, SHAPE, SKIN
 from carpus.core.tracking.reacquire import Facing, FoundPalm
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.soft_tissue import NO_DIGITS, settled_covariance
+from carpus.core.tracking.soft_tissue import NO_DIGITS, stationary_covariance
 from carpus.core.types import Detections
 from tests.accuracy.carpus import measured_hand
 from tests.simulation.measurements import measurement_sequence
@@ -64,7 +64,7 @@ def test_a_palm_is_looked_for_with_its_discs_where_skin_may_have_carried_them(mo
     settings = TrackerSettings()
     own = HandFilter(calibration(), CAMERA, settings)
     own.find(blobs(Pose()), Facing(np.eye(3), 1.0))
-    by_skin = settled_covariance(settings.tissue)[SKIN, SKIN]
+    by_skin = stationary_covariance(settings.tissue)[SKIN, SKIN]
     assert np.linalg.eigvalsh(asked[0][2] - by_skin).min() > 0.0
 
 
@@ -72,11 +72,11 @@ def test_the_rate_about_a_line_of_discs_fades_while_no_other_is_seen() -> None:
     own = HandFilter(calibration(), CAMERA, TrackerSettings(use_surface=False))
     run(own, 10)
     posterior, scan = updated(own, 10 * DT_S, swing(1, 40.0, 1.0)(10 * DT_S), (WRIST, CMC1, MCP2))
-    assert np.count_nonzero(posterior.palm.taken >= 0) == 3
-    assert (posterior.palm.taken[[MCP3, MCP4, MCP5]] >= 0).all()
+    assert np.count_nonzero(posterior.palm.assigned >= 0) == 3
+    assert (posterior.palm.assigned[[MCP3, MCP4, MCP5]] >= 0).all()
     own.accept(posterior, scan, is_seen=True, linked=True)
     line = np.array([0.016, 0.033, 0.0]) / np.hypot(0.016, 0.033)
-    before, after = posterior.belief.value[RATE], own.predict(0.0).nominal.value[RATE]
+    before, after = posterior.estimate.value[RATE], own.predict(0.0).nominal.value[RATE]
     assert abs(line @ before) > 0.05
     kept = np.exp(-DT_S / TrackerSettings().rate_memory_s)
     assert line @ after == pytest.approx(kept * (line @ before), rel=0.05)
@@ -91,7 +91,7 @@ def test_a_scan_without_blobs_is_one_of_nothing() -> None:
     assert len(scan.blobs) == len(scan.ideal) == 0
     posterior = own.update(predicted, scan)
     assert posterior.seen == posterior.palm.dof == 0
-    assert (posterior.palm.taken == -1).all()
+    assert (posterior.palm.assigned == -1).all()
 
 
 def test_a_prediction_is_worked_out_once_and_of_another_time_anew() -> None:

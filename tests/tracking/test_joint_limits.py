@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core.hand.anatomy import HARD_LIMITS_RAD
-from carpus.core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS
+from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, SLOTS
 from carpus.core.tracking.joint_limits import (
     MID_RANGE_RAD,
     RANGE_SD_RAD,
@@ -17,33 +17,33 @@ from carpus.core.tracking.joint_limits import (
     outside_limits,
     slot_limits_rad,
 )
-from carpus.core.tracking.kernel import Bank
+from carpus.core.tracking.kernel import ModeMixture
 
 SIZE = SLOTS + CONSTANTS
 INDEX, PIP = 1, 2
 SETTINGS = LimitSettings()
 
 
-def belief(pip_deg: float, sd_deg: float) -> Bank:
+def estimate(pip_deg: float, sd_deg: float) -> ModeMixture:
     """All joints surely at 20 degrees but one: PIP of the index finger."""
-    mean = np.zeros((RAYS, 1, SIZE))
+    mean = np.zeros((CHAINS, 1, SIZE))
     mean[..., 1:3] = math.radians(20.0)
-    covariance = np.broadcast_to(1e-8 * np.eye(SIZE), (RAYS, 1, SIZE, SIZE)).copy()
+    covariance = np.broadcast_to(1e-8 * np.eye(SIZE), (CHAINS, 1, SIZE, SIZE)).copy()
     mean[INDEX, 0, PIP] = math.radians(pip_deg)
     covariance[INDEX, 0, PIP, PIP] = math.radians(sd_deg) ** 2
-    return Bank(mean, covariance, np.ones((RAYS, 1)))
+    return ModeMixture(mean, covariance, np.ones((CHAINS, 1)))
 
 
 def pulled(pip_deg: float, sd_deg: float) -> tuple[float, float]:
     """PIP and its standard deviation after the limits, degrees."""
-    before = belief(pip_deg, sd_deg)
+    before = estimate(pip_deg, sd_deg)
     after = constrained(before, before.mean[:, 0, :SLOTS], SETTINGS)
     sd = math.sqrt(after.covariance[INDEX, 0, PIP, PIP])
     return math.degrees(after.mean[INDEX, 0, PIP]), math.degrees(sd)
 
 
 def test_an_angle_well_inside_is_left_alone() -> None:
-    before = belief(60.0, 5.0)
+    before = estimate(60.0, 5.0)
     after = constrained(before, before.mean[:, 0, :SLOTS], SETTINGS)
     assert after.mean[INDEX, 0, PIP] == before.mean[INDEX, 0, PIP]
     assert np.array_equal(after.covariance, before.covariance)
@@ -85,7 +85,7 @@ def test_the_truncated_normal_is_that_of_sampling() -> None:
 
 
 def test_abduction_has_less_room_in_a_bent_finger() -> None:
-    slots = np.zeros((RAYS, SLOTS))
+    slots = np.zeros((CHAINS, SLOTS))
     straight = slot_limits_rad(slots)[INDEX, 0]
     slots[INDEX, 1] = math.radians(60.0)
     bent = slot_limits_rad(slots)[INDEX, 0]
@@ -94,7 +94,7 @@ def test_abduction_has_less_room_in_a_bent_finger() -> None:
 
 
 def test_what_lies_outside_is_told_with_its_sign() -> None:
-    slots = np.zeros((RAYS, SLOTS))
+    slots = np.zeros((CHAINS, SLOTS))
     slots[INDEX, 2], slots[2, 1] = math.radians(130.0), math.radians(-50.0)
     off = np.degrees(outside_limits(slots))
     assert off[INDEX, 2] == pytest.approx(5.0)
@@ -104,7 +104,7 @@ def test_what_lies_outside_is_told_with_its_sign() -> None:
 
 def test_the_end_joint_is_what_its_slot_adds_to_its_share_of_the_middle_one() -> None:
     low, high = HARD_LIMITS_RAD["DIP2_flexion"]
-    slots = np.zeros((RAYS, SLOTS))
+    slots = np.zeros((CHAINS, SLOTS))
     slots[INDEX, 2] = math.radians(60.0)
     slots[INDEX, 3] = high - math.radians(40.0) + math.radians(7.0)
     assert np.degrees(outside_limits(slots)[INDEX, 3]) == pytest.approx(7.0)

@@ -54,17 +54,17 @@ def test_covariance_stays_one_whatever_comes_in(name: str) -> None:
     statuses = []
     for i, (time_s, found) in enumerate(trouble(len(name), 240)):
         frame = tracker.step(i, time_s, found)
-        belief = tracker.record.history[-1].belief
+        estimate = tracker.record.history[-1].estimate
         statuses.append(frame.status)
-        assert (belief is None) == (frame.status is TrackStatus.LOST)
-        if belief is None:
+        assert (estimate is None) == (frame.status is TrackStatus.LOST)
+        if estimate is None:
             assert np.isnan(frame.moment.angles_rad).all()
             assert np.isnan(frame.moment.position_m).all()
             assert np.isnan(frame.moment.rotation_w2_w0).all()
             assert np.isnan(frame.marker_position_cam_m).all()
             continue
-        assert is_covariance(belief.covariance)
-        assert np.allclose(belief.rotation_w2_w0 @ belief.rotation_w2_w0.T, np.eye(3), atol=1e-9)
+        assert is_covariance(estimate.covariance)
+        assert np.allclose(estimate.rotation_w2_w0 @ estimate.rotation_w2_w0.T, np.eye(3), atol=1e-9)
         assert np.isfinite(frame.moment.angles_rad).all()
         assert (frame.moment.angles_sd_rad > 0.0).all()
         measured = np.isfinite(frame.marker_measured_px).all(axis=1)
@@ -84,9 +84,9 @@ def test_the_very_same_picture_for_a_minute_is_no_trouble() -> None:
     found = blobs(Pose(np.array([5.0, 20.0, -10.0])), np.random.default_rng(0))
     for i in range(900):
         frame = tracker.step(i, i * DT_S, found)
-    belief = tracker.record.history[-1].belief
-    assert belief is not None
-    assert is_covariance(belief.covariance)
+    estimate = tracker.record.history[-1].estimate
+    assert estimate is not None
+    assert is_covariance(estimate.covariance)
     assert frame.status is TrackStatus.TRACKED
     assert np.linalg.norm(frame.moment.velocity_m_s) < 1e-3
     assert np.linalg.norm(frame.moment.angular_velocity_rad_s) < 1e-2

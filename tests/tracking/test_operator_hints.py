@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from carpus.core.spot_answer import SpotAnswer
-from carpus.core.tracking.operator_hints import Hinted, OperatorHints, SaidSettings
+from carpus.core.tracking.operator_hints import Hinted, HintSettings, OperatorHints
 from carpus.core.types import Detections, FloatArray
 
-OWN = SaidSettings()
+OWN = HintSettings()
 MARKERS = ("WRIST", "MCP3")
 EXPECTED_PX = np.array([[100.0, 100.0], [200.0, 100.0]])
 

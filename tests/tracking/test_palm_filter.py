@@ -9,9 +9,9 @@ import pytest
 from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 
 from carpus.core import so3
-from carpus.core.tracking.kernel import Bank, carried
-from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_step, slowing, slowing_unseen, unseen_turns
-from carpus.core.tracking.palm_smoother import FilterStep, PalmWalk, smoothed_palm
+from carpus.core.tracking.kernel import ModeMixture, transitioned
+from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_transition, slowing, slowing_unseen, unseen_turns
+from carpus.core.tracking.palm_smoother import FilterStep, PalmTrajectory, smoothed_palm
 from carpus.core.tracking.palm_state import (
     MOVING,
     POSE,
@@ -25,10 +25,10 @@ from carpus.core.tracking.palm_state import (
     TURN,
     VELOCITY,
     InitialSd,
-    PalmBelief,
-    resting_belief,
+    PalmEstimate,
+    resting_estimate,
 )
-from carpus.core.tracking.palm_view import View, recentred, sight
+from carpus.core.tracking.palm_view import View, error_reset, palm_linearised
 from carpus.core.tracking.soft_tissue import (
     CUP,
     HOME,
@@ -38,7 +38,7 @@ from carpus.core.tracking.soft_tissue import (
     always_pushed,
     moved_by_joints,
     resting_or_moving,
-    settled_covariance,
+    stationary_covariance,
 )
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray
@@ -51,7 +51,7 @@ NO_HIDDEN = np.zeros((6, 18))
 VIEW = View(CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, NO_HIDDEN)
 
 
-def moving(seed: int = 0) -> PalmBelief:
+def moving(seed: int = 0) -> PalmEstimate:
     rng = np.random.default_rng(seed)
     value = np.zeros(SIZE)
     value[POSITION], value[VELOCITY], value[RATE] = 0.02 * rng.normal(size=(3, 3))
@@ -61,90 +61,90 @@ def moving(seed: int = 0) -> PalmBelief:
     scale = np.full(SIZE, 1e-3)
     scale[TURN] = scale[RATE] = scale[VELOCITY] = 0.02
     covariance = (root @ root.T / SIZE + 0.1 * np.eye(SIZE)) * np.outer(scale, scale)
-    return PalmBelief(so3.exp(0.3 * rng.normal(size=3)), value, covariance)
+    return PalmEstimate(so3.exp(0.3 * rng.normal(size=3)), value, covariance)
 
 
-def coasting(belief: PalmBelief, dt_s: float) -> PalmBelief:
+def coasting(estimate: PalmEstimate, dt_s: float) -> PalmEstimate:
     """The motion written out: constant velocities; what skin and relief do is the modes'."""
-    value = belief.value.copy()
+    value = estimate.value.copy()
     value[TURN] = 0.0
-    value[POSITION] = belief.position_m + dt_s * belief.velocity_m_s
-    return PalmBelief(belief.rotation_w2_w0 @ so3.exp(dt_s * belief.rate_rad_s), value, belief.covariance)
+    value[POSITION] = estimate.position_m + dt_s * estimate.velocity_m_s
+    return PalmEstimate(estimate.rotation_w2_w0 @ so3.exp(dt_s * estimate.rate_rad_s), value, estimate.covariance)
 
 
 def test_moved_and_error_to_are_inverse() -> None:
-    belief = moving()
+    estimate = moving()
     error = 0.1 * np.random.default_rng(1).normal(size=SIZE)
-    assert np.allclose(belief.error_to(belief.moved(error, belief.covariance)), error, atol=1e-12)
+    assert np.allclose(estimate.error_to(estimate.moved(error, estimate.covariance)), error, atol=1e-12)
 
 
 @pytest.mark.parametrize("dt_s", [0.005, 1.0 / 30.0, 0.5])
 def test_a_steps_transition_is_the_derivative_of_the_motion(dt_s: float) -> None:
-    belief, step = moving(), 1e-5
-    found = palm_step(belief.rate_rad_s, MOTION, dt_s)
-    after = found.carries(belief, dt_s)
-    assert np.allclose(after.error_to(coasting(belief, dt_s)), 0.0, atol=1e-12)
+    estimate, step = moving(), 1e-5
+    found = palm_transition(estimate.rate_rad_s, MOTION, dt_s)
+    after = found.carries(estimate, dt_s)
+    assert np.allclose(after.error_to(coasting(estimate, dt_s)), 0.0, atol=1e-12)
     forward = np.eye(SIZE)
     forward[MOVING, MOVING] = found.moving
     for i in range(SIZE):
         error = np.zeros(SIZE)
         error[i] = step
         ahead, back = (
-            after.error_to(coasting(belief.moved(sign * error, belief.covariance), dt_s)) for sign in (1.0, -1.0)
+            after.error_to(coasting(estimate.moved(sign * error, estimate.covariance), dt_s)) for sign in (1.0, -1.0)
         )
         assert np.allclose(forward[:, i], (ahead - back) / (2.0 * step), atol=1e-6), i
 
 
 def test_a_second_brings_the_same_uncertainty_at_any_frame_rate() -> None:
     """White acceleration has a density: it matters not into how many steps the time is cut."""
-    start = resting_belief(InitialSd(), 1e-6 * np.eye(21)).covariance
+    start = resting_estimate(InitialSd(), 1e-6 * np.eye(21)).covariance
     ends = []
     for steps in (1, 10, 200):
-        found = palm_step(np.zeros(3), RESTING, 1.0 / steps)
-        bank = Bank.alike(np.zeros((1, SIZE)), start[None], RESTING.modes)
+        found = palm_transition(np.zeros(3), RESTING, 1.0 / steps)
+        mixture = ModeMixture.alike(np.zeros((1, SIZE)), start[None], RESTING.modes)
         for _ in range(steps):
-            bank = carried(bank, found, np.zeros(SIZE))
-        ends.append(bank.covariance)
+            mixture = transitioned(mixture, found, np.zeros(SIZE))
+        ends.append(mixture.covariance)
     assert np.allclose(ends[0], ends[2], rtol=1e-6, atol=1e-12)
     assert np.allclose(ends[1], ends[2], rtol=1e-6, atol=1e-12)
 
 
 def test_modes_scale_the_motion_and_leave_the_tissue() -> None:
-    found = palm_step(np.zeros(3), MOTION, 1.0 / 30.0)
+    found = palm_transition(np.zeros(3), MOTION, 1.0 / 30.0)
     calm, lively = found.driven
     assert np.allclose(lively, 64.0 * calm)
-    assert np.array_equal(*found.settling)
+    assert np.array_equal(*found.relaxing)
 
 
 def test_soft_tissue_settles_at_its_scatter_and_forgets() -> None:
-    settled = settled_covariance(SoftTissue())
+    stationary = stationary_covariance(SoftTissue())
     tissue = np.r_[SKIN, RELIEF]
-    assert np.linalg.eigvalsh(settled[np.ix_(tissue, tissue)]).min() > 0.0
-    found = palm_step(np.zeros(3), MOTION, 0.1)
-    bank = Bank.alike(np.zeros((1, SIZE)), np.zeros((1, SIZE, SIZE)), 2)
+    assert np.linalg.eigvalsh(stationary[np.ix_(tissue, tissue)]).min() > 0.0
+    found = palm_transition(np.zeros(3), MOTION, 0.1)
+    mixture = ModeMixture.alike(np.zeros((1, SIZE)), np.zeros((1, SIZE, SIZE)), 2)
     for _ in range(600):
-        bank = carried(bank, found, np.zeros(SIZE))
-    now = bank.covariance[0, 0]
-    assert np.allclose(now[np.ix_(tissue, tissue)], settled[np.ix_(tissue, tissue)], rtol=1e-3, atol=1e-12)
-    sd_mm = 1e3 * np.sqrt(np.diag(settled[SKIN, SKIN])).reshape(6, 3)
+        mixture = transitioned(mixture, found, np.zeros(SIZE))
+    now = mixture.covariance[0, 0]
+    assert np.allclose(now[np.ix_(tissue, tissue)], stationary[np.ix_(tissue, tissue)], rtol=1e-3, atol=1e-12)
+    sd_mm = 1e3 * np.sqrt(np.diag(stationary[SKIN, SKIN])).reshape(6, 3)
     assert sd_mm[5, 2] > sd_mm[4, 2] > 2.0 * sd_mm[3, 2], "the little knuckle sinks most, the middle one hardly"
     assert (sd_mm[2:, 0] > sd_mm[2:, 1]).all(), "skin glides along the ray more than across"
 
 
-def modes_after(seconds: float, mode: int) -> Bank:
+def modes_after(seconds: float, mode: int) -> ModeMixture:
     """All modes after so long in one, the hand at rest, its skin displaced by a millimetre."""
     nominal = np.zeros(SIZE)
     nominal[SKIN] = 0.001
-    bank = Bank.alike(np.zeros((1, SIZE)), 1e-12 * np.eye(SIZE)[None], RESTING.modes)
+    mixture = ModeMixture.alike(np.zeros((1, SIZE)), 1e-12 * np.eye(SIZE)[None], RESTING.modes)
     for _ in range(round(30 * seconds)):
-        bank = carried(bank, palm_step(np.zeros(3), RESTING, 1.0 / 30.0), nominal)
+        mixture = transitioned(mixture, palm_transition(np.zeros(3), RESTING, 1.0 / 30.0), nominal)
     own = [int(np.flatnonzero(RESTING.tissue_of == mode)[0])]
-    return Bank(bank.mean[:, own] + nominal, bank.covariance[:, own], np.ones((1, 1)))
+    return ModeMixture(mixture.mean[:, own] + nominal, mixture.covariance[:, own], np.ones((1, 1)))
 
 
 def test_tissue_at_rest_keeps_what_is_displaced_at_home_it_has_none_and_moving_it_goes_anywhere() -> None:
     home, still, cup = (modes_after(2.0, mode) for mode in (HOME, STILL, CUP))
-    sd_m = [np.sqrt(np.diagonal(bank.covariance[0, 0])[SKIN]) for bank in (home, still, cup)]
+    sd_m = [np.sqrt(np.diagonal(mixture.covariance[0, 0])[SKIN]) for mixture in (home, still, cup)]
     assert home.mean[0, 0, SKIN] == pytest.approx(0.0, abs=1e-9)
     assert still.mean[0, 0, SKIN] == pytest.approx(0.001, rel=1e-3)
     assert sd_m[0].max() < 2e-5
@@ -166,25 +166,28 @@ def test_rest_is_seldom_left_and_motions_are_short() -> None:
 
 def pushed_by(digits: DigitSpeeds, turning_rad_s: float, seconds: float) -> FloatArray:
     """Standard deviation (21,) of tissue away from home that nothing was wrong with, after joints turned so long."""
-    rate, bank = np.array([0.0, turning_rad_s, 0.0]), Bank.alike(np.zeros((1, SIZE)), 1e-12 * np.eye(SIZE)[None], 4)
+    rate, mixture = (
+        np.array([0.0, turning_rad_s, 0.0]),
+        ModeMixture.alike(np.zeros((1, SIZE)), 1e-12 * np.eye(SIZE)[None], 4),
+    )
     for _ in range(round(60 * seconds)):
-        bank = carried(bank, palm_step(rate, FOLLOWING, 1.0 / 60.0, None, digits), np.zeros(SIZE))
+        mixture = transitioned(mixture, palm_transition(rate, FOLLOWING, 1.0 / 60.0, None, digits), np.zeros(SIZE))
     away = np.flatnonzero(FOLLOWING.tissue_of != HOME)[0]
-    assert np.linalg.eigvalsh(bank.covariance[0, away][SKIN, SKIN]).min() > 0.0
-    return np.asarray(np.sqrt(np.diagonal(bank.covariance[0, away])[np.r_[SKIN, RELIEF]]))
+    assert np.linalg.eigvalsh(mixture.covariance[0, away][SKIN, SKIN]).min() > 0.0
+    return np.asarray(np.sqrt(np.diagonal(mixture.covariance[0, away])[np.r_[SKIN, RELIEF]]))
 
 
 def test_where_fingers_are_seen_tissue_moves_as_far_as_the_joints_beneath_it() -> None:
-    settled = np.sqrt(np.diagonal(settled_covariance(SoftTissue()))[np.r_[SKIN, RELIEF]])
-    rest = pushed_by(DigitSpeeds(), 0.0, 2.0) / settled
+    stationary = np.sqrt(np.diagonal(stationary_covariance(SoftTissue()))[np.r_[SKIN, RELIEF]])
+    rest = pushed_by(DigitSpeeds(), 0.0, 2.0) / stationary
     assert rest[:18].max() < 0.15, "while they rest it creeps, and no more"
-    bent = pushed_by(DigitSpeeds(fingers=1.5), 0.0, 1.0) / settled
+    bent = pushed_by(DigitSpeeds(fingers=1.5), 0.0, 1.0) / stationary
     assert bent[6:18] == pytest.approx(0.93, abs=0.02), "90 degrees of the knuckles take the skin over them anywhere"
     assert bent[:6] == pytest.approx(rest[:6], rel=0.5), "and neither the wrist's nor the thumb's"
-    slowly = pushed_by(DigitSpeeds(fingers=0.5), 0.0, 3.0) / settled
+    slowly = pushed_by(DigitSpeeds(fingers=0.5), 0.0, 3.0) / stationary
     assert slowly[6:18] == pytest.approx(bent[6:18], abs=0.01), "it matters how far, not how fast"
-    assert (pushed_by(DigitSpeeds(thumb=1.5), 0.0, 1.0) / settled)[3:6].min() > 0.9
-    assert (pushed_by(DigitSpeeds(), 1.5, 1.0) / settled)[:3].min() > 0.9
+    assert (pushed_by(DigitSpeeds(thumb=1.5), 0.0, 1.0) / stationary)[3:6].min() > 0.9
+    assert (pushed_by(DigitSpeeds(), 1.5, 1.0) / stationary)[:3].min() > 0.9
 
 
 def test_skin_leaves_home_while_joints_turn() -> None:
@@ -204,14 +207,14 @@ def test_tissue_that_came_home_was_pushed_there_from_anywhere() -> None:
     stayed, came = np.zeros((2, FOLLOWING.modes, FOLLOWING.modes))
     stayed[home, home] = came[away, home] = 1.0
     rest, push = (FOLLOWING.tissue_noise(went, np.zeros(3), 1.0 / 30.0) for went in (stayed, came))
-    np.testing.assert_allclose(push - rest, settled_covariance(SoftTissue())[SOFT, SOFT], atol=1e-15)
+    np.testing.assert_allclose(push - rest, stationary_covariance(SoftTissue())[SOFT, SOFT], atol=1e-15)
 
 
 def test_looking_back_tissue_moves_from_a_frame_on_as_the_digits_did_in_it() -> None:
     vague = np.full(FOLLOWING.modes, 1.0 / FOLLOWING.modes)
     speeds = DigitSpeeds(fingers=2.0), DigitSpeeds(), DigitSpeeds()
     steps = [FilterStep(k / 30.0, moving(0), vague, k > 0, None, digits) for k, digits in enumerate(speeds)]
-    walk = PalmWalk(steps, FOLLOWING)
+    walk = PalmTrajectory(steps, FOLLOWING)
     fast, rest = (walk.passage(frame, moving(0), moving(0), 1.0 / 30.0) for frame in (0, 1))
     knuckles = slice(SKIN.start + 6, SKIN.stop)
     fast_m2, rest_m2 = (np.diagonal(step.noise[0])[knuckles] for step in (fast, rest))
@@ -229,7 +232,7 @@ def test_what_came_after_tells_when_tissue_moved() -> None:
     sure[cup] = 1.0 - 1e-6 * (RESTING.modes - 1)
     vague = np.full(RESTING.modes, 1.0 / RESTING.modes)
     steps = [FilterStep(k / 30.0, moving(0), sure if k == 9 else vague, k > 0) for k in range(10)]
-    went = PalmWalk(steps, RESTING).went_over
+    went = PalmTrajectory(steps, RESTING).went_over
     assert went[9] is None
     now = [float(joint.sum(axis=0)[cup]) for joint in went if joint is not None]
     assert now[8] == pytest.approx(1.0, abs=1e-4)
@@ -238,26 +241,26 @@ def test_what_came_after_tells_when_tissue_moved() -> None:
 
 
 def test_the_line_of_sight_is_the_picture_and_its_slope() -> None:
-    belief = replace(moving(3), covariance=1e-12 * np.eye(SIZE))
-    line = sight(belief, VIEW, Spread())
-    discs = VIEW.discs_cam_m(belief)
+    estimate = replace(moving(3), covariance=1e-12 * np.eye(SIZE))
+    linearised = palm_linearised(estimate, VIEW, Spread())
+    discs = VIEW.discs_cam_m(estimate)
     expected = np.column_stack((CAMERA.project(discs), discs[:, 2])).ravel()
-    assert np.allclose(line.value[0], expected, atol=1e-6)
+    assert np.allclose(linearised.value[0], expected, atol=1e-6)
     step = 1e-6
     for i in np.r_[POSE, SHAPE, SKIN, RELIEF, RATE]:
         error = np.zeros(SIZE)
         error[i] = step
-        there = VIEW.discs_cam_m(belief.moved(error, belief.covariance))
+        there = VIEW.discs_cam_m(estimate.moved(error, estimate.covariance))
         moved = np.column_stack((CAMERA.project(there), there[:, 2])).ravel()
-        assert np.allclose(line.slope[0][:, i], (moved - expected) / step, rtol=2e-4, atol=2e-2), i
+        assert np.allclose(linearised.slope[0][:, i], (moved - expected) / step, rtol=2e-4, atol=2e-2), i
 
 
 def test_the_line_of_sight_is_the_unscented_transform_of_an_independent_filter() -> None:
     """Mean, covariance and cross-covariance of what is seen, as filterpy's own sigma points of the pose give them."""
-    belief = moving(5)
-    wide = belief.covariance.copy()
+    estimate = moving(5)
+    wide = estimate.covariance.copy()
     wide[SHAPE] = wide[SKIN] = wide[:, SHAPE] = wide[:, SKIN] = 0.0
-    belief = replace(belief, covariance=wide)
+    estimate = replace(estimate, covariance=wide)
     pose = wide[np.ix_(POSE, POSE)]
     spread = Spread()
     points = MerweScaledSigmaPoints(POSE.size, alpha=spread.alpha, beta=spread.beta, kappa=spread.kappa)
@@ -265,7 +268,7 @@ def test_the_line_of_sight_is_the_unscented_transform_of_an_independent_filter()
     def seen(offset: FloatArray) -> FloatArray:
         error = np.zeros(SIZE)
         error[POSE] = offset
-        discs = VIEW.discs_cam_m(belief.moved(error, wide))
+        discs = VIEW.discs_cam_m(estimate.moved(error, wide))
         return np.column_stack((CAMERA.project(discs), discs[:, 2])).ravel()
 
     other = UnscentedKalmanFilter(POSE.size, 18, 1.0, seen, lambda x, dt: x, points)
@@ -274,22 +277,23 @@ def test_the_line_of_sight_is_the_unscented_transform_of_an_independent_filter()
     other.predict()
     other.sigmas_f = points.sigma_points(np.zeros(POSE.size), other.P)
     other.update(seen(np.zeros(POSE.size)))
-    line = sight(belief, VIEW, spread)
-    slope = line.slope[0][:, POSE]
-    assert np.allclose(slope @ pose @ slope.T + line.error[0], other.S - other.R, rtol=1e-6, atol=1e-6)
+    linearised = palm_linearised(estimate, VIEW, spread)
+    slope = linearised.slope[0][:, POSE]
+    assert np.allclose(slope @ pose @ slope.T + linearised.error[0], other.S - other.R, rtol=1e-6, atol=1e-6)
     image = np.array([seen(point) for point in other.sigmas_f])
-    assert np.allclose(line.value[0], other.Wm @ image, atol=1e-9)
+    assert np.allclose(linearised.value[0], other.Wm @ image, atol=1e-9)
 
 
 def test_recentring_moves_the_nominal_and_keeps_the_modes_where_they_are() -> None:
-    rng, belief = np.random.default_rng(9), moving(9)
-    bank = Bank(0.01 * rng.normal(size=(1, 2, SIZE)), np.stack((belief.covariance, 2 * belief.covariance))[None],
-                np.array([[0.3, 0.7]]))  # fmt: skip
-    after, apart = recentred(belief, bank)
+    rng, estimate = np.random.default_rng(9), moving(9)
+    apart = 0.01 * rng.normal(size=(1, 2, SIZE))
+    both = np.stack((estimate.covariance, 2 * estimate.covariance))[None]
+    mixture = ModeMixture(apart, both, np.array([[0.3, 0.7]]))
+    after, apart = error_reset(estimate, mixture)
     assert np.allclose(apart.merged()[0], 0.0, atol=1e-4)
     for k in range(2):
-        there = belief.moved(bank.mean[0, k], belief.covariance)
-        again = after.moved(apart.mean[0, k], belief.covariance)
+        there = estimate.moved(mixture.mean[0, k], estimate.covariance)
+        again = after.moved(apart.mean[0, k], estimate.covariance)
         assert np.allclose(there.error_to(again), 0.0, atol=2e-6)
 
 
@@ -310,29 +314,29 @@ def test_looking_back_draws_a_straight_line_through_a_gap() -> None:
         rotation = so3.exp(np.array([0.0, angle, 0.0]))
         steps.append(
             FilterStep(
-                0.1 * k, PalmBelief(rotation, value, sharp if k in (0, 10) else wide), np.array([1.0, 0.0]), k > 0
+                0.1 * k, PalmEstimate(rotation, value, sharp if k in (0, 10) else wide), np.array([1.0, 0.0]), k > 0
             )
         )
     found = smoothed_palm(steps, MOTION)
     middle = found[5]
     assert middle is not None
     assert so3.log(middle.rotation_w2_w0)[1] == pytest.approx(0.5, abs=0.02)
-    for belief in found:
-        assert belief is not None
-        assert np.linalg.eigvalsh(belief.covariance).min() > 0.0
+    for estimate in found:
+        assert estimate is not None
+        assert np.linalg.eigvalsh(estimate.covariance).min() > 0.0
 
 
 def test_looking_back_does_not_reach_over_a_new_beginning() -> None:
     steps = [FilterStep(0.1 * k, moving(k), np.full(2, 0.5), k not in (0, 2)) for k in range(4)]
     found = smoothed_palm(steps, MOTION)
-    assert found[0] is not steps[0].belief
-    assert found[1] is steps[1].belief
-    steps[1] = replace(steps[1], belief=None)
+    assert found[0] is not steps[0].estimate
+    assert found[1] is steps[1].estimate
+    steps[1] = replace(steps[1], estimate=None)
     found = smoothed_palm(steps, MOTION)
-    assert found[0] is steps[0].belief
+    assert found[0] is steps[0].estimate
     assert found[1] is None
-    assert found[2] is not steps[2].belief
-    assert found[3] is steps[3].belief
+    assert found[2] is not steps[2].estimate
+    assert found[3] is steps[3].estimate
 
 
 def test_resting_tissue_is_averaged_away_by_no_number_of_pictures() -> None:
@@ -350,22 +354,22 @@ def test_resting_tissue_is_averaged_away_by_no_number_of_pictures() -> None:
         assert own == pytest.approx(max(new, min(RESTING.tissue.widens * new, live)))
         assert own > 1.1 * new or own == pytest.approx(live)
         assert np.allclose(found.covariance / own, bold.covariance / new)
-    assert smoothed_palm(steps, RESTING)[-1] is steps[-1].belief
+    assert smoothed_palm(steps, RESTING)[-1] is steps[-1].estimate
 
 
 def test_looking_back_goes_by_the_step_that_was_made() -> None:
     """Its noise, the turns that nothing showed, the rate that it began with."""
     now, unseen = moving(1), np.diag([1.0, 0.0, 0.0])
-    made = palm_step(now.rate_rad_s, MOTION, 0.1, unseen)
+    made = palm_transition(now.rate_rad_s, MOTION, 0.1, unseen)
     later = made.carries(now, 0.1).moved(0.01 * np.ones(SIZE), moving(2).covariance)
     calm, lively = np.array([1.0, 0.0]), np.array([0.0, 1.0])
     steps = [FilterStep(0.0, now, calm, False), FilterStep(0.1, later, lively, True, unseen)]
-    walk = PalmWalk(steps, MOTION)
+    walk = PalmTrajectory(steps, MOTION)
     assert walk.seconds_on(0) == pytest.approx(0.1)
     passage = walk.passage(0, now, later, 0.1)
     assert np.array_equal(passage.forward[0, MOVING, MOVING], made.moving)
     assert np.allclose(passage.noise[0, MOVING, MOVING], made.driven[1])
-    assert np.allclose(passage.noise[0, SOFT, SOFT], made.settling[1])
+    assert np.allclose(passage.noise[0, SOFT, SOFT], made.relaxing[1])
     assert np.allclose(passage.apart, 0.01, atol=1e-12)
 
 
@@ -382,15 +386,18 @@ def test_knuckles_alone_do_not_show_the_turn_about_their_line_and_a_wrist_beside
     unseen = unseen_turns(PALM_M[2:], 0.008)
     assert unseen is not None
     np.testing.assert_allclose(unseen @ unseen, unseen, atol=1e-12)
-    line = PALM_M[5, :2] - PALM_M[2, :2]
-    assert abs(unseen[:2, :2] @ (line / np.linalg.norm(line)) @ (line / np.linalg.norm(line))) > 0.98
+    linearised = PALM_M[5, :2] - PALM_M[2, :2]
+    assert (
+        abs(unseen[:2, :2] @ (linearised / np.linalg.norm(linearised)) @ (linearised / np.linalg.norm(linearised)))
+        > 0.98
+    )
     assert np.trace(unseen) == pytest.approx(1.0)
 
 
 def test_an_unseen_turn_is_pushed_as_a_hand_may_move_in_every_mode_and_no_other_is() -> None:
     unseen = np.diag([1.0, 0.0, 0.0])
-    usual = palm_step(np.zeros(3), MOTION, 1.0 / 30.0).driven
-    found = palm_step(np.zeros(3), MOTION, 1.0 / 30.0, unseen).driven
+    usual = palm_transition(np.zeros(3), MOTION, 1.0 / 30.0).driven
+    found = palm_transition(np.zeros(3), MOTION, 1.0 / 30.0, unseen).driven
     loud = (MOTION.unseen_scale / MOTION.scales) ** 2
     for mode in range(len(MOTION.scales)):
         grown = np.diag(found[mode]) / np.where(np.diag(usual[mode]) > 0.0, np.diag(usual[mode]), 1.0)

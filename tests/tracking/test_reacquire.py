@@ -12,13 +12,13 @@ from carpus.core import so3
 from carpus.core.tracking.palm_state import SKIN
 from carpus.core.tracking.palm_view import View
 from carpus.core.tracking.reacquire import Facing, FindingSettings, find_palm
-from carpus.core.tracking.soft_tissue import SoftTissue, settled_covariance
+from carpus.core.tracking.soft_tissue import SoftTissue, stationary_covariance
 from carpus.core.types import Detections, Side
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, Pose, blobs, palm, rotation_of
 
 FINDING = FindingSettings()
 ANYHOW = Facing(np.eye(3), np.pi)
-STRAYS = settled_covariance(SoftTissue())[SKIN, SKIN] + 4e-4**2 * np.eye(18)
+STRAYS = stationary_covariance(SoftTissue())[SKIN, SKIN] + 4e-4**2 * np.eye(18)
 SIDES: tuple[Side, Side] = ("right", "left")
 
 
@@ -102,7 +102,7 @@ def test_the_other_hand_is_never_taken_for_all_of_this_one(side: Side) -> None:
 def test_four_discs_are_named_rightly_or_not_at_all() -> None:
     """Knuckles in a row look much like others, more so where skin has glided: what fits two ways is not taken."""
     rng = np.random.default_rng(44)
-    glide = np.linalg.cholesky(settled_covariance(SoftTissue())[SKIN, SKIN])
+    glide = np.linalg.cholesky(stationary_covariance(SoftTissue())[SKIN, SKIN])
     right, wrong = 0, 0
     for hidden in combinations(range(6), 2):
         for _ in range(16):

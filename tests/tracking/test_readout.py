@@ -10,7 +10,7 @@ import pytest
 
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
-from carpus.core.tracking.palm_state import InitialSd, resting_belief
+from carpus.core.tracking.palm_state import InitialSd, resting_estimate
 from carpus.core.tracking.readout import Readout, ReadoutSettings
 from carpus.core.types import FloatArray
 from tests.session.samples import make_calibration
@@ -29,7 +29,7 @@ def angles_sd_deg(sensor: DepthSensor) -> FloatArray:
         start_angles_rad=np.zeros(3),
     )
     camera = replace(DEFAULT_CAMERA, sensor=sensor)
-    sure = replace(resting_belief(InitialSd(), 1e-12 * np.eye(21)))
+    sure = replace(resting_estimate(InitialSd(), 1e-12 * np.eye(21)))
     sure = replace(sure, covariance=1e-12 * np.eye(len(sure.covariance)))
     moment = Readout(calibration, ReadoutSettings(), camera, RADIUS_M).moment(sure)
     return np.degrees(moment.angles_sd_rad)

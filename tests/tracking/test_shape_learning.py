@@ -9,15 +9,15 @@ import pytest
 
 from carpus.core.depth_sensor import D435, PRIMESENSE
 from carpus.core.tracking.hand_filter import HandFilter
-from carpus.core.tracking.palm_state import LEARNT, SHAPE, SIZE, PalmBelief
-from carpus.core.tracking.palm_view import sight
+from carpus.core.tracking.palm_state import LEARNT, SHAPE, SIZE, PalmEstimate
+from carpus.core.tracking.palm_view import palm_linearised
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.shape_learning import (
     along_rays,
     fresh_share,
     hidden_by_calibration,
     shape_covariance,
-    shape_shares,
+    shape_partial_update,
 )
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.tracking.unscented import Spread
@@ -26,7 +26,7 @@ from tests.tracking.hands import CAMERA, DT_S, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_
 
 @pytest.mark.parametrize("news", [0.1, 1.0])
 def test_shape_takes_its_share_of_the_information(news: float) -> None:
-    mean, covariance = shape_shares(news)
+    mean, covariance = shape_partial_update(news)
     moving = np.delete(np.arange(SIZE), np.arange(LEARNT.start, LEARNT.stop))
     assert (mean[moving] == 1.0).all()
     assert mean[LEARNT] == pytest.approx(1.0 - np.sqrt(1.0 - news))
@@ -38,10 +38,10 @@ def test_a_still_hand_tells_nothing_new_of_its_shape_and_a_moving_one_does() -> 
     disc_m = RIGHT_PALM_M @ FROM_ABOVE.T + MIDDLE_M
     assert fresh_share(disc_m, disc_m, CAMERA) == 0.0
     per_px_m = MIDDLE_M[2] / CAMERA.fx_px
-    shares = [fresh_share(disc_m, disc_m + [moved_px * per_px_m, 0.0, 0.0], CAMERA) for moved_px in (0.5, 4.5, 20.0)]
-    assert shares == sorted(shares)
-    assert shares[0] < 0.15
-    assert shares[2] > 0.95
+    partial = [fresh_share(disc_m, disc_m + [moved_px * per_px_m, 0.0, 0.0], CAMERA) for moved_px in (0.5, 4.5, 20.0)]
+    assert partial == sorted(partial)
+    assert partial[0] < 0.15
+    assert partial[2] > 0.95
     step_m = float(CAMERA.sensor.reading_sd_m(MIDDLE_M[2]))
     assert fresh_share(disc_m, disc_m + [0.0, 0.0, 2.0 * step_m], CAMERA) > 0.8
 
@@ -67,8 +67,8 @@ def test_calibration_hides_its_share_of_a_depth_that_stays_wrong(share: float) -
     for shape in (further, np.zeros((6, 3))):
         value = np.zeros(SIZE)
         value[SHAPE] = shape.ravel()
-        belief = PalmBelief(np.eye(3), value, 1e-12 * np.eye(SIZE))
-        seen.append(sight(belief, view, Spread()).value.reshape(6, 3))
+        estimate = PalmEstimate(np.eye(3), value, 1e-12 * np.eye(SIZE))
+        seen.append(palm_linearised(estimate, view, Spread()).value.reshape(6, 3))
     change = seen[0] - seen[1]
     assert change[:, 2] == pytest.approx([0.0, 0.0, 0.0, (1.0 - share) * 0.001, 0.0, 0.0], abs=1e-9)
     assert np.array_equal(hidden_by_calibration(calibration(), share), view.hidden)

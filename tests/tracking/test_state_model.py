@@ -7,10 +7,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from carpus.core.tracking.hand_geometry import CONSTANTS, DISCS, RAYS, SLOTS
-from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_step
+from carpus.core.tracking.digit_filter import DIGIT_SIZE, DigitMotion
+from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, DISCS, SLOTS
+from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_transition
 from carpus.core.tracking.palm_state import MOVING, PALM_DISCS, SIZE
-from carpus.core.tracking.ray_filter import RAY_SIZE, RayMotion
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import SoftTissue, TissueModes, moved_by_joints, resting_or_moving
 from carpus.core.tracking.state_model import (
@@ -24,7 +24,7 @@ from carpus.core.types import FloatArray
 from tests.test_document_names import is_there
 
 
-@pytest.mark.parametrize(("parts", "size"), [(PALM_STATE, SIZE), (DIGIT_STATE, RAY_SIZE)])
+@pytest.mark.parametrize(("parts", "size"), [(PALM_STATE, SIZE), (DIGIT_STATE, DIGIT_SIZE)])
 def test_every_number_of_the_state_is_told_once(parts: tuple[StatePart, ...], size: int) -> None:
     rows = [row for part in parts for row in range(part.rows.start, part.rows.stop)]
     assert rows == list(range(size))
@@ -50,7 +50,7 @@ def moved_by(forward: FloatArray, parts: tuple[StatePart, ...]) -> dict[str, tup
 def test_the_palm_moves_as_told(tissue: Callable[[SoftTissue], TissueModes]) -> None:
     settings = TrackerSettings()
     motion = PalmMotion(MotionNoise(), tissue(settings.tissue), np.array(settings.mode_scales))
-    step = palm_step(np.array([0.3, -0.2, 0.5]), motion, 0.03)
+    step = palm_transition(np.array([0.3, -0.2, 0.5]), motion, 0.03)
     moving = tuple(part for part in PALM_STATE if part.rows.stop <= MOVING.stop)
     assert moved_by(step.moving, moving) == {part.name: part.moved_by for part in moving}
     assert all(not part.moved_by for part in PALM_STATE if part not in moving)
@@ -58,8 +58,8 @@ def test_the_palm_moves_as_told(tissue: Callable[[SoftTissue], TissueModes]) -> 
 
 
 def test_a_digit_moves_as_told() -> None:
-    free = np.ones((RAYS, SLOTS))
-    motion = RayMotion(free, np.array([1.0]), np.ones((RAYS, CONSTANTS)), np.zeros((RAYS, SLOTS)), 1.0)
-    forward, noise = motion.step(0.03, np.ones(RAYS), None)
+    free = np.ones((CHAINS, SLOTS))
+    motion = DigitMotion(free, np.array([1.0]), np.ones((CHAINS, CONSTANTS)), np.zeros((CHAINS, SLOTS)), 1.0)
+    forward, noise = motion.step(0.03, np.ones(CHAINS), None)
     assert moved_by(forward[2], DIGIT_STATE) == {part.name: part.moved_by for part in DIGIT_STATE}
     assert np.diagonal(noise[2]).min() > 0.0

@@ -11,15 +11,15 @@ import pytest
 from carpus.core import so3
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.hand.back_surface import BackSurface, BackSurfaceSettings, back_surface_from
-from carpus.core.tracking.kernel import Bank
-from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmBelief
-from carpus.core.tracking.palm_view import View, recentred
-from carpus.core.tracking.shape_learning import shape_shares
+from carpus.core.tracking.kernel import ModeMixture
+from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate
+from carpus.core.tracking.palm_view import View, error_reset
+from carpus.core.tracking.shape_learning import shape_partial_update
 from carpus.core.tracking.surface_fit import (
     SurfaceMeasurement,
     SurfaceSettings,
     calibrated_covariance,
-    levelled_bank,
+    levelled_mixture,
     surface_measurement,
 )
 from carpus.core.types import FloatArray, SurfaceSamples
@@ -59,10 +59,10 @@ def surface() -> BackSurface:
     return found
 
 
-def belief_at(rotation: FloatArray, position: FloatArray) -> PalmBelief:
+def estimate_at(rotation: FloatArray, position: FloatArray) -> PalmEstimate:
     value = np.zeros(SIZE)
     value[POSITION] = position
-    return PalmBelief(rotation, value, np.eye(SIZE))
+    return PalmEstimate(rotation, value, np.eye(SIZE))
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -70,12 +70,12 @@ def test_a_wrong_pose_is_measured_as_wrong_as_it_is(surface: BackSurface, seed: 
     rng = np.random.default_rng(seed)
     rotation, position = so3.exp(rng.normal(0.0, 0.15, 3)), rng.normal(0.0, 0.01, 3)
     turn, shift = rng.normal(0.0, 0.03, 3) * [1.0, 1.0, 0.3], rng.normal(0.0, 0.001, 3)
-    believed = belief_at(rotation @ so3.exp(turn), position + shift)
+    believed = estimate_at(rotation @ so3.exp(turn), position + shift)
     found = surface_measurement(believed, place_on(rotation, position), surface, VIEW, SurfaceSettings())
     assert found is not None
     for part in (BACK, RELIEF):
         assert np.array_equal(found.slope[:, part], np.eye(3)), "what calibration was wrong by, or relief has changed"
-    error = believed.error_to(belief_at(rotation, position))
+    error = believed.error_to(estimate_at(rotation, position))
     assert found.value == pytest.approx(found.slope @ error, abs=6e-4)
     assert abs(found.value[0]) > 1e-3 or abs(turn[0]) < 2e-3
 
@@ -86,17 +86,17 @@ def test_a_back_that_stays_deformed_does_not_go_on_turning_the_hand(surface: Bac
     their prior uncertainties say, once."""
     off_rad, turn_sd, relief_sd = sign * np.radians(1.2), 0.004, 0.012
     seen = thinned(place_on(so3.exp(np.array([0.0, off_rad, 0.0])), np.zeros(3)))
-    belief = belief_at(np.eye(3), np.zeros(3))
+    estimate = estimate_at(np.eye(3), np.zeros(3))
     covariance = 1e-10 * np.eye(SIZE)
     covariance[TURN, TURN], covariance[RELIEF, RELIEF] = turn_sd**2 * np.eye(3), relief_sd**2 * np.eye(3)
-    bank = Bank.alike(np.zeros((1, SIZE)), covariance[None], 2)
+    mixture = ModeMixture.alike(np.zeros((1, SIZE)), covariance[None], 2)
     for _ in range(300):
-        found = surface_measurement(belief, seen, surface, VIEW, SurfaceSettings())
+        found = surface_measurement(estimate, seen, surface, VIEW, SurfaceSettings())
         assert found is not None
-        levelled = levelled_bank(bank, found, shape_shares(0.1), SurfaceSettings())
+        levelled = levelled_mixture(mixture, found, shape_partial_update(0.1), SurfaceSettings())
         assert levelled is not None
-        belief, bank = recentred(belief, levelled)
-    turned, relief = so3.log(belief.rotation_w2_w0)[1], belief.value[RELIEF][1]
+        estimate, mixture = error_reset(estimate, levelled)
+    turned, relief = so3.log(estimate.rotation_w2_w0)[1], estimate.value[RELIEF][1]
     assert turned + relief == pytest.approx(off_rad, rel=0.02)
     assert turned / (turned + relief) == pytest.approx(turn_sd**2 / (turn_sd**2 + relief_sd**2), abs=0.02)
 
@@ -123,7 +123,7 @@ def test_depth_noise_scatters_as_stated(surface: BackSurface, shared: float) -> 
     """With errors that are each pixel's own, or shared by those of one matching window, the stated covariance is that
     of the scatter."""
     settings = SurfaceSettings(shared=shared, turn_sd_rad=0.0, up_sd_m=0.0, goes_on=1.0, reading_per_m=0.0014)
-    rng, here = np.random.default_rng(0), belief_at(np.eye(3), np.zeros(3))
+    rng, here = np.random.default_rng(0), estimate_at(np.eye(3), np.zeros(3))
     clean = thinned(place_on(np.eye(3), np.zeros(3)))
     sd_m = 0.0014 * float(np.median(clean.depth_m)) ** 2
     found, stated = [], []
@@ -142,7 +142,7 @@ def test_depth_noise_scatters_as_stated(surface: BackSurface, shared: float) -> 
 
 def test_the_surface_is_as_sure_as_its_sensor(surface: BackSurface) -> None:
     """Errors alike over 80 pixels tilt all of it; those of a wide window average less than those of a narrow one."""
-    here, clean = belief_at(np.eye(3), np.zeros(3)), thinned(place_on(np.eye(3), np.zeros(3)))
+    here, clean = estimate_at(np.eye(3), np.zeros(3)), thinned(place_on(np.eye(3), np.zeros(3)))
 
     def stated(sensor: DepthSensor) -> FloatArray:
         view = replace(VIEW, camera=replace(VIEW.camera, sensor=sensor))
@@ -164,7 +164,7 @@ def test_a_finger_over_the_hand_does_not_tilt_it(surface: BackSurface) -> None:
     depth = clean.depth_m.copy()
     depth[(clean.pixel[:, 0] > 300) & (clean.pixel[:, 0] < 315)] -= 0.03
     found = surface_measurement(
-        belief_at(np.eye(3), np.zeros(3)), SurfaceSamples(clean.pixel, depth), surface, VIEW, SurfaceSettings()
+        estimate_at(np.eye(3), np.zeros(3)), SurfaceSamples(clean.pixel, depth), surface, VIEW, SurfaceSettings()
     )
     assert found is not None
     assert np.abs(np.degrees(found.value[:2])).max() < 0.3
@@ -172,7 +172,7 @@ def test_a_finger_over_the_hand_does_not_tilt_it(surface: BackSurface) -> None:
 
 def test_a_covered_hand_is_not_asked(surface: BackSurface) -> None:
     clean = place_on(np.eye(3), np.zeros(3))
-    here = belief_at(np.eye(3), np.zeros(3))
+    here = estimate_at(np.eye(3), np.zeros(3))
     covered = SurfaceSamples(clean.pixel, clean.depth_m - 0.05)
     assert surface_measurement(here, covered, surface, VIEW, SurfaceSettings()) is None
     nothing = SurfaceSamples(np.empty((0, 2)), np.empty(0))
@@ -181,7 +181,7 @@ def test_a_covered_hand_is_not_asked(surface: BackSurface) -> None:
 
 def fitted(surface: BackSurface, samples: SurfaceSamples, settings: SurfaceSettings) -> SurfaceMeasurement:
     """From a pose 3 degrees and a millimetre off."""
-    believed = belief_at(so3.exp(np.radians([2.0, -2.0, 0.0])), np.array([0.0, 0.0, 0.001]))
+    believed = estimate_at(so3.exp(np.radians([2.0, -2.0, 0.0])), np.array([0.0, 0.0, 0.001]))
     found = surface_measurement(believed, samples, surface, VIEW, settings)
     assert found is not None
     return found
@@ -215,7 +215,7 @@ def test_the_steps_arrive_and_the_stated_floor_is_kept(surface: BackSurface) -> 
 
 
 def test_too_few_readings_say_nothing(surface: BackSurface) -> None:
-    settings, here = SurfaceSettings(), belief_at(np.eye(3), np.zeros(3))
+    settings, here = SurfaceSettings(), estimate_at(np.eye(3), np.zeros(3))
     clean = thinned(place_on(np.eye(3), np.zeros(3)))
     for first in range(1, 800):
         some = SurfaceSamples(clean.pixel[:first], clean.depth_m[:first])
@@ -229,15 +229,15 @@ def test_too_few_readings_say_nothing(surface: BackSurface) -> None:
 @pytest.mark.parametrize(("off_sd", "heard"), [(1.0, True), (5.5, True), (7.0, False), (20.0, False)])
 def test_a_surface_far_from_what_was_believed_is_another(surface: BackSurface, off_sd: float, heard: bool) -> None:
     """Tilted by so many standard deviations of what was expected; the limit of 40 for the squares lies at 6.3."""
-    settings, here = SurfaceSettings(), belief_at(np.eye(3), np.zeros(3))
+    settings, here = SurfaceSettings(), estimate_at(np.eye(3), np.zeros(3))
     found = surface_measurement(here, thinned(place_on(np.eye(3), np.zeros(3))), surface, VIEW, settings)
     assert found is not None
     covariance = 1e-12 * np.eye(SIZE)
     covariance[TURN, TURN] = 0.01**2 * np.eye(3)
     expected = np.linalg.inv(found.slope @ covariance @ found.slope.T + found.covariance)
     tilt = np.array([0.0, off_sd / np.sqrt(expected[1, 1]), 0.0])
-    bank = Bank.alike(np.zeros((1, SIZE)), covariance[None], 2)
-    levelled = levelled_bank(bank, replace(found, value=tilt), shape_shares(0.1), settings)
+    mixture = ModeMixture.alike(np.zeros((1, SIZE)), covariance[None], 2)
+    levelled = levelled_mixture(mixture, replace(found, value=tilt), shape_partial_update(0.1), settings)
     assert (levelled is not None) == heard
     if levelled is not None:
         gain = covariance @ found.slope.T @ expected

@@ -412,9 +412,9 @@ def test_beginning_again_forgets_the_old_stretch() -> None:
     """After the still capture the tracker starts anew: nothing of before is counted twice."""
 
     def knows_of_shape(tracker: Tracker, step: int) -> float:
-        belief = tracker.record.history[step].belief
-        assert belief is not None
-        return float(np.trace(belief.covariance[SHAPE, SHAPE]))
+        estimate = tracker.record.history[step].estimate
+        assert estimate is not None
+        return float(np.trace(estimate.covariance[SHAPE, SHAPE]))
 
     first, second = seen(still, 15, seed=1), [(15 * DT_S + t, found) for t, found in seen(still, 30, seed=2)]
     again, fresh, on = (Tracker(calibration(), CAMERA, RIGID) for _ in range(3))

@@ -12,9 +12,9 @@ from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.sites import joint_angle_names
 from carpus.core.pipeline.track import from_neutral, learnt_from
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.finger_smoother import FingerWalk, _Filtered
-from carpus.core.tracking.hand_geometry import RAYS, SLOTS
-from carpus.core.tracking.ray_filter import ANATOMY, RATES
+from carpus.core.tracking.digit_filter import ANATOMY, RATES
+from carpus.core.tracking.finger_smoother import FingerTrajectory, _Filtered
+from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.smoother import Smoother
 from carpus.core.tracking.tracker import Tracker
@@ -31,7 +31,7 @@ def sequence() -> MeasurementSequence:
     return measurement_sequence(SPEC)
 
 
-def looked_back(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
+def smoothed(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Times (N,), joint angles (N, 17) and their sds, of what is recorded from ``RECORDED_S`` on."""
     blobs = sequence()
     times = blobs.truth.timestamp_s - blobs.truth.timestamp_s[0]
@@ -66,8 +66,8 @@ def looked_back(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatArray]
 def test_piece_by_piece_is_as_good_as_at_once() -> None:
     names = joint_angle_names()
     truth = sequence().truth
-    at_s, whole, whole_sd = looked_back(in_pieces=False)
-    pieces_at_s, pieces, _ = looked_back(in_pieces=True)
+    at_s, whole, whole_sd = smoothed(in_pieces=False)
+    pieces_at_s, pieces, _ = smoothed(in_pieces=True)
     assert np.array_equal(at_s, pieces_at_s)
     true = truth.joint_angles_rad[np.isin(truth.timestamp_s, at_s)]
     bending = [i for i, name in enumerate(names) if "flexion" in name]
@@ -114,7 +114,7 @@ def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break
     for i in range(3):
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
     tracker.smoothed()
-    found = tracker.record.looked_back
+    found = tracker.record.smoothed_digits
     assert found is not None
     fingers = tracker._filter.fingers
     assert fingers is not None
@@ -122,32 +122,34 @@ def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break
     assert first is not None
     assert middle is not None
     assert last is not None
-    ray, joints = 2, slice(0, RATES.stop)
+    chain, joints = 2, slice(0, RATES.stop)
 
     def back(second: _Filtered, moved_rad: float = 0.0, longer_m: float = 0.0) -> tuple[FloatArray, FloatArray]:
-        """Mean and covariance of the ray in the first frame, with the last one's joints and bones moved."""
+        """Mean and covariance of the digit in the first frame, with the last one's joints and bones moved."""
         mean = last.mean.copy()
-        mean[ray, :SLOTS] += moved_rad
-        mean[ray, ANATOMY.start] += longer_m
-        walk = FingerWalk(fingers.model, found.steps, [first, second, replace(last, mean=mean)])
-        belief = dict(Smoother(walk).backwards())[0]
-        assert belief is not None
-        return belief.mean[ray], belief.covariance[ray]
+        mean[chain, :SLOTS] += moved_rad
+        mean[chain, ANATOMY.start] += longer_m
+        walk = FingerTrajectory(fingers.model, found.steps, [first, second, replace(last, mean=mean)])
+        estimate = dict(Smoother(walk).backwards())[0]
+        assert estimate is not None
+        return estimate.mean[chain], estimate.covariance[chain]
 
-    anew = replace(middle, anew=np.arange(RAYS) == ray)
+    anew = replace(middle, anew=np.arange(CHAINS) == chain)
     assert np.abs(back(middle, moved_rad=0.1)[0] - back(middle)[0])[:SLOTS].max() > 1e-4
     through, alone = back(anew), back(replace(middle, is_linked=False))
     moved = back(anew, longer_m=0.01)
     assert np.abs(moved[0] - through[0])[ANATOMY].max() > 1e-5, "bones stay the same bones"
-    assert np.array_equal(alone[0], first.mean[ray])
+    assert np.array_equal(alone[0], first.mean[chain])
     assert (np.diagonal(through[1])[ANATOMY] <= np.diagonal(alone[1])[ANATOMY] * (1.0 + 1e-9)).all()
     flexed = replace(middle, mean=middle.mean.copy(), anew=anew.anew)
-    flexed.mean[ray, joints] += 0.2
-    held = [dict(Smoother(FingerWalk(fingers.model, found.steps, [first, two, None])).backwards())[0]
+    flexed.mean[chain, joints] += 0.2
+    held = [dict(Smoother(FingerTrajectory(fingers.model, found.steps, [first, two, None])).backwards())[0]
             for two in (anew, flexed)]  # fmt: skip
     assert held[0] is not None
     assert held[1] is not None
-    assert np.array_equal(held[0].mean[ray], held[1].mean[ray]), "where its joints were found says nothing of before"
+    assert np.array_equal(held[0].mean[chain], held[1].mean[chain]), (
+        "where its joints were found says nothing of before"
+    )
     assert np.linalg.eigvalsh(held[0].covariance).min() > 0.0
 
 

@@ -9,19 +9,19 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.tracking.hand_geometry import DISCS, RAYS, SLOTS, ray_discs_m
+from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SLOTS, digit_discs_m
 from carpus.core.types import FloatArray
 
 
 @dataclass(frozen=True, slots=True)
-class RaySearchSettings:
-    """When blobs are a ray that nothing foretold.
+class DigitSearchSettings:
+    """When blobs are a digit that nothing foretold.
 
     ``near_m``: how far from a posture of the grid a disc may lie: half a step of it and the noise of a depth;
-    ``least_discs`` of a ray that tell its posture; ``reach_m`` beyond its length; ``behind_m`` its root, for the thumb
-    ``across_m`` the palm, and ``above_m`` the palm a disc may still be seen. Of postures that explain as many discs
-    the nearer one counts, by ``nearness`` of a disc at most for each. ``thumb_deg`` by slot and ``finger_deg`` by its
-    first three: the grid, all that a ray can do in steps of about 15 degrees.
+    ``least_discs`` of a digit that tell its posture; ``reach_m`` beyond its length; ``behind_m`` its root, for the
+    thumb ``across_m`` the palm, and ``above_m`` the palm a disc may still be seen. Of postures that explain as many
+    discs the nearer one counts, by ``nearness`` of a disc at most for each. ``thumb_deg`` by slot and ``finger_deg``
+    by its first three: the grid, all that a digit can do in steps of about 15 degrees.
     """
 
     near_m: float = 0.012
@@ -46,9 +46,9 @@ class RaySearchSettings:
 
 
 def in_reach(
-    point_m: FloatArray, root_disc_m: FloatArray, state: FloatArray, settings: RaySearchSettings
+    point_m: FloatArray, root_disc_m: FloatArray, state: FloatArray, settings: DigitSearchSettings
 ) -> NDArray[np.bool_]:
-    """Whether points (..., 3) in W2 may be discs of the rays with slots and constants ``state`` (5, 16)."""
+    """Whether points (..., 3) in W2 may be discs of the digits with slots and constants ``state`` (5, 16)."""
     length = state[:, SLOTS : SLOTS + DISCS].sum(axis=1) + settings.reach_m
     off = point_m[..., None, :] - root_disc_m
     ahead = off[..., 0] > -settings.behind_m
@@ -57,58 +57,58 @@ def in_reach(
 
 
 @lru_cache(maxsize=2)
-def _grid(settings: RaySearchSettings) -> FloatArray:
+def _grid(settings: DigitSearchSettings) -> FloatArray:
     """Postures (5, S, 5) in slots, radians."""
     thumb, finger = list(product(*settings.thumb_deg)), list(product(*settings.finger_deg))
-    postures = np.zeros((RAYS, max(len(thumb), len(finger)), SLOTS))
+    postures = np.zeros((CHAINS, max(len(thumb), len(finger)), SLOTS))
     postures[0, : len(thumb)] = thumb
     postures[1:, : len(finger), : len(settings.finger_deg)] = finger
     return np.asarray(np.radians(postures))
 
 
-def search_rays(
-    rays: NDArray[np.int64],
+def search_digits(
+    chains: NDArray[np.int64],
     state: FloatArray,
     root_disc_m: FloatArray,
     point_m: FloatArray,
-    settings: RaySearchSettings,
+    settings: DigitSearchSettings,
 ) -> dict[int, FloatArray]:
-    """Slots (5,) of each of the ``rays`` that explain at least two of the blobs at ``point_m`` (B, 3) in W2.
+    """Slots (5,) of each of the ``chains`` that explain at least two of the blobs at ``point_m`` (B, 3) in W2.
 
-    ``state`` (5, 16) slots and constants of all rays; ``root_disc_m`` (5, 3) discs under which they begin. No blob is
-    used by two rays: the ray that explains most comes first.
+    ``state`` (5, 16) slots and constants of all digits; ``root_disc_m`` (5, 3) discs under which they begin. No blob is
+    used by two digits: the digit that explains most comes first.
     """
     length = state[:, SLOTS : SLOTS + DISCS].sum(axis=1) + settings.reach_m
     near = np.linalg.norm(point_m - root_disc_m[:, None], axis=-1) < length[:, None]
-    waiting = [int(ray) for ray in rays if np.count_nonzero(near[ray]) >= settings.least_discs]
+    waiting = [int(chain) for chain in chains if np.count_nonzero(near[chain]) >= settings.least_discs]
     if not waiting:
         return {}
     postures = _grid(settings)
     points = np.repeat(state[waiting, None], postures.shape[1], axis=1)
     points[..., :SLOTS] = postures[waiting]
-    disc = dict(zip(waiting, ray_discs_m(root_disc_m[waiting], points, waiting), strict=True))
+    disc = dict(zip(waiting, digit_discs_m(root_disc_m[waiting], points, waiting), strict=True))
     found: dict[int, FloatArray] = {}
     free = np.ones(len(point_m), dtype=bool)
     while waiting:
         best: tuple[float, int, int, NDArray[np.int64]] | None = None
-        for ray in waiting:
-            reached = np.flatnonzero(free & near[ray])
+        for chain in waiting:
+            reached = np.flatnonzero(free & near[chain])
             if reached.size < settings.least_discs:
                 continue
-            score, posture, used = _best_posture(disc[ray], point_m[reached], settings)
+            score, posture, used = _best_posture(disc[chain], point_m[reached], settings)
             if used.size >= settings.least_discs and (best is None or score > best[0]):
-                best = score, ray, posture, reached[used]
+                best = score, chain, posture, reached[used]
         if best is None:
             break
-        _, ray, posture, used = best
-        found[ray] = postures[ray, posture]
+        _, chain, posture, used = best
+        found[chain] = postures[chain, posture]
         free[used] = False
-        waiting.remove(ray)
+        waiting.remove(chain)
     return found
 
 
 def _best_posture(
-    disc_m: FloatArray, point_m: FloatArray, settings: RaySearchSettings
+    disc_m: FloatArray, point_m: FloatArray, settings: DigitSearchSettings
 ) -> tuple[float, int, NDArray[np.int64]]:
     """Score, index of the posture and blobs used, for discs (S, 3, 3) of postures and blobs (B, 3)."""
     gap2 = np.sum((disc_m[:, :, None] - point_m) ** 2, axis=-1)  # (S, 3, B)

@@ -1,10 +1,10 @@
 """The unscented filter of thumb and fingers: five small filters side by side, given the palm.
 
-A finger tells next to nothing about the palm, so each ray is filtered for itself in the frame of the palm as
-corrected a moment before (what the palm's own error adds to a joint's is added when it is read). Each ray's state
+A finger tells next to nothing about the palm, so each digit is filtered for itself in the frame of the palm as
+corrected a moment before (what the palm's own error adds to a joint's is added when it is read). Each digit's state
 holds its joints, their rates and the constants of its anatomy, so the sharpening of the anatomy and what its
-error does to the angles are part of the filter. Motion modes run per ray: one finger may move while others rest.
-Arrays lead with the ray (5) and, in a belief, the mode (K).
+error does to the angles are part of the filter. Motion modes run per digit: one finger may move while others rest.
+Arrays lead with the digit (5) and, in an estimate, the mode (K).
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ import numpy as np
 from carpus.core.camera import Camera
 from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.hand_geometry import (
+    CHAINS,
     CONSTANTS,
     DISCS,
-    RAYS,
     SLOTS,
-    ray_discs_m,
-    ray_frames,
-    ray_joints_m,
+    digit_discs_m,
+    digit_frames,
+    digit_joints_m,
     slope_by_constants,
 )
-from carpus.core.tracking.kernel import Bank, Line, predicted
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, predicted
 from carpus.core.tracking.unscented import Spread, weights_for
 from carpus.core.types import FloatArray
 
@@ -39,8 +39,8 @@ _BENT_STATE, _OTHER_STATE = np.append(_SLOT, SLOTS + _ROLL), SLOTS + _OTHER_CONS
 
 JOINTS, RATES = slice(0, SLOTS), slice(SLOTS, 2 * SLOTS)
 ANATOMY = slice(RATES.stop, RATES.stop + CONSTANTS)
-"""Where joints, their rates and the constants of the anatomy stand in a ray's state."""
-RAY_SIZE = ANATOMY.stop
+"""Where joints, their rates and the constants of the anatomy stand in a digit's state."""
+DIGIT_SIZE = ANATOMY.stop
 SEEN = np.r_[JOINTS, ANATOMY]
 """States on which the discs depend."""
 _BENT_AT, _OTHER_AT = SEEN[_BENT_STATE], SEEN[_OTHER_STATE]
@@ -56,19 +56,19 @@ class Forgetting:
     rate2: FloatArray
 
 
-class RayMotion:
-    """How the rays may move between two frames: constant rates, pushed by white accelerations.
+class DigitMotion:
+    """How the digits may move between two frames: constant rates, pushed by white accelerations.
 
-    ``density`` (5, 5) by ray and slot: variance per second of the rate; ``scales`` (K,) of its root by mode; ``drift``
-    (5, 11) variance per second of the constants, skin over bone. Slots with a ``settled2`` (5, 5), their variance in
-    the long run, have no rate: they return to zero within ``settles_s``.
+    ``density`` (5, 5) by digit and slot: variance per second of the rate; ``scales`` (K,) of its root by mode;
+    ``drift`` (5, 11) variance per second of the constants, skin over bone. Slots with a ``stationary2`` (5, 5), their
+    variance in the long run, have no rate: they return to zero within ``settles_s``.
     """
 
     def __init__(
-        self, density: FloatArray, scales: FloatArray, drift: FloatArray, settled2: FloatArray, settles_s: float
+        self, density: FloatArray, scales: FloatArray, drift: FloatArray, stationary2: FloatArray, settles_s: float
     ) -> None:
         self._density, self._scales, self._drift = density, scales, drift
-        self._settled2, self._settles_s = settled2, settles_s
+        self._stationary2, self._settles_s = stationary2, settles_s
         self._dt_s = math.nan
         self._forward = self._noise = self._modes = drift
 
@@ -77,11 +77,11 @@ class RayMotion:
         if self._dt_s == dt_s:
             return
         density = self._density
-        forward = np.repeat(np.eye(RAY_SIZE)[None], RAYS, axis=0)
-        noise = np.zeros((2, RAYS, RAY_SIZE, RAY_SIZE))
+        forward = np.repeat(np.eye(DIGIT_SIZE)[None], CHAINS, axis=0)
+        noise = np.zeros((2, CHAINS, DIGIT_SIZE, DIGIT_SIZE))
         angle, rate = _SLOT, SLOTS + _SLOT
         forward[:, angle, rate] = dt_s
-        settles = self._settled2 > 0.0
+        settles = self._stationary2 > 0.0
         keep = np.where(settles, math.exp(-dt_s / self._settles_s), 1.0)
         forward[:, angle, angle] = keep
         noise[0][:, angle, angle] = density * (dt_s**3 / 3.0)
@@ -89,21 +89,21 @@ class RayMotion:
         noise[0][:, rate, rate] = density * dt_s
         constant = np.arange(ANATOMY.start, ANATOMY.stop)
         noise[1][:, constant, constant] = self._drift * dt_s
-        noise[1][:, angle, angle] = self._settled2 * (1.0 - keep**2)
+        noise[1][:, angle, angle] = self._stationary2 * (1.0 - keep**2)
         self._forward, self._noise = forward, noise
         self._modes = noise[0][:, None] * (self._scales**2)[:, None, None] + noise[1][:, None]
         self._dt_s = dt_s
 
     def predicted(
-        self, beliefs: Bank, dt_s: float, forgetting: Forgetting | None, switch: FloatArray | None = None
-    ) -> Bank:
-        """The beliefs ``dt_s`` later, their modes mixed before by ``switch`` (K, K)."""
+        self, estimates: ModeMixture, dt_s: float, forgetting: Forgetting | None, switch: FloatArray | None = None
+    ) -> ModeMixture:
+        """The estimates ``dt_s`` later, their modes mixed before by ``switch`` (K, K)."""
         self._set_step(dt_s)
         if forgetting is None:
-            return predicted(beliefs, self._forward, self._modes, switch)
+            return predicted(estimates, self._forward, self._modes, switch)
         noise = self._modes.copy()
         self._spread(noise, forgetting)
-        return predicted(beliefs, self._fading(forgetting), noise, switch)
+        return predicted(estimates, self._fading(forgetting), noise, switch)
 
     def step(self, dt_s: float, scale: FloatArray, forgetting: Forgetting | None) -> tuple[FloatArray, FloatArray]:
         """Transition and noise (5, n, n) of a step with the noise's root scaled by ``scale`` (5,)."""
@@ -126,7 +126,7 @@ class RayMotion:
 
 
 @dataclass(frozen=True, slots=True)
-class RayPoints:
+class DigitPoints:
     """Sigma points of a Gaussian over joints and constants, their discs in W.
 
     The points stand along the first six columns of the Cholesky factor, the joints' and the roll's: what bends the
@@ -145,15 +145,16 @@ class RayPoints:
     covariance: FloatArray
 
 
-def spread_points(mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: Spread) -> RayPoints:
-    """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which rays begin."""
+def spread_points(mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: Spread) -> DigitPoints:
+    """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which they begin."""
     if (kernels := in_c()) is not None:
         bends, others = _BENT.size, _OTHER_CONSTANT.size
-        points = RayPoints(
-            np.empty((RAYS, 2 * bends + 1, DISCS, 3)), np.empty((RAYS, bends, bends)), np.empty((RAYS, bends, others)),
-            np.empty((RAYS, DISCS, 3, others)), np.empty((RAYS, DISCS, 3)), mean, covariance,
+        points = DigitPoints(
+            np.empty((CHAINS, 2 * bends + 1, DISCS, 3)), np.empty((CHAINS, bends, bends)),
+            np.empty((CHAINS, bends, others)), np.empty((CHAINS, DISCS, 3, others)), np.empty((CHAINS, DISCS, 3)),
+            mean, covariance,
         )  # fmt: skip
-        kernels.rays_spread(
+        kernels.digits_spread(
             mean, covariance, root_disc_m, _FLOOR, weights_for(bends, spread).scale,
             points.disc_m, points.unroot, points.along, points.by_constants, points.normal,
         )  # fmt: skip
@@ -166,18 +167,18 @@ def spread_points(mean: FloatArray, covariance: FloatArray, root_disc_m: FloatAr
     along = unroot @ covariance[:, bent[:, None], other]
     scale = weights_for(_BENT.size, spread).scale
     point = np.repeat(mean[:, None, SEEN], 2 * _BENT.size + 1, axis=1)
-    step = np.empty((RAYS, _BENT.size, SLOTS + CONSTANTS))
+    step = np.empty((CHAINS, _BENT.size, SLOTS + CONSTANTS))
     step[..., _BENT_STATE], step[..., _OTHER_STATE] = np.swapaxes(root, 1, 2) * scale, along * scale
     point[:, 1 : _BENT.size + 1] += step
     point[:, _BENT.size + 1 :] -= step
     state = point[:, 0]
-    frames = ray_frames(state)
-    by_constants = slope_by_constants(state, frames, ray_joints_m(root_disc_m, state, frames))[..., _OTHER_CONSTANT]
-    return RayPoints(ray_discs_m(root_disc_m, point), unroot, along, by_constants, frames.normal, mean, covariance)
+    frames = digit_frames(state)
+    by_constants = slope_by_constants(state, frames, digit_joints_m(root_disc_m, state, frames))[..., _OTHER_CONSTANT]
+    return DigitPoints(digit_discs_m(root_disc_m, point), unroot, along, by_constants, frames.normal, mean, covariance)
 
 
 @dataclass(frozen=True, slots=True)
-class RayView:
+class DigitView:
     """From W2 of a right hand to the pictures: ``rotation`` (3, 3) and ``translation_m`` (3,) into camera axes."""
 
     rotation: FloatArray
@@ -208,8 +209,8 @@ class RayView:
 
 
 @dataclass(frozen=True, slots=True)
-class RayForecast(Line):
-    """What the camera should see: the line of u, v, z of the three discs in turn, (5, 9).
+class DigitsLinearisation(Linearisation):
+    """What the camera should see: u, v, z of the three discs in turn, (5, 9), linearised.
 
     ``spread`` (5, 9, 9) covariance of the images, slope and error together. ``centre_m`` (5, 3, 3) the discs in camera
     axes; ``by_place`` (5, 3, 3, 3) derivative of the images by that.
@@ -220,37 +221,38 @@ class RayForecast(Line):
     by_place: FloatArray
 
 
-def forecast(points: RayPoints, view: RayView, spread: Spread) -> RayForecast:
+def digits_linearised(points: DigitPoints, view: DigitView, spread: Spread) -> DigitsLinearisation:
     """Statistical linear regression of the discs' images on the joints, and their slope by the constants."""
     count = _BENT.size
     weights = weights_for(count, spread)
     if (kernels := in_c()) is not None:
         camera, seen = view.camera, 3 * DISCS
-        line = RayForecast(
-            np.empty((RAYS, seen)), np.empty((RAYS, seen, RAY_SIZE)), np.empty((RAYS, seen, seen)), points.mean,
-            np.empty((RAYS, seen, seen)), np.empty((RAYS, DISCS, 3)), np.empty((RAYS, DISCS, 3, 3)),
+        linearised = DigitsLinearisation(
+            np.empty((CHAINS, seen)), np.empty((CHAINS, seen, DIGIT_SIZE)), np.empty((CHAINS, seen, seen)), points.mean,
+            np.empty((CHAINS, seen, seen)), np.empty((CHAINS, DISCS, 3)), np.empty((CHAINS, DISCS, 3, 3)),
         )  # fmt: skip
-        kernels.rays_forecast(
+        kernels.digits_linearised(
             points.disc_m, points.unroot, points.along, points.by_constants, points.covariance, view.rotation,
             view.translation_m, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, *weights.numbers,
-            line.value, line.slope, line.error, line.spread, line.centre_m, line.by_place,
+            linearised.value, linearised.slope, linearised.error, linearised.spread, linearised.centre_m,
+            linearised.by_place,
         )  # fmt: skip
-        return line
-    image = view.observe(points.disc_m).reshape(RAYS, 2 * count + 1, 3 * DISCS)
+        return linearised
+    image = view.observe(points.disc_m).reshape(CHAINS, 2 * count + 1, 3 * DISCS)
     value: FloatArray = weights.mean @ image
     plus, minus = image[:, 1 : count + 1], image[:, count + 1 :]
     half = (plus - minus) * (0.5 / weights.scale)  # (5, 6, 9): slope in the axes of the root
-    # The even part of the spread is what no line can follow.
+    # The even part of the spread is what nothing linear can follow.
     bend = 0.5 * (plus + minus) - value[:, None]
     error = (2.0 * weights.covariance[1]) * (np.swapaxes(bend, 1, 2) @ bend)
     middle = image[:, :1] - value[:, None]
     error += weights.covariance[0] * (np.swapaxes(middle, 1, 2) @ middle)
-    by_place = view.slope(image[:, 0].reshape(RAYS, DISCS, 3))
-    by_constants = ((by_place @ view.rotation) @ points.by_constants).reshape(RAYS, 3 * DISCS, -1)
+    by_place = view.slope(image[:, 0].reshape(CHAINS, DISCS, 3))
+    by_constants = ((by_place @ view.rotation) @ points.by_constants).reshape(CHAINS, 3 * DISCS, -1)
     own = half - points.along @ np.swapaxes(by_constants, 1, 2)
-    slope = np.zeros((RAYS, 3 * DISCS, RAY_SIZE))
+    slope = np.zeros((CHAINS, 3 * DISCS, DIGIT_SIZE))
     slope[:, :, _BENT_AT] = np.swapaxes(own, 1, 2) @ points.unroot
     slope[:, :, _OTHER_AT] = by_constants
     spread_out = slope @ points.covariance @ np.swapaxes(slope, 1, 2) + error
     centre = points.disc_m[:, 0] @ view.rotation.T + view.translation_m
-    return RayForecast(value, slope, error, points.mean, spread_out, centre, by_place)
+    return DigitsLinearisation(value, slope, error, points.mean, spread_out, centre, by_place)

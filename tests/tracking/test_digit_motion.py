@@ -5,32 +5,34 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.tracking.hand_geometry import CONSTANTS, RAYS, SLOTS
-from carpus.core.tracking.kernel import Bank
-from carpus.core.tracking.ray_filter import RAY_SIZE, RayMotion
+from carpus.core.tracking.digit_filter import DIGIT_SIZE, DigitMotion
+from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, SLOTS
+from carpus.core.tracking.kernel import ModeMixture
 
 STRAYS_RAD, SETTLES_S = 0.1, 1.0
 END_JOINT = 3
 SCALES = np.array([0.5, 4.0])
 
 
-def motion() -> RayMotion:
-    density = np.full((RAYS, SLOTS), 2.0)
+def motion() -> DigitMotion:
+    density = np.full((CHAINS, SLOTS), 2.0)
     density[1:, END_JOINT] = 0.0
-    settled2 = np.zeros((RAYS, SLOTS))
-    settled2[1:, END_JOINT] = STRAYS_RAD**2
-    return RayMotion(density, SCALES, np.zeros((RAYS, CONSTANTS)), settled2, SETTLES_S)
+    stationary2 = np.zeros((CHAINS, SLOTS))
+    stationary2[1:, END_JOINT] = STRAYS_RAD**2
+    return DigitMotion(density, SCALES, np.zeros((CHAINS, CONSTANTS)), stationary2, SETTLES_S)
 
 
-def after(seconds: float, dt_s: float) -> Bank:
+def after(seconds: float, dt_s: float) -> ModeMixture:
     """What is believed of an end joint 0.3 rad from where it belongs, surely, after that time without a picture."""
-    mean = np.zeros((RAYS, RAY_SIZE))
+    mean = np.zeros((CHAINS, DIGIT_SIZE))
     mean[:, END_JOINT] = 0.3
-    bank = Bank.alike(mean, np.broadcast_to(1e-12 * np.eye(RAY_SIZE), (RAYS, RAY_SIZE, RAY_SIZE)), SCALES.size)
+    mixture = ModeMixture.alike(
+        mean, np.broadcast_to(1e-12 * np.eye(DIGIT_SIZE), (CHAINS, DIGIT_SIZE, DIGIT_SIZE)), SCALES.size
+    )
     moves = motion()
     for _ in range(round(seconds / dt_s)):
-        bank = moves.predicted(bank, dt_s, None)
-    return bank
+        mixture = moves.predicted(mixture, dt_s, None)
+    return mixture
 
 
 @pytest.mark.parametrize("dt_s", [1.0 / 30.0, 0.1])
@@ -49,9 +51,9 @@ def test_other_joints_go_where_they_like() -> None:
 
 
 def test_a_step_for_looking_back_is_the_step_that_was_taken() -> None:
-    forward, noise = motion().step(0.1, np.ones(RAYS), None)
-    bank = after(0.1, 0.1)
-    start = np.zeros((RAYS, RAY_SIZE))
+    forward, noise = motion().step(0.1, np.ones(CHAINS), None)
+    mixture = after(0.1, 0.1)
+    start = np.zeros((CHAINS, DIGIT_SIZE))
     start[:, END_JOINT] = 0.3
-    assert (forward @ start[..., None])[..., 0] == pytest.approx(bank.mean[:, 0])
-    assert noise[1:, END_JOINT, END_JOINT] == pytest.approx(bank.covariance[1:, 0, END_JOINT, END_JOINT], rel=1e-6)
+    assert (forward @ start[..., None])[..., 0] == pytest.approx(mixture.mean[:, 0])
+    assert noise[1:, END_JOINT, END_JOINT] == pytest.approx(mixture.covariance[1:, 0, END_JOINT, END_JOINT], rel=1e-6)
