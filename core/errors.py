@@ -1,18 +1,32 @@
-"""What can go wrong, as facts. The words for each kind are in :mod:`core.words`."""
+"""What can go wrong: each kind of fault, and what is said of it; :mod:`core.words` puts the facts in.
+
+Short main clauses in the present tense; the program is Carpus, the person is not blamed.
+"""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import ClassVar
 
-from carpus.core.phrase import Phrase
+from carpus.core.phrase import Phrase, phrase
+
+_UNTOUCHED = phrase("Nothing has been changed, and nothing is lost.")
+_NOTHING_YET = phrase("Nothing has been recorded, so nothing is lost.")
+_STORED = phrase("Everything recorded so far is stored on this computer.")
+_INSTALL = phrase("Install it; “carpus doctor” says what and how.")
 
 
 class CarpusFault(Exception):
-    """Something the person at the desk must be told; carries facts, no prose.
+    """Something the person at the desk must be told; an instance carries facts, its class the sentences.
 
     ``subject`` is the file, folder, device or marker concerned; ``detail`` the measured fact
     (a number, a name, a line), a :class:`Phrase` where it says more. Neither ever holds a patient's name.
+    ``happened``, whether the data are ``safe``, and what to ``do`` have places for ``{subject}`` and ``{detail}``.
     """
+
+    happened: ClassVar[Phrase]
+    safe: ClassVar[Phrase] = _UNTOUCHED
+    do: ClassVar[Phrase]
 
     def __init__(self, subject: str | Path = "", detail: str = "") -> None:
         self.subject = str(subject)
@@ -25,338 +39,660 @@ class CarpusFault(Exception):
 class RecordingMissing(CarpusFault):
     """There is nothing at the recording's path."""
 
+    happened = phrase("There is no recording at {subject} ({detail}).")
+    do = phrase("Check the name and the folder.")
+
 
 class RecordingUnreadable(CarpusFault):
     """A recording is there but its lists or headers cannot be read."""
+
+    happened = phrase("The recording cannot be read: {subject} ({detail}).")
+    do = phrase("Copy the recording again from where it was made, or correct the list.")
 
 
 class RecordingEmpty(CarpusFault):
     """A recording holds no picture."""
 
+    happened = phrase("The recording holds no picture: {subject} ({detail}).")
+    do = phrase("Choose another recording, or record again.")
+
 
 class PictureDamaged(CarpusFault):
     """One picture of a recording is missing or cannot be decoded."""
+
+    happened = phrase("A picture of the recording cannot be used: {subject} ({detail}).")
+    do = phrase("Copy the recording again from where it was made; carpus track --leave-out-damaged goes on without it.")
 
 
 class PictureSizeChanged(CarpusFault):
     """Pictures of one recording differ in size, or colour and depth do."""
 
+    happened = phrase("The pictures of the recording differ in size: {subject} ({detail}).")
+    do = phrase("Use a recording whose pictures all have one size.")
+
 
 class TimesUnordered(CarpusFault):
     """The times of a recording do not rise strictly."""
+
+    happened = phrase("The times of the recording do not rise: {subject} ({detail}).")
+    do = phrase("Put the list in the order of time with each time once, or record again.")
 
 
 class DepthMissing(CarpusFault):
     """A recording has no depth pictures although depth was asked for."""
 
+    happened = phrase("The recording has no usable depth: {subject} ({detail}).")
+    do = phrase("Use a recording of colour and depth.")
+
 
 class CameraFileUnreadable(CarpusFault):
     """The camera's intrinsics file cannot be used."""
+
+    happened = phrase("The file of the camera cannot be used: {subject} ({detail}).")
+    do = phrase("Calibrate the camera again, or take the file away to use the usual values.")
 
 
 class ClicksUnreadable(CarpusFault):
     """The file of clicks is missing, not JSON, or not of the agreed form."""
 
+    happened = phrase("The clicks cannot be read: {subject} ({detail}).")
+    do = phrase("Correct the file, or click the markers again.")
+
 
 class ProtocolUnknown(CarpusFault):
     """No marker protocol has this name."""
+
+    happened = phrase("There is no set of markers with the name {subject} ({detail}).")
+    do = phrase("Use wrist6 or hand21.")
 
 
 class ClickOutsidePicture(CarpusFault):
     """A click lies outside the first picture."""
 
+    happened = phrase("A click lies outside the picture: {subject} ({detail}).")
+    safe = _NOTHING_YET
+    do = phrase("Click the marker in the first picture of this recording.")
+
 
 class ClickOnNoMarker(CarpusFault):
     """There is no blob under a click."""
+
+    happened = phrase("A click has no blue marker of its own: {subject}.")
+    safe = _NOTHING_YET
+    do = phrase("Click nearer to the marker, or check the light.")
 
 
 class MarkerWithoutDepth(CarpusFault):
     """A clicked marker has no usable depth."""
 
+    happened = phrase("The camera measures no depth at a marker: {subject}.")
+    safe = _NOTHING_YET
+    do = phrase("Move the hand a little, and keep sunlight and shine off the markers.")
+
 
 class CalibrationImpossible(CarpusFault):
     """The clicked markers do not fix a palm (too few, in one line, or not a hand)."""
+
+    happened = phrase("The clicked markers do not make a hand ({subject}).")
+    safe = _NOTHING_YET
+    do = phrase("Click every marker again under its own name.")
 
 
 class OutputExists(CarpusFault):
     """The output file is there already and is never overwritten."""
 
+    happened = phrase("There is a file already at {subject}.")
+    safe = phrase("That file is untouched; Carpus never overwrites.")
+    do = phrase("Choose another name.")
+
 
 class ExtraMissing(CarpusFault):
     """A Python package that is installed only when asked for is not installed; ``subject`` is its name."""
+
+    happened = phrase("This needs the Python package {subject}, which is not installed.")
+    do = _INSTALL
 
 
 class SchedulerUnreachable(CarpusFault):
     """The scheduler of a cluster does not answer."""
 
+    happened = phrase("The scheduler at {subject} does not answer ({detail}).")
+    do = phrase("Check the address, or leave out --scheduler to use this machine.")
+
 
 class OutputBusy(CarpusFault):
     """Another process is writing the output at this moment."""
+
+    happened = phrase("Another program is making {subject} at this moment.")
+    safe = phrase("It is left to that program.")
+    do = phrase("Wait until it has ended, or choose another folder.")
 
 
 class OutputNotWritable(CarpusFault):
     """The output's folder cannot be written to."""
 
+    happened = phrase("Carpus cannot write to {subject} ({detail}).")
+    safe = phrase("What was stored before is safe.")
+    do = phrase("Check that the folder exists and that you may write there, or choose another one.")
+
 
 class DiskFull(CarpusFault):
     """No room was left while writing; what was written is kept."""
+
+    happened = phrase("The disk has no room left for {subject} ({detail}).")
+    safe = phrase("Everything stored before is safe; at most the last second is missing.")
+    do = phrase("Free some space, or choose another disk.")
 
 
 class SessionUnreadable(CarpusFault):
     """A file is not a session that this version reads."""
 
+    happened = phrase("This session cannot be read: {subject} ({detail}).")
+    safe = phrase("The file is untouched, and all other sessions are safe.")
+    do = phrase("Check that it is a session of this or an older Carpus, or take it from a backup.")
+
 
 class SessionChanged(CarpusFault):
     """A session can be read, but its seal does not fit: something in it was changed after it was finished."""
+
+    happened = phrase("This session was changed after it was finished: {subject}.")
+    safe = phrase("It can still be read; its seal does not fit what it holds now.")
+    do = phrase("Take it from a backup, or do not rely on its figures.")
 
 
 class SessionUnfinished(CarpusFault):
     """A session that is still being recorded or was cut short; it has no seal yet."""
 
+    happened = phrase("This session is not finished: {subject}.")
+    safe = phrase("What was recorded of it is there.")
+    do = phrase("Finish it with “carpus recover”, or wait until its recording has ended.")
+
 
 class ReferenceUnreadable(CarpusFault):
     """A file of another measurement, to be compared with, cannot be read."""
+
+    happened = phrase("The reference cannot be read: {subject} ({detail}).")
+    do = phrase("Use C3D, TRC, MOT, a CSV table with its column map, or a session.")
 
 
 class ReferenceUnsuited(CarpusFault):
     """A reference can be read, but nothing in it can be compared with the session."""
 
+    happened = phrase("Nothing in the reference can be compared: {subject} ({detail}).")
+    do = phrase("Check that it is the same movement, and say which column or marker is which.")
+
 
 class StudyUnsuited(CarpusFault):
     """Sessions of test and retest do not make a study, or one that may be put into force."""
+
+    happened = phrase("These sessions make no test and retest: {subject} ({detail}).")
+    safe = phrase("What counts as a change stays as it is.")
+    do = phrase("Measure each person twice, discs put on anew, within 14 days; 10 people are the least.")
 
 
 class SettingsInvalid(CarpusFault):
     """A settings file has an unknown key or a value out of range."""
 
+    happened = phrase("A setting cannot be used: {subject} ({detail}).")
+    do = phrase("Correct the setting, or take it out to use the usual value.")
+
 
 class ChangedMeanwhile(CarpusFault):
     """Somebody else changed the same thing since it was read; ``subject`` is its table."""
+
+    happened = phrase("Somebody else has changed this meanwhile, so your change was not kept.")
+    safe = phrase("What the other person entered is kept.")
+    do = phrase("Open it again, look at what stands there now, and enter your change once more.")
 
 
 class ChangeRefused(CarpusFault):
     """The clinic's server does not take a change that was made here; ``detail`` says why."""
 
+    happened = phrase("The clinic’s server {subject} does not take a change ({detail}).")
+    safe = phrase("All other changes arrive; this computer shows what the server has.")
+    do = phrase("Enter the change once more, or ask whoever looks after the server.")
+
 
 class PseudonymGiven(CarpusFault):
     """A pseudonym was given twice while the server was away; the number ``detail`` was put behind the second one."""
+
+    happened = phrase(
+        "The name {subject} was given twice while the server was away: the second patient has ({detail}) behind it."
+    )
+    safe = phrase("All sessions of both patients are kept apart.")
+    do = phrase("Change the name in the patient’s entry if another one is better.")
 
 
 class ServerGone(CarpusFault):
     """The clinic's server for records does not answer; what is changed waits for it."""
 
+    happened = phrase("The clinic’s server for records does not answer: {subject} ({detail}).")
+    safe = phrase("Measure as usual: patients are shown as last known, and what is new waits here and is delivered.")
+    do = phrase("Nothing need be done; if it lasts, ask whoever looks after the server.")
+
 
 class NameUnsuited(CarpusFault):
     """A text cannot be a pseudonym or a name: it holds a sign that cannot be seen, or is too long."""
+
+    happened = phrase("This cannot be a name: {detail} ({subject}).")
+    do = phrase("Type the name by hand instead of pasting it.")
 
 
 class DriverMissing(CarpusFault):
     """The library of a camera (OpenNI2, or its maker's) is not on this computer or cannot be loaded."""
 
+    happened = phrase("The driver of the camera is not on this computer, or cannot be loaded ({detail}).")
+    do = _INSTALL
+
 
 class DriverFailed(CarpusFault):
     """The library of a camera died or no longer answers; it ran in a process of its own."""
+
+    happened = phrase("The driver of the camera has stopped: {subject} ({detail}).")
+    safe = _STORED
+    do = phrase("Unplug the camera, plug it in again and start once more.")
 
 
 class CameraUnknown(CarpusFault):
     """No kind of camera has this name."""
 
+    happened = phrase("No kind of camera is called {subject} ({detail}).")
+    safe = _NOTHING_YET
+    do = phrase("Choose the camera by one of these names, in the settings or with --camera.")
+
 
 class CameraMissing(CarpusFault):
     """The driver sees no camera."""
+
+    happened = phrase("Carpus sees no camera ({detail}).")
+    safe = _NOTHING_YET
+    do = phrase("Plug the camera straight into the computer.")
 
 
 class CameraBusy(CarpusFault):
     """Another program holds the camera."""
 
+    happened = phrase("Another program uses the camera ({detail}).")
+    safe = _NOTHING_YET
+    do = phrase("Close the other program, then try again.")
+
 
 class CameraPermission(CarpusFault):
     """A camera is plugged in, but this user may not open it."""
+
+    happened = phrase("The camera is there, but you may not open it ({detail}).")
+    safe = _NOTHING_YET
+    do = phrase("Give yourself access to it; “carpus doctor” says how.")
 
 
 class CameraUnsuited(CarpusFault):
     """The camera does not offer the pictures that Carpus needs."""
 
+    happened = phrase("This camera does not give the pictures that Carpus needs: {subject} ({detail}).")
+    safe = _STORED
+    do = phrase("Use a camera with colour and depth, such as the Xtion.")
+
 
 class CameraLost(CarpusFault):
     """The camera was unplugged or sends no more pictures. Told when it happens, raised when it does not come back."""
+
+    happened = phrase("The camera sends no more pictures: {subject} ({detail}).")
+    safe = _STORED
+    do = phrase("Plug the camera in again; tracking and recording then go on by themselves.")
 
 
 class OtherCamera(CameraLost):
     """Another camera is plugged in than the one that is wanted. Told while that one is away; raised at the opening."""
 
+    happened = phrase("Carpus waits for its camera: {subject}. Another one is there ({detail}).")
+    safe = _STORED
+    do = phrase("Plug its own camera in again; what was begun then goes on by itself.")
+
 
 class CameraReturned(CarpusFault):
     """Told, never raised: the lost camera delivers again; ``detail`` is how long it was away."""
+
+    happened = phrase("The camera is back: {subject} (away for {detail}).")
+    safe = _STORED
+    do = phrase("Go on; the pause is marked in the session.")
 
 
 class RecordingDamaged(CarpusFault):
     """An .oni file whose structure is broken, so that the library could die on it or never end."""
 
+    happened = phrase("The recording is damaged: {subject} ({detail}).")
+    do = phrase("Copy the recording again from where it was made.")
+
 
 class RecordingUnsupported(CarpusFault):
     """A sound recording, but of a kind of pictures that Carpus does not use."""
+
+    happened = phrase("Carpus cannot use the pictures of this recording: {subject} ({detail}).")
+    do = phrase("Record again with colour and depth of one size.")
 
 
 class PicturesLost(CarpusFault):
     """Told, never raised: damaged pictures of a recording were left out; ``detail`` counts them."""
 
+    happened = phrase("Damaged pictures of the recording are left out: {subject} ({detail}).")
+    safe = phrase("All other pictures are used, and the gaps are marked.")
+    do = phrase("Copy the recording again if there are many.")
+
 
 class PicturesEnlarged(CarpusFault):
     """Told, never raised: pictures of one kind were smaller and have been enlarged."""
+
+    happened = phrase("Some pictures are smaller and have been enlarged: {subject} ({detail}).")
+    do = phrase("Set colour and depth to one size next time.")
 
 
 class IntrinsicsAssumed(CarpusFault):
     """Told, never raised: no camera file says how this camera sees, so ``detail`` is used in its place."""
 
+    happened = phrase(
+        "There is no file of the camera with {subject}; Carpus uses {detail}, and lengths may be several per cent off."
+    )
+    do = phrase("Put the camera_info.yaml of the camera beside it.")
+
 
 class RegistrationAssumed(CarpusFault):
     """Told, never raised: nothing says whether depth lies on colour; it is taken as so."""
+
+    happened = phrase("Nothing says whether depth lies on colour in {subject}; Carpus takes it so.")
+    do = phrase("Write “registered: true” or “false” into its camera_info.yaml.")
 
 
 class DepthNotRegistered(CarpusFault):
     """Told, never raised: depth is known not to lie on colour, so depths are read beside the markers."""
 
+    happened = phrase("Depth does not lie on colour in {subject}, so depths are less sure.")
+    do = phrase("Switch on registration in the camera next time.")
+
 
 class DiskTooSlow(CarpusFault):
     """Pictures came faster than they could be stored; what was stored is kept."""
+
+    happened = phrase("The disk is too slow for the recording, so it has ended: {subject} ({detail}).")
+    safe = phrase("Everything stored up to then is safe.")
+    do = phrase("Record to a disk inside this computer, and close other programs.")
 
 
 class NotLookedBack(CarpusFault):
     """Told, never raised to a person: looking back at a live session failed or took too long; it is as tracked."""
 
+    happened = phrase("Carpus could not look back at the session: {subject} ({detail}).")
+    safe = phrase("All of it is stored as it was measured live.")
+    do = phrase("Run “carpus track” on the session to look back at it.")
+
 
 class NotCorrectable(CarpusFault):
     """A session does not hold what correcting its markers needs."""
+
+    happened = phrase("The markers of this session cannot be corrected: {subject} ({detail}).")
+    safe = phrase("The session is unchanged, and its repetitions can be left out.")
+    do = phrase("Leave out the repetitions that should not count, or track the recording again with “carpus track”.")
 
 
 class NotCorrected(CarpusFault):
     """Tracking a session again with corrected markers did not come to its end; the old result is unchanged."""
 
+    happened = phrase("Tracking again stopped: {subject} ({detail}).")
+    safe = phrase("The old result is unchanged.")
+    do = phrase("Try again, or correct another picture too.")
+
 
 class RegisterUnreadable(CarpusFault):
     """The register of patients cannot be opened, is damaged, or was written by a newer Carpus."""
+
+    happened = phrase("The list of patients cannot be opened: {subject} ({detail}).")
+    safe = phrase("The session files are safe; the list can be made again from them, without the names.")
+    do = phrase("Start Carpus again, or move the file away and let Carpus make a new list.")
 
 
 class RegisterBusy(RegisterUnreadable):
     """Another program, mostly the window of Carpus, holds the list of patients."""
 
+    happened = phrase("The window of Carpus, or another program, has the list of patients open: {subject} ({detail}).")
+    safe = _UNTOUCHED
+    do = phrase("Close Carpus first, then try again.")
+
 
 class RegisterDamaged(RegisterUnreadable):
     """The register's file is broken or not a register; reading it again does not help."""
+
+    happened = phrase("The list of patients is damaged: {subject} ({detail}).")
+    safe = phrase("The session files are safe; the list can be made again from them, without the names.")
+    do = phrase("Start Carpus again, or take the list from a backup.")
 
 
 class RegisterSetAside(CarpusFault):
     """Told, never raised: a damaged register was given another name, and the list made again from the sessions."""
 
+    happened = phrase(
+        "The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions."
+    )
+    safe = phrase(
+        "All sessions are safe; names, notes and comments may be missing. The damaged list is kept as {subject}."
+    )
+    do = phrase("Look through the list; restore it from a backup, or enter again what is missing.")
+
 
 class RegisterMissing(CarpusFault):
     """Told, never raised: there are sessions and no list of patients, so that one was made from them."""
+
+    happened = phrase("There are sessions, but no list of patients ({subject}); Carpus has made one from the sessions.")
+    safe = phrase("All sessions are safe. If there was a list before, its names, notes and comments are gone.")
+    do = phrase("Restore the list from a backup, or enter the names again.")
 
 
 class LogUnguarded(CarpusFault):
     """Told, never raised: what keeps the log from being changed had been taken out of the store."""
 
+    happened = phrase(
+        "What keeps the log of deeds from being changed had been taken out of {subject}; it is there again."
+    )
+    safe = phrase("Patients and sessions are safe. Lines of the log may have been changed or taken out.")
+    do = phrase("Compare the log with that of a backup.")
+
 
 class FilesSetApart(CarpusFault):
     """Told, never raised: files among the sessions that are none; ``subject`` names some, ``detail`` counts them."""
+
+    happened = phrase("{detail} among the sessions cannot be read and are set apart: {subject}.")
+    safe = phrase("They are untouched where they are, and all other sessions are safe.")
+    do = phrase("Take them from a backup, or leave them; Carpus does not open them again.")
 
 
 class FolderGone(OutputNotWritable):
     """The folder of a running recording is no longer there."""
 
+    happened = phrase("The folder of the recording is gone: {subject} ({detail}).")
+    safe = phrase("What was stored before it went is there when it comes back.")
+    do = phrase("Connect the disk or the network again, or choose another folder.")
+
 
 class DiskStalled(CarpusFault):
     """A disk that neither stores nor refuses; ``subject`` is the folder, ``detail`` for how long."""
+
+    happened = phrase("The disk of {subject} has not answered for {detail}.")
+    safe = phrase("The recording goes on; what came since waits in memory.")
+    do = phrase("Look at the disk or the network. If it stays silent, the recording goes on on this computer.")
 
 
 class EndStalled(CarpusFault):
     """All of a recording is stored, but its disk stopped answering before the file was ended."""
 
+    happened = phrase("The recording could not be ended: the disk of {subject} does not answer.")
+    safe = phrase("Everything that was recorded is stored there.")
+    do = phrase("Once the disk answers, start Carpus again: it finishes the recording.")
+
 
 class RecordingMoved(CarpusFault):
     """Told, never raised: a recording whose folder went away goes on at ``subject``; ``detail`` what stayed behind."""
+
+    happened = phrase("The folder of the sessions is gone; the recording goes on in {subject} ({detail}).")
+    safe = phrase("All of it is safe on this computer.")
+    do = phrase(
+        "Go on; connect the disk or the network again later, and Carpus brings the session home when it starts."
+    )
 
 
 class RecordingReturned(CarpusFault):
     """Told, never raised: a session that had to be recorded elsewhere is among the others now."""
 
+    happened = phrase("A session that was recorded while the folder of the sessions was away is there now: {subject}.")
+    safe = phrase("All of it is safe.")
+    do = phrase("Review it as any other.")
+
 
 class FolderMissing(CarpusFault):
     """There is no folder at the path where sessions were looked for."""
+
+    happened = phrase("There is no folder {subject}.")
+    safe = phrase("Nothing has been changed.")
+    do = phrase("Name the folder that holds the sessions.")
 
 
 class FolderInUse(CarpusFault):
     """Another Carpus has the data folder open and does not answer."""
 
+    happened = phrase("Another Carpus is using the patients of {subject}.")
+    safe = phrase("Nothing has been changed.")
+    do = phrase("Go to the window that is open already, or choose another folder.")
+
 
 class SessionsMissing(CarpusFault):
     """A folder holds no session."""
+
+    happened = phrase("There is no session in {subject}.")
+    safe = phrase("Nothing has been changed.")
+    do = phrase("Measure one, or name the folder that holds the sessions.")
 
 
 class PatientUnknown(CarpusFault):
     """No patient has this pseudonym."""
 
+    happened = phrase("There is no patient {subject} ({detail}).")
+    safe = phrase("Nothing has been changed.")
+    do = phrase("Choose one of the patients that there are.")
+
 
 class PseudonymTaken(CarpusFault):
     """Another patient of the register has this pseudonym."""
+
+    happened = phrase("The name {subject} belongs to another patient.")
+    do = phrase("Choose another name.")
 
 
 class ErasureUnfinished(CarpusFault):
     """Files of what was erased could not be deleted yet; ``subject`` names one, ``detail`` counts them."""
 
+    happened = phrase("Not all files could be deleted yet ({detail} left, such as {subject}).")
+    safe = phrase("They are in no list any more, and Carpus tries again whenever it starts.")
+    do = phrase(
+        "Close other programs that have them open, or allow Carpus to write in their folder, and start it again."
+    )
+
 
 class ErasureLeadsOut(CarpusFault):
     """Nothing was erased: ``subject`` is a link on the way to what should go."""
+
+    happened = phrase("Nothing was erased: {subject} is a link that leads elsewhere.")
+    safe = phrase("Carpus deletes no file behind a link; everything is as it was.")
+    do = phrase("Put what it leads to in its place, then erase again.")
 
 
 class BackupPlaceUnsuited(CarpusFault):
     """The folder for back-ups cannot be one."""
 
+    happened = phrase("Back-ups cannot lie there: {subject} ({detail}).")
+    do = phrase("Choose a folder on another disk.")
+
 
 class BackupIncomplete(CarpusFault):
     """Told after a back-up: ``subject`` is missing or cannot be read, and so are ``detail`` files in all."""
+
+    happened = phrase("The back-up lacks files: {subject} is missing or cannot be read; {detail} in all.")
+    safe = phrase("Everything else is in it.")
+    do = phrase("Bring the folder of the sessions back or its disk, and back up again; or erase these sessions.")
 
 
 class PassphraseUnfit(CarpusFault):
     """What was typed cannot seal a file: ``detail`` says why."""
 
+    happened = phrase("This passphrase cannot be taken: {detail}.")
+    do = phrase("Choose {count} signs or more, best four words.", count=10)
+
 
 class SealRefused(CarpusFault):
     """A sealed file does not open: another passphrase, or damaged."""
+
+    happened = phrase("{subject} does not open: the passphrase is another one, or the file is damaged.")
+    do = phrase("Type the passphrase again, capitals and blanks as they were.")
 
 
 class TooLargeToSeal(CarpusFault):
     """More than can be sealed as one file; ``detail`` says how much."""
 
+    happened = phrase("This is too much to be sealed as one file: {detail} GB.")
+    do = phrase("Back up to a folder on an encrypted disk, or seal single sessions.")
+
 
 class BackupUnequal(CarpusFault):
     """What is read back of a back-up is not what was written; ``subject`` begins the name of its content."""
+
+    happened = phrase("The back-up is damaged: a content read back is not what was written ({subject}, {detail}).")
+    safe = phrase("The data on this computer are as they were.")
+    do = phrase("Back up onto another disk now, and do not trust this one any more.")
 
 
 class BackupUnreadable(CarpusFault):
     """The list of a back-up is damaged, or of a newer Carpus."""
 
+    happened = phrase("The back-up cannot be read: {subject} ({detail}).")
+    do = phrase("Choose another back-up, or bring Carpus up to date.")
+
 
 class BackupMissing(CarpusFault):
     """There is no back-up in the folder."""
+
+    happened = phrase("There is no back-up in {subject}.")
+    do = phrase("Choose the folder that holds the back-ups.")
 
 
 class BoardMissing(CarpusFault):
     """The printed board was seen in no picture."""
 
+    happened = phrase("The printed board is not to be seen: {subject} ({detail}).")
+    do = phrase("Print it with carpus calibrate-camera --board, and hold all of it in the picture, in good light.")
+
 
 class BoardViewsAlike(CarpusFault):
     """The pictures of the board are too few, or too alike, to calibrate a camera."""
+
+    happened = phrase("The pictures of the board are too few or too alike: {subject} ({detail}).")
+    do = phrase(
+        "Show the board in every part of the picture, tilted to all four sides, near and far, and hold it still."
+    )
 
 
 class BoardUnfit(CarpusFault):
     """The corners found are not those of a flat board: bent, blurred, or another board."""
 
+    happened = phrase("The corners do not fit a flat board: {subject} ({detail}).")
+    do = phrase("Glue the board onto something stiff and flat, give it light, and hold it still.")
+
 
 class CardMissing(CarpusFault):
     """The check card, all six discs of it, was seen in too few pictures."""
 
+    happened = phrase("The check card is not to be seen well enough: {subject} ({detail}).")
+    do = phrase("Lay it flat under the camera, all of it in the picture, about 60 cm away, in good light.")
+
 
 class PinUncheckable(CarpusFault):
     """The part that compares a PIN with what is kept of it (argon2) is not installed or cannot be loaded."""
+
+    happened = phrase("The PIN cannot be checked: {subject} is missing on this computer ({detail}).")
+    safe = phrase("Nothing is lost; everything stays hidden.")
+    do = phrase("Whoever looks after this computer installs Carpus again, with all its parts.")

@@ -17,7 +17,6 @@ from carpus.core.calibration.result import Finding, FindingKind
 from carpus.core.errors import CarpusFault
 from carpus.core.hand.protocols import HAND21, WRIST6
 from carpus.core.words import (
-    FAULTS,
     FINDINGS,
     finding_sentence,
     finding_words,
@@ -46,13 +45,18 @@ def all_kinds() -> set[type[CarpusFault]]:
     return {kind for kind in kinds() if kind.__module__.startswith("carpus.core.")}
 
 
+KINDS = sorted(kinds(), key=lambda kind: kind.__name__)
+
+
 def texts() -> list[str]:
-    spoken = [text for words in FAULTS.values() for text in (words.happened, words.safe, words.do)]
+    spoken = [text for kind in KINDS for text in (kind.happened, kind.safe, kind.do)]
     return spoken + [text for words in FINDINGS.values() for text in (words.headline, words.remedy)]
 
 
-def test_every_fault_has_words_and_no_words_are_left_over() -> None:
-    assert set(FAULTS) == all_kinds()
+def test_every_fault_says_for_itself_what_happened_and_what_to_do() -> None:
+    assert set(KINDS) == all_kinds()
+    assert [kind.__name__ for kind in KINDS if not {"happened", "do"} <= vars(kind).keys()] == []
+    assert len({kind.happened for kind in KINDS}) == len(KINDS)
 
 
 def test_every_finding_has_words_and_no_words_are_left_over() -> None:
@@ -77,7 +81,7 @@ def test_the_wording_keeps_the_rules(text: str) -> None:
     }
 
 
-@pytest.mark.parametrize("kind", FAULTS, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_with_or_without_facts_it_reads_as_a_sentence(kind: type[CarpusFault]) -> None:
     for fault in (kind("/a/place", "line 7"), kind("/a/place"), kind(), kind("", "line\n7")):
         words = words_of(fault)
@@ -85,10 +89,10 @@ def test_with_or_without_facts_it_reads_as_a_sentence(kind: type[CarpusFault]) -
             assert not re.search(r"\(\)|  | [.;:,)]|[{}]|\n", text), text
             assert not re.search(r"\b(for|at|to|in|named|the)[.;,]", text), text
         assert one_sentence(fault).endswith(".")
-    assert "{odd}" in one_sentence(kind("{odd}", "{odd}")) or "{subject}" not in FAULTS[kind].happened
+    assert "{odd}" in one_sentence(kind("{odd}", "{odd}")) or "{subject}" not in kind.happened
 
 
-@pytest.mark.parametrize("kind", FAULTS, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.__name__)
 def test_the_line_for_the_terminal_says_what_where_and_what_to_do(kind: type[CarpusFault]) -> None:
     fault = kind("/a/place", "line 7")
     line = one_sentence(fault)
