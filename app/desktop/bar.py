@@ -114,7 +114,9 @@ class Bar(QObject):
         camera, now, place = self._shell.bar.camera, self._now, self._place()
         if place == "live":
             return
-        if place == "review" and self._review.saved_at is not None:
+        if place == "camera":
+            camera.show_state("none", "")  # the screen itself says which there are, and how they stand
+        elif place == "review" and self._review.saved_at is not None:
             camera.show_state("good", self.tr("Saved {time}").format(time=f"{self._review.saved_at:%H:%M}"))
         elif now.kind == "file" and now.source is not None:
             name = Path(now.choice.path).name

@@ -81,7 +81,8 @@ class Calibrating(QObject):
         self.hand.failed.connect(self._failed)
         self.hand.pulled.connect(self._pulled)
         self.hand.lost.connect(lambda fault: screen.showing.show_lost(lost_words(fault)))
-        screen.beginning.choose_camera(practice=is_demo)
+        if is_demo:
+            screen.beginning.offer_simulated()
         screen.beginning.begun.connect(self.begin)
         screen.beginning.printed.connect(self._print_board)
         screen.showing.take.connect(lambda: self._gathering and self._gathering.take())

@@ -93,6 +93,7 @@ class Checking(QObject):
         self.hand.failed.connect(self._failed)
         self.hand.pulled.connect(self._pulled)
         self.hand.lost.connect(lambda fault: screen.show_lost(lost_words(fault)))
+        screen.camera.setHidden(is_demo)
         screen.camera_chosen.connect(self._choose_camera)
         screen.check.connect(self.begin)
         screen.leave.connect(self.back)

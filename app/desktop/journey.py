@@ -123,7 +123,7 @@ class Journey(QObject):
         self._shell, self._parts = shell, parts
         self.takes_escape: Callable[[], bool] = lambda: False
         """Asked first when Esc is pressed: True where that closed something, and the person stays where they are."""
-        self.settings = parts.settings
+        self.settings, self.is_demo = parts.settings, parts.is_demo
         self.now = NowOpen(choice=SourceChoice("practice" if parts.is_demo else "camera"))
         self.background = Background()
         self.opener = Opener(parts.sources)
@@ -141,7 +141,7 @@ class Journey(QObject):
         background, library = self.background, self._parts.library
         self.patients = PatientsScreen(theme, self._parts.patients, self._parts.today)
         self.exercise = ExerciseScreen(theme)
-        self.camera = CameraScreen(theme)
+        self.camera = CameraScreen(theme, is_demo=self.is_demo)
         self.markers = MarkersScreen(theme, keys, background, self._parts.phrasebook)
         self.live = LiveScreen(theme, keys, background)
         self.review = ReviewScreen(theme, keys, background, library)
@@ -165,12 +165,13 @@ class Journey(QObject):
     def _make_flows(self, theme: Theme) -> None:
         now, tell, library, places = self.now, self.teller, self._parts.library, self._places
         self.way = Navigator(self._shell, lambda: tell.busy, lambda: self.live.recording_state != "off")
-        self.watch = CameraWatch(self, self._parts.sources.camera_name)
+        # In a demo the simulated camera is the camera: whether another is plugged in is nowhere looked for, or said.
+        self.watch = CameraWatch(self, (lambda: "") if self.is_demo else self._parts.sources.camera_name)
         self.setting_up = SettingUp(
             self, SetUpScreens(self.exercise, self.camera, self.markers), self.way, tell, now, library,
             self._find_patient, self.opener, places, self.background,
             camera_there=lambda: self.watch.there, keep_pictures=self.settings.recording.keep_pictures,
-            free_bytes=lambda: free_bytes(library.folder), is_demo=self._parts.is_demo,
+            free_bytes=lambda: free_bytes(library.folder), is_demo=self.is_demo,
         )  # fmt: skip
         self.measuring = MeasuringFlow(self, self.live, self.way, tell, now)
         self.patient_view = PatientViewing(self._shell, self.live, theme, lambda: self.settings.patient.sound)
@@ -205,7 +206,7 @@ class Journey(QObject):
             self._shell, self.clinic, self.way, tell, library, places, self.background,
             after_days=lambda: self.settings.report.retest_days, today=self._parts.today,
         )  # fmt: skip
-        cameras, is_demo = self._parts.cameras, self._parts.is_demo
+        cameras, is_demo = self._parts.cameras, self.is_demo
         self.care = CameraCare(self, cameras, self.background, _now)
         self.calibrating = Calibrating(
             self._shell, self.board, self.way, tell, cameras, places, self.background,
@@ -551,7 +552,7 @@ class Journey(QObject):
 
     def _camera_looked_for(self, there: bool, name: str) -> None:
         self.camera.set_camera_ready(there, name)
-        self.patients.set_camera_ready(there or self.now.kind == "practice")
+        self.patients.set_camera_ready(there)
         self.calibrating.set_camera_there(there)
         self.card.set_camera_there(there)
         self.bar.show_camera()

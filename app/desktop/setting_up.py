@@ -113,8 +113,8 @@ class SettingUp(QObject):
             self.choose_exercise(patient_id)
         else:
             self.choose_camera(set_up)
-            if now.kind == "camera" and self._camera_there():
-                self.open_source(SourceChoice("camera"))
+            if now.kind != "file" and self._camera_there():
+                self.open_source(now.choice)
 
     def choose_exercise(self, patient_id: str) -> None:
         """First step."""

@@ -72,7 +72,8 @@ class Welcome(QObject):
             panel.show_checks(here)
             self._journey.teller.fault(fault)
 
-        self._background.run(lambda: list(examine_at_start(folder)), show, failed, panel)
+        needs_camera = not self._journey.is_demo
+        self._background.run(lambda: list(examine_at_start(folder, needs_camera=needs_camera)), show, failed, panel)
 
     def _of_the_window(self) -> list[Check]:
         """What only the window knows."""

@@ -87,15 +87,16 @@ def examine(data_folder: Path, *, camera_uri: str | None = None, measure_s: floa
         yield from opened_findings(camera_uri or "", measure_s)
 
 
-def examine_at_start(data_folder: Path) -> Iterator[Finding]:
+def examine_at_start(data_folder: Path, *, needs_camera: bool = True) -> Iterator[Finding]:
     """What a person must know before the first session; nothing is opened, so it takes no time and disturbs nobody.
 
     ``data_folder`` need not be there yet. What only the window knows, its screen, is not among it.
     """
-    on_linux = sys.platform.startswith("linux")
+    on_linux = needs_camera and sys.platform.startswith("linux")
     if on_linux:  # elsewhere only opening it tells
         yield from camera_findings([(kind, camera) for kind in _kinds() for camera in kind.seen()])
-    yield from drivers_findings(asks_version=False)
+    if needs_camera:
+        yield from drivers_findings(asks_version=False)
     if on_linux:
         yield from rights_findings(RULES_FOLDERS)
     yield data_folder_finding(data_folder)

@@ -198,6 +198,10 @@ class Library:
             return self.index.owner(session_id)
         return ""
 
+    def last_patient(self) -> str:
+        """Who was measured last, also on a simulated camera; empty for nobody."""
+        return self.index.last_owner()
+
     def new_path(self, set_up: SetUp) -> Path:
         """A free path for a session that begins now: on this computer while a share is away, which is told."""
         about = set_up.pseudonym, set_up.exercise.id, set_up.side, datetime.now().astimezone()

@@ -64,6 +64,12 @@ class SessionList:
         """The patient whose session it is, empty for nobody's; raises KeyError for one that is not in the store."""
         return self._row(session_id).patient_id or ""
 
+    def last_owner(self) -> str:
+        """Whose session was made last, also a simulated one; empty for nobody's and the practice patient's."""
+        query = select(SESSION.c.patient_id).where(SESSION.c.erasing == 0, SESSION.c.archived == "")
+        row = self._store.row(query.order_by(SESSION.c.created_s.desc()).limit(1))
+        return "" if row is None or row.patient_id in (None, PRACTICE) else str(row.patient_id)
+
     def _row(self, session_id: str) -> Row[Any]:
         row = self._store.row(select(SESSION).where(SESSION.c.id == session_id, SESSION.c.erasing == 0))
         if row is None:

@@ -16,6 +16,7 @@ from carpus.core.errors import (
     CarpusFault,
     ErasureUnfinished,
     LogUnguarded,
+    PseudonymTaken,
     RegisterBusy,
     RegisterDamaged,
     RegisterMissing,
@@ -74,7 +75,9 @@ class Store:
         if self._database.is_new and not url and not self.told and self._has_sessions():
             self.told.append(RegisterMissing(folder / STORE_FILE))
         if not self.rows(select(PATIENT.c.id).where(PATIENT.c.id == PRACTICE)):
-            self._make([new(PATIENT, PRACTICE, folded=f"\N{BULLET}{PRACTICE}", pseudonym=PRACTICE, side="right")], "")
+            practice = new(PATIENT, PRACTICE, folded=f"\N{BULLET}{PRACTICE}", pseudonym=PRACTICE, side="right")
+            with suppress(PseudonymTaken):  # another program that was started now was quicker
+                self._make([practice], "")
         self._server: Server | None = None
         if url:
             from carpus.core.records.server import Server

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -21,6 +22,7 @@ from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
+from carpus.core.types import SIMULATED
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 LONG_S = 120.0
@@ -75,8 +77,9 @@ def waiting(house: House) -> int:
 
 
 def record(
-    path: Path, subject: str, when: datetime, hand: str = "right", frames: int = 4, recording_id: str = ""
-) -> Path:
+    path: Path, subject: str, when: datetime, hand: str = "right", frames: int = 4, recording_id: str = "",
+    simulated: bool = False,
+) -> Path:  # fmt: skip
     """A session file."""
     path.parent.mkdir(parents=True, exist_ok=True)
     header = new_header(
@@ -88,6 +91,7 @@ def record(
         now=when,
         recorded=when.isoformat(),
         recording_id=recording_id,
+        parameters=json.dumps({"source": {SIMULATED: "yes"}}) if simulated else "{}",
     )
     with SessionWriter.create(path, header, CAMERA, make_calibration()) as writer:
         for row in range(frames):

@@ -148,9 +148,10 @@ class BoardBeginning(QWidget):
             self._camera_there = there
             self._show_camera()
 
-    def choose_camera(self, *, practice: bool) -> None:
-        """The camera that is proposed."""
-        self.camera.choose(practice)
+    def offer_simulated(self) -> None:
+        """No other camera than the simulated one, as in a demo."""
+        self.camera.choose(True)
+        self.camera.hide()
         self._show_camera()
 
     def _show_camera(self) -> None:

@@ -28,9 +28,10 @@ class CameraScreen(QWidget):
     wanted = Signal(object)
     picked = Signal(str)
 
-    def __init__(self, theme: Theme) -> None:
+    def __init__(self, theme: Theme, *, is_demo: bool = False) -> None:
+        """In a demo no camera is offered but the simulated one."""
         super().__init__()
-        self._theme = theme
+        self._theme, self._is_demo = theme, is_demo
         self._camera_there = False
         self._camera_name = ""
         self._path = ""
@@ -41,7 +42,7 @@ class CameraScreen(QWidget):
         self.sources = Options(
             theme,
             [
-                ("camera", self.tr("Camera"), ""),
+                *([] if is_demo else [("camera", self.tr("Camera"), "")]),
                 ("file", self.tr("Recording"), ""),
                 (
                     "practice",
@@ -160,14 +161,14 @@ class CameraScreen(QWidget):
 
     def _show(self, *_: object) -> None:
         there = self._camera_there
-        camera = self.sources.option("camera")
-        camera.show_sentence(
-            (self._camera_name or self.tr("The depth camera over the hand."))
-            if there
-            else self.tr("Plug it straight into the computer."),
-            "good" if there else "bad",
-            self.tr("Camera ready") if there else self.tr("No camera"),
-        )
+        if not self._is_demo:
+            self.sources.option("camera").show_sentence(
+                (self._camera_name or self.tr("The depth camera over the hand."))
+                if there
+                else self.tr("Plug it straight into the computer."),
+                "good" if there else "bad",
+                self.tr("Camera ready") if there else self.tr("No camera"),
+            )
         recording = self.tr(
             "A stored recording: a file of Carpus or of the camera (.oni, .db3), or a folder of pictures."
         )

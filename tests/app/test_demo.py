@@ -1,0 +1,87 @@
+"""In a demo the simulated camera is the camera, whatever is plugged in, and nothing on any screen says otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel
+from pytestqt.qtbot import QtBot
+
+from carpus.app import compose
+from carpus.app.compose import Desktop
+from carpus.app.desktop.sources import Sources
+from carpus.app.settings import RecordingSettings, Settings
+from carpus.core.library.library import Library
+from tests.records.samples import HERON, LINDEN, T0, record
+
+
+@pytest.fixture
+def demo(
+    qtbot: QtBot, qapp: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Callable[[], Desktop]]:
+    monkeypatch.setattr(Sources, "camera_name", lambda _: None)
+    settings = Settings(recording=RecordingSettings(folder=str(tmp_path / "data")))
+    opened: list[Desktop] = []
+
+    def open_one() -> Desktop:
+        opened.append(compose.compose(qapp, settings, is_demo=True, settings_folder=tmp_path / "settings"))
+        opened[-1].show()
+        return opened[-1]
+
+    yield open_one
+    for desktop in opened:
+        desktop.close()
+        qtbot.waitUntil(lambda desktop=desktop: not desktop.journey.background.busy, timeout=60_000)  # type: ignore[misc]
+
+
+def _said(desktop: Desktop) -> str:
+    """Everything that stands in the window now."""
+    widgets = [*desktop.shell.findChildren(QLabel), *desktop.shell.findChildren(QAbstractButton)]
+    words = [f"{one.text()} {one.accessibleDescription()}" for one in widgets if one.isVisible()]
+    return " ".join([*words, desktop.shell.bar.camera.text()]).lower()
+
+
+def test_no_screen_of_a_demo_misses_a_camera(qtbot: QtBot, demo: Callable[[], Desktop]) -> None:
+    desktop = demo()
+    journey, panel = desktop.journey, desktop.welcome.panel
+    assert panel is not None
+    qtbot.waitUntil(lambda: bool(panel.checks), timeout=60_000)
+    assert not [row.check.name for row in panel.checks if "camera" in row.check.name.lower()]
+
+    def looks_well() -> None:
+        said = _said(desktop)
+        assert "no camera" not in said
+        assert "plugged in" not in said
+        assert "plug the camera" not in said
+
+    looks_well()
+    linden = desktop.library.patients.add(LINDEN)
+    desktop.library.patients.add(HERON)
+    journey.show_patients(linden)
+    looks_well()
+    assert "file" not in journey.patients.card.start_button.text()
+    journey.setting_up.choose_exercise(linden)
+    looks_well()
+    journey.exercise.primary.click()
+    assert journey.place == "camera"
+    assert journey.camera.sources.value() == "practice"
+    assert journey.camera.primary.isEnabled()
+    looks_well()
+    journey.show_patients()
+    for show in (journey.show_card, journey.show_board):
+        show()
+        looks_well()
+
+
+def test_who_was_measured_last_is_chosen_at_the_next_start(demo: Callable[[], Desktop], tmp_path: Path) -> None:
+    library = Library(tmp_path / "data")
+    linden = library.patients.add(LINDEN)
+    path = library.index.new_path(linden, LINDEN.pseudonym, "WRIST_FE", "right", T0)
+    library.index.enter(record(path, LINDEN.pseudonym, T0, simulated=True), linden)
+    library.patients.add(HERON)
+    library.close()
+    patients = demo().journey.patients
+    assert patients.list.rows.find(linden) > 0, "what is simulated counts nowhere, also not for the order"
+    assert patients.list.currentIndex().row() == patients.list.rows.find(linden)
