@@ -20,6 +20,9 @@ from carpus.core.errors import DriverFailed
 from carpus.core.phrase import phrase
 
 SLOTS = 8
+"""Pictures of a recording, which waits."""
+CAMERA_SLOTS = 60
+"""Of a camera, which does not: a second in which a busy computer does not let us look. 55 MB, used only then."""
 START_S = 30.0
 """A loaded computer may take long to start a process; this is not the driver's fault."""
 OPEN_FILE_S = 4.5

@@ -15,7 +15,7 @@ import queue
 import signal
 import threading
 import time
-from collections import Counter, deque
+from collections import Counter
 from collections.abc import Callable, Iterable
 from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
@@ -85,7 +85,7 @@ class Outlet:
         self._memory = SharedMemory(ring.name)
         assert self._memory.buf is not None
         self._pixels = self._memory.buf
-        self._free = deque(range(ring.slots))
+        self._free = list(reversed(range(ring.slots)))
         self._overrun: Counter[Sensor] = Counter()
         self._last_sent = time.monotonic()
         self._held: list[object] = []
@@ -118,7 +118,7 @@ class Outlet:
         elif not self._free:
             self._overrun[sensor] += 1
         else:
-            slot = self._free.popleft()
+            slot = self._free.pop()  # the one freed last: what is never needed takes no memory
             start = slot * self._ring.slot_bytes
             self._pixels[start : start + picture.nbytes] = picture
             self.send(Arrived(sensor, slot, number, timestamp_us, self._overrun.pop(sensor, 0)))

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from carpus.core.camera import Camera
-from carpus.core.capture.capture_link import ANSWER_S, OPEN_CAMERA_S, CaptureProcess
+from carpus.core.capture.capture_link import ANSWER_S, CAMERA_SLOTS, OPEN_CAMERA_S, CaptureProcess
 from carpus.core.capture.capture_messages import Arrived, Ended, ExposureSet, LockExposure, Opened
 from carpus.core.capture.capture_process import Serve
 from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_lens, camera_of_view, fitted_camera
@@ -153,7 +153,7 @@ class ProcessCamera:
 
     def _start(self) -> CaptureProcess:
         width, height = SIZE_PX
-        return CaptureProcess(self._serve, self._plan, self._subject, width * height * 3)
+        return CaptureProcess(self._serve, self._plan, self._subject, width * height * 3, CAMERA_SLOTS)
 
     def _run(self) -> Iterator[Frame]:
         """Frames of the process that runs now, until it ends or :meth:`close`."""

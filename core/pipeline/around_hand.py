@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,6 +18,8 @@ REACH = {False: 1.5, True: 0.6}
 """How far the area reaches beyond the box of the discs, in its larger side: of the palm's alone to the finger tips and
 past them, of the whole hand's a hand's breadth."""
 LEAST_REACH_PX = 48.0
+STALE_S = 0.5
+"""A hand that was seen longer ago may have left the area."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,12 +54,17 @@ class HandArea:
 
     def __init__(self, camera: Camera, protocol: MarkerProtocol) -> None:
         self._camera, self._protocol = camera, protocol
-        self.area: Area | None = None
-        """None while the hand is lost: then whole pictures are kept."""
+        self._known: tuple[float, Area | None] = (-math.inf, None)
 
     def take(self, tracked: TrackedFrame) -> None:
         """The hand of a frame."""
-        self.area = area_of(tracked, self._camera, self._protocol)
+        self._known = tracked.timestamp_s, area_of(tracked, self._camera, self._protocol)
+
+    def area(self, at_s: float) -> Area | None:
+        """Where the hand is in a picture of that time; None while it is lost, or not yet tracked nearly so far: then
+        whole pictures are kept."""
+        known_s, area = self._known
+        return area if at_s - known_s <= STALE_S else None
 
 
 def area_of(tracked: TrackedFrame, camera: Camera, protocol: MarkerProtocol) -> Area | None:
@@ -92,7 +100,7 @@ def only(frame: Frame, area: Area | None) -> Frame:
 class AroundHand:
     """Hands pictures on to a raw recording, each with the hand's surroundings alone."""
 
-    def __init__(self, sink: PictureSink, area: Callable[[], Area | None]) -> None:
+    def __init__(self, sink: PictureSink, area: Callable[[float], Area | None]) -> None:
         self._sink, self._area = sink, area
 
     @property
@@ -102,12 +110,12 @@ class AroundHand:
 
     def append_frame(self, frame: Frame) -> None:
         """One picture."""
-        self._sink.append_frame(only(frame, self._area()))
+        self._sink.append_frame(only(frame, self._area(frame.timestamp_s)))
 
     def go_on_elsewhere(self, frame: Frame | None) -> AroundHand:
         """As :meth:`RawWriter.go_on_elsewhere`."""
-        area = self._area()
-        return AroundHand(self._sink.go_on_elsewhere(None if frame is None else only(frame, area)), self._area)
+        part = None if frame is None else only(frame, self._area(frame.timestamp_s))
+        return AroundHand(self._sink.go_on_elsewhere(part), self._area)
 
     def close(self) -> None:
         """The recording is whole."""

@@ -3,8 +3,8 @@
 ===================  ===========================  ================================================
 channel              where                        policy at the bound
 ===================  ===========================  ================================================
-:class:`DropOldest`  capture -> tracking          the oldest is lost, counted, told to who takes next
-:class:`NeverDrop`   tracking or capture -> disk  :class:`ChannelFull`: the recording ends with a fault
+:class:`NeverDrop`   capture -> tracking          :class:`ChannelFull`: the new picture is left out and counted
+                     tracking or capture -> disk  the same: the recording ends with a fault
                      screen -> tracking           the same, of what a person says: it is not taken in
 :class:`Waits`       file -> tracking -> disk     who puts waits: a file has time, and nothing of it is lost
 :class:`Newest`      anything -> screen           only the newest value is kept; who looks takes nothing away
@@ -15,8 +15,8 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Callable, Iterator
-from typing import Generic, NamedTuple, TypeVar
+from collections.abc import Iterator
+from typing import Generic, TypeVar
 
 T = TypeVar("T")
 
@@ -27,13 +27,6 @@ class ChannelFull(Exception):
 
 class ChannelClosed(Exception):
     """Something was put into a channel after its end."""
-
-
-class Taken(NamedTuple, Generic[T]):
-    """What a :class:`DropOldest` hands out: the item and how much was lost just before it."""
-
-    item: T
-    lost_before: int
 
 
 class _Bounded(Generic[T]):
@@ -59,6 +52,24 @@ class _Bounded(Generic[T]):
         with self._changed:
             return self._deepest
 
+    def taken(self) -> list[T]:
+        """Everything that waits now, oldest first, for who does not wait for more."""
+        with self._changed:
+            out = list(self._items)
+            self._items.clear()
+            self._changed.notify_all()
+        return out
+
+    def __iter__(self) -> Iterator[T]:
+        """Items in order until the channel is closed and empty; waits for each."""
+        while True:
+            with self._changed:
+                if not self._wait_for_item():
+                    return
+                item = self._items.popleft()
+                self._changed.notify_all()
+            yield item
+
     def close(self) -> None:
         """No more items come; those that wait can still be taken. May be called twice."""
         with self._changed:
@@ -68,7 +79,7 @@ class _Bounded(Generic[T]):
     def _append(self, item: T) -> None:
         self._items.append(item)
         self._deepest = max(self._deepest, len(self._items))
-        self._changed.notify()
+        self._changed.notify_all()
 
     def _wait_for_item(self) -> bool:
         """Blocks until there is an item (True) or the channel is closed and empty (False)."""
@@ -77,58 +88,6 @@ class _Bounded(Generic[T]):
                 return False
             self._changed.wait()
         return True
-
-
-class DropOldest(_Bounded[T]):
-    """Keeps the newest ``capacity`` items.
-
-    ``weight`` tells how much is lost with an item (a frame may already stand for missing ones before it).
-
-    >>> channel = DropOldest(2)
-    >>> for number in (1, 2, 3): channel.put(number)
-    >>> channel.close()
-    >>> list(channel)
-    [Taken(item=2, lost_before=1), Taken(item=3, lost_before=0)]
-    """
-
-    def __init__(self, capacity: int, weight: Callable[[T], int] = lambda _: 1) -> None:
-        super().__init__(capacity)
-        self._weight = weight
-        self._lost_before = 0
-        self._lost = 0
-
-    @property
-    def lost(self) -> int:
-        """Everything lost so far."""
-        with self._changed:
-            return self._lost
-
-    def put(self, item: T) -> None:
-        """Adds an item at once; the oldest goes when there is no room."""
-        with self._changed:
-            if self._closed:
-                raise ChannelClosed
-            if len(self._items) == self.capacity:
-                gone = self._weight(self._items.popleft())
-                self._lost_before += gone
-                self._lost += gone
-            self._append(item)
-
-    def clear(self) -> None:
-        """Forgets what waits and what was lost before it: nobody wants these any more."""
-        with self._changed:
-            self._items.clear()
-            self._lost_before = 0
-
-    def __iter__(self) -> Iterator[Taken[T]]:
-        """Items in order until the channel is closed and empty; waits for each."""
-        while True:
-            with self._changed:
-                if not self._wait_for_item():
-                    return
-                taken = Taken(self._items.popleft(), self._lost_before)
-                self._lost_before = 0
-            yield taken
 
 
 class NeverDrop(_Bounded[T]):
@@ -143,22 +102,6 @@ class NeverDrop(_Bounded[T]):
                 raise ChannelFull
             self._append(item)
 
-    def taken(self) -> list[T]:
-        """Everything that waits now, oldest first, for who does not wait for more."""
-        with self._changed:
-            out = list(self._items)
-            self._items.clear()
-        return out
-
-    def __iter__(self) -> Iterator[T]:
-        """Items in order until the channel is closed and empty; waits for each."""
-        while True:
-            with self._changed:
-                if not self._wait_for_item():
-                    return
-                item = self._items.popleft()
-            yield item
-
 
 class Waits(_Bounded[T]):
     """Nothing is lost: whoever puts waits for room. For sources that can wait, as files can."""
@@ -171,27 +114,6 @@ class Waits(_Bounded[T]):
             if self._closed:
                 raise ChannelClosed
             self._append(item)
-
-    @property
-    def lost(self) -> int:
-        """Always nothing."""
-        return 0
-
-    def clear(self) -> None:
-        """Forgets what waits: nobody wants these any more."""
-        with self._changed:
-            self._items.clear()
-            self._changed.notify_all()
-
-    def __iter__(self) -> Iterator[Taken[T]]:
-        """Items in order until the channel is closed and empty; waits for each."""
-        while True:
-            with self._changed:
-                if not self._wait_for_item():
-                    return
-                item = self._items.popleft()
-                self._changed.notify_all()
-            yield Taken(item, 0)
 
 
 class Newest(Generic[T]):

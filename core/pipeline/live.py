@@ -4,11 +4,12 @@
 
     source -> [capture] --+--> newest picture, last 20 pictures          (screen, calibration)
                           +--> NeverDrop  -> [pictures]  raw pictures    (before anything may be lost)
-                          +--> DropOldest -> [tracking] --+--> newest view, last 12 s   (screen, pulled by its timer)
+                          +--> NeverDrop  -> [tracking] --+--> newest view, last 12 s   (screen, pulled by its timer)
                                                           +--> NeverDrop -> [writing]   session file
 
-Consumers start first; a stop runs from the source to the sinks and drains. One catch at the top of each thread turns
-any exception into an event. Nothing here waits for the screen.
+Consumers start first; a stop runs from the source to the sinks and drains. A busy computer falls behind and loses
+nothing: what is recorded waits for the tracker in memory, and the end of a recording waits until it is worked through.
+One catch at the top of each thread turns any exception into an event. Nothing here waits for the screen.
 """
 
 from __future__ import annotations
@@ -30,13 +31,16 @@ import numpy as np
 
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.errors import CameraLost, CameraReturned
-from carpus.core.pipeline.channels import ChannelClosed, DropOldest, Newest, Waits
+from carpus.core.pipeline.channels import ChannelClosed, ChannelFull, NeverDrop, Newest, Waits
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, LiveEventKind, TrackedView
 from carpus.core.pipeline.recorder import Patience, Recorder, Sink
 from carpus.core.types import Frame, TrackedFrame
 
 log = logging.getLogger(__name__)
 
+PREVIEW_WAITING = 16
+"""Pictures that wait for the tracker while nothing is recorded: half a second. What is seen is to be of now."""
+_LOOK_S = 0.005
 _FRAME_PATIENCE_S = 0.25
 """A stop waits this long for the capture thread to come back with a frame before it closes the source under it."""
 
@@ -77,17 +81,19 @@ class Listener(Protocol):
 class LiveSettings:
     """Bounds of the live session.
 
-    ``tracking_waiting`` frames that may wait for the tracker before the oldest is lost; ``rows_waiting`` and
-    ``pictures_waiting`` what may wait for the disk before the recording ends (30 s of rows, 5 s of pictures, 230 MB);
+    ``tracking_waiting`` recorded frames that may wait for the tracker before new ones are left out: a minute of a
+    camera at twice the work that the computer can do, as they came, 1.5 GB of 640x480. ``pictures_waiting`` may wait
+    for the disk before the raw recording ends; the newest are the same as those above, so the two share their memory.
+    ``rows_waiting`` as many results, beside those that wait for the tracker, before the recording ends (30 s);
     ``history_s`` of tracked frames kept for curves; ``row_bytes`` and ``picture_bytes`` on the disk by experience, for
     the time that is left; a warning comes once below ``low_disk_bytes``. ``folder`` is where sessions will go, for the
     room on the disk before a recording runs. A disk that neither stores nor refuses is told after ``told_stall_s``, and
     the recording goes on elsewhere after ``moved_stall_s``; the pictures at once.
     """
 
-    tracking_waiting: int = 16
+    tracking_waiting: int = 960
     rows_waiting: int = 900
-    pictures_waiting: int = 150
+    pictures_waiting: int = 960
     recent_frames: int = 20
     history_s: float = 12.0
     row_bytes: int = 4_000
@@ -105,7 +111,8 @@ class LiveSettings:
 
 
 class _Captured(NamedTuple):
-    """A frame on its way to the tracker, and to the recording, that were current when it was captured."""
+    """A frame on its way to the tracker, and to the recording, that were current when it was captured; ``rows`` None
+    where it is not recorded."""
 
     frame: Frame
     at_s: float
@@ -139,10 +146,10 @@ class LiveSession:
         self._lock = threading.Lock()
         self._stopping = threading.Event()
         self._source_waits = source_waits
-        self._to_tracking: DropOldest[_Captured] | Waits[_Captured] = (
-            Waits(self._settings.tracking_waiting)
+        self._to_tracking: NeverDrop[_Captured] | Waits[_Captured] = (
+            Waits(min(PREVIEW_WAITING, self._settings.tracking_waiting))
             if source_waits
-            else DropOldest(self._settings.tracking_waiting, weight=lambda captured: 1 + captured.frame.dropped_before)
+            else NeverDrop(self._settings.tracking_waiting)
         )
         self._newest_frame: Newest[Frame] = Newest()
         self._newest_view: Newest[TrackedView] = Newest()
@@ -152,12 +159,13 @@ class LiveSession:
         self._arrivals: deque[float] = deque(maxlen=math.ceil(2.0 * fps) + 1)
         self._latencies: deque[float] = deque(maxlen=math.ceil(10.0 * fps))
         self._captured = self._tracked = self._missing = 0
-        self._handed = self._worked = 0
+        self._handed = self._worked = self._left_out = self._left_out_before = 0
+        self._worked_at: deque[float] = deque(maxlen=math.ceil(2.0 * fps))
         self._walk: Walk | None = None
         self._listener: Listener | None = None
         self._rows: Recorder[SessionSink, TrackedFrame | _Note] | None = None
         self._pictures: Recorder[PictureSink, Frame] | None = None
-        self._paused = False
+        self._paused = self._catching_up = False
         self._disk_warned = False
         self._disk_free: int | None = None
         self._row_count = 0
@@ -198,13 +206,14 @@ class LiveSession:
                 self._capture_thread.join(timeout=self._settings.stop_patience_s)
             if self._capture_thread.is_alive():
                 self._tell("thread_stuck")
+        with suppress(Exception):  # already told by the recorder
+            if self.recording:
+                self.stop_recording()
+        self.end_tracking()
         self._to_tracking.close()
         if self._tracking_thread.is_alive():
             self._tracking_thread.join()
         self._source.close()
-        with suppress(Exception):  # already told by the recorder
-            if self.recording:
-                self.stop_recording()
 
     @property
     def running(self) -> bool:
@@ -232,8 +241,8 @@ class LiveSession:
             self._walk = walk
             self._history.clear()
             self._newest_view.clear()
-            self._to_tracking.clear()
-            self._handed = self._worked = 0
+            self._worked += len(self._to_tracking.taken())
+            self._left_out_before = 0
 
     def end_tracking(self) -> None:
         """No further frame is tracked; the pictures go on."""
@@ -277,7 +286,7 @@ class LiveSession:
             "writing",
             open_session,
             self._write_row,
-            self._settings.rows_waiting,
+            settings.rows_waiting + (0 if self._source_waits else settings.tracking_waiting),
             lambda cause: self._tell("recording_failed", cause),
             waits=self._source_waits,
             patience=Patience(
@@ -334,14 +343,21 @@ class LiveSession:
         self._hear(lambda listener: listener.event(at_s, kind))
 
     def stop_recording(self) -> Path:
-        """Waits until all is stored and the files are closed; the session file's path.
+        """Waits until all that was captured is tracked and stored and the files are closed; the session file's path.
 
-        Raises the fault that ended the recording early (what reached the disk is kept).
+        :meth:`counters` tell how long the tracking takes. Raises the fault that ended the recording early (what reached
+        the disk is kept).
         """
         with self._lock:
-            rows, pictures = self._rows, self._pictures
-            self._rows = self._pictures = None
-            self._paused = False
+            rows, self._catching_up = self._rows, True  # from now on no frame is recorded
+        try:
+            while rows is not None and rows.fault is None and self._is_behind() and self._walk is not None:
+                time.sleep(_LOOK_S)
+        finally:
+            with self._lock:
+                pictures = self._pictures
+                self._rows = self._pictures = None
+                self._paused = self._catching_up = False
         if rows is None:
             raise RuntimeError("no recording runs")
         try:
@@ -393,19 +409,23 @@ class LiveSession:
             arrivals = [at_s for at_s in self._arrivals if at_s > time.monotonic() - 2.0]
             rows, pictures = self._rows, self._pictures
             captured, tracked, missing = self._captured, self._tracked, self._missing
+            worked_at = list(self._worked_at)
         p50, p95 = np.percentile(latencies, (50.0, 95.0)) if len(latencies) else (math.nan, math.nan)
+        waiting = len(self._to_tracking)
+        work_s = worked_at[-1] - worked_at[0] if len(worked_at) > 1 else math.nan
         span_s = arrivals[-1] - arrivals[0] if len(arrivals) > 1 else 0.0
         fps = (len(arrivals) - 1) / span_s if span_s > 0.0 else 0.0
         free = self._disk_free if rows else _free_bytes(self._settings.folder)
         return LiveCounters(
             captured=captured,
             tracked=tracked,
-            dropped=self._to_tracking.lost,
+            dropped=self._left_out,
             missing=missing,
             fps=fps,
             latency_p50_ms=1e3 * float(p50),
             latency_p95_ms=1e3 * float(p95),
-            waiting_tracking=len(self._to_tracking),
+            waiting_tracking=waiting,
+            catching_up_s=waiting * work_s / max(len(worked_at) - 1, 1) if waiting else 0.0,
             waiting_writing=rows.waiting if rows else 0,
             waiting_pictures=pictures.waiting if pictures else 0,
             rows_written=rows.written if rows else 0,
@@ -440,55 +460,82 @@ class LiveSession:
 
     def _let_tracking_come_up(self) -> None:
         """A file has ended when its last frame is tracked: who then stops the recording loses none."""
-        while self._source_waits and self._worked < self._handed and not self._stopping.wait(0.005):
+        while self._source_waits and self._is_behind() and not self._stopping.wait(_LOOK_S):
             pass
+
+    def _is_behind(self) -> bool:
+        with self._lock:
+            return self._worked < self._handed
 
     def _take(self, frame: Frame) -> None:
         at_s = time.monotonic()
         with self._lock:
-            rows, pictures, walk = self._rows, self._pictures, self._walk
+            recorded = not (self._paused or self._catching_up)
+            rows, pictures = (self._rows, self._pictures) if recorded else (None, None)
+            walk = self._walk
+            self._handed += walk is not None  # told with the rows: who stops the recording waits for this frame too
             self._recent.append(frame)
             self._arrivals.append(at_s)
             self._captured += 1
             self._missing += frame.dropped_before
             if rows is not None and self._recorded_from is None:
                 self._recorded_from = frame.index
-        if pictures is not None and not self._paused:
+        if pictures is not None:
             pictures.put(frame)
         self._newest_frame.put(frame)
         if walk is not None:
-            with suppress(ChannelClosed):  # the session ended while a file waited for the tracker
-                self._to_tracking.put(_Captured(frame, at_s, walk, rows))
-                self._handed += 1
+            self._hand_over(_Captured(frame, at_s, walk, rows))
+
+    def _hand_over(self, captured: _Captured) -> None:
+        """To the tracker; without room the frame is left out, and counted in the next one. Of what is not recorded only
+        the last half second waits, and nothing while the end of a recording does."""
+        frame = captured.frame
+        if self._left_out_before:
+            frame = replace(frame, dropped_before=frame.dropped_before + self._left_out_before)
+        room = self._settings.tracking_waiting
+        if captured.rows is None and not self._source_waits:
+            room = 0 if self._catching_up else min(PREVIEW_WAITING, room)
+        try:
+            if not self._source_waits and len(self._to_tracking) >= room:
+                raise ChannelFull
+            self._to_tracking.put(captured._replace(frame=frame))
+            self._left_out_before = 0
+            return
+        except ChannelFull:
+            self._left_out += not self._catching_up
+            self._left_out_before = frame.dropped_before + 1
+        except ChannelClosed:
+            pass  # the session ended while a file waited for the tracker
+        with self._lock:
+            self._handed -= 1
 
     def _track(self) -> None:
-        for captured, lost_before in self._to_tracking:
+        for captured in self._to_tracking:
             try:
                 if captured.walk is self._walk:  # else captured for a walk that has ended
-                    self._track_one(captured, lost_before)
+                    self._track_one(captured)
             except Exception as cause:  # the one catch at the top of this thread
                 with self._lock:
                     if self._walk is captured.walk:
                         self._walk = None
                 self._tell("tracking_failed", cause)
             finally:
-                self._worked += 1
+                with self._lock:
+                    self._worked += 1
+                    self._worked_at.append(time.monotonic())
 
-    def _track_one(self, captured: _Captured, lost_before: int) -> None:
+    def _track_one(self, captured: _Captured) -> None:
         frame = captured.frame
-        if lost_before:
-            frame = replace(frame, dropped_before=frame.dropped_before + lost_before)
         tracked = captured.walk(frame)
         with self._lock:
             if self._walk is not captured.walk:
                 return
-            rows, paused = self._rows, self._paused
             self._history.append(tracked)
             self._tracked += 1
             self._latencies.append(time.monotonic() - captured.at_s)
             self._newest_view.put(TrackedView(frame, tracked, captured.at_s))
-        if rows is not None and rows is captured.rows and not paused:
-            rows.put(tracked)
+        if captured.rows is not None:
+            captured.rows.put(tracked)
         self._hear(lambda listener: listener.push(tracked))
 
     # --- small things -------------------------------------------------------------------------

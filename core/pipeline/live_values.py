@@ -54,9 +54,10 @@ StartMode = Literal["key", "countdown", "still"]
 class LiveCounters:
     """Figures of the moment. Unknown is NaN or None.
 
-    ``captured``, ``tracked`` frames since the start; ``dropped`` frames lost between capture and tracking, and
-    ``missing`` those that never came from the source; ``fps`` over the last two seconds; ``latency_*_ms`` from the
-    frame's arrival until it was tracked, over the last frames; ``waiting_*`` channel depths; ``rows_written`` and
+    ``captured``, ``tracked`` frames since the start; ``dropped`` frames for which there was no room before the tracker,
+    and ``missing`` those that never came from the source; ``fps`` over the last two seconds; ``latency_*_ms`` from the
+    frame's arrival until it was tracked, over the last frames; ``waiting_*`` channel depths; ``catching_up_s`` how long
+    the tracker takes for those that wait, as fast as it has been lately; ``rows_written`` and
     ``pictures_written`` of the running recording; ``disk_free_bytes`` and ``disk_minutes_left`` at its rate.
     """
 
@@ -68,6 +69,7 @@ class LiveCounters:
     latency_p50_ms: float
     latency_p95_ms: float
     waiting_tracking: int
+    catching_up_s: float
     waiting_writing: int
     waiting_pictures: int
     rows_written: int

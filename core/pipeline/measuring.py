@@ -366,7 +366,7 @@ class SourceMeasuring:
         hand = HandArea(self.camera, self._set_up.protocol)
         self._walk.seen = hand.take
         fallback = self._places.fallback_folder
-        return lambda: AroundHand(RawWriter(path, said, fallback=fallback), lambda: hand.area)
+        return lambda: AroundHand(RawWriter(path, said, fallback=fallback), hand.area)
 
     def _parameters(self, learnt: Learnt) -> str:
         """All settings as JSON, with what the exercise aimed at."""

@@ -7399,6 +7399,34 @@
         <source>It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.</source>
         <translation>Es darf ziehen, aber nicht wehtun. Tut es nach einer Stunde noch weh, das nächste Mal weniger machen und uns anrufen.</translation>
     </message>
+    <message>
+        <source>{count} pictures are missing, the rest is kept: close other programs</source>
+        <translation>{count} Bilder fehlen, der Rest ist da: andere Programme schließen</translation>
+    </message>
+    <message>
+        <source>The computer is too busy</source>
+        <translation>Der Computer ist überlastet</translation>
+    </message>
+    <message>
+        <source>The figures come {seconds} s late; every picture is kept</source>
+        <translation>Die Werte kommen {seconds} s später; kein Bild geht verloren</translation>
+    </message>
+    <message>
+        <source>The figures come {seconds} s late</source>
+        <translation>Die Werte kommen {seconds} s später</translation>
+    </message>
+    <message>
+        <source>The computer is busy</source>
+        <translation>Der Computer ist ausgelastet</translation>
+    </message>
+    <message>
+        <source>Catching up…</source>
+        <translation>Wird aufgeholt …</translation>
+    </message>
+    <message>
+        <source>Catching up: {seconds} s left</source>
+        <translation>Wird aufgeholt: noch {seconds} s</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -9713,6 +9741,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Patient’s view</source>
         <translation>Patientenansicht</translation>
+    </message>
+    <message>
+        <source>Catching up</source>
+        <translation>Aufholen</translation>
     </message>
     <message>
         <source>The recording plays from its first picture</source>

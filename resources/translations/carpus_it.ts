@@ -7399,6 +7399,34 @@
         <source>It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.</source>
         <translation>Può tirare, ma non deve far male. Se dopo un’ora fa ancora male, la prossima volta fare meno e chiamarci.</translation>
     </message>
+    <message>
+        <source>{count} pictures are missing, the rest is kept: close other programs</source>
+        <translation>{count} immagini mancano, il resto c’è: chiudere altri programmi</translation>
+    </message>
+    <message>
+        <source>The computer is too busy</source>
+        <translation>Il computer è sovraccarico</translation>
+    </message>
+    <message>
+        <source>The figures come {seconds} s late; every picture is kept</source>
+        <translation>I valori arrivano con {seconds} s di ritardo; nessuna immagine va persa</translation>
+    </message>
+    <message>
+        <source>The figures come {seconds} s late</source>
+        <translation>I valori arrivano con {seconds} s di ritardo</translation>
+    </message>
+    <message>
+        <source>The computer is busy</source>
+        <translation>Il computer è occupato</translation>
+    </message>
+    <message>
+        <source>Catching up…</source>
+        <translation>Recupero…</translation>
+    </message>
+    <message>
+        <source>Catching up: {seconds} s left</source>
+        <translation>Recupero: ancora {seconds} s</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -9713,6 +9741,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Patient’s view</source>
         <translation>Vista del paziente</translation>
+    </message>
+    <message>
+        <source>Catching up</source>
+        <translation>Recupero</translation>
     </message>
     <message>
         <source>The recording plays from its first picture</source>

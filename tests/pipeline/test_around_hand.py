@@ -59,19 +59,26 @@ def test_inside_everything_stays_and_outside_nothing_does() -> None:
 
 def test_a_lost_hand_keeps_the_whole_picture() -> None:
     hand = HandArea(CAMERA, WRIST6)
-    assert hand.area is None
+    assert hand.area(0.0) is None
     hand.take(tracked())
-    assert hand.area is not None
+    assert hand.area(0.0) is not None
     hand.take(replace(tracked(), status=TrackStatus.LOST))
-    assert hand.area is None
+    assert hand.area(0.0) is None
     frame = noisy(np.random.default_rng(1))
     assert only(frame, None) is frame
+
+
+def test_a_hand_that_was_tracked_a_while_ago_keeps_the_whole_picture() -> None:
+    hand = HandArea(CAMERA, WRIST6)
+    hand.take(tracked())
+    assert hand.area(0.1) is not None
+    assert hand.area(1.0) is None
 
 
 def test_depth_comes_back_as_it_was_and_it_costs_a_part(tmp_path: Path) -> None:
     frame, area = noisy(np.random.default_rng(2)), area_of(tracked(), CAMERA, WRIST6)
     writer = AroundHand(
-        RawWriter(tmp_path / "s.carpusraw", SourceInfo("x", CAMERA, True, None, 30.0, {})), lambda: area
+        RawWriter(tmp_path / "s.carpusraw", SourceInfo("x", CAMERA, True, None, 30.0, {})), lambda _: area
     )
     writer.append_frame(frame)
     writer.close()

@@ -85,7 +85,7 @@ def test_history_holds_twelve_seconds_and_is_bounded() -> None:
         assert len(times) <= 500
 
 
-def test_a_slow_tracker_loses_the_oldest_and_every_loss_is_counted_and_stored() -> None:
+def test_beyond_the_room_new_pictures_are_left_out_and_each_is_counted_and_stored() -> None:
     source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
 
     def slow(picture: Frame) -> TrackedFrame:
@@ -103,9 +103,10 @@ def test_a_slow_tracker_loses_the_oldest_and_every_loss_is_counted_and_stored() 
         assert counters.waiting_tracking == 8
         gate.open()
         wait_until(lambda: live.counters().tracked == 9)
+        deliver_tracked(live, source, 2)
         assert live.stop_recording() == OUT
-    assert [row.index for row in sink.rows] == [0, *range(43, 51)]
-    assert [row.dropped_before for row in sink.rows] == [0, 42, *[0] * 7]
+    assert [row.index for row in sink.rows] == [*range(9), 51, 52]
+    assert [row.dropped_before for row in sink.rows] == [*[0] * 9, 42, 0]
 
 
 def test_frames_missing_at_the_source_add_to_those_lost_here() -> None:
@@ -124,8 +125,108 @@ def test_frames_missing_at_the_source_add_to_those_lost_here() -> None:
         gate.open()
         wait_until(lambda: live.counters().tracked == 2)
         assert live.counters().missing == 10
+        deliver_tracked(live, source, 1)
         live.stop_recording()
-    assert [row.dropped_before for row in sink.rows] == [2, 3 * 3 + 2]
+    assert [row.dropped_before for row in sink.rows] == [2, 2, 3 * 3 + 2]
+
+
+def test_behind_is_not_lost_and_the_end_waits_until_all_is_worked_through() -> None:
+    """A camera twice as fast as the tracker, for a minute: every picture is recorded, in order, at its own time."""
+    source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
+    turns = threading.Semaphore(0)
+
+    def half_as_fast(picture: Frame) -> TrackedFrame:
+        gate.pass_through()
+        assert turns.acquire(timeout=60.0)
+        return tracked(picture)
+
+    with LiveSession(source) as live:
+        live.begin_tracking(half_as_fast)
+        live.start_recording(lambda: sink)
+        gate.open()
+        for second in range(1, 61):
+            deliver(live, source, 30)
+            turns.release(15)
+            wait_until(lambda second=second: live.counters().tracked == 15 * second)
+        assert live.newest_frame().index == 1799
+        assert live.counters().waiting_tracking in (899, 900)
+        assert math.isfinite(live.counters().catching_up_s)
+        ended: list[Path] = []
+        stopper = threading.Thread(target=lambda: ended.append(live.stop_recording()))
+        stopper.start()
+        turns.release(100)
+        wait_until(lambda: live.counters().tracked == 1000)
+        deliver(live, source, 5)  # after the stop: neither recorded nor tracked meanwhile
+        assert live.recording
+        assert not ended
+        turns.release(2000)
+        stopper.join()
+        assert live.counters().dropped == 0
+        deliver_tracked(live, source, 1)
+    assert ended == [OUT]
+    assert [row.index for row in sink.rows] == list(range(1800))
+    assert [row.timestamp_s for row in sink.rows] == [100.0 + index / 30.0 for index in range(1800)]
+    assert not any(row.dropped_before for row in sink.rows)
+
+
+def test_rows_that_were_tracked_are_stored_while_pictures_wait() -> None:
+    """What waits for the tracker holds up nothing that is done: a program that is killed loses only what waits."""
+    source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
+
+    def held_after_ten(picture: Frame) -> TrackedFrame:
+        if picture.index >= 10:
+            gate.pass_through()
+        return tracked(picture)
+
+    with LiveSession(source) as live:
+        live.begin_tracking(held_after_ten)
+        live.start_recording(lambda: sink)
+        deliver(live, source, 100)
+        wait_until(lambda: live.counters().rows_written == 10)
+        gate.open()
+        live.stop_recording()
+    assert len(sink.rows) == 100
+
+
+def test_what_is_not_recorded_waits_for_half_a_second_at_most() -> None:
+    source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
+
+    def slow(picture: Frame) -> TrackedFrame:
+        gate.pass_through()
+        return tracked(picture)
+
+    with LiveSession(source) as live:
+        live.begin_tracking(slow)
+        deliver(live, source, 1)
+        wait_until(lambda: gate.waiting)
+        deliver(live, source, 40)
+        assert live.counters().waiting_tracking == 16
+        assert live.counters().dropped == 24
+        live.start_recording(lambda: sink)
+        deliver(live, source, 20)
+        gate.open()
+        live.stop_recording()
+    assert [row.index for row in sink.rows] == list(range(41, 61))
+    assert [row.dropped_before for row in sink.rows] == [24, *[0] * 19]
+
+
+def test_a_recording_that_failed_does_not_wait_for_the_tracker() -> None:
+    source, gate = HeldSource(), Gate()
+
+    def slow(picture: Frame) -> TrackedFrame:
+        if picture.index > 0:
+            gate.pass_through()
+        return tracked(picture)
+
+    with LiveSession(source) as live:
+        live.begin_tracking(slow)
+        live.start_recording(lambda: FakeSession(OUT, fault_at=0))
+        deliver(live, source, 30)
+        wait_until(lambda: "recording_failed" in kinds(live.drain_events()))
+        with pytest.raises(OSError, match="space"):
+            live.stop_recording()
+        assert live.counters().waiting_tracking > 0
+        gate.open()
 
 
 def test_a_failing_tracker_is_told_and_the_pictures_go_on() -> None:
@@ -213,7 +314,7 @@ def test_a_slow_disk_holds_up_nobody_and_nothing_is_lost() -> None:
 def test_overflow_ends_the_recording_keeps_what_there_is_and_tracking_lives_on() -> None:
     source, gate = HeldSource(), Gate()
     sink = FakeSession(OUT, gate=gate)
-    with LiveSession(source, LiveSettings(rows_waiting=10)) as live:
+    with LiveSession(source, LiveSettings(rows_waiting=9, tracking_waiting=1)) as live:
         live.begin_tracking(tracked)
         live.start_recording(lambda: sink)
         deliver_tracked(live, source, 1)
@@ -340,7 +441,7 @@ def test_a_listener_hears_frames_and_events_and_cannot_end_the_measuring() -> No
     assert live.drain_events() == []
 
 
-def test_raw_pictures_branch_off_before_anything_is_lost() -> None:
+def test_raw_pictures_are_stored_before_they_are_tracked() -> None:
     source, gate = HeldSource(), Gate()
     rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"))
 
@@ -348,12 +449,13 @@ def test_raw_pictures_branch_off_before_anything_is_lost() -> None:
         gate.pass_through()
         return tracked(picture)
 
-    with LiveSession(source, LiveSettings(pictures_waiting=100)) as live:
+    with LiveSession(source, LiveSettings(tracking_waiting=16, pictures_waiting=100)) as live:
         live.begin_tracking(slow)
         live.start_recording(lambda: rows, lambda: pictures)
         deliver(live, source, 60)
         assert live.counters().dropped > 0
         wait_until(lambda: live.counters().pictures_written == 60)
+        assert live.counters().tracked == 0
         gate.open()
         live.stop_recording()
     assert [f.index for f in pictures.pictures] == list(range(60))

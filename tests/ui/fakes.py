@@ -263,6 +263,7 @@ class FakeFeed:
             latency_p50_ms=6.0,
             latency_p95_ms=11.0,
             waiting_tracking=0,
+            catching_up_s=0.0,
             waiting_writing=0,
             waiting_pictures=0,
             rows_written=self.place,

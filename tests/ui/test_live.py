@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 import time
 from dataclasses import replace
 
@@ -14,7 +15,8 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import DiskFull
 from carpus.core.hand.protocols import WRIST6
-from carpus.core.types import Detections, TrackStatus
+from carpus.core.pipeline.live_values import LiveCounters
+from carpus.core.types import Detections, Frame, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.live import screen as live_screen
@@ -508,3 +510,75 @@ def test_a_question_stands_only_after_it_has_lasted() -> None:
     gone = [steady.show(None, t) is not None for t in np.arange(2, 2.6, 0.05)]
     assert gone[:5] == [True] * 5
     assert not gone[-1]
+
+
+class LateFeed(FakeFeed):
+    """The camera is ahead of the tracker."""
+
+    ahead_s = 0.0
+    dropped = 0
+    waiting = 0
+
+    def newest_frame(self) -> Frame | None:
+        frame = super().newest_frame()
+        return None if frame is None else replace(frame, timestamp_s=frame.timestamp_s + self.ahead_s)
+
+    def counters(self) -> LiveCounters:
+        left_s = self.waiting / 100.0
+        return replace(super().counters(), dropped=self.dropped, waiting_tracking=self.waiting, catching_up_s=left_s)
+
+
+def test_a_busy_computer_shows_the_newest_picture_and_says_how_late_the_figures_are(qtbot: QtBot, theme: Theme) -> None:
+    feed = LateFeed()
+    screen, measuring = live(qtbot, theme, feed)
+    shown: list[object] = []
+    run(screen, feed, 1.0)
+    record(qtbot, screen, measuring)
+    feed.ahead_s, feed.dropped = 4.0, 3  # dropped before it was recorded
+    screen._show_slow()
+    run(screen, feed, 0.5)
+    screen._show_values()
+    assert screen.light.lamp == Lamp("idle", "The computer is busy", "The figures come 4 s late; every picture is kept")
+    assert math.isnan(screen.glance().value_deg)
+    newest = feed.newest_frame()
+    feed.newest_frame = lambda: newest  # type: ignore[method-assign]
+    screen.picture.show_frame = shown.append  # type: ignore[method-assign, assignment]
+    screen.tick()
+    assert newest is not None
+    assert shown[-1] is newest.color_rgb
+    del feed.newest_frame
+    del screen.picture.show_frame
+    feed.dropped = 8
+    screen._show_slow()
+    screen.tick()
+    screen._show_values()
+    assert screen.light.lamp.rank == "warn"
+    assert screen.light.lamp.remedy.startswith("5 pictures are missing")
+    feed.ahead_s = 0.0
+    run(screen, feed, 0.5)
+    screen._show_values()
+    assert "computer" not in screen.light.lamp.state
+
+
+def test_a_stop_says_how_long_catching_up_takes(qtbot: QtBot, theme: Theme) -> None:
+    feed = LateFeed()
+    screen, measuring = live(qtbot, theme, feed)
+    run(screen, feed, 1.0)
+    record(qtbot, screen, measuring)
+    caught_up = threading.Event()
+    measuring.stop_recording = lambda: "session-7" if caught_up.wait(60.0) else ""  # type: ignore[method-assign]
+    feed.waiting = 1200
+    with qtbot.waitSignal(screen.stopped, timeout=60_000):
+        screen.stop()
+        screen._show_values()
+        assert screen.main.text() == "Catching up: 12 s left"
+        assert screen.catching_up.isVisible()
+        feed.waiting = 300
+        screen._show_values()
+        assert screen.main.text() == "Catching up: 3 s left"
+        assert (screen.catching_up.value(), screen.catching_up.maximum()) == (900, 1200)
+        feed.waiting = 0
+        screen._show_values()
+        assert screen.main.text() == "Storing…"
+        caught_up.set()
+    assert not screen.catching_up.isVisible()

@@ -22,10 +22,12 @@ from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line, Surface
+from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.figures import FIGURES, FINGERS, Figure, figure_of
 from carpus.ui.keys import Keys, bind
 from carpus.ui.live.beginning import Beginning
+from carpus.ui.live.behind import Behind, behind_lamp, words_left
 from carpus.ui.live.counting import RunningCount
 from carpus.ui.live.doubt import Chosen, Doubt, SteadyDoubt, doubt_lamp, doubt_of
 from carpus.ui.live.glance import Glance, RecordingState
@@ -101,6 +103,7 @@ class LiveScreen(QWidget):
         self._stopping = self._passive = False
         self.start_mode: StartMode = "key"
         self._beginning = Beginning()
+        self._behind = Behind()
         self._rests = False
         self._shown_left_s = 0
         self._tick = 0
@@ -131,6 +134,8 @@ class LiveScreen(QWidget):
         self.patient = Button(theme, self.tr("Patient’s view"), icon="monitor", height_px=32)
         self.course = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self.course.hide()
+        self.catching_up = ThinBar(theme, self.tr("Catching up"))
+        self.catching_up.hide()
         self.bubble = BubbleView(theme, wide=True, keys=False)
         self.note_sheet = NoteSheet(self.stage, theme)
         self.pain_sheet = PainSheet(self.stage, theme)
@@ -193,6 +198,7 @@ class LiveScreen(QWidget):
         above.setContentsMargins(MARGIN_PX, 0, MARGIN_PX, 4)
         above.addWidget(self.bubble)
         whole.addLayout(above)
+        whole.addWidget(self.catching_up)
         whole.addWidget(Line(self._theme))
         bar = Surface(self._theme)
         bar.setLayout(bottom)
@@ -280,6 +286,7 @@ class LiveScreen(QWidget):
         self._open_question(None)
         self._count = None
         self._view = None
+        self._behind = Behind()
         self._camera_lost = self._stopping = self._rests = False
         self._arm()
         self.curves.set_exercise(set_up.exercise, set_up.target_positive_deg, set_up.target_negative_deg)
@@ -390,6 +397,7 @@ class LiveScreen(QWidget):
     def _started(self) -> None:
         assert self._set_up is not None
         self._stopping = self._passive = False
+        self._behind.begin()
         self._show_way()
         self._started_at_s = time.monotonic()
         self._count = RunningCount(self._set_up.exercise, self._set_up.protocol)
@@ -411,11 +419,13 @@ class LiveScreen(QWidget):
 
         def failed(fault: Exception) -> None:
             self._stopping = False
+            self.catching_up.hide()
             self._show_buttons()
             self.stop_failed.emit(fault)
 
         def done(session_id: object) -> None:
             self._stopping = False
+            self.catching_up.hide()
             self._count = None
             self._show_buttons()
             self.stopped.emit(str(session_id))
@@ -578,9 +588,14 @@ class LiveScreen(QWidget):
             self._count.append([tracked for tracked in fresh if tracked.index >= begin])
         view = feed.newest()
         is_new = view is not None and (self._view is None or view.tracked.index != self._view.tracked.index)
+        newest = feed.newest_frame()
+        behind = self._behind.look(newest, view)
+        if behind and newest is not None and not self._camera_lost:
+            self.picture.show_frame(newest.color_rgb)
         if view is not None and is_new and fresh and not self._camera_lost:
             self._view = view
-            self.picture.show_frame(view.frame.color_rgb)
+            if not behind:
+                self.picture.show_frame(view.frame.color_rgb)
             self.plots().draw()
         if fresh and not self._camera_lost:
             self._look_for_start()
@@ -621,16 +636,33 @@ class LiveScreen(QWidget):
             else:
                 lamp = self._light.show(lamp_for(frame, markers, pure and self.history.forearm_moved()), self.now_s)
             doubt = doubt_of(frame, markers, self._measuring.camera) if self._measuring else None
+            if self._behind.late_s:  # what is asked would be about a picture of a while ago
+                self._steady_doubt.answered()
+                doubt = None
             self._open_question(self._steady_doubt.show(doubt, self.now_s))
-            if self.doubt is not None and lamp.rank in ("good", "warn"):
+            if self._behind.late_s:
+                lamp = behind_lamp(self._behind, recording=self.recording_state != "off")
+            elif self.doubt is not None and lamp.rank in ("good", "warn"):
                 lamp = doubt_lamp(self.doubt)
             elif lamp.rank == "good" and self._shown_left_s:
                 lamp = Lamp("good", self.tr("Starts in {seconds}").format(seconds=self._shown_left_s), "")
             elif lamp.rank == "good" and self._beginning.waits and self.recording_state == "off":
                 lamp = Lamp("good", lamp.state, self.tr("Starts by itself when the hand lies still"))
         self.light.show_lamp(lamp)
+        self._show_catching_up()
         self.number.show_reading(self._reading())
         self.recording_changed.emit(self.recording_state, self.recorded_s)
+
+    def _show_catching_up(self) -> None:
+        """After a stop: how long it takes until all that waits is tracked."""
+        if self._measuring is None or not self.storing:
+            return
+        counters = self._measuring.feed.counters()
+        left = self._behind.catching_up(counters)
+        self.catching_up.setVisible(left is not None)
+        self.main.set_face(words_left(counters) if left else self.tr("Storing…"), icon="", hint="")
+        if left is not None:
+            self.catching_up.show_progress(*left)
 
     def set_patient_view(self, is_open: bool) -> None:
         """The patient's own view is there, or not."""
@@ -650,7 +682,7 @@ class LiveScreen(QWidget):
         done, asked = (count.repetitions if count else 0), (set_up.repetitions if set_up else 0)
         if set_up is not None and set_up.course is not None and set_up.course.part.seconds:
             done, asked = int(TIMED_MARKS * self.recorded_s / set_up.course.part.seconds), TIMED_MARKS
-        if set_up is None or self._camera_lost or now_s - self._fresh_at_s > STALE_S:
+        if set_up is None or self._camera_lost or self._behind.late_s or now_s - self._fresh_at_s > STALE_S:
             return Glance(now_s, state=state, done=done, asked=asked)
         deviation, flexion, turned = (float(value) for value in history.angles_deg)
         seen = history.status == TrackStatus.TRACKED
@@ -735,7 +767,9 @@ class LiveScreen(QWidget):
 
     def _show_slow(self) -> None:
         if self._measuring is not None:
-            self.counted.emit(self._measuring.feed.counters())
+            counters = self._measuring.feed.counters()
+            self._behind.count(counters)
+            self.counted.emit(counters)
         if self._count is not None:
             before = self._count.repetitions
             if self._count.count() > before and self._measuring is not None:
@@ -767,7 +801,7 @@ class LiveScreen(QWidget):
     def _paint_overlay(self, painter: QPainter, picture: PictureView) -> None:
         if not self.question.covers_head:
             picture.paint_area_label(painter)
-        if not self._overlay_on or self._view is None or self._measuring is None:
+        if not self._overlay_on or self._view is None or self._measuring is None or self._behind.late_s:
             return
         calibration = self._measuring.calibration
         frame = self._view.tracked
