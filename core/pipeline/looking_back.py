@@ -5,8 +5,9 @@ from __future__ import annotations
 import multiprocessing
 import signal
 import threading
+from bisect import bisect_right
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import fields, replace
 from multiprocessing.connection import Connection
 
@@ -26,8 +27,9 @@ MOST_WAITING = 3600
 """Frames (30 MB of steps) that may wait for a process that is slow or stuck, before it is given up."""
 ANSWER_S = 60.0
 """A loaded computer may take long to start a process."""
-END_S = 5.0
-"""A finished recording waits so long for what is left to look back at: at most the last 11 s, a second's work."""
+END_S = 30.0
+"""A finished recording waits so long for what is left to look back at: the last 11 s, a second's work, or more where a
+busy computer is behind."""
 KILLED_S = 2.0
 
 
@@ -41,7 +43,7 @@ class LookingBack:
     def __init__(self, hand: TrackedHand, *, piece_s: float = PIECE_S, lag_s: float = LAG_S) -> None:
         self._hand, self._piece_s, self._lag_s = hand, piece_s, lag_s
         self._waiting: deque[KeptSteps] = deque()
-        self._pieces: list[Piece] = []
+        self._pieces: deque[Piece] = deque()
         self._begun = False
         self._trouble = ""
         self._ending = threading.Event()
@@ -66,8 +68,23 @@ class LookingBack:
         self._waiting.append(replace(kept, finger_start=None) if self._begun else kept)
         self._begun = True
 
-    def finish(self, timestamp_s: Sequence[float]) -> Motion:
-        """The motion at the times of some frames taken, in order; waits for what is left.
+    def ready(self, timestamp_s: Sequence[float]) -> Motion | None:
+        """The motion at some frames' times, in order, as far as it is known by now: rows for the first of them, None
+        for none yet. What is given here is forgotten; frames that are not asked for are left out."""
+        pieces: list[Piece] = []
+        while self._pieces and timestamp_s and self._pieces[0].timestamp_s[-1] <= timestamp_s[-1]:
+            pieces.append(self._pieces.popleft())
+        if not pieces:
+            return None
+        try:
+            return _motion_at(pieces, timestamp_s[: bisect_right(timestamp_s, pieces[-1].timestamp_s[-1])])
+        except NotLookedBack as fault:
+            self._give_up(str(fault.detail))
+            return None
+
+    def finish(self, timestamp_s: Sequence[float]) -> Motion | None:
+        """The motion at the times of all frames that :meth:`ready` has not given, in order; waits for what is left.
+        None for no frames.
 
         Raises :class:`NotLookedBack` where it is not all there after :data:`END_S`.
         """
@@ -77,6 +94,11 @@ class LookingBack:
         if self._trouble:
             raise NotLookedBack(detail=self._trouble)
         return _motion_at(self._pieces, timestamp_s)
+
+    @property
+    def has_more(self) -> bool:
+        """Whether something came that :meth:`ready` has not given yet."""
+        return bool(self._pieces)
 
     def cancel(self) -> None:
         """Nobody wants the result; may be called twice and after :meth:`finish`."""
@@ -143,7 +165,9 @@ class LookingBack:
         return f"its process ended with {code}"
 
 
-def _motion_at(pieces: Sequence[Piece], timestamp_s: Sequence[float]) -> Motion:
+def _motion_at(pieces: Iterable[Piece], timestamp_s: Sequence[float]) -> Motion | None:
+    if not timestamp_s:
+        return None
     known_s = np.concatenate([np.empty(0), *(piece.timestamp_s for piece in pieces)])
     missing = ~np.isin(timestamp_s, known_s)
     if missing.any():

@@ -158,6 +158,7 @@ class SmoothedSession:
         """One row."""
         self._times_s.append(tracked.timestamp_s)
         self._writer.append(tracked)
+        self._take_smoothed()
         for kind, text in self._early:
             self._writer.add_event(tracked.timestamp_s, kind, text)
         self._early.clear()
@@ -177,12 +178,29 @@ class SmoothedSession:
         self._writer.flush()
         if self._looking_back is not None:
             try:
-                self._writer.write_smoothed(self._looking_back.finish(self._times_s[-len(self._writer) :]))
+                motion = self._looking_back.finish(self._not_smoothed())
+                if motion is not None:
+                    self._writer.add_smoothed(motion)
             except NotLookedBack as fault:
+                self._writer.drop_smoothed()
                 log.warning("%s", one_sentence(NotLookedBack(self.path, fault.detail)))
                 self._writer.add_event(self._times_s[-1], NOT_LOOKED_BACK, fault.detail)
         self._writer.write_repetitions(repetitions_of(self._writer.read_back()))
         self._writer.close()
+
+    def _take_smoothed(self) -> None:
+        """To the disk as it comes, of the frames that are there: so memory does not grow with the recording, and a file
+        that goes on elsewhere finds the rest."""
+        if self._looking_back is None or not self._looking_back.has_more:
+            return
+        stored = len(self._times_s) - len(self._writer) + self._writer.stored
+        motion = self._looking_back.ready(self._not_smoothed(stored))
+        if motion is not None:
+            self._writer.add_smoothed(motion)
+
+    def _not_smoothed(self, end: int | None = None) -> list[float]:
+        """Times of the file's frames that are not smoothed yet, of the first ``end`` taken."""
+        return self._times_s[len(self._times_s) - len(self._writer) + self._writer.smoothed : end]
 
     def go_on_elsewhere(self) -> SmoothedSession:
         """As :meth:`SessionWriter.go_on_elsewhere`; looked back at by the same process, all of the recording."""

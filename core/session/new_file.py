@@ -85,25 +85,39 @@ def create_growing(file: h5py.File, layout: Layout, raw_depth_unit_m: float | No
     detections = (schema.DETECTION_FRAME, *schema.DETECTION_FIELDS, schema.DETECTION_COUNT)
     growing: dict[str, h5py.Dataset] = {}
     for field in (*schema.FRAME_FIELDS, *detections, *READINGS, *schema.EVENT_FIELDS, *raw):
-        if not layout.has(field):
-            continue
-        row = layout.row_shape(field)
-        growing[field.path] = file.create_dataset(
-            field.path,
-            shape=(0, *row),
-            maxshape=(None, *row),
-            chunks=(_SURFACE_ROWS if field in READINGS else _CHUNK_ROWS[str(field.shape[0])], *row),
-            fletcher32=True,
-            dtype=field.h5_dtype,
-            fillvalue=None if field.dtype == "text" else field.fill,
-            fill_time="never" if field in schema.RAW_STREAMS else "ifset",
-        )
-        describe(growing[field.path], field, layout)
+        if layout.has(field):
+            growing[field.path] = _create_growing(file, field, layout)
     for group, names in layout.group_names().items():
         file[group].attrs["names"] = names
     if raw_depth_unit_m is not None:
         file["/raw"].attrs[schema.RAW_DEPTH_UNIT] = raw_depth_unit_m
     return growing
+
+
+def create_smoothed(file: h5py.File, layout: Layout) -> dict[str, h5py.Dataset]:
+    """The datasets of the smoother's result, still without rows."""
+    fields = [field for field in schema.SMOOTHED_FIELDS if layout.has(field)]
+    growing = {field.path: _create_growing(file, field, layout) for field in fields}
+    for group, names in layout.group_names().items():
+        if "/smoothed" + group in file:
+            file["/smoothed" + group].attrs["names"] = names
+    return growing
+
+
+def _create_growing(file: h5py.File, field: Field, layout: Layout) -> h5py.Dataset:
+    row = layout.row_shape(field)
+    dataset = file.create_dataset(
+        field.path,
+        shape=(0, *row),
+        maxshape=(None, *row),
+        chunks=(_SURFACE_ROWS if field in READINGS else _CHUNK_ROWS[str(field.shape[0])], *row),
+        fletcher32=True,
+        dtype=field.h5_dtype,
+        fillvalue=None if field.dtype == "text" else field.fill,
+        fill_time="never" if field in schema.RAW_STREAMS else "ifset",
+    )
+    describe(dataset, field, layout)
+    return dataset
 
 
 def create_checked(file: h5py.File, path: str, data: Any) -> h5py.Dataset:

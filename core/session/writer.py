@@ -37,6 +37,7 @@ from carpus.core.session.new_file import (
     checked,
     create_checked,
     create_growing,
+    create_smoothed,
     describe,
     new_file,
     write_calibration,
@@ -115,6 +116,7 @@ class SessionWriter:
         self._rows: list[TrackedFrame] = []
         self._raw: list[RawPictures] = []
         self._events: list[Event] = []
+        self._smoothed: list[Motion] = []
         self._raw_bytes = {field.attribute: 0 for field in schema.RAW_STREAMS}
         self._count = 0
         self._last_time_s = -np.inf
@@ -180,6 +182,17 @@ class SessionWriter:
         """Frames taken so far; those since it began again, where what was recorded before could not be taken along."""
         return self._count
 
+    @property
+    def stored(self) -> int:
+        """Frames of those taken that are in the file."""
+        return self._count - len(self._rows)
+
+    @property
+    def smoothed(self) -> int:
+        """Frames of those taken whose smoothed motion was taken too."""
+        taken = sum(len(motion.position_m) for motion in self._smoothed)
+        return self._digests.rows(schema.SMOOTHED_FIELDS[0].path) + taken
+
     def append(self, tracked: TrackedFrame, raw: RawPictures | None = None) -> None:
         """Take one frame; writes when a flush is due. Never drops: it raises :class:`DiskFull` instead."""
         self._check_open()
@@ -219,7 +232,10 @@ class SessionWriter:
             self._flush()
 
     def _flush(self) -> None:
-        blocks = [*self._frame_blocks(), *self._event_blocks()]
+        if self._smoothed and schema.SMOOTHED_FIELDS[0].path not in self._growing:
+            with self._writing(0):
+                self._growing |= create_smoothed(self._file, self._layout)
+        blocks = [*self._frame_blocks(), *self._smoothed_blocks(), *self._event_blocks()]
         self._flushed_at_s = self._clock()
         if not blocks:
             return
@@ -229,19 +245,30 @@ class SessionWriter:
             self._grow([block for block in blocks if block[0] in schema.COMMIT_FIELDS])
         for field, data in blocks:
             self._digests.add(field.path, np.asarray(data, dtype=field.h5_dtype))
-        self._rows, self._raw, self._events = [], [], []
+        self._rows, self._raw, self._events, self._smoothed = [], [], [], []
+
+    def add_smoothed(self, motion: Motion) -> None:
+        """Take the smoother's result for the next frames, from the first appended on; written with the next flush."""
+        self._check_open()
+        if self.smoothed + len(motion.position_m) > self._count:
+            raise ValueError("/smoothed got more rows than there are frames")
+        self._smoothed.append(motion)
 
     def write_smoothed(self, motion: Motion) -> None:
         """Store the smoother's result, one row for every frame appended."""
+        if len(motion.position_m) != self._count:
+            raise ValueError(f"/smoothed got {len(motion.position_m)} rows for {self._count} frames")
+        self.add_smoothed(motion)
         self.flush()
-        fields = [field for field in schema.SMOOTHED_FIELDS if self._layout.has(field)]
-        blocks = [(field, self._rows_of(field, getattr(motion, field.attribute), self._count)) for field in fields]
-        with self._writing(sum(data.nbytes for _, data in blocks)):
-            for field, data in blocks:
-                describe(create_checked(self._file, field.path, data), field, self._layout)
-            for group, names in self._layout.group_names().items():
-                if "/smoothed" + group in self._file:
-                    self._file["/smoothed" + group].attrs["names"] = names
+
+    def drop_smoothed(self) -> None:
+        """Leave the smoother's result out: it does not come to all frames."""
+        self.flush()
+        if "/smoothed" in self._file:
+            with self._writing(0):
+                del self._file["/smoothed"]
+                for field in schema.SMOOTHED_FIELDS:
+                    self._growing.pop(field.path, None)
 
     def read_back(self) -> Session:
         """What is in the file so far, as :func:`core.session.reader.read_session` gives it."""
@@ -458,7 +485,7 @@ class SessionWriter:
             os.close(self._descriptor)
         self._file, self._descriptor = new_file(part), os.open(part, os.O_RDWR)
         self._beginning = replace(self._beginning, header=header)
-        self._digests, self._count = Digests(), len(self._rows)
+        self._digests, self._count, self._smoothed = Digests(), len(self._rows), []
         self._raw_bytes = {field.attribute: 0 for field in schema.RAW_STREAMS}
         self._fault = None
         self._begin()
@@ -503,6 +530,16 @@ class SessionWriter:
             if self._layout.has(field):
                 of = [row.moment for row in rows] if field in schema.MOTION_FIELDS else rows
                 blocks.append((field, self._rows_of(field, [getattr(one, field.attribute) for one in of], len(rows))))
+        return blocks
+
+    def _smoothed_blocks(self) -> list[Block]:
+        if not self._smoothed:
+            return []
+        blocks: list[Block] = []
+        for field in schema.SMOOTHED_FIELDS:
+            if self._layout.has(field):
+                data = np.concatenate([getattr(motion, field.attribute) for motion in self._smoothed])
+                blocks.append((field, self._rows_of(field, data, len(data))))
         return blocks
 
     def _raw_blocks(self) -> list[Block]:

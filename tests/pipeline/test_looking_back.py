@@ -111,13 +111,35 @@ def test_the_process_gives_what_looking_back_here_gives() -> None:
         for kept in steps():
             running.take(kept)
         motion = running.finish(times_s())
-        chosen = running.finish(times_s()[10:50:3])
     expected = {
         field.name: np.concatenate([getattr(piece.motion, field.name) for piece in pieces]) for field in fields(Motion)
     }
     assert_same(motion, Motion(**expected))
-    assert_same(chosen, Motion(**{name: rows[10:50:3] for name, rows in expected.items()}))
     assert np.isfinite(motion.joint_angles_rad).mean() > 0.9
+
+
+def test_what_is_given_as_it_comes_is_not_kept_and_the_end_gives_the_rest() -> None:
+    """Every third frame is recorded, as if there had been pauses."""
+    recorded, out = times_s()[2::3], []
+    with begun() as running:
+        for number, kept in enumerate(steps()):
+            running.take(kept)
+            if number == 120:
+                wait_until(lambda: running.has_more)
+                early = running.ready(recorded[: number // 3])
+                assert early is not None
+                out.append(early)
+                assert not running.has_more or running.ready([]) is None
+        given = len(out[0].position_m)
+        assert 0 < given < 40
+        out.append(running.finish(recorded[given:]))
+        whole = LookingBack(tracked_hand(), piece_s=PIECE_S, lag_s=LAG_S)
+        for kept in steps():
+            whole.take(kept)
+        expected = whole.finish(recorded)
+    assert_same(
+        Motion(**{f.name: np.concatenate([getattr(one, f.name) for one in out]) for f in fields(Motion)}), expected
+    )
 
 
 def test_steps_handed_over_one_by_one_are_looked_back_at_as_where_they_were_made() -> None:

@@ -107,6 +107,17 @@ def test_pictures_are_cut_with_their_frames(tmp_path: Path) -> None:
     assert [len(raw.color) for raw in read_raw(target)] == [1, 2, 3, 4, 5, 6, 7]
 
 
+def test_a_smoothed_result_that_had_not_come_to_all_frames_is_left_out(tmp_path: Path) -> None:
+    session = SessionWriter.create(tmp_path / "s.h5", make_header(), CAMERA, make_calibration())
+    for row in range(N):
+        session.append(make_frame(row))
+    session.add_smoothed(motion_of([make_frame(row) for row in range(N // 2)]))
+    session.abandon()
+    assert recover_folder(tmp_path, NOW).recovered == (tmp_path / "s.h5",)
+    read = read_session(tmp_path / "s.h5")
+    assert (len(read), read.smoothed) == (N, None)
+
+
 def test_half_a_smoothed_result_is_left_out(tmp_path: Path) -> None:
     part = interrupt(tmp_path / "s.h5", smoothed=True)
     with h5py.File(part, "r+") as file:

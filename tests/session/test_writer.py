@@ -6,6 +6,7 @@ import errno
 import os
 import subprocess
 import sys
+from dataclasses import fields
 from pathlib import Path
 
 import h5py
@@ -15,9 +16,9 @@ import pytest
 from carpus.core.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
 from carpus.core.hand.protocols import HAND21
 from carpus.core.session import disk, writer
-from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session
+from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session, verify
 from carpus.core.session.recovery import recover_folder
-from carpus.core.session.values import RawPictures, motion_of
+from carpus.core.session.values import Motion, RawPictures, motion_of
 from carpus.core.session.writer import FLUSH_EVERY_S, SessionWriter
 from tests.moments import with_moment
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
@@ -187,6 +188,44 @@ def test_the_smoothed_result_has_a_row_for_every_frame(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="/smoothed"):
         session.write_smoothed(motion_of([make_frame(0)]))
     session.discard()
+
+
+def test_a_smoothed_result_that_comes_bit_by_bit_is_stored_as_one_that_comes_at_once(tmp_path: Path) -> None:
+    frames = [make_frame(row, HAND21) for row in range(9)]
+    smoothed = [make_frame(row + 100, HAND21) for row in range(9)]
+    whole, bits = (
+        SessionWriter.create(tmp_path / name, make_header(HAND21), CAMERA, make_calibration(HAND21))
+        for name in ("whole.h5", "bits.h5")
+    )
+    for row, frame in enumerate(frames):
+        whole.append(frame)
+        bits.append(frame)
+        if row in (3, 4, 8):
+            bits.flush()
+            assert bits.stored == row + 1
+            bits.add_smoothed(motion_of(smoothed[bits.smoothed : row]))
+            assert bits.smoothed == row
+    whole.write_smoothed(motion_of(smoothed))
+    bits.add_smoothed(motion_of(smoothed[8:]))
+    with pytest.raises(ValueError, match="/smoothed"):
+        bits.add_smoothed(motion_of(smoothed[8:]))
+    whole.close()
+    bits.close()
+    assert verify(tmp_path / "bits.h5") == verify(tmp_path / "whole.h5")
+    read = [read_session(tmp_path / name).smoothed for name in ("whole.h5", "bits.h5")]
+    for field in fields(Motion):
+        np.testing.assert_array_equal(getattr(read[1], field.name), getattr(read[0], field.name))
+
+
+def test_a_smoothed_result_that_does_not_come_to_all_frames_is_left_out(tmp_path: Path) -> None:
+    session = create(tmp_path / "s.h5")
+    for row in range(4):
+        session.append(make_frame(row))
+    session.add_smoothed(motion_of([make_frame(0), make_frame(1)]))
+    session.drop_smoothed()
+    session.close()
+    verify(tmp_path / "s.h5")
+    assert read_session(tmp_path / "s.h5").smoothed is None
 
 
 def test_pictures_come_back_byte_for_byte(tmp_path: Path) -> None:
