@@ -20,7 +20,7 @@ from carpus.core.errors import OutputNotWritable
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import Curves, session_curves, session_figures
-from carpus.core.types import ByteImage
+from carpus.core.types import ByteImage, FloatArray
 from carpus.ui.numbers import with_spread
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.history import History
@@ -235,8 +235,19 @@ def test_twenty_minutes_are_drawn_with_few_points_and_every_peak() -> None:
         assert not drawn.gaps_s()
 
 
+def drawn_series(theme: Theme, series: Series, start_s: float, end_s: float, ratio: float) -> FloatArray:
+    image = QImage(round(600 * ratio), round(200 * ratio), QImage.Format.Format_RGB32)
+    image.setDevicePixelRatio(ratio)
+    image.fill(QColor("white"))
+    painter = QPainter(image)
+    panel = Panel(QRectF(0, 0, 600, 200), Scale(-90.0, 90.0, (), ()), start_s, end_s)
+    paint_series(painter, screen_style(theme), panel, series, "curve_a")
+    painter.end()
+    return pixels(image)[..., :3].astype(np.float64)
+
+
 @pytest.mark.parametrize("ratio", [1.0, 1.5])
-def test_a_curve_by_columns_looks_like_the_stroked_one_and_keeps_every_peak(
+def test_a_curve_in_pieces_looks_like_the_stroked_one_and_keeps_every_peak(
     qapp: QApplication, theme: Theme, ratio: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Up and down every dozen pixels, with one sample far out, a gap, and a stretch that is predicted."""
@@ -246,25 +257,24 @@ def test_a_curve_by_columns_looks_like_the_stroked_one_and_keeps_every_peak(
     value[1200:1230] = math.nan
     predicted = (time_s > 50.0) & (time_s < 55.0)
     series = Series(time_s, value, np.full(len(time_s), 2.0), predicted)
-    pictures = []
-    for dense in (1.5, math.inf):
-        monkeypatch.setattr("carpus.ui.plot.series.DENSE", dense)
-        image = QImage(round(600 * ratio), round(200 * ratio), QImage.Format.Format_RGB32)
-        image.setDevicePixelRatio(ratio)
-        image.fill(QColor("white"))
-        painter = QPainter(image)
-        panel = Panel(QRectF(0, 0, 600, 200), Scale(-90.0, 90.0, (), ()), 0.0, 60.0)
-        paint_series(painter, screen_style(theme), panel, series, "curve_a")
-        painter.end()
-        pictures.append(pixels(image)[..., :3].astype(int))
-    by_columns, stroked = pictures
-    assert np.abs(by_columns - stroked).mean() < 5.0
-    part = np.s_[:, round(505 * ratio) : round(545 * ratio)]
-    assert by_columns[part].mean() == pytest.approx(stroked[part].mean(), abs=6.0), "as many dashes"
-    tops = [np.flatnonzero((picture < 128).any(axis=(1, 2)))[0] for picture in pictures]
+    in_pieces = drawn_series(theme, series, 0.0, 60.0, ratio)
+    monkeypatch.setattr("carpus.ui.plot.series._on_pixels", lambda painter: False)
+    stroked = drawn_series(theme, series, 0.0, 60.0, ratio)
+    assert np.abs(in_pieces - stroked).mean() < 5.0
+    tops = [np.flatnonzero((picture < 128).any(axis=(1, 2)))[0] for picture in (in_pieces, stroked)]
     assert abs(int(tops[0]) - int(tops[1])) <= 1 + round(ratio)
-    ink = [(255 - picture).sum() for picture in pictures]
-    assert ink[0] == pytest.approx(ink[1], rel=0.1)
+    ink = [(255 - picture).sum() for picture in (in_pieces, stroked)]
+    assert ink[0] == pytest.approx(ink[1], rel=0.2), "square ends make steep parts a little heavier"
+
+
+def test_dashes_are_half_of_a_line_whether_level_or_steep_and_run_with_it(qapp: QApplication, theme: Theme) -> None:
+    time_s = np.arange(0.0, 30.0, 0.1)
+    for value in (0.0 * time_s, 60.0 * np.sin(3.0 * time_s)):
+        whole, dashed = (Series(time_s, value, None, np.full(len(time_s), on)) for on in (False, True))
+        ink = [(255 - drawn_series(theme, one, 0.0, 30.0, 1.0)).sum() for one in (whole, dashed)]
+        assert 0.4 < ink[1] / ink[0] < 0.85
+        now, later = (drawn_series(theme, dashed.from_time(now_s), -10.0, 0.0, 1.0) for now_s in (15.0, 16.0))
+        assert np.abs(now[:, 70:590] - later[:, 10:530]).max() <= 8, "a second is 60 pixels"
 
 
 def test_nothing_moves_by_mouse_while_measuring(qtbot: QtBot, theme: Theme) -> None:

@@ -6,11 +6,9 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
-from carpus.core.types import FloatArray
 from carpus.ui import numbers
 from carpus.ui.figures import FIGURES, FINGERS, ROWS, Figure, Row, row_name, side_word, spread_labels
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
@@ -20,9 +18,7 @@ from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.history import SHOWN_S, History
-from carpus.ui.plot.marks import Curve, Curves, Scales, Target
-from carpus.ui.plot.series import LONGEST_STEP_S, pens_of
-from carpus.ui.plot.strips import CurveStrips, PanelCurves
+from carpus.ui.plot.marks import Curve, Curves, Mark, Scales, Target
 from carpus.ui.plot.style import screen_style
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
@@ -54,9 +50,6 @@ class FingerCurves(PlotCard):
         self._target_deg = math.nan
         self._waiting = False
         self._speeds = False
-        self._pictures = CurveStrips()
-        self._plain: list[PanelCurves] = []
-        self._block, self._now_s = history.block(), math.nan
         self._values: dict[Figure, tuple[float, float, bool]] = {}
         self.setAccessibleName(self.tr("Joint angles of the last ten seconds, by finger"))
 
@@ -154,37 +147,22 @@ class FingerCurves(PlotCard):
 
     # --- what is in it --------------------------------------------------------------------------------------
     def furnish(self, canvas: Canvas) -> None:
-        self._strips: Layer = canvas.add_layer(self._paint_strips)
         self._cells: Layer = canvas.add_layer(self._paint_figures, kept=True)
         canvas.scene().sigMouseClicked.connect(lambda click: self.choose_at(click.scenePos()))
 
     def lay_out(self, canvas: Canvas) -> None:
-        self._pictures.forget()
         canvas.lay_out([panel for finger in FINGERS for panel in self.panels(finger)])
-        self._strips.cover(QRectF(0.0, 0.0, self.width(), self.rows_top()))
         self._cells.cover(QRectF(0.0, self.rows_top(), self.width(), self.height() - self.rows_top() - 1))
         self._cells.update()
 
     def show_marks(self, canvas: Canvas) -> None:
-        """Curves that go on at the right are strips; those with gaps or beyond their scale, which are rare, marks."""
         block, now_s = self._history.block(speeds=self._speeds), self._history.now_s
-        even = bool(len(block.time_s)) and bool(np.all(np.diff(block.time_s) <= LONGEST_STEP_S))
-        style, marks, strips = screen_style(self._theme), [], []
+        marks: list[list[Mark]] = []
         for finger in FINGERS:
             for panel, rows in zip(self.panels(finger), (BENDING_ROWS, SPREADING_ROWS), strict=True):
-                columns = [FIGURES.index(Figure(finger, row)) for row in rows if panel.box.height() > 0.0]
-                plain = [k for k in columns if even and _stays_in(panel.scale, block.value_deg[:, k])]
-                own = [(k, pens_of(style.color(FIGURES[k].token), style.line_width)) for k in plain]
-                if panel.box.height() > 0.0:
-                    strips.append(PanelCurves(panel, own))
-                rest = [k for k in columns if k not in plain] if len(block.time_s) else []
-                marks.append([Curves([Curve(block.series(k).from_time(now_s), FIGURES[k].token) for k in rest])])
+                own = [FIGURES.index(Figure(finger, row)) for row in rows if panel.box.height() > 0.0]
+                marks.append([Curves([Curve(block.series(k).from_time(now_s), FIGURES[k].token) for k in own])])
         canvas.show_marks(marks)
-        self._plain, self._block, self._now_s = strips, block, now_s
-        self._strips.update()
-
-    def _paint_strips(self, painter: QPainter) -> None:
-        self._pictures.paint(painter, self._plain, self._block, self._now_s)
 
     def _paint_figures(self, painter: QPainter) -> None:
         """The numbers below the curves; they change ten times a second at most."""
@@ -283,10 +261,6 @@ class FingerCurves(PlotCard):
         painter.setFont(font(shown * self._theme.text_scale, weight))
         painter.setPen(self._theme.color(token))
         painter.drawText(QPointF(left, top + QFontMetricsF(painter.font()).ascent()), text)
-
-
-def _stays_in(scale: Scale, value: FloatArray) -> bool:
-    return bool(scale.low < value.min() and value.max() < scale.high)
 
 
 def cell_word(figure: Figure, value_deg: float) -> str:

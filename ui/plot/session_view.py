@@ -128,7 +128,7 @@ class CurveView(ZoomCard):
     def show_marks(self, canvas: Canvas) -> None:
         plot = self._plot
         if plot is not None:
-            canvas.show_marks([[Curves(plot.moving(key, int(panel.box.width())))] for panel, key in self.panels()])
+            canvas.show_marks([[Curves(plot.moving(key, int(panel.box.width() / 2)))] for panel, key in self.panels()])
 
     def paint_ground(self, painter: QPainter) -> None:
         plot, style, scale = self._plot, screen_style(self._theme), self._theme.text_scale
