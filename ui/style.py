@@ -16,7 +16,8 @@ QLineEdit, QPlainTextEdit, QSpinBox, QDoubleSpinBox, QDateEdit, QComboBox, QKeyS
   selection-background-color: {accent}; selection-color: {on_accent}; min-height: {field}px;
   placeholder-text-color: {text2}; }}
 QPlainTextEdit {{ padding: 8px; }}
-QLineEdit:focus, QPlainTextEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QDateEdit:focus {{
+QLineEdit:focus, QPlainTextEdit:focus, QSpinBox:focus, QDoubleSpinBox:focus, QDateEdit:focus,
+QComboBox:editable:focus {{
   border: 2px solid {accent}; padding: 0 {pad_focus}px; }}
 QPlainTextEdit:focus {{ padding: 7px; }}
 QComboBox {{ font-weight: 500; padding-right: 28px; }}
@@ -28,7 +29,7 @@ QComboBox QAbstractItemView {{ background: {surface}; color: {text}; border: 1px
   selection-background-color: {soft}; selection-color: {text}; padding: 4px; }}
 QComboBox QAbstractItemView::item {{ min-height: {row}px; padding: 0 8px; }}
 QSpinBox::up-button, QSpinBox::down-button {{ width: 0; border: 0; }}
-QAbstractSpinBox QLineEdit {{ border: 0; background: transparent; min-height: 0; padding: 0; }}
+QAbstractSpinBox QLineEdit, QComboBox QLineEdit {{ border: 0; background: transparent; min-height: 0; padding: 0; }}
 QDoubleSpinBox::up-button, QDoubleSpinBox::down-button {{ width: 0; border: 0; }}
 QScrollArea {{ border: 0; background: transparent; }}
 QScrollArea > QWidget > QWidget {{ background: transparent; }}

@@ -28,6 +28,7 @@ from carpus.core.output.goals import Goals
 from carpus.core.output.report_content import Progress, RepetitionChoices, SessionFigures
 from carpus.core.output.report_form import ReportForm
 from carpus.core.private import private
+from carpus.core.records.values import HomePlan
 from carpus.core.session.values import Session
 from carpus.ui.background import Background
 from carpus.ui.export.sheet import ExportSheet
@@ -58,6 +59,10 @@ class Printable(Protocol):
     def by_hand(self, patient_id: str) -> Sequence[HandValue]: ...
 
     def goals(self, patient_id: str) -> Goals: ...
+
+    def home_plan(self, patient_id: str) -> HomePlan | None: ...
+
+    def keep_home_plan(self, patient_id: str, plan: HomePlan) -> None: ...
 
     def recipients(self) -> Sequence[str]: ...
 
@@ -123,7 +128,7 @@ class Printing(QObject):
         screen.letter_wanted.connect(self._ask_letter)
         self.home = HomeSheet(window, theme)
         self.home.wanted.connect(self._write_home)
-        screen.home_wanted.connect(lambda report: self.home.begin(report, self._today()))
+        screen.home_wanted.connect(self._ask_home)
         self._stop = threading.Event()
         self._exported = ""
         self.formats = ExportSheet(window, theme)
@@ -195,11 +200,20 @@ class Printing(QObject):
         letter = LetterReport(report, recipient, self._today(), name, language)
         self._screen.begin(letter, self._places.folder("reports"))
 
+    def _ask_home(self, report: SessionReport) -> None:
+        row = self._now.patient
+        if row is not None:
+            last = self._listed(lambda: self._stored.home_plan(row.patient_id)) if row.patient_id else None
+            self.home.begin(report, self._today(), last)
+
     def _write_home(self, home: HomeReport) -> None:
-        """Show the sheet to take home, with the patient's own way where there is something good to say."""
+        """Show the sheet to take home, with the patient's own way where there is something good to say; what is on it
+        is remembered with the patient."""
         row, stored = self._now.patient, self._stored
         if row is None:
             return
+        if row.patient_id:
+            self._listed(lambda: stored.keep_home_plan(row.patient_id, home.plan))
 
         def gather() -> HomeReport:
             history, goals = stored.history(row.patient_id), stored.goals(row.patient_id)

@@ -49,7 +49,7 @@ from carpus.core.records.patients import Patients
 from carpus.core.records.schema import PATIENT
 from carpus.core.records.session_list import FilesOfSessions, SessionList, free_path
 from carpus.core.records.store import Store
-from carpus.core.records.values import SessionEntry, entry_of, newest_results
+from carpus.core.records.values import HomePlan, SessionEntry, entry_of, newest_results
 from carpus.core.session.reader import has_raw, read_outline, read_raw_color, read_session
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import AngleOrder, Session
@@ -475,6 +475,14 @@ class Library:
     def last_set_up(self, patient_id: str) -> SetUp | None:
         """How the last session was set up, None before the first."""
         return last_set_up(self.store, patient_id)
+
+    def home_plan(self, patient_id: str) -> HomePlan | None:
+        """What a patient was last given to do at home."""
+        return of_patients.home_plan(self.store, patient_id)
+
+    def keep_home_plan(self, patient_id: str, plan: HomePlan) -> None:
+        """Remember what a patient is given to do at home."""
+        of_patients.keep_home_plan(self.store, patient_id, plan)
 
     def goals(self, patient_id: str) -> Goals:
         """The targets that were last set for each exercise and hand of a patient."""

@@ -14,11 +14,12 @@ from sqlalchemy import select
 
 from carpus.core.by_hand.measures import MEASURES
 from carpus.core.by_hand.values import HandValue
+from carpus.core.dates import day_of
 from carpus.core.output.goals import Goals
 from carpus.core.records.changes import Row, kept, new
-from carpus.core.records.schema import GOAL, MEASURED
+from carpus.core.records.schema import GOAL, HOME_PLAN, MEASURED
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import moment
+from carpus.core.records.values import HomePlan, moment
 from carpus.core.types import Side
 
 
@@ -66,6 +67,30 @@ def goal(patient_id: str, exercise: str, side: Side, positive_deg: float, negati
         GOAL, f"{patient_id}:{exercise}:{side}", patient_id=patient_id, exercise=exercise, side=side,
         positive_deg=storable(positive_deg), negative_deg=storable(negative_deg),
     )  # fmt: skip
+
+
+def home_plan(store: Store, patient_id: str) -> HomePlan | None:
+    """What a patient was last given to do at home; None for nothing."""
+    found = store.sound(store.rows(select(HOME_PLAN).where(HOME_PLAN.c.patient_id == patient_id)), _home_plan)
+    return next(iter(found), None)
+
+
+def _home_plan(row: SqlRow[Any]) -> HomePlan:
+    return HomePlan(
+        tuple(row.exercises.split("\n")), row.times, row.rounds, date.fromisoformat(row.made), day_of(row.again),
+        row.at, row.note, row.language,
+    )  # fmt: skip
+
+
+def keep_home_plan(store: Store, patient_id: str, plan: HomePlan) -> None:
+    """In place of the one before."""
+    again = plan.again.isoformat() if plan.again is not None else ""
+    row = kept(
+        HOME_PLAN, f"{patient_id}:home", patient_id=patient_id, exercises="\n".join(plan.exercises), times=plan.times,
+        rounds=plan.rounds, made=plan.made.isoformat(), again=again, at=plan.at, note=plan.note,
+        language=plan.language,
+    )  # fmt: skip
+    store.do([row])
 
 
 def storable(value: float) -> float | None:

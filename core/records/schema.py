@@ -75,13 +75,12 @@ SESSION = _shared(
     Column("patient_id", Text, ForeignKey("patient.id", ondelete="SET NULL")),
     Column("path", Text, nullable=False, unique=True),
     Column("recording_id", Text, nullable=False, index=True),
-    _texts("seal", "recorded", "created", "exercise", "hand", "by", "archived"),
+    _texts("recorded", "created", "exercise", "hand", "by", "archived"),
     _numbers("frames", "complete", "simulated", "erasing"),
     _reals("recorded_s", "created_s", "duration_s"),
     Column("size", _LONG, nullable=False, server_default="0"),
 )
-"""``path`` with slashes, in the folder of the sessions. ``seal``: SHA-256 over all that the file says, as in the file;
-empty for one that was cut short. ``by``: initials of who recorded."""
+"""``path`` with slashes, in the folder of the sessions. ``by``: initials of who recorded."""
 Index("session_of_patient", SESSION.c.patient_id, SESSION.c.recorded_s)
 
 COMMENT = _shared("comment", _of("session"), _texts("text", "by", "entered"), Column("entered_ns", _LONG))
@@ -105,13 +104,18 @@ SET_UP = _shared(
 GOAL = _shared(
     "goal", _of("patient"), _texts("exercise", "side"), _reals("positive_deg", "negative_deg", nullable=True)
 )
+HOME_PLAN = _shared(
+    "home_plan", _of("patient"), _texts("exercises", "made", "again", "at", "note", "language"),
+    _numbers("times", "rounds"),
+)  # fmt: skip
+"""The last sheet for home; ``exercises`` in a line each, ``again`` the next appointment."""
 EXERCISE_SET = _shared("exercise_set", _texts("name", "discs", "parts"), _numbers("place", "gone"))
 REPORT_FORM = _shared("report_form", _texts("name", "address", "logo", "paper", "left_out", "sentences"))
 RECIPIENT = _shared("recipient", _texts("address"), _reals("used_s"))
 DIAGNOSIS = _shared("diagnosis", _texts("words"))
 """The clinic's own list, to choose from; what a patient has stands with the patient."""
-MADE = _shared("made", _of("session"), _texts("path", "kind", "content"))
-"""Files outside the data folder that were made from a session; ``content`` is not used."""
+MADE = _shared("made", _of("session"), _texts("path", "kind"))
+"""Files outside the data folder that were made from a session."""
 BACKUP = _shared("backup", _texts("made", "place"), _numbers("sessions"), Column("size_bytes", _LONG, nullable=False))
 DEED = _shared("deed", _texts("at", "who", "by", "did", "kind", "subject", "facts"), Column("at_ns", _LONG, index=True))
 """Only ever added to. ``subject``: a fingerprint of the patient's or session's id, so that what was erased is
@@ -138,8 +142,8 @@ OWN = _local("own", Column("name", Text, primary_key=True), Column("value", Text
 """Of this computer alone: how far it has read the server, where a person last opened and saved things."""
 
 COPIED = (
-    PATIENT, SESSION, COMMENT, CORRECTION, MEASURED, SET_UP, GOAL, EXERCISE_SET, REPORT_FORM, RECIPIENT, DIAGNOSIS,
-    MADE, BACKUP,
+    PATIENT, SESSION, COMMENT, CORRECTION, MEASURED, SET_UP, GOAL, HOME_PLAN, EXERCISE_SET, REPORT_FORM, RECIPIENT,
+    DIAGNOSIS, MADE, BACKUP,
 )  # fmt: skip
 """What every computer has a copy of, in an order in which no row comes before what it belongs to."""
 SHARED = {table.name: table for table in (*COPIED, DEED)}

@@ -126,11 +126,8 @@ class SessionList:
             give(entry.path, path, pseudonym)
             for one, other in zip(beside, made[1:], strict=True):
                 _same(one, other)
-            outline = read_outline(path)
-            stored_path, seal, size = self.stored_path(path), outline.seal, outline.size_bytes
-            self._store.do(
-                [changed(SESSION, session_id, patient_id=patient_id, path=stored_path, seal=seal, size=size)]
-            )
+            size, stored_path = read_outline(path).size_bytes, self.stored_path(path)
+            self._store.do([changed(SESSION, session_id, patient_id=patient_id, path=stored_path, size=size)])
         except BaseException:
             for one in made:
                 one.unlink(missing_ok=True)
@@ -347,7 +344,7 @@ def _columns(path: str, patient_id: str | None, outline: SessionOutline) -> dict
     header = outline.header
     created = datetime.fromisoformat(header.created)
     return {
-        "patient_id": patient_id or None, "path": path, "recording_id": header.recording_id, "seal": outline.seal,
+        "patient_id": patient_id or None, "path": path, "recording_id": header.recording_id,
         "recorded": header.when.isoformat(), "recorded_s": header.when.timestamp(), "created": header.created,
         "created_s": created.timestamp(), "exercise": header.exercise, "hand": header.hand, "frames": outline.frames,
         "duration_s": outline.duration_s, "complete": int(outline.complete), "simulated": int(header.simulated),

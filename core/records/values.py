@@ -54,6 +54,21 @@ class PatientEntry:
 
 
 @dataclass(frozen=True, slots=True)
+class HomePlan:
+    """What a patient was last given to do at home: exercises by their ids, ``times`` in a row, ``rounds`` a day; the
+    next appointment, None for none, with its time as it was typed; a line; the patient's language by two letters."""
+
+    exercises: tuple[str, ...]
+    times: int
+    rounds: int
+    made: date
+    again: date | None
+    at: str
+    note: str
+    language: str
+
+
+@dataclass(frozen=True, slots=True)
 class PatientRecord:
     """A patient of the store; ``last_session`` None and ``last_exercise`` empty before the first session.
 

@@ -31,7 +31,7 @@ from carpus.core.session.plain_file import check_plain
 from carpus.core.session.plausible import LONGEST_S, check_blobs, check_header, check_values
 from carpus.core.session.rows import Rows, rows_of, whole_rows
 from carpus.core.session.schema import Field, Layout
-from carpus.core.session.seal import ATTRIBUTE, LONGEST_SEAL, seal_of
+from carpus.core.session.seal import ATTRIBUTE, seal_of
 from carpus.core.session.values import (
     DetectionTable,
     Event,
@@ -255,7 +255,6 @@ class _Source:
             duration_s=duration_s,
             complete=self._complete,
             recovered=str(self._file.attrs.get(schema.RECOVERED, "")),
-            seal=str(self._file.attrs.get(ATTRIBUTE, ""))[:LONGEST_SEAL],
             size_bytes=self._path.stat().st_size,
         )
 

@@ -15,7 +15,6 @@ import numpy as np
 
 ATTRIBUTE = "seal"
 PREFIX = "sha256:"
-LONGEST_SEAL = len(PREFIX) + 64
 _BLOCK_BYTES = 1 << 23
 
 

@@ -266,15 +266,13 @@ def _readings(kept: tuple[NDArray[Any], NDArray[Any]], row: int) -> SurfaceSampl
 
 @dataclass(frozen=True, slots=True)
 class SessionOutline:
-    """What a list of sessions shows; ``complete`` and ``recovered`` as in :class:`Session`; ``seal`` empty for one
-    that was cut short."""
+    """What a list of sessions shows; ``complete`` and ``recovered`` as in :class:`Session`."""
 
     header: SessionHeader
     frames: int
     duration_s: float
     complete: bool
     recovered: str
-    seal: str = ""
     size_bytes: int = 0
 
 

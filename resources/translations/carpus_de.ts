@@ -9524,27 +9524,47 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Times</source>
-        <translation>Wie oft</translation>
+        <translation type="vanished">Wie oft</translation>
     </message>
     <message>
         <source>Rounds a day</source>
-        <translation>Runden am Tag</translation>
+        <translation type="vanished">Runden am Tag</translation>
     </message>
     <message>
         <source>Next appointment</source>
-        <translation>Nächster Termin</translation>
+        <translation type="vanished">Nächster Termin</translation>
     </message>
     <message>
         <source>Time</source>
-        <translation>Uhrzeit</translation>
+        <translation type="vanished">Uhrzeit</translation>
     </message>
     <message>
         <source>No appointment yet: a line to write on</source>
-        <translation>Noch kein Termin: eine Zeile zum Schreiben</translation>
+        <translation type="vanished">Noch kein Termin: eine Zeile zum Schreiben</translation>
     </message>
     <message>
         <source>A line for the patient, no names</source>
-        <translation>Eine Zeile für den Patienten, keine Namen</translation>
+        <translation type="vanished">Eine Zeile für den Patienten, keine Namen</translation>
+    </message>
+    <message>
+        <source>&amp;Times</source>
+        <translation>&amp;Wie oft</translation>
+    </message>
+    <message>
+        <source>&amp;Rounds a day</source>
+        <translation>&amp;Runden je Tag</translation>
+    </message>
+    <message>
+        <source>Ne&amp;xt appointment</source>
+        <translation>Nächster &amp;Termin</translation>
+    </message>
+    <message>
+        <source>T&amp;ime</source>
+        <translation>&amp;Uhrzeit</translation>
+    </message>
+    <message>
+        <source>A &amp;line for the patient, no names</source>
+        <translation>Eine &amp;Zeile für den Patienten, keine Namen</translation>
     </message>
     <message>
         <source>Language of the patient</source>
@@ -9561,6 +9581,26 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Show the sheet</source>
         <translation>Das Blatt zeigen</translation>
+    </message>
+    <message>
+        <source>No appointment yet</source>
+        <translation>Noch kein Termin</translation>
+    </message>
+    <message>
+        <source>When next? That day is over</source>
+        <translation>Wann wieder? Der Tag ist vorbei</translation>
+    </message>
+    <message>
+        <source>When next? Day, month, year</source>
+        <translation>Wann wieder? Tag, Monat, Jahr</translation>
+    </message>
+    <message>
+        <source>Time: {count} letters too many</source>
+        <translation>Uhrzeit: {count} Zeichen zu viel</translation>
+    </message>
+    <message>
+        <source>Line: {count} letters too many</source>
+        <translation>Zeile: {count} Zeichen zu viel</translation>
     </message>
 </context>
 <context>

@@ -9524,27 +9524,47 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Times</source>
-        <translation>Quante volte</translation>
+        <translation type="vanished">Quante volte</translation>
     </message>
     <message>
         <source>Rounds a day</source>
-        <translation>Giri al giorno</translation>
+        <translation type="vanished">Giri al giorno</translation>
     </message>
     <message>
         <source>Next appointment</source>
-        <translation>Prossimo appuntamento</translation>
+        <translation type="vanished">Prossimo appuntamento</translation>
     </message>
     <message>
         <source>Time</source>
-        <translation>Ora</translation>
+        <translation type="vanished">Ora</translation>
     </message>
     <message>
         <source>No appointment yet: a line to write on</source>
-        <translation>Ancora nessun appuntamento: una riga per scrivere</translation>
+        <translation type="vanished">Ancora nessun appuntamento: una riga per scrivere</translation>
     </message>
     <message>
         <source>A line for the patient, no names</source>
-        <translation>Una riga per il paziente, senza nomi</translation>
+        <translation type="vanished">Una riga per il paziente, senza nomi</translation>
+    </message>
+    <message>
+        <source>&amp;Times</source>
+        <translation>&amp;Quante volte</translation>
+    </message>
+    <message>
+        <source>&amp;Rounds a day</source>
+        <translation>&amp;Giri al giorno</translation>
+    </message>
+    <message>
+        <source>Ne&amp;xt appointment</source>
+        <translation>Prossimo &amp;appuntamento</translation>
+    </message>
+    <message>
+        <source>T&amp;ime</source>
+        <translation>&amp;Ora</translation>
+    </message>
+    <message>
+        <source>A &amp;line for the patient, no names</source>
+        <translation>Una &amp;riga per il paziente, senza nomi</translation>
     </message>
     <message>
         <source>Language of the patient</source>
@@ -9561,6 +9581,26 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Show the sheet</source>
         <translation>Mostra il foglio</translation>
+    </message>
+    <message>
+        <source>No appointment yet</source>
+        <translation>Ancora nessun appuntamento</translation>
+    </message>
+    <message>
+        <source>When next? That day is over</source>
+        <translation>Quando? Quel giorno è passato</translation>
+    </message>
+    <message>
+        <source>When next? Day, month, year</source>
+        <translation>Quando? Giorno, mese, anno</translation>
+    </message>
+    <message>
+        <source>Time: {count} letters too many</source>
+        <translation>Ora: {count} lettere di troppo</translation>
+    </message>
+    <message>
+        <source>Line: {count} letters too many</source>
+        <translation>Riga: {count} lettere di troppo</translation>
     </message>
 </context>
 <context>

@@ -185,7 +185,7 @@ def test_a_session_moved_to_another_patient_stays_with_that_one(folder: Path, ho
     assert verify(now.path).sealed
     row = house.store.row(select(SESSION).where(SESSION.c.id == moved))
     assert row is not None
-    assert (row.seal, row.size) == (read_outline(now.path).seal, now.path.stat().st_size)
+    assert row.size == now.path.stat().st_size
     assert replace(now, path=former.path) == former
     angles, others = (read_session(house.index.one(one).path).motion.angles_rad for one in (moved, own))
     assert (angles == others).all()

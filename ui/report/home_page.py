@@ -14,6 +14,7 @@ from carpus.core.output.exercises import EXERCISES, PRONOSUPINATION, Exercise
 from carpus.core.output.goals import Goals, row_aimed_at
 from carpus.core.output.report_content import SessionFigures, compare_rows, progress
 from carpus.core.output.report_form import ReportForm
+from carpus.core.records.values import HomePlan
 from carpus.core.types import Side
 from carpus.ui import language, numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
@@ -72,6 +73,12 @@ class HomeReport:
     def form(self) -> ReportForm:
         """Letterhead and paper."""
         return self.report.form
+
+    @property
+    def plan(self) -> HomePlan:
+        """What is to be done, as it is remembered with the patient."""
+        names, first = tuple(task.exercise.id for task in self.tasks), self.tasks[0]
+        return HomePlan(names, first.times, first.rounds, self.day, self.again, self.at, self.note, self.language)
 
     @property
     def pseudonym(self) -> str:

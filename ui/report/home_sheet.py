@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from datetime import date, timedelta
 
-from PySide6.QtCore import QDate, Signal
-from PySide6.QtWidgets import QDateEdit, QGridLayout, QHBoxLayout, QLineEdit, QSpinBox, QWidget
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLineEdit, QSpinBox, QWidget
 
 from carpus.core.output.exercises import Exercise
+from carpus.core.records.values import HomePlan
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.field import Choices, Labelled, number_field
@@ -20,10 +21,12 @@ from carpus.ui.report.session_page import SessionReport
 from carpus.ui.theme import Theme
 
 USUAL_TIMES, USUAL_ROUNDS = 10, 3
+LISTED_DAYS, MOST_OF_TIME = 56, 12
 
 
 class HomeSheet(Sheet):
-    """``wanted`` carries the sheet for home, but for the patient's own way."""
+    """``wanted`` carries the sheet for home, but for the patient's own way. What a patient was last given is proposed
+    again, day and line until that day has come."""
 
     wanted = Signal(object)
 
@@ -42,25 +45,20 @@ class HomeSheet(Sheet):
             grid.addWidget(tick, number // 3, number % 3)
         body.addLayout(grid)
         self.times, self.rounds = self._count(theme), self._count(theme)
-        self.day = QDateEdit()
-        self.day.setCalendarPopup(True)
-        self.day.setDisplayFormat(numbers.day_format())
+        self.day = QComboBox()
+        self.day.setEditable(True)
+        self.day.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
         self.at = QLineEdit()
-        self.at.setMaxLength(12)
         fields = QHBoxLayout()
         fields.setSpacing(12)
         for words, field in (
-            (self.tr("Times"), self.times), (self.tr("Rounds a day"), self.rounds),
-            (self.tr("Next appointment"), self.day), (self.tr("Time"), self.at),
+            (self.tr("&Times"), self.times), (self.tr("&Rounds a day"), self.rounds),
+            (self.tr("Ne&xt appointment"), self.day), (self.tr("T&ime"), self.at),
         ):  # fmt: skip
-            fields.addWidget(Labelled(theme, words, field))
+            fields.addWidget(Labelled(theme, words, field), 1 if field in (self.day, self.at) else 0)
         body.addLayout(fields)
-        self.open_day = Tick(theme, self.tr("No appointment yet: a line to write on"))
-        self.open_day.toggled.connect(lambda on: self.day.setDisabled(on))
-        body.addWidget(self.open_day)
         self.note = QLineEdit()
-        self.note.setMaxLength(MOST_NOTE)
-        body.addWidget(Labelled(theme, self.tr("A line for the patient, no names"), self.note))
+        body.addWidget(Labelled(theme, self.tr("A &line for the patient, no names"), self.note))
         body.addWidget(Text(theme, self.tr("Language of the patient"), 14, REGULAR, "text2"))
         self.language = Choices(theme, list(LANGUAGES.items()), "en")
         body.addWidget(self.language)
@@ -74,8 +72,9 @@ class HomeSheet(Sheet):
         body.addLayout(row)
         self._report: SessionReport | None = None
         self._today = date.min
-        self._language = ""
-        self.language.chosen.connect(self._take_language)
+        self._days: dict[str, date] = {}
+        for changed in (self.day.editTextChanged, self.at.textChanged, self.note.textChanged):
+            changed.connect(lambda _: self._check())
         self.close_button.clicked.connect(self.leave)
         self.take.clicked.connect(self._take)
         self.set_default(self.take)
@@ -86,22 +85,31 @@ class HomeSheet(Sheet):
         field.setMinimum(1)
         return field
 
-    def begin(self, report: SessionReport, today: date) -> None:
-        """Ask; what was trained today is ticked, and the appointment is in a week."""
+    def begin(self, report: SessionReport, today: date, last: HomePlan | None = None) -> None:
+        """Ask; ``last`` what the patient was given before, without which what was trained today is ticked, and the
+        appointment is in a week."""
         self._report, self._today = report, today
+        trained = last.exercises if last is not None else (report.figures.exercise.id,)
         for name, tick in self.ticks.items():
             tick.setEnabled(True)
-            tick.setChecked(name == report.figures.exercise.id)
-        self.times.setValue(USUAL_TIMES)  # of nobody who was here before
-        self.rounds.setValue(USUAL_ROUNDS)
-        week = today + timedelta(days=7)
-        self.day.setMinimumDate(QDate(today.year, today.month, today.day).addDays(1))
-        self.day.setDate(QDate(week.year, week.month, week.day))
-        self.open_day.setChecked(False)
-        self.at.clear()
-        self.note.clear()
-        self._language = self._language or spoken()
-        self.language.choose(self._language)
+            tick.setChecked(name in trained)
+        self.times.setValue(last.times if last is not None else USUAL_TIMES)
+        self.rounds.setValue(last.rounds if last is not None else USUAL_ROUNDS)
+        self._days = {
+            numbers.short_date(day): day for day in (today + timedelta(days=n + 1) for n in range(LISTED_DAYS))
+        }
+        self.day.clear()
+        self.day.addItems([self.tr("No appointment yet"), *self._days])
+        self.day.setCompleter(None)  # type: ignore[arg-type]  # it would put a day in place of one that is typed
+        holds = last is not None and (last.made == today if last.again is None else last.again > today)
+        again = last.again if holds and last is not None else today + timedelta(days=7)
+        self.day.setCurrentIndex(0)
+        if again is not None:
+            words = numbers.short_date(again)
+            self.day.setEditText(words if words in self._days else numbers.day_of_year(again))
+        self.at.setText(last.at if holds and last is not None else "")
+        self.note.setText(last.note if holds and last is not None else "")
+        self.language.choose(last.language if last is not None and last.language in LANGUAGES else spoken())
         self._check()
         self.open()
 
@@ -109,24 +117,42 @@ class HomeSheet(Sheet):
         """What is ticked."""
         return [exercise for exercise in DRAWN if self.ticks[exercise.id].isChecked()]
 
-    def _check(self) -> None:
-        """No more than there is room for, and not none."""
+    def _again(self) -> date | None:
+        """The day that is chosen or typed; None for none, and for what is no day to come."""
+        typed = self.day.currentText().strip()
+        day = self._days.get(typed) or numbers.day_typed(typed)
+        return day if day is not None and day > self._today else None
+
+    def _asked(self) -> str:
+        """What stands in the way, as it stands on the button."""
+        typed = self.day.currentText().strip()
+        if typed not in ("", self.day.itemText(0)) and self._again() is None:
+            past = numbers.day_typed(typed) is not None
+            return self.tr("When next? That day is over") if past else self.tr("When next? Day, month, year")
+        for line, most, words in (
+            (self.at, MOST_OF_TIME, self.tr("Time: {count} letters too many")),
+            (self.note, MOST_NOTE, self.tr("Line: {count} letters too many")),
+        ):
+            if (count := len(line.text().strip()) - most) > 0:
+                return words.format(count=count)
+        return ""
+
+    def _check(self, *_: object) -> None:
+        """No more than there is room for, and not none; what is still to be said stands on the button."""
         count = len(self.chosen())
         for tick in self.ticks.values():
             tick.setEnabled(tick.isChecked() or count < MOST_TASKS)
-        self.take.setEnabled(count > 0)
-
-    def _take_language(self, code: object) -> None:
-        self._language = str(code)
+        asked = self._asked()
+        self.take.set_face(asked or self.tr("Show the sheet"))
+        self.take.setEnabled(count > 0 and not asked)
 
     def _take(self) -> None:
         if self._report is None:
             return
         self.close_sheet()
         tasks = tuple(HomeTask(one, self.times.value(), self.rounds.value()) for one in self.chosen())
-        day = self.day.date()
-        again = None if self.open_day.isChecked() else date(day.year(), day.month(), day.day())
-        at, note = self.at.text().strip(), self.note.text().strip()
+        again, code = self._again(), str(self.language.value())
+        at = self.at.text().strip() if again is not None else ""
         self.wanted.emit(
-            HomeReport(self._report, tasks, self._today, again, at if again else "", note, language=self._language)
+            HomeReport(self._report, tasks, self._today, again, at, self.note.text().strip(), language=code)
         )
