@@ -15,7 +15,8 @@ from carpus.core.types import FloatArray
 class TouchingSettings:
     """A blob's box longer than ``long_side`` radii is more than one disc facing any way; so is one whose pixels scatter
     along their main axis by more than ``long_axis`` radii (a disc: one half). ``edge_px``: by so much a blurred edge
-    widens every disc, large or small. It is taken apart in ``rounds``; more than ``most_parts`` are none of discs."""
+    widens every disc, large or small. It is taken apart in ``rounds``, into ``most_parts`` at most (a row of knuckles);
+    what is longer than one more would be is none of discs."""
 
     long_side: float = 2.8
     long_axis: float = 0.72
@@ -70,10 +71,29 @@ def _parts(points: FloatArray, radius_px: float, settings: TouchingSettings) -> 
     tilt = 0.5 * math.atan2(2.0 * xy, xx - yy)
     axis = np.array([math.cos(tilt), math.sin(tilt)])
     along = centred @ axis
-    low, high = float(along.min()), float(along.max())
-    count = max(2, round((high - low - 2.0 * radius_px) / (2.0 * radius_px)) + 1)
-    if count > settings.most_parts:
+    length = float(along.max() - along.min())
+    count = max(2, round((length - 2.0 * radius_px) / (2.0 * radius_px)) + 1)
+    if count > settings.most_parts + 1:
         return None
+    # Blurred edges make small discs larger than they are, so a row of them may hold one less than its length says.
+    tried = [
+        _taken_apart(points, along, centre, axis, n, radius_px, settings)
+        for n in range(max(2, count - 1), min(count, settings.most_parts) + 1)
+    ]
+    return min((part for part in tried if part is not None), key=lambda part: _elongation(points, part), default=None)
+
+
+def _taken_apart(
+    points: FloatArray,
+    along: FloatArray,
+    centre: FloatArray,
+    axis: FloatArray,
+    count: int,
+    radius_px: float,
+    settings: TouchingSettings,
+) -> NDArray[np.int64] | None:
+    """Part of every pixel (P, 2) of a row of ``count`` discs, or None where one of them would have no pixel."""
+    low, high = float(along.min()), float(along.max())
     if count == 2:
         # Two discs: the line between them crosses the main axis in the middle of the blob.
         return np.asarray(along > 0.5 * (high + low), dtype=np.int64)
@@ -90,6 +110,15 @@ def _parts(points: FloatArray, radius_px: float, settings: TouchingSettings) -> 
             break
         middle = np.array((np.bincount(part, u), np.bincount(part, v))) / area
     return part
+
+
+def _elongation(points: FloatArray, part: NDArray[np.int64]) -> float:
+    """Of the parts in the mean: 0 for discs, 1 for lines."""
+    area = np.bincount(part)
+    mean = [np.bincount(part, points[:, axis]) / area for axis in (0, 1)]
+    u, v = (points[:, axis] - mean[axis][part] for axis in (0, 1))
+    uu, vv, uv = (np.bincount(part, product) for product in (u * u, v * v, u * v))
+    return float(np.mean(np.hypot(uu - vv, 2.0 * uv) / np.maximum(uu + vv, 1e-12)))
 
 
 def _nearest(u: FloatArray, v: FloatArray, middle: FloatArray) -> NDArray[np.int64]:

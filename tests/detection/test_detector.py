@@ -215,6 +215,22 @@ def test_a_blob_longer_than_a_disc_is_taken_apart(apart_radii: float, bar_radii:
     assert [len(own) for _, own, _ in found] == ([parts] if parts else [])
 
 
+@pytest.mark.parametrize(("discs", "parts"), [(2, 2), (3, 3), (4, 4), (7, 0)])
+def test_a_row_of_small_discs_with_blurred_edges_is_taken_apart(discs: int, parts: int) -> None:
+    """Four knuckles of a small hand run together, larger than at their distance; a sleeve is longer."""
+    radius_px = 4.2
+    centre = np.array([[30.0 + 2.4 * radius_px * i, 40.0 - 2.0 * np.sin(i)] for i in range(discs)])
+    v, u = np.mgrid[:80, :160]
+    is_blob = np.zeros(u.shape, dtype=bool)
+    for across, down in centre:
+        is_blob |= np.hypot(u - across, v - down) <= 1.3 * radius_px
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(is_blob.astype(np.uint8), ltype=cv2.CV_16U)
+    found = split_touching(labels, stats, np.full(2, radius_px), TouchingSettings())
+    assert [len(own) for _, own, _ in found] == ([parts] if parts else [])
+    for _, _, facts in found:
+        assert np.abs(facts[np.argsort(facts[:, 0]), :2] - centre).max() < 0.3 * radius_px
+
+
 def test_nothing_is_found_where_nothing_is() -> None:
     rng = np.random.default_rng(14)
     detector = detector_for(Look(), rng)
