@@ -48,6 +48,7 @@ def reason_words(reasons: Sequence[str]) -> str:
         "incomplete": tr("the recording was cut short"),
         "hidden": tr("hidden in part"),
         "angle_order": tr("angles in another order"),
+        "only_passive": tr("no active repetition"),
     }
     return ", ".join(dict.fromkeys(words.get(reason, reason) for reason in reasons))
 

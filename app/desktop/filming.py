@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
@@ -10,7 +11,7 @@ from PySide6.QtWidgets import QWidget
 from carpus.app.desktop.files_written import tell_written
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.ways import Tell
-from carpus.core.formats.film import write_film
+from carpus.core.formats.film import UNFINISHED, write_film
 from carpus.core.library.library import Library
 from carpus.ui.background import Background
 from carpus.ui.review.film import FilmWanted, film_pictures
@@ -28,11 +29,15 @@ class Filming(QObject):
         super().__init__(window)
         self._window, self._tell, self._library = window, tell, library
         self._places, self._background, self._theme = places, background, theme
+        with suppress(OSError):  # of a program that was killed
+            (library.folder / UNFINISHED).unlink(missing_ok=True)
 
     def save(self, wanted: FilmWanted) -> None:
         """Ask for a name and write it."""
         session_id = wanted.session_id
-        name = f"carpus-{wanted.session.header.when:%Y-%m-%d}-{wanted.number}.mp4"
+        head = wanted.session.header
+        what = f"{head.exercise.lower().replace('_', '-')}_{head.hand}"
+        name = f"carpus_{head.when:%Y-%m-%d_%H-%M}_{what}_{wanted.number}.mp4"  # of whom it does not say
         path = self._places.ask_where_to_save(self._window, "exports", name, self.tr("Save film"), "MP4 (*.mp4)")
         if path is None:
             return
@@ -40,7 +45,7 @@ class Filming(QObject):
 
         def write() -> Path:
             pictures = film_pictures(self._theme, wanted, lambda row: self._library.picture(session_id, row))
-            return write_film(target, pictures, wanted.rate_hz)
+            return write_film(target, pictures, wanted.rate_hz, self._library.folder)
 
         def written(done: Path) -> None:
             self.filmed.emit(str(done), [session_id])

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Iterable
 from pathlib import Path
 
 import cv2
 
+from carpus.core.durable import replace_file
 from carpus.core.errors import OutputNotWritable
 from carpus.core.phrase import phrase
 from carpus.core.types import ByteImage
@@ -15,12 +17,17 @@ CODE = "mp4v"
 """MPEG-4 part 2: what OpenCV itself brings the means for on every system."""
 
 
-def write_film(path: Path, pictures: Iterable[ByteImage], rate_hz: float) -> Path:
+UNFINISHED = "film.part.mp4"
+"""Name of what is being written: one at a time, removed when the window opens again after it was killed."""
+
+
+def write_film(path: Path, pictures: Iterable[ByteImage], rate_hz: float, within: Path) -> Path:
     """Write pictures of one even size, RGB, at a rate; a file that is there is replaced when all is written.
 
-    Raises :class:`OutputNotWritable`; nothing half-written stays.
+    It grows as :data:`UNFINISHED` in the folder ``within``, never where a killed program would leave it for everybody.
+    Raises :class:`OutputNotWritable` or :class:`DiskFull`; nothing half-written stays.
     """
-    part = path.with_name(f".{path.stem}.part.mp4")
+    part = within / UNFINISHED
     writer = None
     try:
         part.touch(mode=0o600)
@@ -34,8 +41,7 @@ def write_film(path: Path, pictures: Iterable[ByteImage], rate_hz: float) -> Pat
         if writer is None:
             raise OutputNotWritable(path, phrase("there is no picture of it"))
         writer.release()
-        part.replace(path)
-        path.chmod(0o600)
+        replace_file(path, lambda place: shutil.copyfile(part, place))
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
     finally:

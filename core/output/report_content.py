@@ -67,6 +67,7 @@ Unfairness = Literal[
     "incomplete",
     "hidden",
     "angle_order",
+    "only_passive",
 ]
 NAMES_DOUBTED = ("swapped", "shifted", "misnamed", "wrong_side", "other_length", "depth_off", "other_spot", "no_palm")
 """Findings at the calibration after which the angles may be something else: such a session never compares."""
@@ -251,6 +252,8 @@ class SessionFigures:
     """Since when it stands with markers that a person put right; None as measured."""
     passive: SessionFigures | None = None
     """The same of the repetitions in which somebody else moved the hand; None without any. Never in the others."""
+    without_passive: bool = False
+    """Whether ranges over the whole recording leave out stretches in which somebody else moved the hand."""
 
     @property
     def study(self) -> RetestStudy | None:
@@ -461,6 +464,7 @@ def session_figures(
         camera=camera_said(session.header.parameters),
         corrected=corrected_from(session),
         passive=_of_passive(session, choices, measured, error_limits),
+        without_passive=not counted and own is not session,
     )
 
 
@@ -577,7 +581,9 @@ def unfair_reasons(first: SessionFigures, other: SessionFigures) -> tuple[Unfair
         reasons.append("forearm_moved")
     if not other.complete and not other.recovered:
         reasons.append("incomplete")
-    if 0 < other.counted < FEWEST_FOR_SPREAD or (other.exercise.counts and not other.counted):
+    if other.passive is not None and not other.counted:
+        reasons.append("only_passive")
+    elif 0 < other.counted < FEWEST_FOR_SPREAD or (other.exercise.counts and not other.counted):
         reasons.append("few_repetitions_after")
     return tuple(reasons)
 
@@ -629,7 +635,7 @@ def other_hand_of(history: Sequence[SessionFigures], figures: SessionFigures) ->
 
 def _alike(one: SessionFigures, other: SessionFigures) -> bool:
     same_kind = (one.exercise.id, one.protocol, one.simulated) == (other.exercise.id, other.protocol, other.simulated)
-    return same_kind and not one.not_counted and not _same_recording(one, other)
+    return same_kind and bool(one.rows or one.joint_rows) and not one.not_counted and not _same_recording(one, other)
 
 
 def _same_recording(one: SessionFigures, other: SessionFigures) -> bool:

@@ -134,7 +134,7 @@ def pair_reasons(first: SessionFigures, second: SessionFigures) -> tuple[Unfairn
         obstacles.append("protocol")
     if first.exercise.id != second.exercise.id:
         obstacles.append("exercise")
-    if not (first.counted and second.counted):
+    if any(not one.counted and one.passive is None for one in (first, second)):
         obstacles.append("few_repetitions_after")
     return tuple(dict.fromkeys((*obstacles, *unfair_reasons(second, second), *unfair_reasons(second, first))))
 

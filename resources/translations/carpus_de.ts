@@ -2677,7 +2677,7 @@
     </message>
     <message>
         <source>Sessions that are left out, or measured otherwise, are not compared: their rings say why.</source>
-        <translation>Ausgelassene oder anders gemessene Sitzungen werden nicht verglichen: Ihre Ringe sagen, warum.</translation>
+        <translation type="vanished">Ausgelassene oder anders gemessene Sitzungen werden nicht verglichen: Ihre Ringe sagen, warum.</translation>
     </message>
     <message>
         <source>Nothing to compare: {left_out}</source>
@@ -2756,6 +2756,10 @@
         <translation type="vanished">{name}: keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
+        <source>What is left out, or was measured otherwise, is not compared.</source>
+        <translation>Was ausgelassen oder anders gemessen wurde, wird nicht verglichen.</translation>
+    </message>
+    <message>
         <source>hidden in part, or too few</source>
         <translation>zum Teil verdeckt oder zu wenige</translation>
     </message>
@@ -2790,6 +2794,10 @@
     <message>
         <source>{day}: {reasons}. Shown as a ring and left out.</source>
         <translation>{day}: {reasons}. Als Ring gezeigt und ausgelassen.</translation>
+    </message>
+    <message>
+        <source>{day}: {reasons}. Left out.</source>
+        <translation>{day}: {reasons}. Ausgelassen.</translation>
     </message>
     <message>
         <source>{count} pairs of one session, against {kind}</source>
@@ -3690,6 +3698,10 @@
     <message>
         <source>number {number} left out: {reason}</source>
         <translation>Nummer {number} ausgelassen: {reason}</translation>
+    </message>
+    <message>
+        <source>without what was passive</source>
+        <translation>ohne das Passive</translation>
     </message>
     <message>
         <source>number {number} left out: not seen well enough</source>
@@ -5936,6 +5948,10 @@
         <translation>Formatversion {version}, dieses Carpus liest {newest}</translation>
     </message>
     <message>
+        <source>from session to session, beyond measurement error or not</source>
+        <translation>von Sitzung zu Sitzung, über den Messfehler hinaus oder nicht</translation>
+    </message>
+    <message>
         <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
         <translation>fx {fx} und fy {fy} passen zu keiner Kamera mit {width} Pixel breiten Bildern</translation>
     </message>
@@ -6478,6 +6494,10 @@
     <message>
         <source>three discs of the palm are needed, it has {there}; say which markers they are</source>
         <translation>drei Punkte der Handfläche werden gebraucht, da sind {there}; sagen Sie, welche Marker es sind</translation>
+    </message>
+    <message>
+        <source>to open formats (CSV, JSON, C3D, TRC, MOT, BIDS)</source>
+        <translation>in offene Formate (CSV, JSON, C3D, TRC, MOT, BIDS)</translation>
     </message>
     <message>
         <source>{angle} at {time} s: the hand was not still, or not seen</source>
@@ -7041,7 +7061,7 @@
     </message>
     <message>
         <source>a session: picture, curves, repetitions, corrected where need be</source>
-        <translation>eine Sitzung: Bild, Kurven, Wiederholungen, korrigiert wo nötig</translation>
+        <translation type="vanished">eine Sitzung: Bild, Kurven, Wiederholungen, korrigiert wo nötig</translation>
     </message>
     <message>
         <source>how wrist and fingers move, live, every angle with how sure it is</source>
@@ -7049,11 +7069,11 @@
     </message>
     <message>
         <source>of a patient from session to session, beyond measurement error or not</source>
-        <translation>eines Patienten von Sitzung zu Sitzung, über den Messfehler hinaus oder nicht</translation>
+        <translation type="vanished">eines Patienten von Sitzung zu Sitzung, über den Messfehler hinaus oder nicht</translation>
     </message>
     <message>
         <source>to open formats: CSV, JSON, C3D, TRC, MOT, BIDS</source>
-        <translation>in offene Formate: CSV, JSON, C3D, TRC, MOT, BIDS</translation>
+        <translation type="vanished">in offene Formate: CSV, JSON, C3D, TRC, MOT, BIDS</translation>
     </message>
     <message>
         <source>runs the other way: opposite sign?</source>
@@ -7110,6 +7130,10 @@
     <message>
         <source>only {time} s are in common: the shift of the clocks is not sure</source>
         <translation>nur {time} s sind gemeinsam: die Verschiebung der Uhren ist nicht sicher</translation>
+    </message>
+    <message>
+        <source>picture and curves of a session, each repetition put right where need be</source>
+        <translation>Bild und Kurven einer Sitzung, jede Wiederholung berichtigt, wo es nötig ist</translation>
     </message>
     <message>
         <source>the best shift lies at the end of what was searched: it may be further</source>
@@ -12056,8 +12080,16 @@ Umschalt+F8 von der Seite</translation>
         <translation>Wege der Gelenke: {finger}</translation>
     </message>
     <message>
+        <source>Not measured here</source>
+        <translation>Hier nicht gemessen</translation>
+    </message>
+    <message>
+        <source>Towards the camera: measured, not drawn</source>
+        <translation>Zur Kamera hin: gemessen, nicht gezeichnet</translation>
+    </message>
+    <message>
         <source>Not in the picture’s plane: not drawn</source>
-        <translation>Nicht in der Bildebene: nicht gezeichnet</translation>
+        <translation type="vanished">Nicht in der Bildebene: nicht gezeichnet</translation>
     </message>
     <message>
         <source>Repetition {number} of {count} · {time}</source>

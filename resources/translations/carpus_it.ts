@@ -2677,7 +2677,7 @@
     </message>
     <message>
         <source>Sessions that are left out, or measured otherwise, are not compared: their rings say why.</source>
-        <translation>Le sedute escluse, o misurate in altro modo, non si confrontano: il loro anello dice perché.</translation>
+        <translation type="vanished">Le sedute escluse, o misurate in altro modo, non si confrontano: il loro anello dice perché.</translation>
     </message>
     <message>
         <source>Nothing to compare: {left_out}</source>
@@ -2756,6 +2756,10 @@
         <translation type="vanished">{name}: nessun cambiamento oltre l’errore di misura.</translation>
     </message>
     <message>
+        <source>What is left out, or was measured otherwise, is not compared.</source>
+        <translation>Ciò che è escluso, o misurato in altro modo, non viene confrontato.</translation>
+    </message>
+    <message>
         <source>hidden in part, or too few</source>
         <translation>in parte nascosto, o troppo pochi</translation>
     </message>
@@ -2790,6 +2794,10 @@
     <message>
         <source>{day}: {reasons}. Shown as a ring and left out.</source>
         <translation>{day}: {reasons}. Mostrata come anello ed esclusa.</translation>
+    </message>
+    <message>
+        <source>{day}: {reasons}. Left out.</source>
+        <translation>{day}: {reasons}. Esclusa.</translation>
     </message>
     <message>
         <source>{count} pairs of one session, against {kind}</source>
@@ -3690,6 +3698,10 @@
     <message>
         <source>number {number} left out: {reason}</source>
         <translation>numero {number} esclusa: {reason}</translation>
+    </message>
+    <message>
+        <source>without what was passive</source>
+        <translation>senza ciò che è stato passivo</translation>
     </message>
     <message>
         <source>number {number} left out: not seen well enough</source>
@@ -5932,6 +5944,10 @@
         <translation>versione del formato {version}, questo Carpus legge {newest}</translation>
     </message>
     <message>
+        <source>from session to session, beyond measurement error or not</source>
+        <translation>di seduta in seduta, oltre l’errore di misura o no</translation>
+    </message>
+    <message>
         <source>fx {fx} and fy {fy} are no camera&apos;s with pictures {width} pixels wide</source>
         <translation>fx {fx} e fy {fy} non sono di una telecamera con immagini larghe {width} pixel</translation>
     </message>
@@ -6474,6 +6490,10 @@
     <message>
         <source>three discs of the palm are needed, it has {there}; say which markers they are</source>
         <translation>servono tre dischetti del palmo, ce ne sono {there}; dire quali marcatori sono</translation>
+    </message>
+    <message>
+        <source>to open formats (CSV, JSON, C3D, TRC, MOT, BIDS)</source>
+        <translation>in formati aperti (CSV, JSON, C3D, TRC, MOT, BIDS)</translation>
     </message>
     <message>
         <source>{angle} at {time} s: the hand was not still, or not seen</source>
@@ -7041,7 +7061,7 @@
     </message>
     <message>
         <source>a session: picture, curves, repetitions, corrected where need be</source>
-        <translation>una seduta: immagine, curve, ripetizioni, corrette dove serve</translation>
+        <translation type="vanished">una seduta: immagine, curve, ripetizioni, corrette dove serve</translation>
     </message>
     <message>
         <source>how wrist and fingers move, live, every angle with how sure it is</source>
@@ -7049,11 +7069,11 @@
     </message>
     <message>
         <source>of a patient from session to session, beyond measurement error or not</source>
-        <translation>di un paziente da una seduta all&apos;altra, oltre l&apos;errore di misura o no</translation>
+        <translation type="vanished">di un paziente da una seduta all&apos;altra, oltre l&apos;errore di misura o no</translation>
     </message>
     <message>
         <source>to open formats: CSV, JSON, C3D, TRC, MOT, BIDS</source>
-        <translation>in formati aperti: CSV, JSON, C3D, TRC, MOT, BIDS</translation>
+        <translation type="vanished">in formati aperti: CSV, JSON, C3D, TRC, MOT, BIDS</translation>
     </message>
     <message>
         <source>runs the other way: opposite sign?</source>
@@ -7114,6 +7134,10 @@
     <message>
         <source>only {time} s are in common: the shift of the clocks is not sure</source>
         <translation>solo {time} s in comune: lo sfasamento degli orologi non è sicuro</translation>
+    </message>
+    <message>
+        <source>picture and curves of a session, each repetition put right where need be</source>
+        <translation>immagine e curve di una seduta, ogni ripetizione corretta dove serve</translation>
     </message>
     <message>
         <source>the best shift lies at the end of what was searched: it may be further</source>
@@ -12056,8 +12080,16 @@ Maiusc+F8 di lato</translation>
         <translation>Percorsi delle articolazioni: {finger}</translation>
     </message>
     <message>
+        <source>Not measured here</source>
+        <translation>Qui non misurato</translation>
+    </message>
+    <message>
+        <source>Towards the camera: measured, not drawn</source>
+        <translation>Verso la telecamera: misurato, non disegnato</translation>
+    </message>
+    <message>
         <source>Not in the picture’s plane: not drawn</source>
-        <translation>Non nel piano dell’immagine: non disegnato</translation>
+        <translation type="vanished">Non nel piano dell’immagine: non disegnato</translation>
     </message>
     <message>
         <source>Repetition {number} of {count} · {time}</source>

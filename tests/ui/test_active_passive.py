@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from datetime import timedelta
 from pathlib import Path
 
 import numpy as np
@@ -10,10 +11,18 @@ import pytest
 
 from carpus.core.output.measures_table import measure_rows
 from carpus.core.output.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
-from carpus.core.output.report_content import SessionFigures, session_figures
+from carpus.core.output.report_content import (
+    SessionFigures,
+    previous_of,
+    progress,
+    session_figures,
+    unfair_reasons,
+)
 from carpus.core.session.values import Event, Session
+from carpus.ui.progress.words import unfair_words
 from carpus.ui.report.active_passive import BY_HAND, active_passive
 from carpus.ui.report.pdf import write_session_report
+from carpus.ui.report.tables import repetition_words
 from tests.ui.fakes import hand_values_today, session
 from tests.ui.hand_fakes import FakeHandSessions
 from tests.ui.test_report_pdf import words_of
@@ -63,6 +72,31 @@ def test_where_no_repetitions_are_counted_what_was_helped_is_not_measured(exerci
     assert whole is not None
     assert row.best_deg < 0.75 * whole.best_deg
     assert not free((0.0, PASSIVE)).rows, "nothing was active"
+    assert repetition_words(free((HELPED_S, PASSIVE))).endswith("without what was passive")
+    assert "passive" not in repetition_words(free())
+
+
+def test_a_session_that_is_passive_only_is_named_so_and_has_no_empty_column() -> None:
+    helped = session_figures(helped_session((0.0, PASSIVE)))
+    later = replace(
+        session_figures(session()), when=helped.when + timedelta(days=7), session_id="later", recording_id="later"
+    )
+    assert unfair_reasons(helped, helped) == ("only_passive",)
+    found = progress([helped, later])
+    words = unfair_words(found.points[0], found)
+    assert "no active repetition" in words
+    assert "ring" not in words, "there is none"
+    assert previous_of([helped, later], later) is None, "it has nothing to be beside"
+
+
+def test_a_passive_repetition_that_was_hidden_says_that() -> None:
+    figures = session_figures(helped_session((HELPED_S, PASSIVE)))
+    number = next(number for number, one in enumerate(figures.repetitions) if one.helped)
+    shown = list(figures.repetitions)
+    shown[number] = replace(shown[number], unmeasured="hidden")
+    assert f"number {number + 1} left out: not seen well enough" in repetition_words(
+        replace(figures, repetitions=tuple(shown))
+    )
 
 
 def test_what_is_measured_over_all_of_a_fist_leaves_out_what_was_helped() -> None:

@@ -67,6 +67,29 @@ def test_counted_piece_by_piece_is_counted_as_a_whole(
             assert running.count() == most
 
 
+def test_what_somebody_else_moved_neither_counts_nor_is_a_best() -> None:
+    frame, time_s = any_frame(), np.arange(0.0, 30.0, 1.0 / RATE_HZ)
+    angle_deg = np.where(time_s < 15.0, 30.0, 60.0) * np.sin(2.0 * np.pi * 0.4 * time_s)
+    frames = [
+        replace(
+            with_moment(frame, angles_rad=np.radians([0.0, angle, 0.0]), angles_sd_rad=np.radians([0.5, 0.7, 1.2])),
+            timestamp_s=float(at_s),
+            status=TrackStatus.TRACKED,
+        )
+        for at_s, angle in zip(time_s, angle_deg, strict=True)
+    ]
+    half, running = len(frames) // 2, RunningCount(exercise_named("WRIST_FE"))
+    running.append(frames[:half])
+    by_itself = running.count()
+    running.say_way(frames[half - 1].timestamp_s, passive=True)
+    running.append(frames[half:-60])
+    assert running.count() <= by_itself + 1, "the one that had begun"
+    assert running.best_positive_deg < 31.0
+    running.say_way(frames[-60].timestamp_s, passive=False)
+    running.append(frames[-60:])
+    assert running.best_positive_deg > 31.0, "by itself again"
+
+
 def test_frames_just_after_a_hand_came_back_give_no_best() -> None:
     frame = any_frame()
     count = 90

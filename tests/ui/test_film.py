@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -16,7 +17,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.filming import Filming
 from carpus.core.errors import OutputNotWritable
-from carpus.core.formats.film import write_film
+from carpus.core.formats.film import UNFINISHED, write_film
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.hand_cutout import FLAT, box_of, cut_out, drawn_angle
 from carpus.core.session.values import Session
@@ -77,7 +78,10 @@ def test_the_angle_on_the_picture_is_the_one_that_was_measured(side: Session) ->
 
 def test_the_film_is_opened_by_another_reader(qapp: QApplication, side: Session, theme: Theme, tmp_path: Path) -> None:
     wanted = FilmWanted(side, "s", 4, ROWS, 15.0, exercise_named("WRIST_RU"), lambda row: f"{row}")
-    path = write_film(tmp_path / "film.mp4", film_pictures(theme, wanted, room), wanted.rate_hz)
+    made, within = tmp_path / "made", tmp_path / "within"
+    made.mkdir()
+    within.mkdir()
+    path = write_film(made / "film.mp4", film_pictures(theme, wanted, room), wanted.rate_hz, within)
     assert path.read_bytes()[4:8] == b"ftyp"
     film = cv2.VideoCapture(str(path))
     assert film.isOpened()
@@ -88,10 +92,11 @@ def test_the_film_is_opened_by_another_reader(qapp: QApplication, side: Session,
         count, size = count + 1, read[1].shape[:2]
     assert count == len(ROWS)
     assert size[0] % (foot - top) == size[1] % (right - left) == 0
-    assert [one.name for one in tmp_path.iterdir()] == ["film.mp4"], "nothing half-written beside it"
+    assert [one.name for one in made.iterdir()] == ["film.mp4"], "nothing half-written beside it"
     with pytest.raises(OutputNotWritable):
-        write_film(tmp_path / "none.mp4", iter(()), 15.0)
-    assert not (tmp_path / "none.mp4").exists()
+        write_film(made / "none.mp4", iter(()), 15.0, within)
+    assert not (made / "none.mp4").exists()
+    assert not list(within.iterdir())
 
 
 @pytest.fixture
@@ -152,7 +157,8 @@ class Places:
     def __init__(self, path: Path) -> None:
         self.path = path
 
-    def ask_where_to_save(self, *_: object) -> Path:
+    def ask_where_to_save(self, *given: object) -> Path:
+        self.asked = given
         return self.path
 
 
@@ -160,6 +166,8 @@ def test_a_saved_film_is_told_and_noted(
     qtbot: QtBot, theme: Theme, background: Background, side: Session, tmp_path: Path
 ) -> None:
     class Pictures:
+        folder = tmp_path / "data"
+
         @staticmethod
         def picture(session_id: str, row: int) -> ByteImage:
             return room(row)
@@ -173,11 +181,17 @@ def test_a_saved_film_is_told_and_noted(
         def __getattr__(self, name: str) -> object:
             return lambda *given, **named: told.append(given)
 
-    filming = Filming(None, Tell(), Pictures(), Places(tmp_path / "x"), background, theme)  # type: ignore[arg-type]
+    Pictures.folder.mkdir()
+    (Pictures.folder / UNFINISHED).write_bytes(b"of a program that was killed")
+    places = Places(tmp_path / "x")
+    filming = Filming(None, Tell(), Pictures(), places, background, theme)  # type: ignore[arg-type]
     made: list[tuple[str, object]] = []
     filming.filmed.connect(lambda path, sessions: made.append((path, sessions)))
+    assert not list(Pictures.folder.iterdir())
     filming.save(FilmWanted(side, "s7", 4, ROWS[:6], 30.0, exercise_named("WRIST_RU"), lambda _: ""))
     qtbot.waitUntil(lambda: bool(made), timeout=60_000)
+    assert re.search(r"_\d{4}-\d\d-\d\d_\d\d-\d\d_wrist-ru_right_4.mp4$", str(places.asked[2]))
     assert made == [(str(tmp_path / "x.mp4"), ["s7"])]
     assert (tmp_path / "x.mp4").stat().st_mode & 0o077 == 0
     assert told
+    assert not list(Pictures.folder.iterdir())

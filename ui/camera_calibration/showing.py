@@ -238,9 +238,8 @@ class BoardShowing(QWidget):
                 words = self.tr("Hold it here, {side} nearer").format(side=side_name(side))
             paint_target(painter, view, self._theme, now.target, found, words)
         seen = lack_words(now.look.lack)
-        if found is not None:
+        if found is not None:  # what is lacking stands beside the picture
             paint_corners(painter, view, found.pixel)
-            words = self.tr("{count} of {all} corners found").format(count=len(found.pixel), all=now.corner_count)
-            seen = f"{words} · {seen}" if seen else words
+            seen = self.tr("{count} of {all} corners found").format(count=len(found.pixel), all=now.corner_count)
         if seen:
             paint_label(painter, self._theme, seen, 12.0, top)

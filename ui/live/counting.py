@@ -37,6 +37,7 @@ class RunningCount:
         self.recorded_s = 0.0
         self.best_positive_deg = math.nan
         self.best_negative_deg = math.nan
+        self._passive_s: list[tuple[float, float]] = []
         self._furthest_hidden_rad = -math.inf
         self._seen_s, self._back_s = math.inf, -math.inf
 
@@ -45,6 +46,16 @@ class RunningCount:
         """Whether the trained joint may have gone further than the best that was seen, while it was hidden."""
         best_rad = math.radians(self.best_positive_deg) if math.isfinite(self.best_positive_deg) else 0.0
         return self._furthest_hidden_rad > best_rad + FURTHER_RAD
+
+    def say_way(self, time_s: float, *, passive: bool) -> None:
+        """From a time on somebody else moves the hand, or the patient again: what is helped does not count here."""
+        if self._is_passive(time_s):
+            self._passive_s[-1] = (self._passive_s[-1][0], time_s)
+        if passive:
+            self._passive_s.append((time_s, math.inf))
+
+    def _is_passive(self, time_s: float) -> bool:
+        return any(start <= time_s < end for start, end in self._passive_s)
 
     def append(self, frames: Sequence[TrackedFrame]) -> None:
         """Add frames that are being recorded."""
@@ -58,7 +69,9 @@ class RunningCount:
             self._times.append(frame.timestamp_s)
             self._values.append(value)
             self._valid.append(valid)
-            if valid and not self._settling(frame.timestamp_s):
+            if self._is_passive(frame.timestamp_s):
+                self._settling(frame.timestamp_s)
+            elif valid and not self._settling(frame.timestamp_s):
                 self._take_best(math.degrees(value))
             elif not valid and self._figure >= 0 and math.isfinite(value + sd):
                 self._furthest_hidden_rad = max(self._furthest_hidden_rad, value + sd)
@@ -76,7 +89,8 @@ class RunningCount:
         if self._counts and len(self._times) > 2:
             valid = None if self._figure >= 0 else np.array(self._valid, dtype=bool)
             signal = even_signal(np.array(self._times), np.array(self._values), valid)
-            found = find_repetitions(signal).repetitions if len(signal.time_s) else ()
+            every = find_repetitions(signal).repetitions if len(signal.time_s) else ()
+            found = [one for one in every if not self._is_passive(0.5 * (one.start_s + one.end_s))]
             self.found = len(found)
             self.last_end_s = found[-1].end_s if found else math.nan
             self.repetitions = max(self.repetitions, self.found)  # what was done stays done

@@ -550,6 +550,8 @@ class LiveScreen(QWidget):
         """Who moves the hand from now on; the button says so while it is not the patient."""
         if self._add_event(PASSIVE if passive else ACTIVE, ""):
             self._passive = passive
+            if self._count is not None:
+                self._count.say_way(self.now_s, passive=passive)
             self._show_way()
 
     def _show_way(self) -> None:

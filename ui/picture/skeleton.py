@@ -85,7 +85,9 @@ def paint_side(
 ) -> None:
     """One finger from the side, fingers to the right, in the lower corner on the little finger's side of the hand."""
     scale = theme.text_scale
-    box = QRectF(0, 0, SIDE_WIDTH_PX * scale, SIDE_HEIGHT_PX * scale)
+    name_font = font(12 * scale, SEMIBOLD)
+    metrics = QFontMetricsF(name_font)
+    box = QRectF(0, 0, max(SIDE_WIDTH_PX, metrics.horizontalAdvance(name) + 20), SIDE_HEIGHT_PX)
     box.moveBottom(shown.bottom() - 12)
     box.moveLeft(shown.right() - box.width() - 12 if side == "right" else shown.left() + 12)
     ground = QColor(ON_PICTURE_LABEL)
@@ -93,16 +95,16 @@ def paint_side(
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(ground)
     painter.drawRoundedRect(box, 8, 8)
-    painter.setFont(font(12 * scale, SEMIBOLD))
+    painter.setFont(name_font)
     painter.setPen(QColor(ON_PICTURE_LINE))
-    painter.drawText(QPointF(box.left() + 10, box.top() + 6 + QFontMetricsF(painter.font()).ascent()), name)
+    painter.drawText(QPointF(box.left() + 10, box.top() + 6 + metrics.ascent()), name)
     if frame.status == TrackStatus.LOST or finger not in protocol.chains:
         return
     points = side_points_m(frame, protocol, finger)
     if not np.isfinite(points).all():
         return
-    unit = (0.72 * box.width() - 12) / SIDE_SPAN_M
-    start = QPointF(box.left() + 0.28 * box.width(), box.top() + 0.38 * box.height())
+    unit = (0.72 * SIDE_WIDTH_PX - 12) / SIDE_SPAN_M
+    start = QPointF(box.left() + 0.28 * SIDE_WIDTH_PX, box.top() + 0.38 * box.height())
     at = [start + QPointF(float(x) * unit, -float(z) * unit) for x, z in points]
     seen = np.isfinite(frame.marker_measured_px[list(protocol.chains[finger][1:]), 0])
     painter.setPen(QPen(QColor(255, 255, 255, 110), 4))

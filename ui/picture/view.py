@@ -30,6 +30,7 @@ class PictureView(QWidget):
         self._image: QImage | None = None
         self._area: QRectF | None = None
         self._whole = False
+        self._head_px, self._foot_px = 0, 0
         self._scale, self._offset = 1.0, QPointF(0, 0)
         self.overlay: Overlay | None = None
         self.empty_words = ""
@@ -73,6 +74,12 @@ class PictureView(QWidget):
         self._area = area
         self._place()
 
+    def keep_free(self, head_px: int, foot_px: int) -> None:
+        """So much at the head and at the foot is covered: the hand's area lies between them."""
+        if (head_px, foot_px) != (self._head_px, self._foot_px):
+            self._head_px, self._foot_px = head_px, foot_px
+            self._place()
+
     def show_whole(self, whole: bool) -> None:
         """Show everything the camera sees, or the hand's area."""
         self._whole = whole
@@ -104,16 +111,22 @@ class PictureView(QWidget):
             return
         width, height = float(self._image.width()), float(self._image.height())
         cover = max(self.width() / width, self.height() / height)
-        area = self._area
+        area, above = self._area, 0.5 * self.height()
         if self._whole or area is None:
             self._scale = min(self.width() / width, self.height() / height) if self._whole else cover
             middle = QPointF(width / 2, height / 2)
         else:
-            self._scale = max(cover, min(self.width() / area.width(), self.height() / area.height()))
+            free = self.height() - self._head_px - self._foot_px
+            above = self._head_px + 0.5 * free
+            self._scale = max(cover, min(self.width() / area.width(), free / area.height()))
             middle = area.center()
         shown_w, shown_h = self.width() / self._scale, self.height() / self._scale
         left = (width - shown_w) / 2 if shown_w >= width else min(max(middle.x() - shown_w / 2, 0), width - shown_w)
-        top = (height - shown_h) / 2 if shown_h >= height else min(max(middle.y() - shown_h / 2, 0), height - shown_h)
+        top = (
+            (height - shown_h) / 2
+            if shown_h >= height
+            else min(max(middle.y() - above / self._scale, 0), height - shown_h)
+        )
         self._offset = QPointF(-left * self._scale, -top * self._scale)
         self.update()
 

@@ -117,7 +117,8 @@ class StayWithin:
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         top, bottom = float(panel.y(self.limit)), float(panel.y(-self.limit))
         painter.fillRect(QRectF(panel.box.left(), top, panel.box.width(), bottom - top), style.color("norm"))
-        _note(painter, style, panel, top, self.words, "text2")
+        if top - QFontMetricsF(style.end_label).height() >= panel.box.top():  # a low panel has the band alone
+            _note(painter, style, panel, top, self.words, "text2")
 
 
 @dataclass(frozen=True, slots=True)
@@ -248,19 +249,20 @@ class Repetitions:
         metrics = QFontMetricsF(style.end_label)
         painter.setFont(style.end_label)
         baseline = panel.box.top() - NUMBERS_ABOVE * style.unit
-        taken = -math.inf
-        for number, repetition in enumerate(self.shown):
+        taken: list[tuple[float, float]] = []
+        for number, repetition in sorted(enumerate(self.shown), key=lambda one: one[0] != self.current):
             text = repetition_words(number + 1, repetition)
             middle = float(panel.x(0.5 * (repetition.start_s + repetition.end_s)))
             width = metrics.horizontalAdvance(text)
             if not panel.box.left() <= middle <= panel.box.right():
                 continue
-            if middle - width / 2 < taken and number != self.current:
+            left, right = middle - width / 2, middle + width / 2 + 4 * style.unit
+            if any(left < other and start < right for start, other in taken):
                 continue
-            taken = middle + width / 2 + 4 * style.unit
+            taken.append((left, right))
             token = "text" if number == self.current else "warn" if not repetition.counts else "text2"
             painter.setPen(style.color(token))
-            painter.drawText(QPointF(middle - width / 2, baseline), text)
+            painter.drawText(QPointF(left, baseline), text)
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,7 +26,7 @@ def headline(progress: Progress) -> tuple[str, str]:
     if len(compared) < 2 and len(progress.points) > 1:
         out = len(progress.points) - len(compared)
         kept = tr("1 session is left out.") if out == 1 else tr("{count} sessions are left out.").format(count=out)
-        why = tr("Sessions that are left out, or measured otherwise, are not compared: their rings say why.")
+        why = tr("What is left out, or was measured otherwise, is not compared.")
         return tr("Nothing to compare: {left_out}").format(left_out=kept), why
     if first is None or last is None or main is None or first is last:
         return tr("One session does not make a course."), tr("Compare after the next session of the same kind.")
@@ -136,7 +136,7 @@ def doubt_words(point: ProgressPoint, progress: Progress) -> str:
 
 
 def unfair_words(point: ProgressPoint, progress: Progress) -> str:
-    """``23 Oct: camera 12 cm further. Shown as a ring and left out.``"""
+    """``23 Oct: camera 12 cm further. Shown as a ring and left out.``; a ring only where something was measured."""
     first = progress.first
     reasons = []
     for reason in point.reasons:
@@ -150,4 +150,6 @@ def unfair_words(point: ProgressPoint, progress: Progress) -> str:
         }
         reasons.append(words.get(reason) or reason_words((reason,)))
     day = _day_of(point, progress)
-    return tr("{day}: {reasons}. Shown as a ring and left out.").format(day=day, reasons=", ".join(reasons))
+    has_ring = point.figures.rows or point.figures.joint_rows
+    pattern = tr("{day}: {reasons}. Shown as a ring and left out.") if has_ring else tr("{day}: {reasons}. Left out.")
+    return pattern.format(day=day, reasons=", ".join(reasons))

@@ -202,10 +202,12 @@ TABLE_EDGES = (0.0, 0.143, 0.354, 0.467, 0.594, 0.690, 0.715)
 
 def _paint_table(page: Page, report: SessionReport, top: float) -> float:
     figures = report.figures
+    rows = [row for row in table_rows(figures, report.previous, report.other_hand) if row.best]
+    if not rows and figures.passive is not None:
+        return top  # the table of what was passive says all there is
     baseline = top + 26 + page.title(tr("Range of motion"), top + 11, repetition_words(figures))
     head = column_names(figures, report.previous, report.other_hand)
     _paint_row(page, head, baseline, 8.5, ["text2"] * 7, [MEDIUM] * 7)
-    rows = [row for row in table_rows(figures, report.previous, report.other_hand) if row.best]
     for row in rows:
         page.rule(baseline + 4.5)
         baseline += 15.5
@@ -226,7 +228,8 @@ def _paint_active_passive(page: Page, report: SessionReport, top: float) -> floa
     if found is None:
         return top
     width = page.right - page.left
-    y = top + 18 + page.title(tr("Active and passive"), top + 18)
+    said = "" if report.figures.rows or report.joints is not None else repetition_words(report.figures)
+    y = top + 18 + page.title(tr("Active and passive"), top + 18, said)
     if found.said:
         y = page.paragraph(found.said, page.left, y, width, 9.0, MEDIUM)
     y = paint_words(page, found.heads, found.rows, y)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from carpus.core.output.norms import wrist_norm
 from carpus.core.output.range_rows import RangeRow
+from carpus.core.output.repetition_rows import PASSIVE
 from carpus.core.output.report_content import Comparison, SessionFigures, compare
 from carpus.ui import numbers, terms
 from carpus.ui.plot.style import CURVE_TOKENS
@@ -74,8 +75,9 @@ def repetition_words(figures: SessionFigures) -> str:
     if not any(repetition.is_whole for repetition in figures.repetitions):
         ways = [len(item.values) for item in figures.further if item.name == "movement time"]
         if ways:
-            return tr("{count} ways out and back; ranges over the whole recording").format(count=sum(ways))
-        words = _why_none(figures)
+            words = tr("{count} ways out and back; ranges over the whole recording").format(count=sum(ways))
+            return "; ".join([words, *_without_passive(figures)])
+        words = "; ".join([_why_none(figures), *_without_passive(figures)])
     else:
         counted = figures.counted
         words = tr("mean of {count} repetitions").format(count=counted) if counted else tr("no active repetition")
@@ -92,9 +94,14 @@ def repetition_words(figures: SessionFigures) -> str:
     }
     for number, repetition in enumerate(figures.repetitions, 1):
         if not (repetition.counts or repetition.helped):
-            reason = repetition.reason or unmeasured[repetition.unmeasured]
+            said = "" if repetition.reason == PASSIVE else repetition.reason
+            reason = said or unmeasured[repetition.unmeasured]
             parts.append(tr("number {number} left out: {reason}").format(number=number, reason=reason))
     return _with_unseen(parts, figures)
+
+
+def _without_passive(figures: SessionFigures) -> list[str]:
+    return [tr("without what was passive")] if figures.without_passive else []
 
 
 def _why_none(figures: SessionFigures) -> str:

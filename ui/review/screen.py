@@ -44,7 +44,7 @@ from carpus.ui.controls.words_table import WordsTable
 from carpus.ui.figures import FINGERS, figure_of
 from carpus.ui.keys import Keys, bind
 from carpus.ui.marker_words import finger_name
-from carpus.ui.picture.photo import paint_label
+from carpus.ui.picture.photo import label_size, paint_label
 from carpus.ui.picture.view import PictureView
 from carpus.ui.plot.motion import MotionKind, MotionPlot
 from carpus.ui.plot.session import HandPlot, SessionPlot, row_at, value_at
@@ -261,7 +261,7 @@ class ReviewScreen(QWidget):
             self._refresh()
             return
         most = self.height() * (0.36 if tight else 0.42 if self._is_hand else 0.48)
-        needed = self.table.sizeHint().height()
+        needed = 0 if self.table.isHidden() else self.table.sizeHint().height()
         fewest, beside = LEAST_TABLE_PX * self._theme.text_scale, QBoxLayout.Direction.LeftToRight
         # With large text what was left out, and why, has a line of its own where the table can spare one.
         self._said.setDirection(QBoxLayout.Direction.TopToBottom if tight else beside)
@@ -434,6 +434,7 @@ class ReviewScreen(QWidget):
             self.hand_table.show_rows(column_heads(figures, previous, other), finger_rows(figures, previous, other))
             self.limits.setText(limits_words(figures))
             self.picture.update()
+        self.table.setVisible(self._joints is None and bool(self.table.rows))
         self._show_active_passive(figures)
         rows = further_rows(figures, previous)
         day = numbers.day_beside(previous.when, figures.when) if previous is not None else ""
@@ -601,22 +602,24 @@ class ReviewScreen(QWidget):
             self.correct.emit(self._session_id, self._session, self._row)
 
     def _place_button(self) -> None:
-        """Below on the picture; where they have no room beside each other, the two at the right go one row up."""
-        button, right = self.correct_button, self.picture.width() - 12
-        button.adjustSize()
-        button.move(12, self.picture.height() - button.height() - 12)
-        others = (self.film_button, self.angle_button)
-        wide = 0
-        for other in others:
-            other.adjustSize()
-            wide += other.width() + 8
-        top = self.picture.height() - others[0].height() - 12
-        if right - wide < button.geometry().right():
-            top -= button.height() + 8
-        for other in others:
-            right -= other.width()
-            other.move(right, top)
+        """In a row at the foot of the picture, the hand above it."""
+        buttons = (self.correct_button, self.angle_button, self.film_button)
+        room = self.picture.width() - 24
+        words = self.tr("Put markers right…")
+        for face, icon in ((words, ""), ("", "notebook-pen")):  # the sign alone where there is no room
+            self.correct_button.set_face(face, icon=icon)
+            for button in buttons:
+                button.adjustSize()
+            if sum(button.width() + 8 for button in buttons) <= room:
+                break
+        self.correct_button.setAccessibleName(words)
+        top, right = self.picture.height() - buttons[0].height() - 12, self.picture.width() - 12
+        for button in reversed(buttons[1:]):
+            right -= button.width()
+            button.move(right, top)
             right -= 8
+        buttons[0].move(12, top)
+        self.picture.keep_free(16 + round(label_size(self._theme, words).height()), buttons[0].height() + 12)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if watched is self.picture:
@@ -670,19 +673,17 @@ class ReviewScreen(QWidget):
             name = terms.movement_name(SIDES[column][0 if value >= 0 else 1])
         return f"{name} {numbers.with_spread(value, sd)}" if math.isfinite(value) else ""
 
-    def _paint_angle(self, painter: QPainter, picture: PictureView) -> None:
-        """The trained angle on the picture, or why it is not drawn."""
+    def _paint_angle(self, painter: QPainter, picture: PictureView) -> str:
+        """The trained angle on the picture; what is said of it, or why it is not drawn."""
         assert self._session is not None
         assert self.figures is not None
         found = drawn_angle(self._session, self._row, self.figures.exercise)
         if found is not None:
             paint_angle(painter, found, picture.to_screen)
-        said = self._angle_words(self._row) if self._joints is not None else ""
-        if found is None:
-            why = self.tr("Not in the picture’s plane: not drawn")
-            said = f"{said} · {why}" if said else why
-        if said:
-            paint_label(painter, self._theme, said, 12, 12 + 1.4 * painter.fontMetrics().height())
+            return self._angle_words(self._row) if self._joints is not None else ""
+        if self._session.status[self._row] != TrackStatus.TRACKED:
+            return self.tr("Not measured here")
+        return self.tr("Towards the camera: measured, not drawn")
 
     # --- corrections --------------------------------------------------------------------------------------
     def toggle_left_out(self) -> None:
@@ -770,9 +771,8 @@ class ReviewScreen(QWidget):
             self._paint_hand(painter, picture, spots, np.isfinite(measured[:, 0]))
         else:
             paint_palm(painter, picture, spots, np.isfinite(measured[:, 0]))
-            self._paint_labels(painter, picture)
-        if self.angle_button.isChecked():
-            self._paint_angle(painter, picture)
+        said = self._paint_angle(painter, picture) if self.angle_button.isChecked() else ""
+        self._paint_labels(painter, picture, said)
 
     def _paint_hand(self, painter: QPainter, picture: PictureView, spots: FloatArray, seen: np.ndarray) -> None:
         """Skeleton, and the way of the fingertips in the second before."""
@@ -785,7 +785,6 @@ class ReviewScreen(QWidget):
         finger, protocol = max(self._finger, 0), self._session.header.protocol
         paint_trails(painter, picture, protocol, self._modelled_px[recent], all_seen, finger)
         paint_skeleton(painter, picture, protocol, spots, seen, finger)
-        self._paint_labels(painter, picture)
 
     def _under(self, time_s: float) -> list[int]:
         """Numbers of the repetitions that a time is in."""
@@ -800,23 +799,29 @@ class ReviewScreen(QWidget):
         pattern = self.tr("Repetition {number} of {count} · {time}")
         return pattern.format(number=self._current + 1, count=len(self.figures.repetitions), time=clock)
 
-    def _paint_labels(self, painter: QPainter, picture: PictureView) -> None:
-        assert self.figures is not None
+    def _paint_labels(self, painter: QPainter, picture: PictureView, said: str) -> None:
+        """Repetition and time, at the right what is measured, or below it where there is no room; then what is ``said``
+        of the angle that is drawn."""
+        plate = paint_label(painter, self._theme, self._clock_words(), 12, 12)
+        words = self._measured_words()
+        left, top = picture.width() - label_size(self._theme, words).width() - 12, 12.0
+        if left < plate.right() + 2:
+            left, top = 12.0, plate.bottom() + 4
+        if words:
+            plate = paint_label(painter, self._theme, words, left, top)
+        if said:
+            paint_label(painter, self._theme, said, 12, plate.bottom() + 4)
+
+    def _measured_words(self) -> str:
+        """Of the whole hand how many discs are hidden, of the wrist its angle at the cursor."""
+        assert self._session is not None
         assert self._curves is not None
-        paint_label(painter, self._theme, self._clock_words(), 12, 12)
+        assert self.figures is not None
         if self._joints is not None:
-            hidden = (
-                int((~np.isfinite(self._session.markers.measured_px[self._row, :, 0])).sum()) if self._session else 0
-            )
-            if hidden:
-                words = self.tr("{count} markers hidden").format(count=hidden)
-                width = painter.fontMetrics().horizontalAdvance(words) + 12
-                paint_label(painter, self._theme, words, picture.width() - width - 14, 12)
-            return
+            hidden = int((~np.isfinite(self._session.markers.measured_px[self._row, :, 0])).sum())
+            return self.tr("{count} markers hidden").format(count=hidden) if hidden else ""
         column = FLEXION if self.figures.exercise.angle is None else self.figures.exercise.angle
         value, sd = value_at(self._curves, column, self._time_s)
-        if math.isfinite(value):
-            name = terms.movement_name(SIDES[column][0 if value >= 0 else 1])
-            words = f"{name} {numbers.with_spread(value, sd)}"
-            width = painter.fontMetrics().horizontalAdvance(words) + 12
-            paint_label(painter, self._theme, words, picture.width() - width - 14, 12)
+        if not math.isfinite(value):
+            return ""
+        return f"{terms.movement_name(SIDES[column][0 if value >= 0 else 1])} {numbers.with_spread(value, sd)}"
