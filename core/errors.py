@@ -358,7 +358,7 @@ class CameraReturned(CarpusFault):
 
 
 class RecordingDamaged(CarpusFault):
-    """An .oni file whose structure is broken, so that the library could die on it or never end."""
+    """A recording whose structure is broken."""
 
     happened = phrase("The recording is damaged: {subject} ({detail}).")
     do = phrase("Copy the recording again from where it was made.")

@@ -25,7 +25,6 @@ CAMERA_SLOTS = 60
 """Of a camera, which does not: a second in which a busy computer does not let us look. 55 MB, used only then."""
 START_S = 30.0
 """A loaded computer may take long to start a process; this is not the driver's fault."""
-OPEN_FILE_S = 4.5
 OPEN_CAMERA_S = 15.0
 ANSWER_S = 4.5
 """The process reports each second; silent for longer, it is stuck in the driver."""

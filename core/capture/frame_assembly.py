@@ -20,6 +20,9 @@ from carpus.core.types import Frame
 
 AnyImage = NDArray[Any]
 
+WAITING_IN_FILE = 64
+"""How far apart in a recording colour and depth of one moment may lie, in pictures."""
+
 DEPTH_UNIT_M: dict[int, float] = {PixelFormat.DEPTH_1_MM: 1e-3, PixelFormat.DEPTH_100_UM: 1e-4}
 
 

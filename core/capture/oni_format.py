@@ -27,11 +27,6 @@ NEW_DATA_FIELDS = struct.Struct("<QI")
 """timestamp (microseconds), picture number from 1."""
 DATA_BEGIN_FIELDS = struct.Struct("<IQ")
 SEEK_ENTRY = struct.Struct("<QIQ")
-OLD_SEEK_ENTRY_SIZE = 16
-
-MAX_RECORD_SIZE = 1600 * 1200 * 3
-"""What the player's buffer holds; it writes past the end for more."""
-MAX_NAME_SIZE = 79
 
 
 class RecordType(IntEnum):
@@ -74,8 +69,6 @@ CROPPING = "xnCropping"
 PIXEL_FORMAT_1 = "xnPixelFormat"
 PIXEL_FORMAT_2 = "oniPixelFormat"
 FRAME_SIZE = "oniRequiredFrameSize"
-OLD_FRAME_SIZE = "RequiredDataSize"
 MIRROR = "xnMirror"
 FIELD_OF_VIEW = "xnFOV"
 MAX_DEPTH = "xnDeviceMaxDepth"
-REAL_WORLD = "xnRealWorldTranslationData"

@@ -1,114 +1,62 @@
-"""An .oni recording as a source of frames, played by the OpenNI2 library in a process of its own."""
+"""An .oni recording as a source of frames, read without the OpenNI2 library, which dies of some damaged files."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Generator, Iterator
-from contextlib import closing
+from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Literal
+from typing import Any, BinaryIO, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carpus.core.capture.camera_info import CameraInfo, read_camera_info
-from carpus.core.capture.capture_link import OPEN_FILE_S
-from carpus.core.capture.file_player import WAITING_PICTURES, FilePlayer
 from carpus.core.capture.frame_assembly import (
     DEPTH_UNIT_M,
+    WAITING_IN_FILE,
     Assembler,
     Layout,
     camera_of_view,
     fitted_camera,
 )
 from carpus.core.capture.notice import Notice, ignore
-from carpus.core.capture.oni_check import OniContents, OniStream, check_recording
+from carpus.core.capture.oni_contents import OniContents, OniStream, identity_of, read_contents
+from carpus.core.capture.oni_depth_codec import decode_depth
+from carpus.core.capture.oni_format import Codec
 from carpus.core.capture.oni_writer import sidecar_path
-from carpus.core.capture.openni2_plans import FilePlan
-from carpus.core.capture.openni2_process import serve
+from carpus.core.capture.raw_pictures import decode_color
 from carpus.core.capture.source import SourceInfo
-from carpus.core.capture.video_mode import Sensor, VideoMode
+from carpus.core.capture.video_mode import Sensor
 from carpus.core.errors import (
     CameraFileUnreadable,
     DepthNotRegistered,
-    DriverFailed,
     PicturesEnlarged,
     PicturesLost,
+    RecordingDamaged,
     RecordingUnsupported,
     RegistrationAssumed,
 )
 from carpus.core.phrase import phrase
 from carpus.core.types import SIMULATED, Frame
 
-# Finds the damaged JPEG pictures on which the OpenNI2 library dies.
-#
-# It skips over a marker's segment without looking whether the picture goes that far, and then reads whatever memory
-# follows. Other damage it survives. Needed only after it has died: see :class:`core.capture.oni_source.OniSource`.
-START, END, SCAN = 0xD8, 0xD9, 0xDA
-_MARKER = re.compile(rb"\xff+([^\x00\xff])")
-_ALONE = frozenset({0x01, *range(0xD0, 0xD8)})
-"""Markers without a segment; the reader goes on behind them."""
-_SKIPPED = frozenset({0xDC, 0xFE, *range(0xE0, 0xF0)})
-"""Segments that are skipped, by the length they tell."""
-_READ = frozenset({0xC4, 0xCC, 0xDB, 0xDD, SCAN, 0xC0, 0xC1, 0xC2, 0xC9, 0xCA})
-"""Segments that are read byte by byte, which stops at the picture's end."""
-
-
-def kills_library(jpeg: bytes) -> bool:
-    """Whether a segment that is skipped reaches beyond the picture's end.
-
-    >>> kills_library(bytes.fromhex("ffd8 ffe0 0010 4a46"))
-    True
-    >>> kills_library(bytes.fromhex("0000 ffe0 0010 4a46"))
-    False
-    """
-    if jpeg[:2] != bytes((0xFF, START)):
-        return False
-    position = 2
-    while (found := _MARKER.search(jpeg, position)) is not None:
-        marker, position = found[1][0], found.end()
-        if marker in _ALONE:
-            continue
-        if marker not in _SKIPPED and marker not in _READ:
-            return False
-        length = int.from_bytes(jpeg[position : position + 2], "big")
-        if marker in _SKIPPED and position + max(length, 2) > len(jpeg):
-            return len(jpeg) - position >= 2
-        position += max(length, 2)
-    return False
-
-
-def deadly_pictures(path: Path, stream: OniStream) -> tuple[int, ...]:
-    """Positions in the file of the pictures on which the library dies."""
-    with path.open("rb") as file:
-        deadly = []
-        for position, size in zip(stream.position.tolist(), stream.size_bytes.tolist(), strict=True):
-            file.seek(position)
-            if kills_library(file.read(size)):
-                deadly.append(position)
-    return tuple(deadly)
-
 
 class OniSource:
     """Frames of an .oni file, all of them, in order, as fast as they are read.
 
-    The file is checked at once; the library starts with the first call of :meth:`frames`, which may be repeated,
-    one walk at a time. ``registered`` answers for a file without a sidecar; without an answer depth is taken to lie
-    on colour and ``notice`` hears :class:`RegistrationAssumed`. Damaged pictures are left out: ``notice`` hears
-    :class:`PicturesLost` at the end.
+    The file's structure is read at once; :meth:`frames` may be repeated, one walk at a time. ``registered`` answers
+    for a file without a sidecar; without an answer depth is taken to lie on colour and ``notice`` hears
+    :class:`RegistrationAssumed`. Damaged pictures are left out: ``notice`` hears :class:`PicturesLost` at the end.
     """
 
     def __init__(self, path: Path, *, registered: bool | None = None, notice: Notice = ignore) -> None:
-        self._contents = check_recording(path)
+        self._contents = read_contents(path)
         self._path = path
         self._notice = notice
+        self._walk: object = None
+        self._is_closed = False
         self._streams = {Sensor.COLOR: self._contents.color}
         if self._contents.depth is not None:
             self._streams[Sensor.DEPTH] = self._contents.depth
-        self._modes = {
-            sensor: VideoMode(stream.pixel_format, stream.width_px, stream.height_px, stream.fps)
-            for sensor, stream in self._streams.items()
-        }
-        self._player = FilePlayer(serve, path, max(stream.frame_bytes for stream in self._streams.values()))
         sidecar = sidecar_path(path)
         told = read_camera_info(sidecar) if sidecar.exists() else None
         self._layout = _layout(self._contents, told)
@@ -123,42 +71,57 @@ class OniSource:
 
     def frames(self) -> Iterator[Frame]:
         """All frames from the first on; a walk under way ends when another begins."""
-        deadly: tuple[int, ...] = ()
-        count = 0
-        while True:
-            try:
-                with closing(self._walk(deadly)) as walk:
-                    for frame in walk:
-                        if frame.index == count:
-                            count += 1
-                            yield frame
-                return
-            except DriverFailed:
-                # it dies on certain damaged pictures: once more without these, on to where it was
-                deadly = () if deadly else deadly_pictures(self._path, self._contents.color)
-                if not deadly:
-                    raise
-
-    def _walk(self, deadly: tuple[int, ...]) -> Generator[Frame]:
-        contents, modes = self._contents, self._modes
-        last_number = {sensor: int(stream.number[-1]) for sensor, stream in self._streams.items()}
-        plan = FilePlan(str(self._path.resolve()), contents.identity, last_number, deadly)
-        opened = self._player.open(plan, OPEN_FILE_S)
-        if opened is None:
-            return
-        if dict(opened.modes) != modes:
-            self._player.stop()
-            raise DriverFailed(self._path, "the library sees other pictures than the file holds")
-        assembler = Assembler(self._layout, self._period_us, WAITING_PICTURES)
-        if (yield from self._player.frames(assembler, modes)):
-            self._tell_lost()
+        walk = self._walk = object()
+        assembler = Assembler(self._layout, self._period_us, WAITING_IN_FILE)
+        takes = {Sensor.COLOR: assembler.color, Sensor.DEPTH: assembler.depth}
+        arrived: Counter[Sensor] = Counter()
+        try:
+            with self._path.open("rb") as file:
+                if identity_of(self._path) != self._contents.identity:
+                    raise RecordingDamaged(self._path, phrase("the file changes while it is read"))
+                for sensor, place in self._in_order():
+                    if self._is_closed or self._walk is not walk:
+                        return
+                    stream = self._streams[sensor]
+                    picture = self._picture(file, stream, place)
+                    if picture is not None:
+                        arrived[sensor] += 1
+                        yield from takes[sensor](int(stream.timestamp_us[place]), int(stream.number[place]), picture)
+        except OSError as cause:
+            raise RecordingDamaged(self._path, cause.strerror or phrase("cannot be opened")) from cause
+        yield from assembler.finish()
+        self._tell_lost(arrived)
 
     def close(self) -> None:
         """End playback; may be called twice, and while another thread waits for a frame."""
-        self._player.close()
+        self._is_closed = True
 
-    def _tell_lost(self) -> None:
-        arrived, names = self._player.arrived, {Sensor.COLOR: "colour", Sensor.DEPTH: "depth"}
+    def _in_order(self) -> list[tuple[Sensor, int]]:
+        """Each picture by its stream and place there, as they follow each other in the file."""
+        places = [
+            (position, sensor, place)
+            for sensor, stream in self._streams.items()
+            for place, position in enumerate(stream.position.tolist())
+        ]
+        return [(sensor, place) for _, sensor, place in sorted(places)]
+
+    def _picture(self, file: BinaryIO, stream: OniStream, place: int) -> NDArray[Any] | None:
+        """One picture, (H, W, 3) uint8 or (H, W) uint16; None where it is damaged."""
+        size = int(stream.size_bytes[place])
+        file.seek(int(stream.position[place]))
+        data = file.read(size)
+        if len(data) < size:
+            raise RecordingDamaged(self._path, phrase("the file changes while it is read"))
+        shape = (stream.height_px, stream.width_px)
+        if stream is self._contents.depth:
+            return decode_depth(data, stream.codec.encode(), shape)
+        if stream.codec.encode() == Codec.JPEG:
+            picture = decode_color(data)
+            return picture if picture is not None and picture.shape == (*shape, 3) else None
+        return np.frombuffer(data, np.uint8).reshape((*shape, 3)) if size == 3 * shape[0] * shape[1] else None
+
+    def _tell_lost(self, arrived: Counter[Sensor]) -> None:
+        names = {Sensor.COLOR: "colour", Sensor.DEPTH: "depth"}
         counts = [
             f"{len(stream) - arrived[sensor]} of {len(stream)} {names[sensor]}"
             for sensor, stream in self._streams.items()

@@ -43,15 +43,6 @@ class Status(IntEnum):
     TIME_OUT = 102
 
 
-class DeviceState(IntEnum):
-    """States that a device reports by callback; END_OF_FILE only comes from recordings."""
-
-    OK = 0
-    ERROR = 1
-    NOT_READY = 2
-    END_OF_FILE = 3
-
-
 class DeviceProperty(IntEnum):
     """Properties of a device."""
 
@@ -189,7 +180,6 @@ class Picture:
     address: int
 
 
-StateHandler = Callable[[str, int], None]
 GoneHandler = Callable[[str], None]
 
 
@@ -271,20 +261,17 @@ class Context:
         finally:
             self._c.oniReleaseDeviceList(first)
 
-    def watch(self, on_state: StateHandler, on_gone: GoneHandler) -> None:
-        """Hear of state changes and unplugged devices, by uri.
+    def watch(self, on_gone: GoneHandler) -> None:
+        """Hear of unplugged devices, by uri.
 
-        The handlers run on threads of the library: they may only note the fact, never call back.
+        The handler runs on a thread of the library: it may only note the fact, never call back.
         """
-
-        def state(info: Any, value: int, _cookie: int | None) -> None:
-            on_state(info[0].uri.decode("utf-8", "replace"), value)
 
         def gone(info: Any, _cookie: int | None) -> None:
             on_gone(info[0].uri.decode("utf-8", "replace"))
 
         # kept as an attribute: the library calls into it as long as it lives
-        self._callbacks = _Callbacks(_DeviceCallback(_quiet), _DeviceCallback(gone), _StateCallback(state))
+        self._callbacks = _Callbacks(_DeviceCallback(_quiet), _DeviceCallback(gone), _StateCallback(_quiet))
         status = self._c.oniRegisterDeviceCallbacks(byref(self._callbacks), None, byref(self._callback_handle))
         self.check("oniRegisterDeviceCallbacks", status)
 
@@ -473,8 +460,8 @@ class Stream:
         return bool(status == Status.OK)
 
 
-def _quiet(_info: Any, _cookie: int | None) -> None:
-    """A device came: the next enumeration sees it."""
+def _quiet(*_: object) -> None:
+    """A device came, which the next enumeration sees, or told its state."""
 
 
 def _device_info(found: _DeviceInfo) -> DeviceInfo:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 
 from carpus.core.camera import Camera
+from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.notice import Notice, ignore
-from carpus.core.capture.openni2_plans import CameraPlan
 from carpus.core.capture.openni2_process import serve
 from carpus.core.capture.process_camera import SIZE_PX, ProcessCamera
 from carpus.core.depth_sensor import PRIMESENSE, DepthSensor
@@ -30,10 +29,5 @@ class OpenNI2Camera(ProcessCamera):
         models: Mapping[tuple[str, str], str],
         sensor: DepthSensor = PRIMESENSE,
     ) -> None:
-        plan = CameraPlan(uri, SIZE_PX, models=models)
+        plan = CameraPlan(uri=uri or "", size_px=SIZE_PX, models=models)
         super().__init__(serve, plan, uri or "camera", sensor, camera=camera, patience_s=patience_s, notice=notice)
-
-    def plan_for(self, serial: str) -> object:
-        """The camera with this serial number."""
-        assert isinstance(self._plan, CameraPlan)
-        return replace(self._plan, serial=serial)

@@ -27,7 +27,7 @@ def driver_finding(asks_version: bool = True, _wanted: bool = True) -> Finding:
             phrase("Driver"),
             "bad",
             fault.detail or "not found",
-            phrase("Needed for live cameras and .oni files. {remedy}", remedy=remedy),
+            phrase("Needed for live cameras. {remedy}", remedy=remedy),
         )
     if not asks_version:
         return Finding(phrase("Driver"), "good", phrase("OpenNI2"))

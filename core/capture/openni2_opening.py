@@ -1,16 +1,13 @@
-"""Opening a recording or a camera inside the capture process, and why it could not be opened."""
+"""Opening a camera inside the capture process, and why it could not be opened."""
 
 from __future__ import annotations
 
-import os
-import tempfile
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 
+from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.capture_messages import Opened
 from carpus.core.capture.capture_process import GaveUp
 from carpus.core.capture.openni2 import CallFailed, Context, Device, DeviceProperty, Stream, StreamProperty
-from carpus.core.capture.openni2_plans import CameraPlan, FilePlan
 from carpus.core.capture.unseen_camera import why_unlisted
 from carpus.core.capture.usb_devices import UsbCamera, usb_cameras
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
@@ -20,88 +17,18 @@ from carpus.core.errors import (
     CameraPermission,
     CameraUnsuited,
     DriverFailed,
-    RecordingDamaged,
 )
-
-LOCKSTEP = -1.0
-"""Playback speed at which the library reads on only when a picture is asked for."""
-
-COPY_BLOCK = 1 << 20
-
-
-def open_unchanged(plan: FilePlan) -> int:
-    """The file that was checked, by descriptor."""
-    try:
-        file = os.open(plan.path, os.O_RDONLY | getattr(os, "O_BINARY", 0))
-    except OSError as cause:
-        raise GaveUp(RecordingDamaged, cause.strerror or "cannot be opened") from cause
-    found = os.fstat(file)
-    if (found.st_size, found.st_mtime_ns) != tuple(plan.identity):
-        raise GaveUp(RecordingDamaged, "the file changes while it is read")
-    return file
-
-
-def without_deadly(file: int, positions: Sequence[int], stay_alive: Callable[[], None]) -> int:
-    """A copy of ``file`` that has no name and goes with this process, each of the pictures no picture any more."""
-    try:
-        copy = tempfile.TemporaryFile()  # noqa: SIM115 -- lives as long as the process
-        with os.fdopen(os.dup(file), "rb") as original:
-            original.seek(0)
-            while block := original.read(COPY_BLOCK):
-                copy.write(block)
-                stay_alive()
-        for position in positions:
-            copy.seek(position)
-            copy.write(bytes(2))
-        copy.flush()
-    except OSError as cause:
-        raise GaveUp(
-            RecordingDamaged, f"{len(positions)} pictures on which the driver dies, {cause.strerror}"
-        ) from cause
-    return os.dup(copy.fileno())
-
-
-def survivable_name(path: str | None, file: int) -> str:
-    """A name for the open file that the library survives: it dies on other letters than ASCII and on long names.
-
-    ``path`` is where the file is found where descriptors have no names; None when it has none.
-    """
-    by_descriptor = f"/proc/self/fd/{file}"
-    if os.path.exists(by_descriptor):  # noqa: PTH110 -- a descriptor, not a path of ours
-        return by_descriptor
-    if path is None:
-        raise GaveUp(RecordingDamaged, "pictures on which the driver dies")
-    if path.isascii() and len(path) < 256:
-        return path
-    link = Path(tempfile.mkdtemp(prefix="carpus-")) / "recording.oni"
-    link.symlink_to(path)
-    return str(link)
-
-
-def start_recording(device: Device, plan: FilePlan) -> Opened:
-    """Set up lockstep playback and start the wanted streams, and no others."""
-    # both fall back to their defaults at each opening, so they are set before any stream starts
-    if not device.set_int(DeviceProperty.PLAYBACK_REPEAT, 0) or not device.set_float(
-        DeviceProperty.PLAYBACK_SPEED, LOCKSTEP
-    ):
-        raise GaveUp(DriverFailed, "the library does not play recordings in lockstep")
-    streams = [device.create_stream(sensor) for sensor in plan.last_number]
-    modes = {stream.sensor: stream.mode() for stream in streams}
-    for stream in streams:
-        stream.start()
-    return Opened(modes, {}, None, {"library": f"OpenNI2 {device.context.version}"})
 
 
 def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
     """Open a live camera, start colour and depth, lay depth on colour."""
-    uri = plan.uri
-    if uri is None:
+    if plan.uri:
+        found = [plan.uri]
+    else:
         known = {(int(vendor, 16), int(product, 16)) for vendor, product in plan.models}
         found = [each.uri for each in library.devices() if (each.vendor_id, each.product_id) in known]
         if not found:
             raise why_unlisted(usb_cameras(plan.models))
-    else:
-        found = [uri]
     device = _wanted(library, found, plan)
     streams: dict[Sensor, Stream] = {}
     for sensor, wanted in ((Sensor.COLOR, PixelFormat.RGB888), (Sensor.DEPTH, PixelFormat.DEPTH_1_MM)):

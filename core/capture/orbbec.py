@@ -66,11 +66,6 @@ class OrbbecCamera(ProcessCamera):
         sensor = AZURE_KINECT
         super().__init__(serve, plan, uri or "Orbbec", sensor, camera=camera, patience_s=patience_s, notice=notice)
 
-    def plan_for(self, serial: str) -> object:
-        """The camera with this serial number."""
-        assert isinstance(self._plan, CameraPlan)
-        return replace(self._plan, serial=serial)
-
     def depth_sensor(self, opened: Opened) -> DepthSensor:
         """By the camera's name, and how its depth pictures see."""
         return sensor_named(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)

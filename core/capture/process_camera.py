@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from carpus.core.camera import Camera
+from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.capture_link import ANSWER_S, CAMERA_SLOTS, OPEN_CAMERA_S, CaptureProcess
 from carpus.core.capture.capture_messages import Arrived, Ended, ExposureSet, LockExposure, Opened
 from carpus.core.capture.capture_process import Serve
@@ -61,7 +62,7 @@ class ProcessCamera:
     def __init__(
         self,
         serve: Serve,
-        plan: object,
+        plan: CameraPlan,
         subject: str,
         sensor: DepthSensor,
         *,
@@ -112,10 +113,6 @@ class ProcessCamera:
     def depth_sensor(self, opened: Opened) -> DepthSensor:
         """What the depth of the camera that was opened is worth."""
         return self._sensor
-
-    def plan_for(self, serial: str) -> object:
-        """The plan to open the camera with this serial number and no other; empty: it does not tell its number."""
-        return self._plan
 
     def frames(self) -> Iterator[Frame]:
         """Frames from now on, until :meth:`close`; what waited since the opening is thrown away."""
@@ -190,7 +187,7 @@ class ProcessCamera:
         """Seconds the camera was away; None when closed meanwhile. Raises ``lost`` when patience ends."""
         start_s = time.monotonic()
         other = ""
-        self._plan = self.plan_for(_serial(self._opened))
+        self._plan = replace(self._plan, serial=_serial(self._opened))  # the same one, and no other
         while not self._closing.is_set():
             try:
                 with self._lock:

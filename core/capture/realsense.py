@@ -54,11 +54,6 @@ class RealSenseCamera(ProcessCamera):
         plan = CameraPlan(uri or "", SIZE_PX, models=MODELS, context=context)
         super().__init__(serve, plan, uri or "RealSense", D435, camera=camera, patience_s=patience_s, notice=notice)
 
-    def plan_for(self, serial: str) -> object:
-        """The camera with this serial number."""
-        assert isinstance(self._plan, CameraPlan)
-        return replace(self._plan, serial=serial)
-
     def depth_sensor(self, opened: Opened) -> DepthSensor:
         """By the camera's name, and how its depth pictures see."""
         return sensor_named(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)

@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from carpus.core.capture.camera_plan import CameraPlan
@@ -28,7 +29,6 @@ from carpus.core.capture.realsense_opening import (
     put_near,
     stored_streams,
 )
-from carpus.core.capture.realsense_plans import FilePlan
 from carpus.core.capture.unseen_camera import why_not_opened
 from carpus.core.capture.usb_devices import usb_cameras
 from carpus.core.capture.video_mode import Sensor
@@ -43,17 +43,17 @@ EXPOSURE_UNIT_S = 1e-4
 """Of the colour sensor's exposure."""
 
 
-def serve(outlet: Outlet, plan: CameraPlan | FilePlan) -> None:
+def serve(outlet: Outlet, plan: CameraPlan | Path) -> None:
     """Serve a plan in the capture process."""
     rs = library()
     try:
-        if isinstance(plan, FilePlan):
+        if isinstance(plan, Path):
             _play(rs, outlet, plan)
         else:
             _watch(rs, outlet, plan)
     except RuntimeError as failure:  # all that the library raises
         reason = " ".join(str(failure).split())
-        if isinstance(plan, FilePlan):
+        if isinstance(plan, Path):
             raise GaveUp(DriverFailed, reason) from failure
         raise why_not_opened(reason, usb_cameras(plan.models)) from failure
 
@@ -103,10 +103,10 @@ def _watch(rs: Any, outlet: Outlet, plan: CameraPlan) -> None:
     _stop(streams)
 
 
-def _play(rs: Any, outlet: Outlet, plan: FilePlan) -> None:
+def _play(rs: Any, outlet: Outlet, path: Path) -> None:
     """A recording: each picture, the next only when there is room for it."""
     try:
-        playback = rs.context().load_device(plan.path)
+        playback = rs.context().load_device(str(path))
         playback.set_real_time(False)
         streams = stored_streams(rs, playback)
     except RuntimeError as failure:

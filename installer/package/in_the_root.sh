@@ -111,7 +111,7 @@ sleep 12; shot opened-by-file
 close_window
 say "a session file opens the window (opened-by-file.png)"
 
-# --- an .oni file, by the real OpenNI2 -------------------------------------------------------------------------------------
+# --- an .oni file ----------------------------------------------------------------------------------------------------------
 as_clinician carpus simulate --output /home/clinician/oni --seconds 1 --seed 3 --format oni >/dev/null
 as_clinician carpus track /home/clinician/oni/recording.oni --calibration /home/clinician/oni/calibration.json --output /home/clinician/oni.h5
 as_clinician carpus info /home/clinician/oni.h5 | tee "$out/oni.txt"

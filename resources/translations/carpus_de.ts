@@ -5016,8 +5016,8 @@
         <translation>Nennen Sie den Ordner mit den Sitzungen.</translation>
     </message>
     <message>
-        <source>Needed for live cameras and .oni files. {remedy}</source>
-        <translation>Nötig für Kameras und .oni-Dateien. {remedy}</translation>
+        <source>Needed for live cameras. {remedy}</source>
+        <translation>Nötig für Kameras. {remedy}</translation>
     </message>
     <message>
         <source>No blue marker at the {markers}.</source>
@@ -6396,10 +6396,6 @@
         <translation>Pfade, die aus dem Ordner hinausführen</translation>
     </message>
     <message>
-        <source>pixel format {pixel_format}</source>
-        <translation>Pixelformat {pixel_format}</translation>
-    </message>
-    <message>
         <source>points by {format}</source>
         <translation>Punkte aus {format}</translation>
     </message>
@@ -6454,6 +6450,10 @@
     <message>
         <source>the curves run against each other, or the shift is beyond {most} s: with the same sign they match best at {later} s ({match})</source>
         <translation>die Kurven laufen einander entgegen, oder die Verschiebung liegt jenseits von {most} s: mit gleichem Vorzeichen passen sie am besten bei {later} s ({match})</translation>
+    </message>
+    <message>
+        <source>the file changes while it is read</source>
+        <translation>die Datei ändert sich, während sie gelesen wird</translation>
     </message>
     <message>
         <source>the first {stored} rows stay in {lost_folder}</source>

@@ -5028,8 +5028,8 @@
         <translation>Indicare la cartella che contiene le sedute.</translation>
     </message>
     <message>
-        <source>Needed for live cameras and .oni files. {remedy}</source>
-        <translation>Serve per le telecamere dal vivo e i file .oni. {remedy}</translation>
+        <source>Needed for live cameras. {remedy}</source>
+        <translation>Serve per le telecamere dal vivo. {remedy}</translation>
     </message>
     <message>
         <source>No blue marker at the {markers}.</source>
@@ -6392,10 +6392,6 @@
         <translation>percorsi che portano fuori dalla cartella</translation>
     </message>
     <message>
-        <source>pixel format {pixel_format}</source>
-        <translation>formato dei pixel {pixel_format}</translation>
-    </message>
-    <message>
         <source>points by {format}</source>
         <translation>punti da {format}</translation>
     </message>
@@ -6450,6 +6446,10 @@
     <message>
         <source>the curves run against each other, or the shift is beyond {most} s: with the same sign they match best at {later} s ({match})</source>
         <translation>le curve vanno una contro l’altra, o lo sfasamento è oltre {most} s: con lo stesso segno corrispondono meglio a {later} s ({match})</translation>
+    </message>
+    <message>
+        <source>the file changes while it is read</source>
+        <translation>il file cambia mentre viene letto</translation>
     </message>
     <message>
         <source>the first {stored} rows stay in {lost_folder}</source>

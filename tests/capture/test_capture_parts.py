@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carpus.core.camera import Camera
-from carpus.core.capture import file_player, openni2_opening
+from carpus.core.capture import openni2_opening
 from carpus.core.capture.capture_link import CaptureProcess
 from carpus.core.capture.capture_messages import Alive, Arrived, Opened
 from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_view, fitted_camera
@@ -26,25 +26,6 @@ from carpus.core.capture.xtion import MODELS
 from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
 
 PERIOD_US = 33_333
-
-
-def test_a_player_that_is_closed_while_its_process_is_made_leaves_none(monkeypatch: pytest.MonkeyPatch) -> None:
-    closed: list[bool] = []
-
-    class Process:
-        def __init__(self, *_: object) -> None:
-            player.close()
-
-        def wait_open(self, closing: threading.Event, _open_s: float) -> None:
-            assert closing.is_set()
-
-        def close(self, *, gently: bool) -> None:
-            closed.append(gently)
-
-    monkeypatch.setattr(file_player, "CaptureProcess", Process)
-    player = file_player.FilePlayer(lambda _outlet, _plan: None, Path("a.oni"), 1)
-    assert player.open(None, 1.0) is None
-    assert closed == [False]
 
 
 def paired(events: list[tuple[str, int]], limit: int = 4, start_limit: int = 0) -> list[tuple[int, int | None]]:

@@ -1,4 +1,4 @@
-"""Mutated recordings: whatever a file holds, Carpus survives it, says so, and does not wait long for it.
+"""Mutated recordings: whatever a file holds, Carpus survives it, and says so.
 
 ``CARPUS_FUZZ_FILES=20000`` runs more of them; the numbers name the files, so any one can be made again.
 """
@@ -16,14 +16,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.capture.capture_link import START_S
 from carpus.core.capture.oni_source import OniSource
-from carpus.core.errors import CarpusFault, DriverFailed
+from carpus.core.errors import CarpusFault
 from tests.capture.oni_samples import HEIGHT, WIDTH, records, write_sample
 
 COUNT = int(os.environ.get("CARPUS_FUZZ_FILES", "600"))
-LIMIT_S = 5.0
-"""For the library to answer, or to be given up. Starting the process comes on top: long, on a busy computer."""
 NUMBERS = (0, 1, 2, 27, 29, 255, 65_535, 65_536, 5_760_000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF)
 
 Mutation = Callable[[bytearray, np.random.Generator], None]
@@ -162,12 +159,7 @@ def test_no_mutated_file_takes_carpus_along(tmp_path: Path) -> None:
             numbers = range(half, COUNT, len(sound))
             outcomes += pool.map(lambda number, data=data: play(number, data, tmp_path), numbers)
     kinds = Counter(outcome.kind for outcome in outcomes)
-    slowest = max(outcomes, key=lambda outcome: outcome.took_s)
-    print(dict(kinds), slowest)
+    print(dict(kinds), max(outcomes, key=lambda outcome: outcome.took_s))
     assert sum(kinds.values()) == COUNT
-    assert slowest.took_s < START_S + 2 * LIMIT_S, slowest
     assert kinds["played"] > COUNT // 10
     assert kinds["RecordingDamaged"] > COUNT // 4
-    # the check is there so that the library never sees what it would die of
-    died = [outcome for outcome in outcomes if outcome.kind == DriverFailed.__name__]
-    assert not died, died

@@ -1,32 +1,23 @@
-"""Recordings played by the real library through the capture process."""
+"""Recordings as a source of frames: every picture, in order, at its time; damaged ones left out and counted."""
 
 from __future__ import annotations
 
 import os
-import signal
-import subprocess
-import sys
-import threading
 import time
-from multiprocessing.shared_memory import SharedMemory
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
-from carpus.core.capture import capture_link
 from carpus.core.capture.camera_info import write_camera_info
-from carpus.core.capture.oni_check import check_recording
 from carpus.core.capture.oni_format import RecordType
-from carpus.core.capture.oni_source import OniSource, deadly_pictures
+from carpus.core.capture.oni_source import OniSource
 from carpus.core.capture.oni_writer import sidecar_path
 from carpus.core.capture.paced import PacedSource
 from carpus.core.errors import (
     CameraFileUnreadable,
     CarpusFault,
     DepthNotRegistered,
-    DriverFailed,
     PicturesEnlarged,
     PicturesLost,
     RecordingDamaged,
@@ -50,8 +41,6 @@ from tests.capture.oni_samples import (
     write_sample,
 )
 
-ROOT = Path(__file__).parents[2]
-
 
 def play(path: Path) -> tuple[list[Frame], list[CarpusFault]]:
     told: list[CarpusFault] = []
@@ -70,12 +59,6 @@ def assert_whole(frames: list[Frame], count: int) -> None:
         assert frame.dropped_before == 0
         assert not frame.color_rgb.flags.writeable
         assert frame.color_rgb.flags.c_contiguous
-
-
-def processes_of(source: OniSource) -> int:
-    assert source._player._process is not None
-    assert source._player._process.pid is not None
-    return source._player._process.pid
 
 
 def test_every_frame_in_order_again_and_again(tmp_path: Path) -> None:
@@ -237,21 +220,19 @@ def test_a_damaged_depth_picture_leaves_its_frame_without_depth(tmp_path: Path) 
     assert [fault.detail for fault in told] == ["1 of 6 depth"]
 
 
-def test_a_picture_on_which_the_library_dies_is_left_out(tmp_path: Path) -> None:
+def test_a_picture_with_a_segment_beyond_its_end_harms_no_other(tmp_path: Path) -> None:
+    """The OpenNI2 library skips 65535 bytes from here, far beyond the picture, and dies."""
     data = write_sample(tmp_path / "b.oni", 8, color="jpeg").read_bytes()
     payload = find(data, RecordType.NEW_DATA, 4, 2).payload
     middle = (payload.start + payload.stop) // 2
-    # the library skips 65535 bytes from here, far beyond the picture
-    deadly = patched(data, middle, b"\xff\xe0\xff\xff")
     path = tmp_path / "a.oni"
-    path.write_bytes(deadly)
-    assert deadly_pictures(path, check_recording(path).color) == (payload.start,)
-    frames, told = play(path)
-    assert [frame.index for frame in frames] == list(range(len(frames)))
+    path.write_bytes(patched(data, middle, b"\xff\xe0\xff\xff"))
+    frames, _ = play(path)
     seen = [int(frame.depth_raw[0, 0]) - 5000 for frame in frames if frame.depth_raw is not None]
-    assert seen == [1, 2, 3, 4, 6, 7, 8]
-    assert [(type(fault), fault.detail) for fault in told] == [(PicturesLost, "1 of 8 colour")]
-    assert path.read_bytes() == deadly
+    assert [number for number in seen if number != 5] == [1, 2, 3, 4, 6, 7, 8]
+    for number, frame in zip(seen, frames, strict=True):
+        if number != 5:
+            assert np.abs(frame.color_rgb.astype(int) - color_picture(number).astype(int)).mean() < 2.5
 
 
 def test_gaps_in_time_are_counted(tmp_path: Path) -> None:
@@ -292,36 +273,15 @@ def test_a_file_cut_while_it_plays_ends_with_a_fault(tmp_path: Path) -> None:
     os.truncate(path, 100_000)
     with pytest.raises(RecordingDamaged) as caught:
         list(frames)
-    assert caught.value.detail.startswith("no picture for")
+    assert caught.value.detail == "the file changes while it is read"
 
 
-@pytest.mark.parametrize(("blow", "detail"), [(signal.SIGSEGV, "SIGSEGV"), (signal.SIGSTOP, "no answer")])
-def test_a_library_that_dies_or_hangs_is_a_fault(
-    tmp_path: Path, blow: signal.Signals, detail: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    source = OniSource(write_sample(tmp_path / "a.oni", 60))
-    monkeypatch.setattr("carpus.core.capture.file_player.ANSWER_S", 0.5)
-    frames = source.frames()
-    next(frames)
-    os.kill(processes_of(source), blow)
-    with pytest.raises(DriverFailed) as caught:
-        list(frames)
-    assert detail in caught.value.detail
-    assert len(list(source.frames())) == 60
-
-
-def test_closing_ends_a_walk_of_another_thread(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_closing_ends_a_walk(tmp_path: Path) -> None:
     source = OniSource(write_sample(tmp_path / "a.oni", 60))
     frames = source.frames()
     next(frames)
-    os.kill(processes_of(source), signal.SIGSTOP)
-    rest: list[Frame] = []
-    reader = threading.Thread(target=lambda: rest.extend(frames))
-    reader.start()
     source.close()
-    reader.join(3.0)
-    assert not reader.is_alive()
-    assert len(rest) < 60
+    assert len(list(frames)) < 60
 
 
 def test_a_new_walk_ends_the_one_before(tmp_path: Path) -> None:
@@ -332,88 +292,3 @@ def test_a_new_walk_ends_the_one_before(tmp_path: Path) -> None:
     assert_whole(list(source.frames()), 30)
     assert len(list(first)) < 30
     assert told == []
-
-
-@pytest.fixture
-def memories(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """Names of the shared memories that a test's own capture processes were given."""
-    names: list[str] = []
-
-    def noted(*arguments: Any, **options: Any) -> SharedMemory:
-        memory = SharedMemory(*arguments, **options)
-        names.append(memory.name)
-        return memory
-
-    monkeypatch.setattr(capture_link, "SharedMemory", noted)
-    return names
-
-
-def exists(name: str) -> bool:
-    try:
-        SharedMemory(name).close()
-    except FileNotFoundError:
-        return False
-    return True
-
-
-def test_nothing_is_left_behind(tmp_path: Path, memories: list[str]) -> None:
-    source = OniSource(write_sample(tmp_path / "a.oni", 30))
-    next(source.frames())
-    frames = source.frames()
-    next(frames)
-    pid = processes_of(source)
-    assert exists(memories[-1])
-    frames.close()  # type: ignore[attr-defined]
-    assert len(memories) == 2
-    assert not any(exists(name) for name in memories)
-    with pytest.raises(ProcessLookupError):
-        os.kill(pid, 0)
-
-
-def test_the_capture_process_does_not_outlive_its_owner(tmp_path: Path) -> None:
-    path = write_sample(tmp_path / "a.oni", 60)
-    program = """
-import sys, time
-from multiprocessing.shared_memory import SharedMemory
-from pathlib import Path
-from typing import Any
-from carpus.core.capture.oni_source import OniSource
-if __name__ == "__main__":
-    source = OniSource(Path(sys.argv[1]))
-    frames = source.frames()
-    next(frames)
-    print(source._player._process.pid, flush=True)
-    time.sleep(60)
-"""
-    script = tmp_path / "owner.py"
-    script.write_text(program)
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    owner = subprocess.Popen(
-        [sys.executable, str(script), str(path)], stdout=subprocess.PIPE, text=True, cwd=ROOT, env=environment
-    )
-    assert owner.stdout is not None
-    pid = int(owner.stdout.readline())
-    os.kill(pid, 0)
-    owner.kill()
-    owner.communicate()
-    deadline = time.monotonic() + 60.0
-    while time.monotonic() < deadline:
-        state = Path(f"/proc/{pid}/stat")
-        if not state.exists() or state.read_text().rsplit(")", 1)[1].split()[0] == "Z":
-            return
-        time.sleep(0.02)
-    pytest.fail("the capture process lives on")
-
-
-def test_a_process_that_cannot_start_leaves_no_memory(
-    tmp_path: Path, memories: list[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    source = OniSource(write_sample(tmp_path / "a.oni", 2))
-
-    def refuse(*_: object) -> None:
-        raise OSError("no more processes")
-
-    monkeypatch.setattr("multiprocessing.context.SpawnProcess.start", refuse)
-    with pytest.raises(OSError, match="no more processes"):
-        list(source.frames())
-    assert [exists(name) for name in memories] == [False]

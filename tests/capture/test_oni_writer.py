@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from carpus.core.capture.camera_info import read_camera_info
-from carpus.core.capture.oni_check import check_recording
+from carpus.core.capture.oni_contents import read_contents
 from carpus.core.capture.oni_source import OniSource
 from carpus.core.capture.oni_writer import OniWriter, sidecar_path, write_oni
 from carpus.core.capture.source import is_simulated
@@ -107,7 +107,7 @@ def test_an_unfinished_file_is_seen_as_such(tmp_path: Path) -> None:
     writer.add_color(color_picture(1), 0.1)
     writer.abandon()
     with pytest.raises(RecordingDamaged) as caught:
-        check_recording(path)
+        read_contents(path)
     assert "not finished" in caught.value.detail
 
 

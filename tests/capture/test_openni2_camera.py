@@ -13,8 +13,8 @@ from itertools import islice, pairwise
 import pytest
 
 from carpus.core.camera import Camera
+from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.openni2_camera import OpenNI2Camera
-from carpus.core.capture.openni2_plans import CameraPlan
 from carpus.core.capture.xtion import MODELS
 from carpus.core.errors import (
     CameraFileUnreadable,
@@ -164,7 +164,7 @@ def test_a_camera_that_stays_away_is_a_fault(
     camera._patience_s = 0.1
     frames = camera.frames()
     next(frames)
-    camera._plan = CameraPlan("1d27/0601@9/9")
+    camera._plan = CameraPlan(uri="1d27/0601@9/9")
     blow(camera, signal.SIGKILL)
     with pytest.raises(CameraLost):
         list(frames)
@@ -185,7 +185,7 @@ def test_a_camera_that_only_crashes_is_given_up(camera: OpenNI2Camera, monkeypat
 def test_closing_ends_the_wait_for_a_lost_camera(camera: OpenNI2Camera) -> None:
     frames = camera.frames()
     next(frames)
-    camera._plan = CameraPlan("1d27/0601@9/9")
+    camera._plan = CameraPlan(uri="1d27/0601@9/9")
     blow(camera, signal.SIGKILL)
     reader = threading.Thread(target=lambda: list(frames))
     reader.start()

@@ -45,8 +45,7 @@ print(f"{first:.2f} {time.monotonic() - begin:.2f} {len(faults)} {len(again)} {a
 
 def kill_lines(count: int, folder: Path) -> Iterator[str]:
     """A line for each kind of kill."""
-    kinds = [kind for kind in kills.KINDS if kind != "capture" or kills.driver_there(folder)]
-    for kind in kinds:
+    for kind in kills.KINDS:
         done = [kills.kill_once(kind, number, folder / kind.replace(" ", "-") / str(number)) for number in range(count)]
         lost = [one.lost_s for one in done]
         line = f"kills, {kind}: {count}; lost {statistics.median(lost):.2f} s in the median, {max(lost):.2f} s at most"
@@ -57,8 +56,6 @@ def kill_lines(count: int, folder: Path) -> Iterator[str]:
             + f"; {sum(one > kills.MOST_LOST_S for one in lost)} lost more than {kills.MOST_LOST_S:g} s"
             + "; every session opened, none wrongly complete"
         )
-    if "capture" not in kinds:
-        yield "kills, capture: not done, OpenNI2 is not on this computer"
 
 
 def read_mutations(kind: str, count: int, folder: Path) -> list[Outcome]:

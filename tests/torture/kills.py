@@ -14,12 +14,9 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from carpus.core.capture.oni_source import OniSource
 from carpus.core.capture.raw import RawRecording
-from carpus.core.errors import CarpusFault
 from carpus.core.session.reader import read_session, verify
 from carpus.core.session.recovery import recover_folder
-from tests.capture.oni_samples import write_sample
 
 ROOT = Path(__file__).parents[2]
 KINDS = ("program", "program with pictures", "looking back", "capture", "clock set back and forth", "two programs")
@@ -35,16 +32,6 @@ class Killed:
     raw_lost_s: float = 0.0
 
 
-def driver_there(folder: Path) -> bool:
-    """Whether the OpenNI2 library plays a file here; without it there is no capture process to kill."""
-    try:
-        source = OniSource(write_sample(folder / "probe.oni", 3))
-        source.close()
-    except CarpusFault:
-        return False
-    return True
-
-
 def kill_once(kind: str, number: int, folder: Path) -> Killed:
     """One recording, one kill; raises AssertionError where what must hold does not."""
     folder.mkdir(parents=True)
@@ -53,7 +40,7 @@ def kill_once(kind: str, number: int, folder: Path) -> Killed:
     if (kind in ("program with pictures", "looking back") and number % 2 == 0) or kind == "program with pictures":
         told.append("--raw")
     if kind == "capture":
-        told += ["--oni", str(write_sample(folder / "r.oni", 400))]
+        told.append("--played")
     if kind == "clock set back and forth":
         told.append("--jumping-clock")
     after_s = chance.uniform(0.3, 3.0)

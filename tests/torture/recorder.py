@@ -1,6 +1,6 @@
 """A program that records until it is killed: the live engine with a real tracker, looking back, and raw pictures.
 
-``python -m tests.torture.recorder FOLDER [--raw] [--oni FILE] [--jumping-clock] [--seconds N]``. It notes the time of
+``python -m tests.torture.recorder FOLDER [--raw] [--played] [--jumping-clock] [--seconds N]``. It notes the time of
 the newest frame that was tracked in ``FOLDER/taken`` before anything can be lost of it, and its children's numbers
 in ``FOLDER/children``.
 """
@@ -20,7 +20,6 @@ from threading import Event
 
 import numpy as np
 
-from carpus.core.capture.oni_source import OniSource
 from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.raw import RawWriter
 from carpus.core.capture.source import FrameSource, SourceInfo
@@ -35,6 +34,7 @@ from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import Detections, Frame, TrackedFrame
 from tests.capture.oni_samples import color_picture
+from tests.capture.played import PlayedSource
 from tests.pipeline.live_fakes import tracked
 from tests.session.samples import make_header
 from tests.tracking.hands import CAMERA, DT_S, Pose, blobs, calibration
@@ -58,7 +58,7 @@ class Blobs:
 
 
 class Camera:
-    """30 pictures a second without end, or of an .oni file until that ends and again."""
+    """30 pictures a second without end."""
 
     def __init__(self) -> None:
         self.info = SourceInfo("torture", CAMERA, False, None, 30.0)
@@ -85,16 +85,16 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("folder", type=Path)
     parser.add_argument("--raw", action="store_true")
-    parser.add_argument("--oni", type=Path)
+    parser.add_argument("--played", action="store_true")
     parser.add_argument("--jumping-clock", action="store_true")
     parser.add_argument("--seconds", type=float, default=600.0)
     told = parser.parse_args()
     if told.jumping_clock:
         jumping_clock()
-    source: FrameSource = OniSource(told.oni) if told.oni else Camera()
+    source: FrameSource = PlayedSource(400) if told.played else Camera()
     live = LiveSession(PacedSource(source))
     taken = os.open(told.folder / "taken", os.O_RDWR | os.O_CREAT)
-    looker = None if told.oni else LookingBack(TrackedHand(calibration(), CAMERA, TrackerSettings()))
+    looker = None if told.played else LookingBack(TrackedHand(calibration(), CAMERA, TrackerSettings()))
     walk: Callable[[Frame], TrackedFrame] = tracked
     if looker is not None:
         walk = FrameWalk(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()), SamplingSettings())  # type: ignore[arg-type]

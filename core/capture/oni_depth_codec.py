@@ -1,4 +1,4 @@
-"""The depth codec of .oni files: differences of indices into a table of the picture's own values ("16zT")."""
+"""Depth in .oni files: differences of indices into a table of the picture's own values ("16zT"), or of values."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import struct
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.capture.oni_format import Codec
 from carpus.core.types import DepthImage
 
 MAX_VALUES = 0x8000
@@ -86,3 +87,66 @@ def _pack_runs(stream: NDArray[np.int32], is_pair: NDArray[np.bool_]) -> NDArray
     coded = np.where(ends, 0xE0 + length, stream)
     packed: NDArray[np.uint8] = coded[~still | ends].astype(np.uint8)
     return packed
+
+
+def decode_depth(data: bytes, codec: bytes, shape: tuple[int, int]) -> DepthImage | None:
+    """One depth picture (H, W) as :func:`encode_depth` packs it, packed without a table, or not at all; None where it
+    is damaged."""
+    count = shape[0] * shape[1]
+    if codec == Codec.RAW:
+        return np.frombuffer(data, "<u2").reshape(shape) if len(data) == 2 * count else None
+    try:
+        values, at = _table(data) if codec == Codec.DEPTH_TABLE else (None, 0)
+        index = _indices(data[at + 2 :], *struct.unpack_from("<H", data, at))
+        depth = index if values is None else values[index]
+        return depth.astype(np.uint16).reshape(shape)
+    except (IndexError, ValueError, struct.error):
+        return None
+
+
+def _table(data: bytes) -> tuple[NDArray[np.uint16], int]:
+    (count,) = struct.unpack_from("<H", data)
+    return np.frombuffer(data, "<u2", count, 2), 2 + 2 * count
+
+
+def _meaning() -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
+    """Of each byte (256, 2): the two steps of the index that it holds, and how many pixels each is good for."""
+    byte = np.arange(256, dtype=np.int32)
+    step = np.stack((SMALL - (byte >> 4), SMALL - (byte & 0x0F)), 1)
+    times = np.ones((256, 2), np.uint8)
+    times[(byte & 0x0F) == 0x0D, 1] = 0
+    step[0xE0:0xFF], times[0xE0:0xFF] = 0, np.stack((2 * (byte[0xE0:0xFF] - 0xE0), 0 * byte[0xE0:0xFF]), 1)
+    times[0xFF, 0] = 0
+    return step, times
+
+
+_STEP, _TIMES = _meaning()
+
+
+def _indices(data: bytes, first: int) -> NDArray[np.int32]:
+    """The index of each pixel (P,): steps summed up since the last index that was written in full."""
+    coded = np.frombuffer(data, np.uint8)
+    escapes, end = [], 0
+    for place in np.flatnonzero(((coded & 0x0F) == 0x0F) & (coded != 0xEF)).tolist():
+        if place >= end:  # else it is part of the escape before
+            escapes.append(place)
+            end = place + (2 if data[place + 1] & 0x80 else 3)
+    if end > len(data):
+        raise IndexError("an escape without its end")
+    escape = np.array(escapes, np.int64)
+    behind = coded[escape + 1].astype(np.int32)
+    far = escape[behind < 0x80]
+
+    # the second step of an escape is in the byte behind it, or begins anew there; what is behind it is none of its own
+    step, times = _STEP[coded], _TIMES[coded]
+    step[escape, 1] = np.where(behind < 0x80, 0, 192 - behind)
+    times[escape + 1] = 0
+    times[far + 2] = 0
+    kept = np.flatnonzero(times)
+    index, times = np.cumsum(step.ravel()[kept], dtype=np.int32), times.ravel()[kept]
+    anew = np.searchsorted(kept, 2 * far + 1)
+    written = behind[behind < 0x80] << 8 | coded[far + 2]
+    index += np.repeat(np.append(first, written - index[anew]), np.diff([0, *anew, len(index)])).astype(np.int32)
+    if len(index) and index.min() < 0:
+        raise IndexError("an index below nothing")
+    return np.append(np.int32(first), np.repeat(index, times))

@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from carpus.core.capture.oni_table_codec import encode_depth
+from carpus.core.capture.oni_depth_codec import decode_depth, encode_depth
+from carpus.core.capture.oni_format import Codec
 
 
 def decode(data: bytes, pixels: int) -> list[int]:
@@ -63,6 +64,10 @@ def pictures() -> list[NDArray[np.uint16]]:
 @pytest.mark.parametrize("picture", pictures(), ids=lambda picture: f"{picture.shape}")
 def test_a_decoder_written_from_the_description_gives_the_picture_back(picture: NDArray[np.uint16]) -> None:
     assert decode(encode_depth(picture), picture.size) == picture.ravel().tolist()
+    read = decode_depth(encode_depth(picture), Codec.DEPTH_TABLE, picture.shape)
+    assert read is not None
+    assert read.dtype == np.uint16
+    assert np.array_equal(read, picture)
 
 
 @settings(max_examples=200, deadline=None)
@@ -70,6 +75,10 @@ def test_a_decoder_written_from_the_description_gives_the_picture_back(picture: 
 def test_any_runs_of_values_come_back(runs: list[tuple[int, int]]) -> None:
     picture = np.repeat([value for value, _ in runs], [length for _, length in runs]).astype(np.uint16)[None]
     assert decode(encode_depth(picture), picture.size) == picture.ravel().tolist()
+    read = decode_depth(encode_depth(picture), Codec.DEPTH_TABLE, picture.shape)
+    assert read is not None
+    assert read.dtype == np.uint16
+    assert np.array_equal(read, picture)
 
 
 def test_unchanged_pixels_take_one_byte_for_thirty() -> None:
@@ -80,3 +89,32 @@ def test_unchanged_pixels_take_one_byte_for_thirty() -> None:
 def test_more_values_than_an_index_can_name_are_refused() -> None:
     with pytest.raises(ValueError, match="32769"):
         encode_depth(np.arange(32769, dtype=np.uint16)[None])
+
+
+def test_without_a_table_the_indices_are_the_depths() -> None:
+    values = np.array([[0, 1, 2, 3, 9, 300, 3, 3, 3, 3, 3, 0]], np.uint16)
+    table = np.arange(301, dtype=np.uint16)
+    with_all = encode_depth(np.append(table, values)[None])
+    assert np.array_equal(decode_depth(with_all, Codec.DEPTH_TABLE, (1, 313)), np.append(table, values)[None])
+    without = with_all[2 + 2 * len(table) :]
+    assert np.array_equal(decode_depth(without, Codec.DEPTH_PLAIN, (1, 313)), np.append(table, values)[None])
+
+
+def test_depth_that_is_not_packed() -> None:
+    picture = pictures()[3]
+    read = decode_depth(picture.astype("<u2").tobytes(), Codec.RAW, (40, 50))
+    assert np.array_equal(read, picture)  # type: ignore[arg-type]
+    assert decode_depth(picture.tobytes()[:-2], Codec.RAW, (40, 50)) is None
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.binary(max_size=300), st.sampled_from([Codec.DEPTH_TABLE, Codec.DEPTH_PLAIN, Codec.RAW]))
+def test_any_bytes_are_a_picture_or_none(data: bytes, codec: bytes) -> None:
+    read = decode_depth(data, codec, (4, 5))
+    assert read is None or read.shape == (4, 5)
+
+
+@pytest.mark.parametrize("lost", [1, 2, 3, 40])
+def test_a_picture_cut_short_is_none(lost: int) -> None:
+    picture = pictures()[3]
+    assert decode_depth(encode_depth(picture)[:-lost], Codec.DEPTH_TABLE, (40, 50)) is None

@@ -1,0 +1,174 @@
+"""Recordings that a library plays in the capture process: it may die, hang, be closed or started anew at any moment."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from multiprocessing.shared_memory import SharedMemory
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from carpus.core.capture import capture_link, realsense_recording
+from carpus.core.capture.realsense_recording import FilePlayer
+from carpus.core.errors import DriverFailed
+from carpus.core.types import Frame
+from tests.capture.oni_samples import color_picture
+from tests.capture.played import PlayedSource
+
+ROOT = Path(__file__).parents[2]
+
+
+def assert_whole(frames: list[Frame], count: int) -> None:
+    assert [frame.index for frame in frames] == list(range(count))
+    assert all(np.array_equal(frame.color_rgb, color_picture(frame.index + 1)) for frame in frames)
+    assert not any(frame.color_rgb.flags.writeable for frame in frames)
+
+
+def test_every_frame_in_order_again_and_again() -> None:
+    source = PlayedSource(20)
+    for _ in range(2):
+        assert_whole(list(source.frames()), 20)
+    source.close()
+    source.close()
+    assert list(source.frames()) == []
+
+
+def test_a_player_that_is_closed_while_its_process_is_made_leaves_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    closed: list[bool] = []
+
+    class Process:
+        def __init__(self, *_: object) -> None:
+            player.close()
+
+        def wait_open(self, closing: threading.Event, _open_s: float) -> None:
+            assert closing.is_set()
+
+        def close(self, *, gently: bool) -> None:
+            closed.append(gently)
+
+    monkeypatch.setattr(realsense_recording, "CaptureProcess", Process)
+    player = FilePlayer(lambda _outlet, _plan: None, Path("a.db3"), 1)
+    assert player.open(None, 1.0) is None
+    assert closed == [False]
+
+
+@pytest.mark.parametrize(("blow", "detail"), [(signal.SIGSEGV, "SIGSEGV"), (signal.SIGSTOP, "no answer")])
+def test_a_library_that_dies_or_hangs_is_a_fault(
+    blow: signal.Signals, detail: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    source = PlayedSource(60)
+    frames = source.frames()
+    next(frames)
+    with monkeypatch.context() as patience:
+        patience.setattr(realsense_recording, "ANSWER_S", 0.5)
+        os.kill(source.pid, blow)
+        with pytest.raises(DriverFailed) as caught:
+            list(frames)
+    assert detail in caught.value.detail
+    assert len(list(source.frames())) == 60
+
+
+def test_closing_ends_a_walk_of_another_thread() -> None:
+    source = PlayedSource(60)
+    frames = source.frames()
+    next(frames)
+    os.kill(source.pid, signal.SIGSTOP)
+    rest: list[Frame] = []
+    reader = threading.Thread(target=lambda: rest.extend(frames))
+    reader.start()
+    source.close()
+    reader.join(60.0)
+    assert not reader.is_alive()
+    assert len(rest) < 60
+
+
+def test_a_new_walk_ends_the_one_before() -> None:
+    source = PlayedSource(30)
+    first = source.frames()
+    next(first)
+    assert_whole(list(source.frames()), 30)
+    assert len(list(first)) < 30
+
+
+@pytest.fixture
+def memories(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Names of the shared memories that a test's own capture processes were given."""
+    names: list[str] = []
+
+    def noted(*arguments: Any, **options: Any) -> SharedMemory:
+        memory = SharedMemory(*arguments, **options)
+        names.append(memory.name)
+        return memory
+
+    monkeypatch.setattr(capture_link, "SharedMemory", noted)
+    return names
+
+
+def exists(name: str) -> bool:
+    try:
+        SharedMemory(name).close()
+    except FileNotFoundError:
+        return False
+    return True
+
+
+def test_nothing_is_left_behind(memories: list[str]) -> None:
+    source = PlayedSource(30)
+    next(source.frames())
+    frames = source.frames()
+    next(frames)
+    pid = source.pid
+    assert exists(memories[-1])
+    frames.close()  # type: ignore[attr-defined]
+    assert len(memories) == 2
+    assert not any(exists(name) for name in memories)
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid, 0)
+
+
+def test_the_capture_process_does_not_outlive_its_owner(tmp_path: Path) -> None:
+    program = """
+import time
+from tests.capture.played import PlayedSource
+if __name__ == "__main__":
+    source = PlayedSource(60)
+    frames = source.frames()
+    next(frames)
+    print(source.pid, flush=True)
+    time.sleep(60)
+"""
+    script = tmp_path / "owner.py"
+    script.write_text(program)
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    owner = subprocess.Popen(
+        [sys.executable, str(script)], stdout=subprocess.PIPE, text=True, cwd=ROOT, env=environment
+    )
+    assert owner.stdout is not None
+    pid = int(owner.stdout.readline())
+    os.kill(pid, 0)
+    owner.kill()
+    owner.communicate()
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline:
+        state = Path(f"/proc/{pid}/stat")
+        if not state.exists() or state.read_text().rsplit(")", 1)[1].split()[0] == "Z":
+            return
+        time.sleep(0.02)
+    pytest.fail("the capture process lives on")
+
+
+def test_a_process_that_cannot_start_leaves_no_memory(memories: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError("no more processes")
+
+    monkeypatch.setattr("multiprocessing.context.SpawnProcess.start", refuse)
+    with pytest.raises(OSError, match="no more processes"):
+        list(PlayedSource(2).frames())
+    assert [exists(name) for name in memories] == [False]
