@@ -6,10 +6,10 @@ import math
 from datetime import date
 
 from carpus.core.hand.marker_protocol import MarkerProtocol
-from carpus.core.output.exercises import SIDES
+from carpus.core.output.exercises import SIDES, known_exercise
 from carpus.core.types import FloatArray
 from carpus.ui import numbers
-from carpus.ui.translate import tr
+from carpus.ui.translate import say, tr
 
 LEGAL_SENTENCE = (
     "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
@@ -20,18 +20,8 @@ LEGAL_SENTENCE = (
 
 def exercise_name(exercise_id: str) -> str:
     """``Wrist flexion–extension``."""
-    return {
-        "WRIST_FE": tr("Wrist flexion–extension"),
-        "WRIST_RU": tr("Wrist side to side"),
-        "FOREARM_PS": tr("Palm up – palm down"),
-        "FREE": tr("Free movement"),
-        "FIST_COMPOSITE": tr("Full fist"),
-        "FIST_HOOK": tr("Hook fist"),
-        "FINGER_ABAD": tr("Spread the fingers"),
-        "THUMB_OPP": tr("Thumb across the palm"),
-        "REACH_GRASP": tr("Reach and grasp"),
-        "FREE_HAND": tr("Free movement of the fingers"),
-    }.get(exercise_id, exercise_id)
+    known = known_exercise(exercise_id)
+    return exercise_id if known is None else say(known.name)
 
 
 def protocol_name(protocol: MarkerProtocol) -> str:
@@ -50,56 +40,6 @@ def onset_words(onset: str, day: date | None) -> str:
         return ""
     pattern = tr("operated on {day}") if onset == "operation" else tr("injured on {day}")
     return pattern.format(day=numbers.day_of_year(day))
-
-
-def exercise_instruction(exercise_id: str) -> str:
-    """What the patient is asked to do."""
-    return {
-        "WRIST_FE": tr("Lift the back of the hand up, then let it drop as far as comfortable."),
-        "WRIST_RU": tr("Slide the hand to the thumb side, then to the little-finger side. Keep it flat."),
-        "FOREARM_PS": tr("Turn the palm up as far as the markers stay visible, then back."),
-        "FREE": tr("Move the wrist freely. All three angles are recorded; no repetitions are counted."),
-        "FIST_COMPOSITE": tr("Close all fingers into a full fist, then open flat."),
-        "FIST_HOOK": tr("Keep the knuckles straight, bend only the end joints like a hook, then open."),
-        "FINGER_ABAD": tr("Spread the fingers wide, then close them."),
-        "THUMB_OPP": tr("Touch each fingertip with the thumb in turn, opening it wide in between."),
-        "REACH_GRASP": tr("Reach, take the cup, lift it a little, put it back, return."),
-        "FREE_HAND": tr("Move the fingers freely. All joint angles are recorded; no repetitions are counted."),
-    }.get(exercise_id, "")
-
-
-def exercise_position(exercise_id: str) -> str:
-    """How the arm lies before the start."""
-    return {
-        "WRIST_FE": tr("Forearm on a 10 cm wedge, palm down, hand over the edge, fingers relaxed."),
-        "WRIST_RU": tr("Palm flat on a smooth sheet, forearm strapped."),
-        "FOREARM_PS": tr("Elbow at the side, forearm free, palm down under the camera."),
-        "FREE": tr("Hand in view of the camera, back of the hand up."),
-        "FIST_COMPOSITE": tr("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
-        "FIST_HOOK": tr("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
-        "FINGER_ABAD": tr("Palm flat on the table, fingers straight and closed."),
-        "THUMB_OPP": tr("Forearm on the wedge, thumb side turned up a little, fingers relaxed."),
-        "REACH_GRASP": tr("Hand at its place at the edge, a cup of 5 to 7 cm at 20 to 30 cm."),
-        "FREE_HAND": tr("Hand in view of the camera, back of the hand up, fingers straight."),
-    }.get(exercise_id, "")
-
-
-def exercise_view(exercise_id: str) -> str:
-    """What the camera will not see of an exercise, said before it begins; empty where it sees all."""
-    return {
-        "FIST_COMPOSITE": tr(
-            "At the end of a fist the middle and end joints go out of the camera's sight: repetitions are counted all "
-            "the same, and those ranges are given as “at least”. To see more, turn the thumb side up."
-        ),
-        "FIST_HOOK": tr(
-            "About half-way the middle joints go out of the camera's sight: repetitions are counted all the same, and "
-            "their range is given as “at least”. To see more, raise the wrist or turn the thumb side up."
-        ),
-        "THUMB_OPP": tr(
-            "Under the palm the thumb's tip goes out of the camera's sight: what is trained here is its lift away from "
-            "the palm, which stays in view."
-        ),
-    }.get(exercise_id, "")
 
 
 def movement_name(movement: str) -> str:

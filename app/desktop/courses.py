@@ -15,13 +15,14 @@ from carpus.core.library.exercise_sets import USUAL_SETS, ExerciseSet, next_part
 from carpus.core.library.kept_sets import keep_sets, read_sets
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import SetUp
-from carpus.ui import numbers, terms
+from carpus.ui import numbers
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.setup.set_words import course_words
 from carpus.ui.theme import Theme
+from carpus.ui.translate import say
 
 LINGER_S = 2.0
 """After the last repetition the recording goes on for so long: it has its way back."""
@@ -138,7 +139,7 @@ class CourseRun(QObject):
         words = course_words(course)
         if self.resting:
             rest = self.tr("Rest {time}; Space begins at once.").format(time=numbers.clock(self._rest_left_s))
-            words = f"{rest} {words}. {terms.exercise_position(set_up.exercise.id)}"
+            words = f"{rest} {words}. {say(set_up.exercise.position)}"
         self._live.show_course(words)
 
     def _follow(self, glance: Glance) -> None:

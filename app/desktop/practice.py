@@ -14,26 +14,16 @@ from typing import Any
 from carpus.core.capture.source import FrameSource
 from carpus.core.capture.tum import TumFolder
 from carpus.core.library.set_up import SetUp
-from carpus.core.output.exercises import DEVIATION, FLEXION, PRONOSUPINATION
 from carpus.core.simulation.first_pictures import FirstPictures
 from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.recording import cached_recording, is_cached
 from carpus.core.simulation.spec import RecordingSpec
 
-_MOTION = {FLEXION: "flexion", DEVIATION: "deviation", PRONOSUPINATION: "pronosupination", None: "mixed"}
-_HAND_MOTION = {
-    "FIST_COMPOSITE": "fist",
-    "FIST_HOOK": "hook",
-    "FINGER_ABAD": "abduction",
-    "THUMB_OPP": "opposition",
-    "REACH_GRASP": "reach_grasp",
-    "FREE_HAND": "fingers",
-}
 _SPEED_HZ, _RANGE_SHARE, _SECONDS = 0.4, 0.8, 9.0
 PRACTICE_REPETITIONS = 3
 _OTHERWISE: dict[str, dict[str, Any]] = {
-    "THUMB_OPP": {"seconds": 11.5, "repetitions": 4, "range_share": 1.0},
-    "REACH_GRASP": {"speed_hz": 0.3, "repetitions": 2, "range_share": 0.6},
+    "opposition": {"seconds": 11.5, "repetitions": 4, "range_share": 1.0},
+    "reach_grasp": {"speed_hz": 0.3, "repetitions": 2, "range_share": 0.6},
 }
 """A touch of each finger, which falls short of none; reaches that so few pictures can follow."""
 _FPS = 15.0
@@ -50,7 +40,7 @@ def practice_spec(set_up: SetUp) -> RecordingSpec:
         seed=5,
         hand=set_up.side,
         protocol=set_up.protocol.name,
-        motion=_HAND_MOTION.get(exercise.id, _MOTION[exercise.angle]),
+        motion=exercise.motion,
         seconds=_SECONDS,
         fps=_FPS,
         speed_hz=_SPEED_HZ,
@@ -65,7 +55,7 @@ def practice_spec(set_up: SetUp) -> RecordingSpec:
         tilt_deg=_HAND_TILT_DEG[set_up.side] if set_up.protocol.has_fingers else _TILT_DEG,
         hidden_share=0.02,
     )
-    return replace(usual, **_OTHERWISE.get(exercise.id, {}))
+    return replace(usual, **_OTHERWISE.get(exercise.motion, {}))
 
 
 def practice_times(set_up: SetUp) -> int:

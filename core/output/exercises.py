@@ -1,13 +1,15 @@
-"""What is asked of the hand in each exercise, as facts (clinical reference 8.2); the words are the screen's."""
+"""Every exercise: what is asked of the hand (clinical reference 8.2), what is told of it, and its words."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import KW_ONLY, dataclass
 from typing import Literal
 
 from carpus.core.hand import protocols
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.sites import DIGITS
+from carpus.core.phrase import Phrase, phrase
 
 DEVIATION, FLEXION, PRONOSUPINATION = 0, 1, 2
 """Columns of the wrist angles, as in every file."""
@@ -22,6 +24,13 @@ SIDES: tuple[tuple[Movement, Movement], ...] = (
 AXIS_TICK_DEG = (40.0, 80.0, 80.0)
 AXIS_LIMIT_DEG = (50.0, 86.0, 86.0)
 """Outermost tick and end of the fixed axis of each angle on every screen and page."""
+
+
+_TO_THE_MIDDLE, _BESIDE = phrase("Come back to the middle"), phrase("Further figures")
+
+Further = Literal["reaches", "touches", "spans", "together", "thumb beside"]
+"""What is told beside ranges: ways of the wrist, thumb to finger tips, tips apart, fingers together, and how surely the
+thumb moves with the fingers while it is hidden."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,9 +51,28 @@ class Exercise:
 
     Of a fist the knuckle: seen from above its discs stay in view longest.
     """
-
+    _: KW_ONLY
+    name: Phrase
+    asked: Phrase
+    """What the patient is asked to do, as the therapist reads it."""
+    position: Phrase
+    """How the arm lies before the start."""
+    unseen: str = ""
+    """What the camera will not see of it, said before it begins; empty where it sees all."""
+    adult: tuple[str, str]
+    child: tuple[str, str]
+    """What the patient's own screen asks for, in the positive direction and in the negative one."""
+    back: Phrase = _TO_THE_MIDDLE
+    motion: str
+    """The simulated patient's movement when it is practised."""
     ends_free: bool = False
     """Whether the end joints of the fingers usually do not follow the middle joints in it."""
+    total: bool = True
+    """Whether the sum of a finger's bending is its total active motion: not where no fist is asked for."""
+    further: tuple[Further, ...] = ()
+    further_title: Phrase = _BESIDE
+    is_task: bool = False
+    """Whether it is about what is told beside the ranges: that comes first then."""
 
     @property
     def protocol(self) -> MarkerProtocol:
@@ -64,17 +92,117 @@ class Exercise:
 _FINGERS = DIGITS[1:]
 
 EXERCISES = (
-    Exercise("WRIST_FE", FLEXION, 10, 10.0, True),
-    Exercise("WRIST_RU", DEVIATION, 10, 10.0, True),
-    Exercise("FOREARM_PS", PRONOSUPINATION, 10, float("nan"), False),
-    Exercise("FIST_COMPOSITE", None, 10, float("nan"), False, _FINGERS, "MCP3_flexion"),
-    Exercise("FIST_HOOK", None, 10, float("nan"), False, _FINGERS, "PIP3_flexion", ends_free=True),
-    Exercise("FINGER_ABAD", None, 10, float("nan"), False, _FINGERS, "MCP2_abduction"),
-    Exercise("THUMB_OPP", None, 10, float("nan"), False, DIGITS, "CMC1_abduction"),
-    Exercise("REACH_GRASP", None, 5, float("nan"), False, DIGITS),
-    Exercise("FREE_HAND", None, 0, float("nan"), False, DIGITS),
-    Exercise("FREE", None, 0, float("nan"), False),
-)
+    Exercise(
+        "WRIST_FE", FLEXION, 10, 10.0, True,
+        name=phrase("Wrist flexion–extension"),
+        asked=phrase("Lift the back of the hand up, then let it drop as far as comfortable."),
+        position=phrase("Forearm on a 10 cm wedge, palm down, hand over the edge, fingers relaxed."),
+        adult=(phrase("Bend your hand down"), phrase("Lift your hand up")), child=(phrase("Down"), phrase("Up")),
+        motion="flexion",
+    ),
+    Exercise(
+        "WRIST_RU", DEVIATION, 10, 10.0, True,
+        name=phrase("Wrist side to side"),
+        asked=phrase("Slide the hand to the thumb side, then to the little-finger side. Keep it flat."),
+        position=phrase("Palm flat on a smooth sheet, forearm strapped."),
+        adult=(phrase("Slide your hand to the thumb side"), phrase("Slide your hand to the little finger side")),
+        child=(phrase("To the thumb"), phrase("To the little finger")),
+        motion="deviation",
+    ),
+    Exercise(
+        "FOREARM_PS", PRONOSUPINATION, 10, math.nan, False,
+        name=phrase("Palm up – palm down"),
+        asked=phrase("Turn the palm up as far as the markers stay visible, then back."),
+        position=phrase("Elbow at the side, forearm free, palm down under the camera."),
+        adult=(phrase("Turn your palm up"), phrase("Turn your palm down")),
+        child=(phrase("Turn up"), phrase("Turn down")),
+        back=phrase("Turn your hand back"), motion="pronosupination",
+    ),
+    Exercise(
+        "FIST_COMPOSITE", None, 10, math.nan, False, _FINGERS, "MCP3_flexion",
+        name=phrase("Full fist"),
+        asked=phrase("Close all fingers into a full fist, then open flat."),
+        position=phrase("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
+        unseen=phrase(
+            "At the end of a fist the middle and end joints go out of the camera's sight: repetitions are "
+            "counted all the same, and those ranges are given as “at least”. To see more, turn the thumb side "
+            "up."
+        ),
+        adult=(phrase("Close your hand to a fist"),) * 2, child=(phrase("Close"),) * 2,
+        back=phrase("Open your hand"), motion="fist",
+        further=("together",), further_title=phrase("Fingers together"),
+    ),
+    Exercise(
+        "FIST_HOOK", None, 10, math.nan, False, _FINGERS, "PIP3_flexion",
+        name=phrase("Hook fist"),
+        asked=phrase("Keep the knuckles straight, bend only the end joints like a hook, then open."),
+        position=phrase("Forearm on the wedge, back of the hand towards the camera, fingers straight."),
+        unseen=phrase(
+            "About half-way the middle joints go out of the camera's sight: repetitions are counted all the "
+            "same, and their range is given as “at least”. To see more, raise the wrist or turn the thumb side "
+            "up."
+        ),
+        adult=(phrase("Bend your fingers to a hook"),) * 2, child=(phrase("Hook"),) * 2,
+        back=phrase("Straighten your fingers"), motion="hook",
+        ends_free=True,
+        total=False,
+        further=("together",), further_title=phrase("Fingers together"),
+    ),
+    Exercise(
+        "FINGER_ABAD", None, 10, math.nan, False, _FINGERS, "MCP2_abduction",
+        name=phrase("Spread the fingers"),
+        asked=phrase("Spread the fingers wide, then close them."),
+        position=phrase("Palm flat on the table, fingers straight and closed."),
+        adult=(phrase("Spread your fingers wide"),) * 2, child=(phrase("Wide"),) * 2,
+        back=phrase("Close your fingers"), motion="abduction",
+        total=False,
+        further=("spans",), further_title=phrase("Spans"),
+    ),
+    Exercise(
+        "THUMB_OPP", None, 10, math.nan, False, DIGITS, "CMC1_abduction",
+        name=phrase("Thumb across the palm"),
+        asked=phrase("Touch each fingertip with the thumb in turn, opening it wide in between."),
+        position=phrase("Forearm on the wedge, thumb side turned up a little, fingers relaxed."),
+        unseen=phrase(
+            "Under the palm the thumb's tip goes out of the camera's sight: what is trained here is its lift "
+            "away from the palm, which stays in view."
+        ),
+        adult=(phrase("Open your thumb wide"),) * 2, child=(phrase("Thumb wide"),) * 2,
+        back=phrase("Touch the next fingertip"), motion="opposition",
+        total=False,
+        further=("touches", "thumb beside"), further_title=phrase("Thumb to the finger tips"),
+        is_task=True,
+    ),
+    Exercise(
+        "REACH_GRASP", None, 5, math.nan, False, DIGITS,
+        name=phrase("Reach and grasp"),
+        asked=phrase("Reach, take the cup, lift it a little, put it back, return."),
+        position=phrase("Hand at its place at the edge, a cup of 5 to 7 cm at 20 to 30 cm."),
+        adult=(phrase("Take the cup, lift it a little, put it back"),) * 2, child=(phrase("Take the cup"),) * 2,
+        motion="reach_grasp",
+        total=False,
+        further=("reaches", "thumb beside"), further_title=phrase("Reach and grasp"),
+        is_task=True,
+    ),
+    Exercise(
+        "FREE_HAND", None, 0, math.nan, False, DIGITS,
+        name=phrase("Free movement of the fingers"),
+        asked=phrase("Move the fingers freely. All joint angles are recorded; no repetitions are counted."),
+        position=phrase("Hand in view of the camera, back of the hand up, fingers straight."),
+        adult=(phrase("Move your fingers as you like"),) * 2, child=(phrase("Move your fingers"),) * 2,
+        motion="fingers",
+        further=("reaches",),
+    ),
+    Exercise(
+        "FREE", None, 0, math.nan, False,
+        name=phrase("Free movement"),
+        asked=phrase("Move the wrist freely. All three angles are recorded; no repetitions are counted."),
+        position=phrase("Hand in view of the camera, back of the hand up."),
+        adult=(phrase("Move your hand as you like"),) * 2, child=(phrase("Move your hand"),) * 2,
+        motion="mixed",
+        further=("reaches",),
+    ),
+)  # fmt: skip
 STILL_RADIUS_MM = 15.0
 
 
@@ -83,6 +211,11 @@ def exercises_of(protocol: MarkerProtocol) -> tuple[Exercise, ...]:
     return tuple(exercise for exercise in EXERCISES if exercise.is_allowed_by(protocol))
 
 
+def known_exercise(name: str) -> Exercise | None:
+    """The exercise of that id; None where there is none."""
+    return next((exercise for exercise in EXERCISES if exercise.id == name), None)
+
+
 def exercise_named(name: str) -> Exercise:
     """The exercise of that id; anything unknown is free movement, so every old session can be opened."""
-    return next((exercise for exercise in EXERCISES if exercise.id == name), EXERCISES[-1])
+    return known_exercise(name) or EXERCISES[-1]

@@ -34,8 +34,6 @@ SURELY = 2.0
 """So many standard deviations nearer a hidden tip may be than it is tracked."""
 LARGEST_APERTURE_SD_M = 0.015
 """An aperture of hidden tips known worse than this is not told (looked back at, it is then 10 mm off at times)."""
-_WITH_REACHES = ("REACH_GRASP", "FREE", "FREE_HAND")
-_WITH_HIDDEN_THUMB = ("REACH_GRASP", "THUMB_OPP")
 _THUMB = ("CMC1", "MCP1", "IP1")
 
 
@@ -84,7 +82,7 @@ def further_measures(
 ) -> tuple[FurtherMeasure, ...]:
     """What an exercise has beside its ranges; nothing that its discs do not show."""
     out: list[FurtherMeasure] = []
-    reaches = session_reaches(session, view) if exercise.id in _WITH_REACHES else ()
+    reaches = session_reaches(session, view) if "reaches" in exercise.further else ()
     out += reach_measures(reaches)
     if not tracks:
         return tuple(out)
@@ -92,14 +90,14 @@ def further_measures(
     has_tip = [digit in session.header.protocol.digits for digit in DIGITS]
     if has_tip[0] and has_tip[1]:
         out += _aperture_measures(session, distance_m(tips[:, 0], tips[:, 1]), reaches)
-    if exercise.id == "FINGER_ABAD":
+    if "spans" in exercise.further:
         spans = [("hand span", 0, 4), *(("tip span", k - 1, k) for k in range(1, 5))]
         out += [_span(session, name, a, b, tips) for name, a, b in spans if has_tip[a] and has_tip[b]]
-    if exercise.id == "THUMB_OPP" and all(has_tip):
+    if "touches" in exercise.further and all(has_tip):
         out += opposition_measures(session, tips)
-    if exercise.id in _WITH_HIDDEN_THUMB and has_tip[0]:
+    if "thumb beside" in exercise.further and has_tip[0]:
         out += thumb_coherence(session)
-    if exercise.id in ("FIST_COMPOSITE", "FIST_HOOK"):
+    if "together" in exercise.further:
         out += _together(tracks)
     return tuple(out)
 

@@ -25,9 +25,6 @@ from carpus.core.output.range_rows import RangeRow, RowKey, best_motion, range_r
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
 
-WITHOUT_TOTAL = ("FIST_HOOK", "FINGER_ABAD", "THUMB_OPP", "REACH_GRASP")
-"""Exercises that ask for no fist: a total of their bending is no total active motion."""
-
 
 @dataclass(frozen=True, slots=True)
 class JointCurves:
@@ -78,7 +75,7 @@ def joint_rows(
     """TAM of every finger, then arc, most and least bent of every joint. ``extension`` rows hold the least bent angle
     with its sign: what is missing to straight, below zero bent back."""
     rows: list[RangeRow] = []
-    if tracks and exercise.id not in WITHOUT_TOTAL:
+    if tracks and exercise.total:
         for finger in FINGERS:
             joints, inferred = bending_joints(finger, tuple(tracks))
             if set(joints) <= set(tracks):

@@ -58,7 +58,7 @@ def wrist_norm(movement: Movement, angle: int, exercise: Exercise) -> Norm | Non
 
 def total_norm(finger: int, exercise: Exercise) -> Norm | None:
     """Of a finger's total active motion, where the exercise is the fist of which the source speaks."""
-    if exercise.id != "FIST_COMPOSITE":
+    if not (exercise.total and exercise.joint):
         return None
     total = USUAL_TOTAL_DEG[finger]
     return Norm(total, total, _TOTAL_SOURCE, _ADULTS, _BOTH)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from carpus.core.output.exercises import exercise_named, known_exercise
 from carpus.ui.patient.guide import Scene
-from carpus.ui.translate import inside, tr
+from carpus.ui.translate import inside, say, tr
 
 Audience = Literal["adult", "child"]
 FURTHER_FROM = 0.5
@@ -72,34 +73,9 @@ def task_words(exercise_id: str) -> str:
 
 
 def _task(exercise_id: str, aim: int, child: bool) -> str:
-    adult_words, child_words = {
-        "WRIST_FE": ((tr("Bend your hand down"), tr("Lift your hand up")), (tr("Down"), tr("Up"))),
-        "WRIST_RU": (
-            (tr("Slide your hand to the thumb side"), tr("Slide your hand to the little finger side")),
-            (tr("To the thumb"), tr("To the little finger")),
-        ),
-        "FOREARM_PS": ((tr("Turn your palm up"), tr("Turn your palm down")), (tr("Turn up"), tr("Turn down"))),
-        "FIST_COMPOSITE": ((tr("Close your hand to a fist"),) * 2, (tr("Close"),) * 2),
-        "FIST_HOOK": ((tr("Bend your fingers to a hook"),) * 2, (tr("Hook"),) * 2),
-        "FINGER_ABAD": ((tr("Spread your fingers wide"),) * 2, (tr("Wide"),) * 2),
-        "THUMB_OPP": ((tr("Open your thumb wide"),) * 2, (tr("Thumb wide"),) * 2),
-        "REACH_GRASP": (
-            (tr("Take the cup, lift it a little, put it back"),) * 2,
-            (tr("Take the cup"),) * 2,
-        ),
-        "FREE_HAND": ((tr("Move your fingers as you like"),) * 2, (tr("Move your fingers"),) * 2),
-        "FREE": ((tr("Move your hand as you like"),) * 2, (tr("Move your hand"),) * 2),
-    }.get(exercise_id, (("", ""), ("", "")))
-    return (child_words if child else adult_words)[0 if aim > 0 else 1]
+    known = known_exercise(exercise_id)
+    return "" if known is None else say((known.child if child else known.adult)[0 if aim > 0 else 1])
 
 
 def _back(exercise_id: str, child: bool) -> str:
-    if child:
-        return tr("Back")
-    return {
-        "FOREARM_PS": tr("Turn your hand back"),
-        "FIST_COMPOSITE": tr("Open your hand"),
-        "FIST_HOOK": tr("Straighten your fingers"),
-        "FINGER_ABAD": tr("Close your fingers"),
-        "THUMB_OPP": tr("Touch the next fingertip"),
-    }.get(exercise_id, tr("Come back to the middle"))
+    return tr("Back") if child else say(exercise_named(exercise_id).back)

@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QPointF, QRectF, QSize
 from PySide6.QtGui import QFontMetricsF, QPainter
 
-from carpus.core.output.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, FLEXION, PRONOSUPINATION, SIDES, Exercise
+from carpus.core.output.exercises import (
+    AXIS_LIMIT_DEG,
+    AXIS_TICK_DEG,
+    FLEXION,
+    PRONOSUPINATION,
+    SIDES,
+    Exercise,
+    exercise_named,
+)
 from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.plot import axes
@@ -37,7 +45,7 @@ class LiveCurves(PlotCard):
     def __init__(self, theme: Theme, history: History) -> None:
         super().__init__(theme)
         self._history = history
-        self._exercise = Exercise("FREE", None, 0, math.nan, False)
+        self._exercise = exercise_named("")
         self._targets_deg = (math.nan, math.nan)
         self._speeds = False
         self._single = False

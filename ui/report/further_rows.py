@@ -9,10 +9,8 @@ from dataclasses import dataclass
 from carpus.core.output.further_measures import FurtherMeasure
 from carpus.core.output.report_content import SessionFigures
 from carpus.ui import numbers
-from carpus.ui.translate import tr
+from carpus.ui.translate import say, tr
 
-FIRST = ("REACH_GRASP", "THUMB_OPP")
-"""Exercises that are about these figures: they come before the ranges of the joints."""
 _WAYS = {"reach": "return", "thumb across": "thumb back"}
 """Of each way out the way back, which stands beside it."""
 
@@ -146,7 +144,7 @@ def main_words(figures: SessionFigures) -> str:
         item = named.get((name, what))
         return numbers.UNKNOWN if item is None else _value(item, item.mean)
 
-    if figures.exercise.id == "REACH_GRASP" and ("movement time", "reach") in named:
+    if figures.exercise.is_task and ("movement time", "reach") in named:
         words = tr("Out in {time}, fastest {speed}, way {straight} of straight, opened {opening}, wrist {wrist}")
         return words.format(
             time=of("movement time", "reach"), speed=of("peak speed", "reach"),
@@ -154,7 +152,7 @@ def main_words(figures: SessionFigures) -> str:
             wrist=of("wrist extension at grasp", "wrist"),
         )  # fmt: skip
     touches = _touches(figures)
-    if figures.exercise.id == "THUMB_OPP" and touches:
+    if touches:
         words = tr("The thumb touched {met} of {all} finger tips").format(met=_met(touches), all=len(touches))
         hidden = sum(bool(item.unknown) for item in touches)
         if hidden == len(touches):
@@ -169,10 +167,10 @@ def short_words(figures: SessionFigures) -> str:
     """The same for a narrow column: ``Out in 1.19 s``, ``Touched 3 of 4``; empty for other exercises."""
     named = _known(figures)
     reach = named.get(("movement time", "reach"))
-    if figures.exercise.id == "REACH_GRASP" and reach is not None:
+    if figures.exercise.is_task and reach is not None:
         return tr("Out in {time}").format(time=_value(reach, reach.mean))
     touches = _touches(figures)
-    if figures.exercise.id == "THUMB_OPP" and touches:
+    if touches:
         if any(item.unknown for item in touches):
             return tr("Touches hidden")
         return tr("Touched {met} of {all}").format(met=_met(touches), all=len(touches))
@@ -193,10 +191,4 @@ def _met(touches: Sequence[FurtherMeasure]) -> int:
 
 def further_title(figures: SessionFigures) -> str:
     """What the figures are about."""
-    return {
-        "REACH_GRASP": tr("Reach and grasp"),
-        "THUMB_OPP": tr("Thumb to the finger tips"),
-        "FINGER_ABAD": tr("Spans"),
-        "FIST_COMPOSITE": tr("Fingers together"),
-        "FIST_HOOK": tr("Fingers together"),
-    }.get(figures.exercise.id, tr("Further figures"))
+    return say(figures.exercise.further_title)

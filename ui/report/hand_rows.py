@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from carpus.core.measures.grade import Grade
 from carpus.core.output.further_measures import GradedTotal, graded_totals
-from carpus.core.output.joint_content import WITHOUT_TOTAL, finger_keys, spread_keys, thumb_keys
+from carpus.core.output.joint_content import finger_keys, spread_keys, thumb_keys
 from carpus.core.output.norms import total_norm
 from carpus.core.output.range_rows import RangeRow, RowKey
 from carpus.core.output.report_content import SessionFigures, compare_rows
@@ -108,12 +108,12 @@ def column_heads(
 
 def trains_joints(figures: SessionFigures) -> bool:
     """Whether a joint is what the exercise is about: then it is compared with last time."""
-    return figures.exercise.id != "REACH_GRASP"
+    return bool(figures.exercise.joint) or not figures.exercise.is_task
 
 
 def has_totals(figures: SessionFigures) -> bool:
     """Whether the exercise asks for a fist, of which there is a total."""
-    return figures.exercise.id not in WITHOUT_TOTAL
+    return figures.exercise.total
 
 
 def compared_row(figures: SessionFigures) -> Row:

@@ -23,7 +23,7 @@ from carpus.ui.patient.words import task_words
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
 from carpus.ui.report.session_page import SessionReport, paint_head, paint_watermark
 from carpus.ui.theme import LIGHT
-from carpus.ui.translate import inside, tr
+from carpus.ui.translate import inside, say, tr
 
 MOST_TASKS, MOST_DAYS, USUAL_DAYS = 3, 7, 7
 DRAWN = tuple(exercise for exercise in EXERCISES if exercise.counts)
@@ -153,7 +153,7 @@ def _paint_task(page: Page, home: HomeReport, task: HomeTask, number: int, box: 
     words = str(number)
     page.text(words, left + 9 - page.width_of(words, 10, SEMIBOLD) / 2, box.top() + 13.5, 10, SEMIBOLD, "on_accent")
     page.text(task_words(task.exercise.id), left + 25, box.top() + 15, 13.0, SEMIBOLD)
-    words = terms.exercise_instruction(task.exercise.id)
+    words = say(task.exercise.asked)
     if task.exercise.angle == PRONOSUPINATION:  # at home nobody looks for markers
         words = tr("Turn the palm up, then down. The elbow stays at your side.")
     page.paragraph(words, left, box.top() + 24, right - left, 9.5)

@@ -53,7 +53,7 @@ from carpus.ui.plot.ways import finger_ways, wrist_way
 from carpus.ui.plot.ways_view import WaysView
 from carpus.ui.ports import SessionStore, StoredResult
 from carpus.ui.report.active_passive import active_passive
-from carpus.ui.report.further_rows import FIRST, further_rows, further_title
+from carpus.ui.report.further_rows import further_rows, further_title
 from carpus.ui.report.hand_rows import column_heads, finger_rows, limits_words
 from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.tables import column_names, repetition_words, table_rows
@@ -442,7 +442,7 @@ class ReviewScreen(QWidget):
         if rows and self._is_hand:  # what the exercise is about comes first
             self._below.removeWidget(self.further)
             last = self._below.count() - 1  # before the stretch, after what explains the table
-            self._below.insertWidget(0 if figures.exercise.id in FIRST else last, self.further)
+            self._below.insertWidget(0 if figures.exercise.is_task else last, self.further)
         said = " · ".join(filter(None, (repetition_words(figures), corrected_words(figures).rstrip("."))))
         self.count.setText(said)
         self.title.setText(self._session_words())

@@ -9,7 +9,6 @@ from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QProgressBar, QVBoxLayou
 
 from carpus.core.library.set_up import SetUp
 from carpus.core.output.exercises import Exercise
-from carpus.ui import terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.default_answer import ENTER
@@ -18,6 +17,7 @@ from carpus.ui.setup.choice import SourceChoice, SourceKind
 from carpus.ui.setup.option import Options
 from carpus.ui.theme import MARGIN_PX, Theme
 from carpus.ui.tour.bubble import BubbleView
+from carpus.ui.translate import say
 
 PATTERNS = "*.oni *.db3 *.bag *.mkv *.carpusraw"
 
@@ -157,7 +157,7 @@ class CameraScreen(QWidget):
         self.progress.setValue(done)
 
     def _show_exercise(self, exercise: Exercise) -> None:
-        self.position.setText(terms.exercise_position(exercise.id))
+        self.position.setText(say(exercise.position))
 
     def _show(self, *_: object) -> None:
         there = self._camera_there

@@ -273,7 +273,7 @@ class ExerciseScreen(QWidget):
         self._show_goals()
         self._ends_field.setVisible(self._discs().has_fingers)
         self.ends.choose(exercise.ends_free)
-        words = terms.exercise_view(exercise.id)
+        words = say(exercise.unseen)
         self.view.setText(words)
         self.view.setVisible(bool(words))
         self._show_problem()
@@ -360,9 +360,7 @@ def _exercises_of(theme: Theme, protocol: MarkerProtocol, sets: Sequence[Exercis
 
 def _rows(protocol: MarkerProtocol, sets: Sequence[ExerciseSet]) -> list[tuple[str, str, str]]:
     """What a list offers: the exercises, then the sets of the same discs; value, name and sentence."""
-    single = [
-        (item.id, terms.exercise_name(item.id), terms.exercise_instruction(item.id)) for item in exercises_of(protocol)
-    ]
+    single = [(item.id, terms.exercise_name(item.id), say(item.asked)) for item in exercises_of(protocol)]
     several = [
         (_set_id(one.set_id), tr("Set: {name}").format(name=say(one.name)), set_words(one))
         for one in sets
