@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QCloseEvent, QKeySequence, QPainter, QPaintEvent, QShortcut
+from PySide6.QtGui import QCloseEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import QApplication, QStackedWidget, QVBoxLayout, QWidget
 
 from carpus.ui.controls.focus_ring import FocusRing
-from carpus.ui.messages.sign import Sign
+from carpus.ui.messages.sign import AmberLine
 from carpus.ui.style import apply_style
 from carpus.ui.theme import Theme
 from carpus.ui.topbar import TopBar
@@ -28,7 +28,7 @@ class Shell(QWidget):
         super().__init__()
         self._theme = theme
         self.bar = TopBar(theme)
-        self.sign = Sign(theme)
+        self.sign = AmberLine(theme)
         self.stage = QStackedWidget()
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
@@ -36,7 +36,7 @@ class Shell(QWidget):
         column.addWidget(self.bar)
         column.addWidget(self.sign)
         column.addWidget(self.stage, 1)
-        self.ring = FocusRing(self, theme)
+        self.ring = FocusRing(self)
         self.setWindowTitle("Carpus")
         self.resize(*FIRST_SIZE_PX)
         self.setMinimumSize(*LEAST_SIZE_PX)
@@ -68,10 +68,6 @@ class Shell(QWidget):
         application = QApplication.instance()
         if isinstance(application, QApplication):
             apply_style(application, self._theme)
-        self.update()
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        QPainter(self).fillRect(self.rect(), self._theme.color("canvas"))
 
     def close_surely(self) -> None:
         """Close without asking: the person has answered, or the system ends."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from importlib.resources import as_file, files
 
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QApplication
 
 from carpus.ui.fonts import font
-from carpus.ui.theme import Theme
+from carpus.ui.theme import CARD_RADIUS_PX, CONTROL_RADIUS_PX, DIM_ALPHA, FOCUS_OUTSIDE_PX, Theme
 
 _SHEET = """
 QLineEdit, QPlainTextEdit, QSpinBox, QDoubleSpinBox, QDateEdit, QComboBox, QKeySequenceEdit {{
@@ -42,6 +43,19 @@ QToolTip {{ background: {text}; color: {surface}; border: 0; padding: 6px 8px; }
 QMenu {{ background: {surface}; color: {text}; border: 1px solid {border}; padding: 4px; }}
 QMenu::item {{ padding: 8px 16px; border-radius: 4px; }}
 QMenu::item:selected {{ background: {soft}; }}
+Card {{ border-radius: {card}px; }}
+Surface[thick="true"] {{ border-width: 2px; }}
+Sheet {{ background: rgba(0, 0, 0, {dim}); }}
+LockSheet {{ background: {canvas}; }}
+QLineEdit QLabel {{ color: {text2}; }}
+Surface#bar {{ border-radius: 2px; }}
+Surface#badge {{ border-radius: {badge}px; }}
+FocusRing {{ border: 2px solid {accent}; border-radius: {ring}px; }}
+"""
+_OF_TOKEN = """
+Surface[fill="{name}"] {{ background: {value}; }}
+Surface[edge="{name}"] {{ border: 1px solid {value}; }}
+Surface[under="{name}"] {{ border-bottom: 1px solid {value}; }}
 """
 
 _SHEET_TOKENS = ("surface", "text", "text2", "border", "accent", "on_accent", "soft", "canvas")
@@ -64,6 +78,10 @@ def apply_style(application: QApplication, theme: Theme) -> None:
     application.setPalette(palette)
     application.setFont(font(14 * theme.text_scale))
     colors = {name: getattr(tokens, name) for name in _SHEET_TOKENS}
-    sizes = {"pad": 12, "pad_focus": 11, "field": theme.px(38), "row": theme.px(36)}
+    sizes = {
+        "pad": 12, "pad_focus": 11, "field": theme.px(38), "row": theme.px(36), "card": CARD_RADIUS_PX,
+        "ring": CONTROL_RADIUS_PX + FOCUS_OUTSIDE_PX, "badge": theme.px(34), "dim": DIM_ALPHA[theme.name],
+    }  # fmt: skip
+    surfaces = "".join(_OF_TOKEN.format(name=one.name, value=getattr(tokens, one.name)) for one in fields(tokens))
     with as_file(files("carpus.resources").joinpath("icons", f"chevron-down-{theme.name}.svg")) as chevron:
-        application.setStyleSheet(_SHEET.format(**colors, **sizes, chevron=chevron.as_posix()))
+        application.setStyleSheet(surfaces + _SHEET.format(**colors, **sizes, chevron=chevron.as_posix()))

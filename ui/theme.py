@@ -72,6 +72,9 @@ GAP_PX = 16
 CARD_PADDING_PX = 16
 CARD_RADIUS_PX = 10
 CONTROL_RADIUS_PX = 8
+FOCUS_OUTSIDE_PX = 3
+DIM_ALPHA = {"light": 110, "dark": 170}
+"""Of 255, of the black that lies over a screen under a sheet."""
 BAND_ALPHA = 95
 TIGHT_BELOW_PX = (1000, 620)
 """A screen smaller than this in text-scaled pixels shows less, instead of everything cut."""

@@ -9,12 +9,12 @@ from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen, QRe
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from carpus.ui.controls.button import Button, icon_button
-from carpus.ui.controls.card import Line
+from carpus.ui.controls.card import Line, Surface
 from carpus.ui.controls.pill import RecordingPill
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, StateText, Text
 from carpus.ui.controls.tooltip import plain_tooltip
 from carpus.ui.fonts import font
-from carpus.ui.icons import paint_mark, paint_state
+from carpus.ui.icons import paint_state
 from carpus.ui.theme import MARGIN_PX, Theme
 
 BAR_PX = 56
@@ -22,7 +22,7 @@ MOST_NAME_PX = 190
 RECORDING_LINE_PX = 3
 
 
-class TopBar(QWidget):
+class TopBar(Surface):
     """Signals: ``back``, ``tab`` (number), ``step`` (number of a step already done), ``help``, ``settings``,
     ``again_wanted`` for what is tracked again or waits for a decision."""
 
@@ -34,8 +34,7 @@ class TopBar(QWidget):
     again_wanted = Signal()
 
     def __init__(self, theme: Theme) -> None:
-        super().__init__()
-        self._theme = theme
+        super().__init__(theme)
         self.brand = _Brand(theme)
         self._bar_line = Line(theme, vertical=True)
         self._bar_line.setFixedHeight(24)
@@ -75,7 +74,8 @@ class TopBar(QWidget):
         whole.setContentsMargins(0, 0, 0, 0)
         whole.setSpacing(0)
         whole.addLayout(row, 1)
-        self._under = _UnderLine(theme)
+        self._under = Surface(theme, under="line")
+        self._under.setFixedHeight(RECORDING_LINE_PX)
         whole.addSpacing(1 - RECORDING_LINE_PX)  # the red line lies over the bar's last pixels and moves nothing
         whole.addWidget(self._under)
         theme.changed.connect(self._take_theme)
@@ -85,7 +85,6 @@ class TopBar(QWidget):
     def _take_theme(self) -> None:
         self.setFixedHeight(self._theme.px(BAR_PX) + RECORDING_LINE_PX - 2)
         self._fit()
-        self.update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()
@@ -174,8 +173,7 @@ class TopBar(QWidget):
 
     def show_recording(self, recording: bool) -> None:
         """The red line that is seen from afar."""
-        self._under.recording = recording
-        self._under.update()
+        self._under.set_colors("band_bad" if recording else "surface")
 
     def lock_aside(self, locked: bool) -> None:
         """Help and settings cannot be opened, nor take the keys, from a running recording."""
@@ -185,9 +183,6 @@ class TopBar(QWidget):
         ):
             button.setEnabled(not locked)
             button.setToolTip(self.tr("After the recording") if locked else words)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        QPainter(self).fillRect(self.rect(), self._theme.color("surface"))
 
 
 class WayButton(Button):
@@ -293,53 +288,18 @@ class AgainButton(Button):
 class _Brand(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self._theme = theme
-        self._named = True
-        self._word_px = 0
+        self._mark, self._word = Sign(theme, "carpus", 22, (26, 32)), Text(theme, "Carpus", 16, SEMIBOLD)
+        row = _row(self, 6, self._mark, self._word)
+        row.addSpacing(6)
         self.setAccessibleName("Carpus")
-        theme.changed.connect(self._take_theme)
-        self._take_theme()
-
-    def _take_theme(self) -> None:
-        word = QFontMetricsF(font(16 * self._theme.text_scale, SEMIBOLD)).horizontalAdvance("Carpus")
-        self._word_px = round(word) + 16
-        self.setFixedSize(self.width_px(self._named), self._theme.px(32))
-        self.update()
 
     def width_px(self, named: bool) -> int:
         """Room for the mark, with or without the word."""
-        return self._theme.px(22) + 4 + (self._word_px if named else 0)
+        return self._mark.width() + 12 + (self._word.sizeHint().width() if named else 0)
 
     def show_name(self, named: bool) -> None:
         """The mark with or without the word beside it."""
-        if named != self._named:
-            self._named = named
-            self._take_theme()
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        size = self._theme.px(22)
-        paint_mark(painter, QRectF(0, (self.height() - size) / 2, size, size), self._theme.color("accent"))
-        if not self._named:
-            return
-        painter.setFont(font(16 * self._theme.text_scale, SEMIBOLD))
-        painter.setPen(self._theme.color("text"))
-        painter.drawText(QRectF(size + 10, 0, 200, self.height()), int(Qt.AlignmentFlag.AlignVCenter), "Carpus")
-
-
-class _UnderLine(QWidget):
-    def __init__(self, theme: Theme) -> None:
-        super().__init__()
-        self._theme = theme
-        self.recording = False
-        self.setFixedHeight(RECORDING_LINE_PX)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        if self.recording:
-            painter.fillRect(self.rect(), self._theme.color("band_bad"))
-        else:
-            painter.fillRect(0, self.height() - 1, self.width(), 1, self._theme.color("line"))
+        self._word.setVisible(named)
 
 
 def _row(host: QWidget, spacing_px: int, *widgets: QWidget) -> QHBoxLayout:

@@ -25,7 +25,7 @@ def parts(qtbot: QtBot, theme: Theme) -> tuple[QWidget, QScrollArea, list[QPushB
     area.setWidgetResizable(True)
     area.setWidget(inside)
     QVBoxLayout(window).addWidget(area)
-    ring = FocusRing(window, theme)
+    ring = FocusRing(window)
     with qtbot.waitExposed(window):
         window.show()
     ring._follow(None, buttons[2])  # without a window manager nothing has the keyboard

@@ -15,7 +15,7 @@ from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.progress_bar import ThinBar
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, StateSign, Text, caption, heading
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind
 from carpus.ui.plot.agreement import AgreementPlot, View
 from carpus.ui.plot.agreement_view import AgreementChart
@@ -258,7 +258,7 @@ class AgreementScreen(QWidget):
             grid.setContentsMargins(0, 0, 0, 0)
             grid.setHorizontalSpacing(8)
             grid.setVerticalSpacing(0)
-            grid.addWidget(StateSign(theme, state), 0, 0)
+            grid.addWidget(Sign(theme, state), 0, 0)
             grid.addWidget(Text(theme, thing, 14, REGULAR, "text2"), 0, 1)
             grid.addWidget(Text(theme, value, 14, SEMIBOLD), 0, 2, Qt.AlignmentFlag.AlignRight)
             grid.addWidget(caption(theme, small, wrap=True), 1, 1, 1, 2)

@@ -17,8 +17,8 @@ from carpus.ui.agreement.words import (
     signed,
     tenths,
 )
-from carpus.ui.controls.card import Line, Surface
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateSign, Text, caption
+from carpus.ui.controls.card import Line
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text, caption, named_by_color
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
 
@@ -64,7 +64,7 @@ class AgreementTable(QWidget):
         theme, name, figures = self._theme, pairs.name, pairs.figures_deg
         state, words = judgement_words(pairs, limit_deg, readings=readings)
         first = (
-            _Named(theme, angle_name(name), angle_token(name)),
+            named_by_color(theme, angle_name(name), angle_token(name)),
             Text(theme, signed(figures.bias, name), 14, SEMIBOLD, wrap=True),
             Text(theme, limits(figures, name), 14, REGULAR, wrap=True),
             Text(theme, tenths(figures.rmse), 14, SEMIBOLD),
@@ -82,21 +82,6 @@ class AgreementTable(QWidget):
             self._grid.addWidget(caption(theme, f"({text})" if text else "", wrap=True), row + 1, column)
 
 
-class _Named(QWidget):
-    """An angle with the bar of its colour."""
-
-    def __init__(self, theme: Theme, words: str, token: str) -> None:
-        super().__init__()
-        row = QGridLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setHorizontalSpacing(10)
-        bar = Surface(theme, token)
-        bar.setFixedSize(5, 14)
-        row.addWidget(bar, 0, 0)
-        row.addWidget(Text(theme, words, 14, MEDIUM, wrap=True), 0, 1)
-        row.setColumnStretch(1, 1)
-
-
 class _Judged(QWidget):
     """Sign and words, which may need two lines."""
 
@@ -105,6 +90,6 @@ class _Judged(QWidget):
         row = QGridLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setHorizontalSpacing(8)
-        row.addWidget(StateSign(theme, state), 0, 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(Sign(theme, state), 0, 0, Qt.AlignmentFlag.AlignTop)
         row.addWidget(Text(theme, words, 14, SEMIBOLD, STATE_TOKEN.get(state, "text2"), wrap=True), 0, 1)
         row.setColumnStretch(1, 1)

@@ -29,7 +29,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.progress_bar import ThinBar
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, StateSign, Text, caption, heading
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, heading
 from carpus.ui.controls.tooltip import plain_tooltip
 from carpus.ui.figures import figure_of, with_side
 from carpus.ui.keys import Keys, bind
@@ -124,7 +124,7 @@ class BesideScreen(QWidget):
             head.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
         line = QHBoxLayout()
         line.setSpacing(10)
-        line.addWidget(StateSign(self._theme, "warn"), 0, Qt.AlignmentFlag.AlignVCenter)
+        line.addWidget(Sign(self._theme, "warn"), 0, Qt.AlignmentFlag.AlignVCenter)
         line.addWidget(self.unfair, 1)
         self._strip.body.setContentsMargins(16, 8, 16, 8)
         self._strip.body.addLayout(line)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QWidget
 
 from carpus.ui.beside.rows import BesideRow
 from carpus.ui.controls.card import Line
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateSign, Text, caption
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text, caption, named_by_color
 from carpus.ui.theme import Theme
 
 STRETCH = (20, 17, 17, 13, 8, 34)
@@ -56,7 +55,7 @@ class BesideTable(QWidget):
         weak = "text" if row.strong else "text2"
         said = SEMIBOLD if row.strong else REGULAR
         cells: tuple[QWidget, ...] = (
-            _Named(theme, row.movement, row.token),
+            named_by_color(theme, row.movement, row.token),
             Text(theme, row.first, 16, SEMIBOLD, wrap=True),
             Text(theme, row.second, 16, SEMIBOLD, wrap=True),
             Text(theme, row.difference, 14, said, weak),
@@ -73,26 +72,6 @@ class _Said(QWidget):
         line = QHBoxLayout(self)
         line.setContentsMargins(0, 0, 0, 0)
         line.setSpacing(8)
-        line.addWidget(StateSign(theme, row.state), 0, Qt.AlignmentFlag.AlignVCenter)
+        line.addWidget(Sign(theme, row.state), 0, Qt.AlignmentFlag.AlignVCenter)
         strong = SEMIBOLD if row.strong else REGULAR
         line.addWidget(Text(theme, row.words, 14, strong, "text" if row.strong else "text2", wrap=True), 1)
-
-
-class _Named(QWidget):
-    """A movement with the mark of its curve's colour."""
-
-    def __init__(self, theme: Theme, name: str, token: str) -> None:
-        super().__init__()
-        self._theme, self._token = theme, token
-        line = QHBoxLayout(self)
-        line.setContentsMargins(16, 0, 0, 0)
-        line.addWidget(Text(theme, name, 14, MEDIUM, wrap=True))
-        theme.changed.connect(self.update)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        if self._token:
-            painter = QPainter(self)
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-            painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(self._theme.color(self._token))
-            painter.drawRoundedRect(QRectF(0, (self.height() - 16) / 2, 5, 16), 2.5, 2.5)

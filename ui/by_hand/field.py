@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 
-from PySide6.QtCore import QRectF, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QLineEdit
 
 from carpus.core.by_hand.measures import HandMeasure
 from carpus.core.by_hand.values import is_unusual
 from carpus.ui import numbers
 from carpus.ui.by_hand.names import unit_name, value_words
-from carpus.ui.fonts import MEDIUM, font
+from carpus.ui.controls.field import lay_inside
+from carpus.ui.controls.text import caption
 from carpus.ui.theme import Theme
 
 
@@ -27,6 +28,7 @@ class ValueField(QLineEdit):
     def __init__(self, theme: Theme, measure: HandMeasure, name: str, width_px: int) -> None:
         super().__init__()
         self._theme, self._measure, self._width_px = theme, measure, width_px
+        lay_inside(self, None, caption(theme, unit_name(measure)), edge_px=9)
         self.setAccessibleName(name)
         self.setMaxLength(8)
         self.textChanged.connect(lambda _: self._take_theme())
@@ -75,16 +77,6 @@ class ValueField(QLineEdit):
             self.onward.emit()
         else:
             super().keyPressEvent(event)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        super().paintEvent(event)
-        painter = QPainter(self)
-        painter.setFont(font(12 * self._theme.text_scale, MEDIUM))
-        painter.setPen(self._theme.color("text2"))
-        box = QRectF(0, 0, self.width() - 9, self.height())
-        painter.drawText(
-            box, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), unit_name(self._measure)
-        )
 
     def _take_theme(self) -> None:
         unit_px = 46 if self._measure.unit == "points" else 26

@@ -14,7 +14,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.default_answer import ENTER
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateSign, Text, caption, heading
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 
 
@@ -117,7 +117,7 @@ class BoardResultView(QWidget):
         for number, (state, *cells) in enumerate(result_rows(result), 1):
             row = 2 * number
             grid.addWidget(Line(theme), row - 1, 0, 1, 5)
-            grid.addWidget(StateSign(theme, state), row, 0)
+            grid.addWidget(Sign(theme, state), row, 0)
             styles = ((MEDIUM, "text"), (REGULAR, "text2"), (SEMIBOLD, "text"), (REGULAR, "text2"))
             for column, (cell, (weight, token)) in enumerate(zip(cells, styles, strict=True), 1):
                 grid.addWidget(Text(theme, cell, 14, weight, token, wrap=True), row, column)

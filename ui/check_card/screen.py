@@ -18,7 +18,7 @@ from carpus.ui.controls.column import ScrolledColumn, scroll_area, scrolled
 from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.progress_bar import ThinBar
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateSign, Text, caption, heading
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind
 from carpus.ui.picture.photo import label_size, paint_label
 from carpus.ui.picture.view import PictureView
@@ -257,7 +257,7 @@ class CardScreen(QWidget):
         for number, (state, name, measured, off) in enumerate(figure_rows(last), 1):
             row = 2 * number
             grid.addWidget(Line(theme), row - 1, 0, 1, 4)
-            grid.addWidget(StateSign(theme, state), row, 0)
+            grid.addWidget(Sign(theme, state), row, 0)
             grid.addWidget(Text(theme, name, 14, wrap=True), row, 1)
             grid.addWidget(Text(theme, measured, 14), row, 2, right)
             grid.addWidget(Text(theme, off, 14, SEMIBOLD), row, 3, right)

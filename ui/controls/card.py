@@ -25,61 +25,51 @@ def paint_card(
     return frame
 
 
-class Card(QWidget):
+class Surface(QWidget):
+    """A plain ground of one token, for bars; the application's style sheet paints it."""
+
+    def __init__(self, theme: Theme, fill: str = "surface", edge: str = "", under: str = "") -> None:
+        """``edge`` is the token of a line about it, ``under`` of one at its lower end."""
+        super().__init__()
+        self._theme = theme
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.setProperty("under", under)
+        self.set_colors(fill, edge)
+
+    @property
+    def edge(self) -> str:
+        """Token of its outline."""
+        return str(self.property("edge"))
+
+    def set_colors(self, fill: str, edge: str = "", edge_px: float = 1.0) -> None:
+        """Change the surface, as a message of another rank does."""
+        for name, value in (("fill", fill), ("edge", edge), ("thick", edge_px > 1.0)):
+            self.setProperty(name, value)
+        self.style().unpolish(self)
+        self.style().polish(self)
+
+
+class Card(Surface):
     """A rounded surface with a 1 px line; its layout is vertical and already there as ``body``."""
 
     def __init__(
         self, theme: Theme, padding_px: int = CARD_PADDING_PX, fill: str = "surface", edge: str = "line"
     ) -> None:
-        super().__init__()
-        self._theme, self._fill, self._edge, self._edge_px = theme, fill, edge, 1.0
+        super().__init__(theme, fill, edge)
         self.body = QVBoxLayout(self)
         self.body.setContentsMargins(padding_px, padding_px, padding_px, padding_px)
         self.body.setSpacing(8)
-        theme.changed.connect(self.update)
-
-    @property
-    def edge(self) -> str:
-        """Token of its outline."""
-        return self._edge
-
-    def set_colors(self, fill: str, edge: str, edge_px: float = 1.0) -> None:
-        """Change the surface, as a message of another rank does."""
-        self._fill, self._edge, self._edge_px = fill, edge, edge_px
-        self.update()
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        paint_card(painter, self._theme, QRectF(self.rect()), self._fill, self._edge, self._edge_px)
 
 
-class Surface(QWidget):
-    """A plain ground of one token, for bars."""
-
-    def __init__(self, theme: Theme, token: str = "surface") -> None:
-        super().__init__()
-        self._theme, self._token = theme, token
-        theme.changed.connect(self.update)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        QPainter(self).fillRect(self.rect(), self._theme.color(self._token))
-
-
-class Line(QWidget):
+class Line(Surface):
     """A 1 px separator."""
 
     def __init__(self, theme: Theme, token: str = "line", *, vertical: bool = False) -> None:
-        super().__init__()
-        self._theme, self._token = theme, token
+        super().__init__(theme, token)
         if vertical:
             self.setFixedWidth(1)
         else:
             self.setFixedHeight(1)
-        theme.changed.connect(self.update)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        QPainter(self).fillRect(self.rect(), self._theme.color(self._token))
 
 
 class KeyCaps(QWidget):

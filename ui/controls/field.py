@@ -5,17 +5,27 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from PySide6.QtCore import QRectF, Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLineEdit, QSpinBox, QVBoxLayout, QWidget
 
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.flow import FlowLayout
-from carpus.ui.controls.text import MEDIUM, Text
+from carpus.ui.controls.text import MEDIUM, Sign, Text, caption
 from carpus.ui.fonts import font
-from carpus.ui.icons import paint_icon
 from carpus.ui.theme import Theme
+
+
+def lay_inside(line: QLineEdit, *parts: QWidget | None, edge_px: int = 15) -> None:
+    """Put signs and words over a line to type in, which leaves room for them; None is what stretches."""
+    row = QHBoxLayout(line)
+    row.setContentsMargins(edge_px, 0, edge_px, 0)
+    for part in parts:
+        if part is None:
+            row.addStretch(1)
+        else:
+            part.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+            row.addWidget(part)
 
 
 class SearchField(QLineEdit):
@@ -23,7 +33,10 @@ class SearchField(QLineEdit):
 
     def __init__(self, theme: Theme, placeholder: str, hint: str) -> None:
         super().__init__()
-        self._theme, self._hint = theme, hint
+        self._theme = theme
+        shown = caption(theme, hint)
+        lay_inside(self, Sign(theme, "search", 18, (18, 20), "text2"), None, shown)
+        self.textChanged.connect(lambda text: shown.setVisible(not text))
         self.setPlaceholderText(placeholder)
         self.setAccessibleName(placeholder)
         theme.changed.connect(self._take_theme)
@@ -33,17 +46,6 @@ class SearchField(QLineEdit):
         self.setFont(font(16 * self._theme.text_scale))
         self.setTextMargins(self._theme.px(30), 0, self._theme.px(60), 0)
         self.setFixedHeight(self._theme.px(44))
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        super().paintEvent(event)
-        painter = QPainter(self)
-        size = self._theme.px(18)
-        paint_icon(painter, "search", QRectF(15, (self.height() - size) / 2, size, size), self._theme.color("text2"))
-        if not self.text():
-            painter.setFont(font(12 * self._theme.text_scale, MEDIUM))
-            painter.setPen(self._theme.color("text2"))
-            box = QRectF(0, 0, self.width() - 16, self.height())
-            painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), self._hint)
 
 
 class Labelled(QWidget):

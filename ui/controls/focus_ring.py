@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QPoint, QRect, QRectF, Qt
-from PySide6.QtGui import QPainter, QPaintEvent, QPen
+from PySide6.QtCore import QEvent, QObject, QPoint, QRect, Qt
 from PySide6.QtWidgets import QAbstractScrollArea, QAbstractSpinBox, QApplication, QLineEdit, QPlainTextEdit, QWidget
 from shiboken6 import isValid
 
 from carpus.ui.controls.host import host_of
-from carpus.ui.theme import CONTROL_RADIUS_PX, Theme
+from carpus.ui.theme import FOCUS_OUTSIDE_PX
 
-OUTSIDE_PX = 3
 MARKS_ITSELF = (QLineEdit, QPlainTextEdit, QAbstractSpinBox)
 """Text fields show focus by their own border."""
 
@@ -18,12 +16,12 @@ MARKS_ITSELF = (QLineEdit, QPlainTextEdit, QAbstractSpinBox)
 class FocusRing(QWidget):
     """Lies over a window, lets the mouse through, follows the focused control."""
 
-    def __init__(self, window: QWidget, theme: Theme) -> None:
+    def __init__(self, window: QWidget) -> None:
         super().__init__(window)
-        self._theme = theme
         self._target: QWidget | None = None
         self._watched: list[QWidget] = []
-        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        for attribute in (Qt.WidgetAttribute.WA_TransparentForMouseEvents, Qt.WidgetAttribute.WA_StyledBackground):
+            self.setAttribute(attribute)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.hide()
         application = QApplication.instance()
@@ -66,7 +64,7 @@ class FocusRing(QWidget):
             self.hide()
             return
         corner = target.mapTo(host_of(self), QPoint(0, 0))
-        grow = OUTSIDE_PX + 2
+        grow = FOCUS_OUTSIDE_PX + 2
         place = QRect(corner, target.size()).adjusted(-grow, -grow, grow, grow)
         seen = place
         for holder in self._watched[1:]:
@@ -84,10 +82,3 @@ class FocusRing(QWidget):
             self.setMask(seen.translated(-place.topLeft()))
         self.show()
         self.raise_()
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(QPen(self._theme.color("accent"), 2))
-        radius = CONTROL_RADIUS_PX + OUTSIDE_PX
-        painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), radius, radius)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, Signal
-from PySide6.QtGui import QColor, QKeyEvent, QKeySequence, QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtGui import QKeyEvent, QKeySequence, QResizeEvent
 from PySide6.QtWidgets import QAbstractButton, QApplication, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from shiboken6 import isValid
 
@@ -12,9 +12,6 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.default_answer import ENTER, is_enter, press
 from carpus.ui.controls.host import host_of
 from carpus.ui.theme import Theme
-
-DIM_ALPHA = {"light": 110, "dark": 170}
-
 
 _open: list[Sheet] = []
 """The sheets that are open, the topmost last."""
@@ -46,7 +43,8 @@ class Sheet(QWidget):
     ) -> None:
         """``low``: near the lower edge and without dimming, over a screen that must stay readable."""
         super().__init__(host)
-        self._theme, self._may_close, self._dims = theme, may_close, not low
+        self._theme, self._may_close = theme, may_close
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground, not low)
         self._width_px = width_px
         self._focus_before: QWidget | None = None
         self._first: QWidget | None = None
@@ -193,7 +191,3 @@ class Sheet(QWidget):
         """Whether this is the topmost sheet to be seen in a window."""
         shown = [sheet for sheet in _open if isValid(sheet) and sheet.isVisible() and sheet.window() is window]
         return bool(shown) and shown[-1] is self
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        if self._dims:
-            QPainter(self).fillRect(self.rect(), QColor(0, 0, 0, DIM_ALPHA[self._theme.name]))

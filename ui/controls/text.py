@@ -6,13 +6,25 @@ import math
 
 from PySide6.QtCore import QEvent, QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEvent, QPalette, QShowEvent
-from PySide6.QtWidgets import QLabel, QSizePolicy, QToolTip, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolTip, QWidget
 
+from carpus.ui.controls.card import Surface
 from carpus.ui.fonts import DISPLAY_FROM_PX, MEDIUM, REGULAR, SEMIBOLD, font
-from carpus.ui.icons import State, paint_icon, paint_state
+from carpus.ui.icons import State, paint_icon, paint_mark, paint_state
 from carpus.ui.theme import Theme
 
-__all__ = ["MEDIUM", "REGULAR", "SEMIBOLD", "StateSign", "StateText", "Text", "caption", "heading", "paint_status"]
+__all__ = [
+    "MEDIUM",
+    "REGULAR",
+    "SEMIBOLD",
+    "Sign",
+    "StateText",
+    "Text",
+    "caption",
+    "heading",
+    "named_by_color",
+    "paint_status",
+]
 
 
 class Text(QLabel):
@@ -214,20 +226,47 @@ class StateText(QWidget):
         painter.drawText(QRectF(left, 0, self.width() - left, self.height()), Qt.AlignmentFlag.AlignVCenter, self._text)
 
 
-class StateSign(QWidget):
-    """The sign alone; its words stand beside it."""
+class Sign(QWidget):
+    """A state's sign or a line icon alone; its words stand beside it. ``size_px`` large in the middle of the height of
+    ``room_px``, and so far to the right in it as ``lean`` says, from 0 to 1."""
 
-    def __init__(self, theme: Theme, state: State) -> None:
+    def __init__(
+        self, theme: Theme, name: str, size_px: int = 18, room_px: tuple[int, int] = (20, 20), token: str = "accent",
+        lean: float = 0.0,
+    ) -> None:  # fmt: skip
         super().__init__()
-        self._theme, self._state = theme, state
-        theme.changed.connect(self._take_theme)
-        self._take_theme()
+        self._theme, self._room_px, self._lean = theme, room_px, lean
+        self.show_sign(name, token, size_px)
+        theme.follow(self, self._take_theme)
+
+    def show_sign(self, name: str, token: str = "accent", size_px: int = 18) -> None:
+        """Show another; the token is that of an icon, a state has its own."""
+        self._name, self._token, self._size_px = name, token, size_px
+        self.update()
 
     def _take_theme(self) -> None:
-        self.setFixedSize(self._theme.px(20), self._theme.px(20))
+        self.setFixedSize(*(self._theme.px(side) for side in self._room_px))
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        side = self._theme.px(18)
-        paint_status(painter, self._theme, self._state, QRectF(0, (self.height() - side) / 2, side, side))
+        painter, size = QPainter(self), self._theme.px(self._size_px)
+        box = QRectF((self.width() - size) * self._lean, (self.height() - size) / 2, size, size)
+        if self._name == "carpus":
+            paint_mark(painter, box, self._theme.color(self._token))
+        elif self._name in STATE_TOKENS:
+            paint_status(painter, self._theme, self._name, box)
+        else:
+            paint_icon(painter, self._name, box, self._theme.color(self._token))
+
+
+def named_by_color(theme: Theme, name: str, token: str) -> QWidget:
+    """A name after a bar in the colour of its curve; without a token room for one."""
+    named, bar = QWidget(), Surface(theme, token)
+    bar.setObjectName("bar")
+    bar.setFixedSize(5, 14)
+    line = QHBoxLayout(named)
+    line.setContentsMargins(0, 0, 0, 0)
+    line.setSpacing(11)
+    line.addWidget(bar)
+    line.addWidget(Text(theme, name, 14, MEDIUM, wrap=True), 1)
+    return named

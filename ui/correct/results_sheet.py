@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QPointF, QSize, Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent, QPen
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QWidget
 
 from carpus.core.output.joint_content import JointCurves
 from carpus.core.output.report_content import Curves, SessionFigures
 from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Surface
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.figures import FINGERS
-from carpus.ui.fonts import MEDIUM, font
+from carpus.ui.fonts import MEDIUM
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot.compared import OLD_TOKEN, ComparedHandPlot, ComparedPlot, legend_words, most_different_finger
 from carpus.ui.plot.session_view import CurveView
@@ -57,7 +57,7 @@ class ResultsSheet(Sheet):
         self.bar.setTextVisible(False)
         self.bar.setAccessibleName(self.tr("How far the tracking is"))
         self.bar.setFixedHeight(8)
-        self.legend = _Legend(theme)
+        self.legend = _legend(theme)
         fingers: list[tuple[object, str]] = [(finger, finger_name(str(finger))) for finger in FINGERS]
         self.finger = Choices(theme, [*fingers, (WRIST, self.tr("Wrist"))])
         self.finger.chosen.connect(lambda _: self._draw())
@@ -156,34 +156,19 @@ class ResultsSheet(Sheet):
             self.curves.show_plot(ComparedPlot(*shown, old=both.old))
 
 
-class _Legend(QWidget):
+def _legend(theme: Theme) -> QWidget:
     """How the old and the new result are drawn."""
-
-    def __init__(self, theme: Theme) -> None:
-        super().__init__()
-        self._theme = theme
-        self.setAccessibleName(", ".join(legend_words()))
-        theme.changed.connect(self.updateGeometry)
-
-    def sizeHint(self) -> QSize:
-        return QSize(300, self._theme.px(22))
-
-    def minimumSizeHint(self) -> QSize:
-        return QSize(200, self._theme.px(22))
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter, scale = QPainter(self), self._theme.text_scale
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setFont(font(14 * scale, MEDIUM))
-        middle, left = self.height() / 2, 0.0
-        for words, token, dashed in zip(legend_words(), (OLD_TOKEN, "curve_a"), (True, False), strict=True):
-            pen = QPen(self._theme.color(token), 2.0)
-            if dashed:
-                pen.setDashPattern([4, 3])
-            pen.setCapStyle(Qt.PenCapStyle.FlatCap)
-            painter.setPen(pen)
-            painter.drawLine(QPointF(left, middle), QPointF(left + 28 * scale, middle))
-            painter.setPen(self._theme.color("text"))
-            left += 36 * scale
-            painter.drawText(QPointF(left, middle + 5 * scale), words)
-            left += painter.fontMetrics().horizontalAdvance(words) + 28 * scale
+    legend = QWidget()
+    legend.setAccessibleName(", ".join(legend_words()))
+    row = QHBoxLayout(legend)
+    row.setContentsMargins(0, 0, 0, 0)
+    row.setSpacing(6)
+    for words, token, dashes_px in zip(legend_words(), (OLD_TOKEN, "curve_a"), ((8, 8, 8), (36,)), strict=True):
+        for dash_px in dashes_px:
+            stroke = Surface(theme, token)
+            stroke.setFixedSize(dash_px, 2)
+            row.addWidget(stroke)
+        row.addWidget(Text(theme, words, 14, MEDIUM))
+        row.addSpacing(16)
+    row.addStretch(1)
+    return legend

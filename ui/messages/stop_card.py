@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QRectF, QSize, Qt
-from PySide6.QtGui import QKeyEvent, QKeySequence, QPainter, QPaintEvent
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, paint_status
-from carpus.ui.icons import paint_icon
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.ports import Words
 from carpus.ui.theme import Theme
 
@@ -44,8 +43,9 @@ class StopCard(Sheet):
         self.todo = Text(theme, "", 20, SEMIBOLD, wrap=True)
         self.todo_detail = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.waiting = Text(theme, "", 14, REGULAR, "text2")
-        self._icon = _RowIcon(theme, "unplug")
-        self._icon_safe = _RowIcon(theme, "good")
+        self._icon, self._icon_safe, onward = (
+            Sign(theme, name, 26, (44, 40), lean=0.5) for name in ("unplug", "good", "chevron-right")
+        )
         self._buttons = QHBoxLayout()
         self._buttons.setSpacing(12)
         self._answers: list[tuple[Button, Answer]] = []
@@ -55,7 +55,7 @@ class StopCard(Sheet):
         rows = (
             (self._icon, self.what, self.detail),
             (self._icon_safe, self.safe, self.safe_detail),
-            (_RowIcon(theme, "chevron-right"), self.todo, self.todo_detail),
+            (onward, self.todo, self.todo_detail),
         )
         for icon, head, detail in rows:
             row = QHBoxLayout()
@@ -82,8 +82,8 @@ class StopCard(Sheet):
         self._set_row(self.what, self.detail, words.what.rstrip("."), detail)
         self._set_row(self.safe, self.safe_detail, words.safe, safe_detail)
         self._set_row(self.todo, self.todo_detail, words.todo, "")
-        self._icon.set_icon(icon or ("bad" if alarm else "circle-help"), "bad" if alarm else "accent")
-        self._icon_safe.set_icon("good" if data_safe else "warn")
+        self._icon.show_sign(icon or ("bad" if alarm else "circle-help"), "bad" if alarm else "accent", 36)
+        self._icon_safe.show_sign("good" if data_safe else "warn", size_px=26)
         self.waiting.setText("")
         self.card.set_colors("surface", *(("bad", 2.0) if alarm else ("line", 1.0)))
         self.setAccessibleName(" ".join((words.what, detail, words.safe, safe_detail, words.todo)))
@@ -129,30 +129,3 @@ class StopCard(Sheet):
                 button.click()
                 return
         super().keyPressEvent(event)
-
-
-class _RowIcon(QWidget):
-    def __init__(self, theme: Theme, icon: str) -> None:
-        super().__init__()
-        self._theme, self._name = theme, icon
-        self._token = "accent" if icon == "chevron-right" else "bad"
-        theme.changed.connect(self.update)
-
-    def set_icon(self, icon: str, token: str = "bad") -> None:
-        self._name, self._token = icon, token
-        self.update()
-
-    def sizeHint(self) -> QSize:
-        return QSize(self._theme.px(44), self._theme.px(40))
-
-    def minimumSizeHint(self) -> QSize:
-        return self.sizeHint()
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        size = self._theme.px(26 if self._name in ("good", "warn", "chevron-right") else 36)
-        box = QRectF((self.width() - size) / 2, (self.height() - size) / 2, size, size)
-        if self._name in ("good", "warn", "bad"):
-            paint_status(painter, self._theme, self._name, box)  # type: ignore[arg-type]
-        else:
-            paint_icon(painter, self._name, box, self._theme.color(self._token))

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
-from carpus.ui.icons import paint_icon
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.ports import Words
 from carpus.ui.theme import Theme
 
@@ -39,7 +37,7 @@ class NoticeStrip(Card):
         row = QHBoxLayout()
         row.setContentsMargins(24, 14, 18, 12)
         row.setSpacing(20)
-        row.addWidget(_Icon(theme, icon), 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(Sign(theme, icon, 24, (26, 32)), 0, Qt.AlignmentFlag.AlignTop)
         row.addLayout(texts, 1)
         row.addLayout(buttons)
         row.setAlignment(buttons, Qt.AlignmentFlag.AlignTop)  # a stretch here would pull it open on an empty list
@@ -47,20 +45,3 @@ class NoticeStrip(Card):
         self.setAccessibleName(" ".join((words.what, words.safe, words.todo)))
         self.button.clicked.connect(self.answered)
         self.later_button.clicked.connect(self.later)
-
-
-class _Icon(QWidget):
-    def __init__(self, theme: Theme, icon: str) -> None:
-        super().__init__()
-        self._theme, self._icon = theme, icon
-        theme.changed.connect(self.update)
-
-    def sizeHint(self) -> QSize:
-        return QSize(self._theme.px(26), self._theme.px(32))
-
-    def minimumSizeHint(self) -> QSize:
-        return self.sizeHint()
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        size = self._theme.px(24)
-        paint_icon(QPainter(self), self._icon, QRectF(0, 4, size, size), self._theme.color("accent"))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
 
 from carpus.ui import numbers, terms
@@ -11,8 +11,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, paint_status
-from carpus.ui.icons import State, paint_icon
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.records.ports import ErasureFacts
 from carpus.ui.theme import Theme
 from carpus.ui.translate import inside
@@ -56,11 +55,11 @@ class EraseSheet(Sheet):
         column = QVBoxLayout(self._parts)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(10)
-        column.addLayout(_section(theme, _Sign(theme, icon="trash-2"), self.title, self.about))
+        column.addLayout(_section(theme, _sign(theme, "trash-2", "bad"), self.title, self.about))
         for sign, title, words in (
-            (_Sign(theme, "bad"), self.tr("This goes"), self.goes),
-            (_Sign(theme, "good"), self.tr("This stays"), self.stays),
-            (_Sign(theme, "warn"), self.tr("This cannot be undone"), self.ends),
+            (_sign(theme, "bad"), self.tr("This goes"), self.goes),
+            (_sign(theme, "good"), self.tr("This stays"), self.stays),
+            (_sign(theme, "warn"), self.tr("This cannot be undone"), self.ends),
         ):
             column.addWidget(Line(theme))
             column.addLayout(_section(theme, sign, Text(theme, title, 20, SEMIBOLD), words))
@@ -73,7 +72,7 @@ class EraseSheet(Sheet):
         milder.body.addLayout(
             _section(
                 theme,
-                _Sign(theme, icon="archive", token="accent"),
+                _sign(theme, "archive"),
                 Text(theme, self.tr("Archive instead"), 16, SEMIBOLD),
                 offered,
             )
@@ -199,28 +198,9 @@ class EraseSheet(Sheet):
         self.archive.emit()
 
 
-class _Sign(QWidget):
+def _sign(theme: Theme, name: str, token: str = "accent") -> Sign:
     """A state, or a line icon, in a column of its own."""
-
-    def __init__(self, theme: Theme, state: State = "none", *, icon: str = "", token: str = "bad") -> None:
-        super().__init__()
-        self._theme, self._state, self._icon, self._token = theme, state, icon, token
-        theme.changed.connect(self._take_theme)
-        self._take_theme()
-
-    def _take_theme(self) -> None:
-        self.setFixedSize(QSize(self._theme.px(COLUMN_PX), self._theme.px(ICON_PX + 10)))
-        self.update()
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        size = self._theme.px(ICON_PX)
-        box = QRectF((self.width() - size) / 3, 2, size, size)
-        if self._icon:
-            paint_icon(painter, self._icon, box, self._theme.color(self._token))
-        else:
-            paint_status(painter, self._theme, self._state, box)
+    return Sign(theme, name, ICON_PX, (COLUMN_PX, ICON_PX + 4), token, lean=0.33)
 
 
 def _section(theme: Theme, sign: QWidget, title: QWidget, words: QWidget) -> QHBoxLayout:

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from datetime import datetime
 
-from PySide6.QtCore import QRectF, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QLineEdit, QWidget
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Line
+from carpus.ui.controls.card import Line, Surface
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
-from carpus.ui.fonts import font
-from carpus.ui.icons import paint_icon, paint_mark
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, StateText, Text
 from carpus.ui.theme import Theme
 
 MOST_SIGNS = 64
@@ -28,7 +26,16 @@ class LockSheet(Sheet):
         super().__init__(host, theme, 480, may_close=False)
         self._pause_s = 0
         self._says_why = False
-        self.badge = _Badge(theme)
+        self.badge = Surface(theme, "soft")
+        self.badge.setObjectName("badge")
+        QHBoxLayout(self.badge).addWidget(Sign(theme, "lock", 32, (50, 50), lean=0.5))
+        self._bar = Surface(theme, under="line")
+        self._bar.setParent(self)
+        over = QHBoxLayout(self._bar)
+        over.setContentsMargins(20, 0, 0, 0)
+        over.setSpacing(6)
+        over.addWidget(Sign(theme, "carpus", 22, (26, 32)))
+        over.addWidget(Text(theme, "Carpus", 16, SEMIBOLD), 1)
         self.title = Text(theme, self.tr("Locked"), 28, SEMIBOLD)
         self.why = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.line = QLineEdit()
@@ -156,37 +163,6 @@ class LockSheet(Sheet):
             self._say_forgotten(help_shown=True)
         super().keyPressEvent(event)
 
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        painter.fillRect(self.rect(), self._theme.color("canvas"))
-        bar = QRectF(0, 0, self.width(), self._theme.px(56))
-        painter.fillRect(bar, self._theme.color("surface"))
-        painter.fillRect(QRectF(0, bar.bottom(), self.width(), 1), self._theme.color("line"))
-        size = self._theme.px(22)
-        paint_mark(painter, QRectF(20, (bar.height() - size) / 2, size, size), self._theme.color("accent"))
-        painter.setFont(font(16 * self._theme.text_scale, SEMIBOLD))
-        painter.setPen(self._theme.color("text"))
-        painter.drawText(QRectF(30 + size, 0, 300, bar.height()), Qt.AlignmentFlag.AlignVCenter, "Carpus")
-
-
-class _Badge(QWidget):
-    def __init__(self, theme: Theme) -> None:
-        super().__init__()
-        self._theme = theme
-        theme.changed.connect(self.updateGeometry)
-
-    def sizeHint(self) -> QSize:
-        return QSize(self._theme.px(68), self._theme.px(68))
-
-    def minimumSizeHint(self) -> QSize:
-        return self.sizeHint()
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(self._theme.color("soft"))
-        painter.drawEllipse(QRectF(self.rect()))
-        icon = self._theme.px(32)
-        box = QRectF((self.width() - icon) / 2, (self.height() - icon) / 2, icon, icon)
-        paint_icon(painter, "lock", box, self._theme.color("accent"))
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._bar.setGeometry(0, 0, self.width(), self._theme.px(56) + 1)
+        super().resizeEvent(event)

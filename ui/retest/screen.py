@@ -15,7 +15,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateSign, Text, caption, heading
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind
 from carpus.ui.retest.words import (
     figure_name,
@@ -172,7 +172,7 @@ class RetestScreen(QWidget):
         for number, one in enumerate(shown):
             row = 2 * number
             grid.addWidget(Line(theme), row, 0, 1, 4)
-            grid.addWidget(StateSign(theme, restated_state(one)), row + 1, 0)
+            grid.addWidget(Sign(theme, restated_state(one)), row + 1, 0)
             weight, token = (SEMIBOLD, "accent") if one.is_changed else (REGULAR, "text2")
             grid.addWidget(Text(theme, statement_words(one), 14, REGULAR, wrap=True), row + 1, 1)
             grid.addWidget(Text(theme, difference(one.now.shown_difference_deg), 14, MEDIUM, wrap=True), row + 1, 2)
@@ -209,7 +209,7 @@ class RetestScreen(QWidget):
             for column, text in enumerate(texts):
                 weight = MEDIUM if column == 0 else REGULAR
                 grid.addWidget(Text(theme, text, 14, weight, wrap=True), row + 1, column)
-            grid.addWidget(StateSign(theme, state), row + 1, 4)
+            grid.addWidget(Sign(theme, state), row + 1, 4)
             grid.addWidget(Text(theme, words, 14, MEDIUM, wrap=True), row + 1, 5)
         body.addWidget(table)
         table.setVisible(bool(self.plan.people))

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QHBoxLayout
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateSign, Text
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
 
@@ -29,7 +29,7 @@ class CameraCard(Card):
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self._row = QHBoxLayout()
         self._row.setSpacing(10)
-        self._sign = StateSign(theme, "none")
+        self._sign = Sign(theme, "none")
         self._state = Text(theme, "", 14, SEMIBOLD, wrap=True)
         self._row.addWidget(self._sign)
         self._row.addWidget(self._state, 1)
@@ -47,7 +47,7 @@ class CameraCard(Card):
 
     def show_standing(self, state: State, words: str) -> None:
         """How far it is to be trusted today."""
-        sign = StateSign(self._theme, state)
+        sign = Sign(self._theme, state)
         self._row.replaceWidget(self._sign, sign)
         self._sign.hide()
         self._sign.deleteLater()

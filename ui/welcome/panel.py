@@ -6,15 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.purpose import PURPOSE
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import scrolled
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text, paint_status
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
 from carpus.ui.translate import say
@@ -178,30 +177,7 @@ class CheckRow(QWidget):
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
         row.setSpacing(10)
-        row.addWidget(_StateIcon(theme, _ICONS[check.state]), 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(Sign(theme, _ICONS[check.state], 16, (18, 20), lean=0.5), 0, Qt.AlignmentFlag.AlignTop)
         row.addLayout(words, 1)
         states = {"good": self.tr("good"), "warning": self.tr("to be looked at"), "bad": self.tr("missing")}
         self.setAccessibleName(f"{check.name}, {states[check.state]}: {check.found}. {check.remedy}")
-
-
-class _StateIcon(QWidget):
-    def __init__(self, theme: Theme, state: State) -> None:
-        super().__init__()
-        self._theme, self._state = theme, state
-        theme.changed.connect(self._take_theme)
-
-    def _take_theme(self) -> None:
-        self.updateGeometry()
-        self.update()
-
-    def sizeHint(self) -> QSize:
-        return QSize(self._theme.px(18), self._theme.px(20))
-
-    def minimumSizeHint(self) -> QSize:
-        return self.sizeHint()
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        size = self._theme.px(16)
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        paint_status(painter, self._theme, self._state, QRectF(1, (self.height() - size) / 2, size, size))
