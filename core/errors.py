@@ -537,6 +537,16 @@ class RecordingMoved(CarpusFault):
     )
 
 
+class WaitingErased(CarpusFault):
+    """Told, never raised: a recording that waited on this computer was of a patient who has been erased meanwhile."""
+
+    happened = phrase(
+        "A recording that waited on this computer was of a patient who has been erased: it is erased too."
+    )
+    safe = phrase("Nothing else has been changed.")
+    do = phrase("Nothing need be done.")
+
+
 class RecordingReturned(CarpusFault):
     """Told, never raised: a session that had to be recorded elsewhere is among the others now."""
 
@@ -551,6 +561,16 @@ class FolderMissing(CarpusFault):
     happened = phrase("There is no folder {subject}.")
     safe = phrase("Nothing has been changed.")
     do = phrase("Name the folder that holds the sessions.")
+
+
+class ShareEmpty(FolderMissing):
+    """The folder of the sessions holds nothing of Carpus though there are sessions: the empty place of a share."""
+
+    happened = phrase("There is nothing that Carpus made in the folder of the sessions: {subject}.")
+    safe = phrase(
+        "Nothing has been changed. What is recorded meanwhile stays on this computer until the share is there."
+    )
+    do = phrase("Is the share connected? Connect it; if the sessions were moved, copy them there.")
 
 
 class FolderInUse(CarpusFault):

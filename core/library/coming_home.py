@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import shutil
 from collections.abc import Callable
@@ -11,7 +12,7 @@ import platformdirs
 
 from carpus.core.capture.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.durable import sync_folder
-from carpus.core.errors import CarpusFault, OutputNotWritable, RecordingReturned
+from carpus.core.errors import CarpusFault, OutputNotWritable, RecordingReturned, WaitingErased
 from carpus.core.library.set_up import MARKERS_SUFFIX
 from carpus.core.private import make_private
 from carpus.core.session.disk import free_name
@@ -25,16 +26,22 @@ def fallback_place(data_folder: Path) -> Path:
     return Path(platformdirs.user_state_dir("carpus", appauthor=False)) / "recorded-elsewhere" / name
 
 
-def bring_home(data_folder: Path, folder_of: Callable[[str], Path]) -> list[CarpusFault]:
-    """Finish what was recorded elsewhere and move it among the sessions, into the folder of each pseudonym; tells of
-    each, and of what could not be."""
+def bring_home(data_folder: Path, folder_of: Callable[[str, str], Path | None]) -> list[CarpusFault]:
+    """Finish what was recorded elsewhere and move it among the sessions, into the folder of each patient, by identity
+    and pseudonym; of whom there is none, it is erased. Tells of each, and of what could not be."""
     place = fallback_place(data_folder)
     if not place.is_dir():
         return []
     told = list(recover_folder(place).faults)
-    for path in sorted(place.glob("*.h5")):
+    for path in sorted(place.rglob("*.h5")):
         try:
-            told.append(RecordingReturned(_home(path, folder_of)))
+            folder = folder_of(path.parent.name, read_outline(path).header.subject_id)
+            told.append(WaitingErased() if folder is None else RecordingReturned(_home(path, folder)))
+            for suffix in (".h5", RAW_SUFFIX, MARKERS_SUFFIX):
+                path.with_suffix(suffix).unlink(missing_ok=True)
+            if path.parent != place:
+                with contextlib.suppress(OSError):  # another recording waits in it
+                    path.parent.rmdir()
         except CarpusFault as fault:
             told.append(fault)
         except OSError as cause:
@@ -42,8 +49,7 @@ def bring_home(data_folder: Path, folder_of: Callable[[str], Path]) -> list[Carp
     return told
 
 
-def _home(path: Path, folder_of: Callable[[str], Path]) -> Path:
-    folder = folder_of(read_outline(path).header.subject_id)
+def _home(path: Path, folder: Path) -> Path:
     make_private(folder)
     target = free_name(folder / path.name)
     for suffix in (RAW_SUFFIX, MARKERS_SUFFIX, ".h5"):  # the session last: what goes with it is there when it comes
@@ -54,6 +60,4 @@ def _home(path: Path, folder_of: Callable[[str], Path]) -> Path:
             part.chmod(0o600)
             part.rename(target.with_suffix(suffix))
     sync_folder(folder)
-    for suffix in (".h5", RAW_SUFFIX, MARKERS_SUFFIX):
-        path.with_suffix(suffix).unlink(missing_ok=True)
     return target

@@ -41,13 +41,13 @@ from carpus.core.output.report_content import NAMES_DOUBTED, RepetitionChoices, 
 from carpus.core.phrase import phrase
 from carpus.core.private import make_private
 from carpus.core.records import of_clinic, of_patients, of_sessions
-from carpus.core.records.changes import changed
+from carpus.core.records.changes import changed, is_identity
 from carpus.core.records.erasure import finish_erasing
-from carpus.core.records.log import By, Deed, Fact, Kind, Log
+from carpus.core.records.log import By, Deed, Fact, Kind, Log, was_erased
 from carpus.core.records.of_sessions import MOST_CHARACTERS, Comment, MadeKind
 from carpus.core.records.patients import Patients
 from carpus.core.records.schema import PATIENT
-from carpus.core.records.session_list import FilesOfSessions, SessionList, free_path
+from carpus.core.records.session_list import FilesOfSessions, SessionList, free_path, look_for_share
 from carpus.core.records.store import Store
 from carpus.core.records.values import HomePlan, SessionEntry, entry_of, newest_results
 from carpus.core.session.reader import has_raw, read_outline, read_raw_color, read_session
@@ -210,13 +210,13 @@ class Library:
         except (FolderMissing, OutputNotWritable) as fault:
             if not self.store.on_share:
                 raise
-            path = free_path(self.fallback_folder(), *about)
+            path = free_path(self.fallback_folder(set_up.patient_id), *about)
             self.log_fault(RecordingMoved(path, fault.detail or phrase("not there now")))
             return path
 
     def entered(self, set_up: SetUp, path: Path) -> str:
         """Take a finished session into the store, and remember how it was set up."""
-        if path.parent == fallback_place(self.folder):  # the store is where the data folder is: gone
+        if path.is_relative_to(fallback_place(self.folder)):  # the store is where the data folder is: gone
             return self._enter_elsewhere(path)
         keep_set_up(self.store, set_up)
         session_id = self.index.enter(path, set_up.patient_id, self.who()).session_id
@@ -239,9 +239,9 @@ class Library:
         self._elsewhere[header.session_id] = entry_of(path, outline)
         return LookedAt("", header.session_id, header.subject_id, header.hand)
 
-    def fallback_folder(self) -> Path:
-        """Where a recording goes on when the data folder goes away."""
-        folder = fallback_place(self.folder)
+    def fallback_folder(self, patient_id: str) -> Path:
+        """Where a patient's recording goes on when the data folder goes away."""
+        folder = fallback_place(self.folder) / patient_id
         make_private(folder)
         return folder
 
@@ -280,7 +280,12 @@ class Library:
         self._told, self.store.told = [], []
         if not self.store.sessions_folder.is_dir():  # a share: it is neither made nor taken for empty
             return [], [*faults, FolderMissing(self.store.sessions_folder)]
-        faults += bring_home(self.folder, self._folder_of)
+        try:
+            look_for_share(self.store)
+        except FolderMissing as fault:
+            return [], [*faults, fault]
+        if self.store.knows_all():  # who was erased meanwhile is brought back by nothing
+            faults += bring_home(self.folder, self._folder_of)
         recovery = recover_folder(self.store.sessions_folder, given_up=self._files.given_up())
         apart = [*self._files.first_told(recovery.faults), *self._files.take_in().faults]
         found: list[Recovered] = []
@@ -296,9 +301,13 @@ class Library:
             apart = [FilesSetApart(f"{names}, …", phrase("{count} files", count=len(apart)))]
         return found, [*faults, *apart]
 
-    def _folder_of(self, subject_id: str) -> Path:
-        """Where recordings of a pseudonym lie."""
+    def _folder_of(self, patient_id: str, subject_id: str) -> Path | None:
+        """Where recordings of a patient lie, or of a pseudonym; None for a patient who was erased."""
         owner = PRACTICE_PATIENT if subject_id == PRACTICE_PATIENT else self.patients.called(subject_id)
+        if is_identity(patient_id):
+            if was_erased(self.store, patient_id):
+                return None
+            owner = patient_id
         return self.store.sessions_folder / (owner or "unknown")
 
     # --- what is read of a session ------------------------------------------------------------------------

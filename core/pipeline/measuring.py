@@ -66,8 +66,8 @@ class SessionPlaces(Protocol):
         before the first."""
         ...
 
-    def fallback_folder(self) -> Path:
-        """Where a recording goes on when the data folder goes away."""
+    def fallback_folder(self, patient_id: str) -> Path:
+        """Where a patient's recording goes on when the data folder goes away."""
         ...
 
     def last_straight_fingers(self, set_up: SetUp) -> tuple[bool, ...]:
@@ -359,7 +359,7 @@ class SourceMeasuring:
                 TrackedHand(calibration, self.camera, learnt.applied(self._settings.tracker)),
             )
             walk.keep = looking_back.take
-        fallback = Fallback(self._places.fallback_folder, self._session.notice)
+        fallback = Fallback(self._elsewhere, self._session.notice)
         try:
             self._session.start_recording(
                 lambda: SmoothedSession(
@@ -383,8 +383,11 @@ class SourceMeasuring:
         assert self._walk is not None
         hand = HandArea(self.camera, self._set_up.protocol)
         self._walk.seen = hand.take
-        fallback = self._places.fallback_folder
-        return lambda: AroundHand(RawWriter(path, said, fallback=fallback), hand.area)
+        return lambda: AroundHand(RawWriter(path, said, fallback=self._elsewhere), hand.area)
+
+    def _elsewhere(self) -> Path:
+        """Where the recording goes on when the data folder goes away."""
+        return self._places.fallback_folder(self._set_up.patient_id)
 
     def _parameters(self, learnt: Learnt) -> str:
         """All settings as JSON, with what the exercise aimed at."""

@@ -131,7 +131,20 @@ def _refused(row: Row, cause: IntegrityError) -> CarpusFault:
 
 
 def _new(connection: Connection, table: Table, row: Row) -> None:
+    if table is PATIENT and _typed_after_file(connection, row):
+        return
     connection.execute(insert(table).values(id=row.id, version=row.after(0), **row.values))
+
+
+def _typed_after_file(connection: Connection, row: Row) -> bool:
+    """A patient whom one computer has typed and another made of a file, by the identity that the folder says: what was
+    typed holds, whichever comes first. Whether it was so."""
+    added_s = connection.execute(select(PATIENT.c.added_s).where(PATIENT.c.id == row.id)).scalar()
+    if added_s is None or (added_s and row.values.get("added_s")):
+        return False
+    if row.values.get("added_s"):
+        _kept(connection, PATIENT, row)
+    return True
 
 
 def _changed(connection: Connection, table: Table, row: Row) -> None:
@@ -144,7 +157,7 @@ def _changed(connection: Connection, table: Table, row: Row) -> None:
 
 def _kept(connection: Connection, table: Table, row: Row) -> None:
     kind = sqlite if connection.dialect.name == "sqlite" else postgresql
-    these = kind.insert(table).values(id=row.id, version=row.after(0), **row.values)
+    these = kind.insert(table).values({**row.values, "id": row.id, "version": row.after(0)})
     then = {**row.values, "version": row.after(table.c.version)}
     connection.execute(these.on_conflict_do_update(index_elements=["id"], set_=then))
 
@@ -160,6 +173,8 @@ def _join(connection: Connection, change: Change) -> None:
     """Rows of one table of a copy, those that a server has not and never had: what was erased does not come back by a
     copy that is older. A file of another name lies where such a path leads already."""
     table, ids = SHARED[change[0].table], [row.id for row in change]
+    if table is PATIENT:
+        change = [row for row in change if not _typed_after_file(connection, row)]
     known = {*_those(connection, TOMBSTONE.c.id, ids), *_those(connection, table.c.id, ids)}
     rows = [{"id": row.id, **row.values} for row in change if row.id not in known]
     for key in table.foreign_keys:

@@ -28,14 +28,12 @@ from carpus.core.records.of_clinic import PLACE
 from carpus.core.records.of_sessions import MadeFile, made_from
 from carpus.core.records.patients import Patients
 from carpus.core.records.schema import DIAGNOSIS, OWN, PATIENT, RECIPIENT, SEEN, SESSION, SHARED
-from carpus.core.records.session_list import FilesOfSessions, SessionList, file_name, trials_of
+from carpus.core.records.session_list import FilesOfSessions, SessionList, file_name, look_for_share, trials_of
 from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry
 
-IS_THERE = ".carpus-is-there"
 SHORT_NAME = 4
 """A name of fewer letters stands in other words by chance."""
-"""In a share of which something was erased: who finds it knows that it is the share, and not its empty place."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,8 +76,8 @@ def _plan(
     store: Store, kind: Kind, identity: str, patient_id: str, results: Sequence[SessionEntry], others: int
 ) -> ErasurePlan:
     going, sessions = [patient_id] if kind == "patient" else [], [one.session_id for one in results]
-    if results and _is_away(store):
-        raise FolderMissing(store.sessions_folder)
+    if results:
+        look_for_share(store)
     links = _links(store, going, sessions)
     if links:
         raise ErasureLeadsOut(links[0])
@@ -253,14 +251,11 @@ def _is_beside(path: Path, stems: Collection[str]) -> bool:
 
 
 def _is_away(store: Store) -> bool:
-    """Whether the clinic's share is not there: the files would come back with it. An empty folder may be its place."""
-    mark = store.sessions_folder / IS_THERE
-    if not store.on_share or mark.exists():
-        return False
-    if not any(store.sessions_folder.rglob("*.h5")):
+    """Whether the clinic's share is not there: the files would come back with it."""
+    try:
+        look_for_share(store)
+    except FolderMissing:
         return True
-    with contextlib.suppress(OSError):  # the last session may go, and what is left of it is to be gone on with
-        mark.touch()
     return False
 
 

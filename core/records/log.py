@@ -81,6 +81,13 @@ def fingerprint(identity: str) -> str:
     return hashlib.sha256(identity.encode("utf-8", "backslashreplace")).hexdigest()[:16] if identity else ""
 
 
+def was_erased(store: Store, patient_id: str) -> bool:
+    """Whether a patient was erased, or is being erased: what is found of them later goes too."""
+    erased = DEED.c.did.in_(("erase_begun", "erased")), DEED.c.kind == "patient"
+    query = select(DEED.c.id).where(*erased, DEED.c.subject == fingerprint(patient_id)).limit(1)
+    return bool(store.rows_there(query))
+
+
 def read_log(store: Store) -> tuple[LoggedDeed, ...]:
     """The whole log, oldest first; of a line that is damaged the number is missing."""
     rows = store.rows_there(select(DEED).order_by(DEED.c.at_ns, DEED.c.id))

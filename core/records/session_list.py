@@ -15,7 +15,7 @@ from typing import Any
 from sqlalchemy import Row, delete, select
 
 from carpus.core.durable import write_fault
-from carpus.core.errors import CarpusFault, FolderMissing, OutputNotWritable, SessionUnreadable
+from carpus.core.errors import CarpusFault, FolderMissing, OutputNotWritable, SessionUnreadable, ShareEmpty
 from carpus.core.names import folded
 from carpus.core.phrase import phrase
 from carpus.core.private import make_private
@@ -37,6 +37,27 @@ TRIALS_FOLDER = "corrections"
 """In the data folder: sessions tracked again that nobody has decided about."""
 AT_ONCE = 500
 """Rows of one change when the list is made anew."""
+
+
+IS_THERE = ".carpus-is-there"
+"""In a share that holds sessions, or held some: who finds it knows that it is the share, and not its empty place."""
+
+
+def look_for_share(store: Store) -> None:
+    """Raises :class:`FolderMissing` for a clinic's share that is away, :class:`ShareEmpty` where only its place may be
+    there; the files would come back with it, and what was written into the place would be hidden."""
+    root = store.sessions_folder
+    mark = root / IS_THERE
+    if not store.on_share or mark.exists():
+        return
+    if not root.is_dir():
+        raise FolderMissing(root)
+    if not any(root.rglob("*.h5")):
+        if store.row(select(SESSION.c.id).limit(1)) is not None:
+            raise ShareEmpty(root)
+        return
+    with suppress(OSError):  # the last session may go, and what is left of it is to be gone on with
+        mark.touch()
 
 
 class SessionList:
@@ -87,11 +108,10 @@ class SessionList:
 
     def new_path(self, patient_id: str, pseudonym: str, exercise: str, hand: Side, when: datetime) -> Path:
         """A free path for a session that begins now, in the patient's own private folder, which has the patient's
-        identity for a name. Raises :class:`FolderMissing` for a share that is away, :class:`OutputNotWritable`, also
-        for an identity that this program did not give."""
+        identity for a name. Raises the faults of :func:`look_for_share`, :class:`OutputNotWritable`, also for an
+        identity that this program did not give."""
         folder = self.folder / patient_id
-        if self._store.on_share and not self.folder.is_dir():
-            raise FolderMissing(self.folder)
+        look_for_share(self._store)
         if not changes.is_identity(patient_id):
             raise OutputNotWritable(folder)
         make_private(folder)
@@ -250,7 +270,9 @@ class FilesOfSessions:
         holds = {path: outline.header.session_id for path, outline in found}
         other = {row.id for path, row in known.items() if holds.get(path, row.id) != row.id}
         place = {row.id: path for path, row in known.items() if path in there and row.id not in other}
-        people = {str(row.folded): str(row.id) for row in self._store.rows(select(PATIENT.c.id, PATIENT.c.folded))}
+        rows_of_people = self._store.rows(select(PATIENT.c.id, PATIENT.c.folded, PATIENT.c.former))
+        people = {str(row.folded): str(row.id) for row in rows_of_people}
+        former = {str(row.id): {folded(one) for one in row.former.split("\n")} for row in rows_of_people}
         change: list[changes.Row] = []
         added = taken = 0
         for path, outline in sorted(found, key=lambda one: (one[0] not in known, -one[1].frames, one[0])):
@@ -261,12 +283,17 @@ class FilesOfSessions:
             place[session_id], subject = path, outline.header.subject_id.strip()
             of_practice = subject == PRACTICE or path.startswith(f"{PRACTICE}/")
             owner = PRACTICE if of_practice else people.get(folded(subject))
-            before = rows.get(session_id)
+            before, folder = rows.get(session_id), path.split("/")[0]
+            if owner is None and subject and folded(subject) in former.get(folder, ()):
+                owner = folder
             if before is None and owner is None and not knows_all:
                 del now_seen[path]
                 continue
             if owner is None and subject and (before is None or before.patient_id is None):
-                owner, added = people.setdefault(folded(subject), new_id()), added + 1
+                # The folder has the identity that a computer gave which has not delivered the patient yet.
+                given = folder if changes.is_identity(folder) and folder not in former else new_id()
+                owner, added = people.setdefault(folded(subject), given), added + 1
+                former[owner] = set()
                 hands = {one.header.hand for _, one in found if folded(one.header.subject_id) == folded(subject)}
                 side: AffectedSide = "both" if len(hands) == 2 else outline.header.hand
                 change.append(new(PATIENT, owner, **columns(PatientEntry(subject, side)), added_s=0.0))

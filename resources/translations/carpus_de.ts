@@ -4952,6 +4952,10 @@
         <translation>Installieren Sie die Pakete mit diesen Bibliotheken.</translation>
     </message>
     <message>
+        <source>Is the share connected? Connect it; if the sessions were moved, copy them there.</source>
+        <translation>Ist die Freigabe verbunden? Verbinden; falls die Sitzungen umgezogen sind, dorthin kopieren.</translation>
+    </message>
+    <message>
         <source>It can still be read; its seal does not fit what it holds now.</source>
         <translation>Sie ist noch lesbar; ihr Siegel passt nicht zu ihrem jetzigen Inhalt.</translation>
     </message>
@@ -5032,12 +5036,20 @@
         <translation>Noch nicht alle Dateien ließen sich löschen (übrig: {detail}, etwa {subject}).</translation>
     </message>
     <message>
+        <source>Nothing else has been changed.</source>
+        <translation>Sonst wurde nichts geändert.</translation>
+    </message>
+    <message>
         <source>Nothing has been changed, and nothing is lost.</source>
         <translation>Nichts ist geändert, und nichts ist verloren.</translation>
     </message>
     <message>
         <source>Nothing has been changed.</source>
         <translation>Nichts ist geändert.</translation>
+    </message>
+    <message>
+        <source>Nothing has been changed. What is recorded meanwhile stays on this computer until the share is there.</source>
+        <translation>Nichts wurde geändert. Was inzwischen aufgenommen wird, bleibt auf diesem Computer, bis die Freigabe da ist.</translation>
     </message>
     <message>
         <source>Nothing has been recorded, so nothing is lost.</source>
@@ -5050,6 +5062,10 @@
     <message>
         <source>Nothing is lost; everything stays hidden.</source>
         <translation>Nichts ist verloren; alles bleibt verborgen.</translation>
+    </message>
+    <message>
+        <source>Nothing need be done.</source>
+        <translation>Es ist nichts zu tun.</translation>
     </message>
     <message>
         <source>Nothing says whether depth lies on colour in {subject}; Carpus takes it so.</source>
@@ -5266,6 +5282,10 @@
     <message>
         <source>3. Lay it flat under the camera, about 60 cm away, and run the check for 30 seconds.</source>
         <translation>3. Flach unter die Kamera legen, etwa 60 cm entfernt, und 30 Sekunden lang prüfen.</translation>
+    </message>
+    <message>
+        <source>A recording that waited on this computer was of a patient who has been erased: it is erased too.</source>
+        <translation>Eine Aufnahme, die auf diesem Computer wartete, war von einem Patienten, der gelöscht wurde: Auch sie ist gelöscht.</translation>
     </message>
     <message>
         <source>All sessions are safe. If there was a list before, its names, notes and comments are gone.</source>
@@ -5570,6 +5590,10 @@
     <message>
         <source>There is no set of markers with the name {subject} ({detail}).</source>
         <translation>Diesen Markersatz gibt es nicht: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is nothing that Carpus made in the folder of the sessions: {subject}.</source>
+        <translation>Im Ordner der Sitzungen liegt nichts, was Carpus gemacht hat: {subject}.</translation>
     </message>
     <message>
         <source>There is one more blue spot on the hand than there are names.</source>

@@ -5044,12 +5044,20 @@
         <translation>Non tutti i file si sono già potuti eliminare (restano {detail}, per esempio {subject}).</translation>
     </message>
     <message>
+        <source>Nothing else has been changed.</source>
+        <translation>Null’altro è stato cambiato.</translation>
+    </message>
+    <message>
         <source>Nothing has been changed, and nothing is lost.</source>
         <translation>Nulla è stato cambiato e nulla è perso.</translation>
     </message>
     <message>
         <source>Nothing has been changed.</source>
         <translation>Nulla è stato cambiato.</translation>
+    </message>
+    <message>
+        <source>Nothing has been changed. What is recorded meanwhile stays on this computer until the share is there.</source>
+        <translation>Nulla è stato cambiato. Ciò che si registra intanto resta su questo computer finché la condivisione non c’è.</translation>
     </message>
     <message>
         <source>Nothing has been recorded, so nothing is lost.</source>
@@ -5062,6 +5070,10 @@
     <message>
         <source>Nothing is lost; everything stays hidden.</source>
         <translation>Nulla è perso; tutto resta nascosto.</translation>
+    </message>
+    <message>
+        <source>Nothing need be done.</source>
+        <translation>Non occorre fare nulla.</translation>
     </message>
     <message>
         <source>Nothing says whether depth lies on colour in {subject}; Carpus takes it so.</source>
@@ -5566,6 +5578,10 @@
     <message>
         <source>There is no set of markers with the name {subject} ({detail}).</source>
         <translation>Non esiste un insieme di marcatori con il nome {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is nothing that Carpus made in the folder of the sessions: {subject}.</source>
+        <translation>Nella cartella delle sedute non c’è nulla che Carpus abbia fatto: {subject}.</translation>
     </message>
     <message>
         <source>There is one more blue spot on the hand than there are names.</source>
@@ -6968,6 +6984,10 @@
         <translation>Chieda a chi si occupa di questo computer. {how}</translation>
     </message>
     <message>
+        <source>A recording that waited on this computer was of a patient who has been erased: it is erased too.</source>
+        <translation>Una registrazione in attesa su questo computer era di un paziente cancellato: è cancellata anch’essa.</translation>
+    </message>
+    <message>
         <source>Disk encryption</source>
         <translation>Cifratura del disco</translation>
     </message>
@@ -7102,6 +7122,10 @@
     <message>
         <source>Install a C compiler (Debian: {packages}) and Carpus anew.</source>
         <translation>Installare un compilatore C (Debian: {packages}) e di nuovo Carpus.</translation>
+    </message>
+    <message>
+        <source>Is the share connected? Connect it; if the sessions were moved, copy them there.</source>
+        <translation>La condivisione è collegata? Collegarla; se le sedute sono state spostate, copiarle lì.</translation>
     </message>
     <message>
         <source>The list of patients was damaged ({detail}); a new one holds what could be read, and the sessions.</source>

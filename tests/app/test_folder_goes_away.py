@@ -12,10 +12,11 @@ import numpy as np
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture.raw import LOOK_EVERY_S, RawRecording, RawWriter
 from carpus.core.capture.source import SourceInfo
-from carpus.core.errors import CarpusFault, FolderMissing, RecordingMoved, RecordingReturned
+from carpus.core.errors import CarpusFault, FolderMissing, RecordingMoved, RecordingReturned, ShareEmpty, WaitingErased
 from carpus.core.library.coming_home import bring_home, fallback_place
 from carpus.core.library.library import Library
 from carpus.core.pipeline.live import LiveSession
+from carpus.core.records.erasure import erase, plan_patient
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.writer import Fallback, SessionWriter
 from carpus.core.types import Frame
@@ -59,7 +60,7 @@ def test_it_is_told_within_a_second_and_the_session_comes_home(tmp_path: Path) -
     source = HeldSource()
     source.let(10_000)
     with LiveSession(source) as live:
-        fallback = Fallback(library.fallback_folder, live.notice)
+        fallback = Fallback(lambda: library.fallback_folder(key), live.notice)
         writer = SessionWriter.create(path, make_header(), CAMERA, make_calibration(), fallback=fallback)
         for row in range(20):
             writer.append(make_frame(row))
@@ -73,7 +74,7 @@ def test_it_is_told_within_a_second_and_the_session_comes_home(tmp_path: Path) -
             time.sleep(0.01)
             told = [event.cause for event in live.drain_events() if isinstance(event.cause, RecordingMoved)]
         writer.close()
-    assert writer.path.parent == fallback_place(data)
+    assert writer.path.parent == fallback_place(data) / key
     assert writer.path.parent.stat().st_mode & 0o777 == 0o700
     session_id = library._enter_elsewhere(writer.path)
     assert len(library.session(session_id)) == row  # it can be reviewed although the register is gone
@@ -100,7 +101,7 @@ def test_while_the_share_is_away_the_window_starts_and_measures_here(tmp_path: P
         linden = library.patients.add(PatientEntry("Linden 42", "left"))
         choice = set_up(linden, "Linden 42")
         path = record(library.new_path(choice), "Linden 42", CREATED, "left")
-        assert path.parent == fallback_place(data)
+        assert path.parent == fallback_place(data) / linden
         assert [type(fault) for fault in told] == [RecordingMoved]
         library.entered(choice, path)
         library.recover()
@@ -126,4 +127,42 @@ def test_a_share_keeps_its_rights(tmp_path: Path) -> None:
 
 
 def test_nothing_to_bring_home(tmp_path: Path) -> None:
-    assert bring_home(tmp_path, lambda _: tmp_path) == []
+    assert bring_home(tmp_path, lambda *_: tmp_path) == []
+
+
+def test_what_waits_of_a_patient_who_was_erased_is_erased_and_brings_nobody_back(tmp_path: Path) -> None:
+    data, share = tmp_path / "data", tmp_path / "share"
+    with closing(Library(data, sessions=share)) as library:
+        linden = library.patients.add(PatientEntry("Linden 42", "left"))
+        path = record(library.new_path(set_up(linden, "Linden 42")), "Linden 42", CREATED, "left")
+        heron = library.patients.add(PatientEntry("Heron 17", "left"))
+        record(library.new_path(set_up(heron, "Heron 17")), "Heron 17", CREATED, "left")
+        library.patients.change(heron, PatientEntry("Heron 18", "left"))
+        erase(library.store, plan_patient(library.store, linden), library.log)
+        share.mkdir()
+        told = [type(fault) for fault in library.recover()[1]]
+        assert (told.count(WaitingErased), told.count(RecordingReturned)) == (1, 1)
+        assert not path.exists()
+        assert [one.entry.pseudonym for one in library.patients.listed()] == ["Heron 18"], "by identity, not by name"
+        assert len(library.sessions(heron)) == 1
+
+
+def test_the_empty_place_of_a_share_is_not_taken_for_the_share(tmp_path: Path) -> None:
+    data, share = tmp_path / "data", tmp_path / "share"
+    share.mkdir()
+    with closing(Library(data, sessions=share)) as library:
+        assert library.recover() == ([], []), "a new one is empty"
+        linden = library.patients.add(PatientEntry("Linden 42", "left"))
+        choice = set_up(linden, "Linden 42")
+        library.entered(choice, record(library.new_path(choice), "Linden 42", CREATED, "left"))
+        share.rename(tmp_path / "unplugged")
+        share.mkdir()
+        assert [type(fault) for fault in library.recover()[1]] == [ShareEmpty]
+        path = record(library.new_path(choice), "Linden 42", CREATED, "left")
+        assert path.is_relative_to(fallback_place(data)), "under the share it would be hidden"
+        library.entered(choice, path)
+        assert list(share.iterdir()) == []
+        share.rmdir()
+        (tmp_path / "unplugged").rename(share)
+        assert [type(fault) for fault in library.recover()[1]] == [RecordingMoved, RecordingReturned]
+        assert len(library.sessions(linden)) == 2

@@ -44,7 +44,7 @@ from carpus.core.records.of_clinic import diagnoses, list_diagnosis
 from carpus.core.records.patients import columns
 from carpus.core.records.pseudonyms import WORDS, suggest_pseudonym
 from carpus.core.records.retention import due
-from carpus.core.records.store import Store
+from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, PatientEntry
 from carpus.core.session.reader import read_outline
 from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record
@@ -513,6 +513,27 @@ def test_a_diagnosis_is_found_and_the_clinics_list_has_the_usual_ones_first(tmp_
         house.store.own(update(schema.PATIENT).values(onset="fall", onset_day="soon"))
         one = house.patients.one(linden).entry
         assert (one.onset, one.onset_day) == ("", None), "what another program wrote is left out"
+
+
+def test_a_patient_typed_on_one_computer_and_met_by_file_on_another_is_one(tmp_path: Path, url: str) -> None:
+    with opened(tmp_path, url) as house:
+        given = new_id()
+        record(house.store.sessions_folder / given / "s.h5", HERON.pseudonym, T0)
+        house.files.take_in()
+        (met,) = house.patients.listed()
+        assert (met.patient_id, met.session_count) == (given, 1), "the folder says who it is"
+        assert house.patients.one(given).entry.name == ""
+        typed = new(schema.PATIENT, given, **columns(HERON), added_s=1.0)
+        house.store.do([typed])
+        assert house.patients.one(given).entry == HERON, "what was typed comes later, and holds"
+        house.store.do([new(schema.PATIENT, given, **columns(met.entry), added_s=0.0)])
+        assert house.patients.one(given).entry == HERON
+        with pytest.raises((ChangedMeanwhile, PseudonymTaken)):
+            house.store.do([typed])
+        house.patients.change(given, replace(HERON, pseudonym="Heron 18"))
+        record(house.store.sessions_folder / given / "t.h5", HERON.pseudonym, T0)
+        house.files.take_in()
+        assert [(one.patient_id, one.session_count) for one in house.patients.listed()] == [(given, 2)]
 
 
 def test_what_is_done_at_home_is_kept_with_the_patient(tmp_path: Path, url: str) -> None:
