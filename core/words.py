@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from carpus.core import errors
-from carpus.core.calibration.result import Finding
+from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import CarpusFault
 from carpus.core.installing import how_to_install
 from carpus.core.phrase import Phrase, phrase
@@ -18,7 +18,7 @@ Say = Callable[[str], str]
 
 
 @dataclass(frozen=True, slots=True)
-class Words:
+class FaultWords:
     """The three answers of every message."""
 
     happened: str
@@ -156,7 +156,7 @@ MARKERS: dict[str, Phrase] = {
 """Clinical name of every marker."""
 
 
-def words_of(fault: CarpusFault, *, marker_names: bool = False, say: Say = str) -> Words:
+def words_of(fault: CarpusFault, *, marker_names: bool = False, say: Say = str) -> FaultWords:
     """The three answers for this fault; ``marker_names`` adds the markers' names of the files to the clinical ones;
     ``say`` says a phrase in another language."""
     subject = fault.subject
@@ -167,7 +167,7 @@ def words_of(fault: CarpusFault, *, marker_names: bool = False, say: Say = str) 
     said = [_filled(say(text), subject, detail) for text in (fault.happened, fault.safe, fault.do)]
     if isinstance(fault, errors.ExtraMissing) and subject:
         said[2] = say(how_to_install(subject))
-    return Words(*said)
+    return FaultWords(*said)
 
 
 def one_sentence(fault: CarpusFault) -> str:
@@ -176,7 +176,9 @@ def one_sentence(fault: CarpusFault) -> str:
     return _joined(words.happened, words.do)
 
 
-def finding_words(finding: Finding, say: Say = str, written: Callable[[float], str] = "{:.3g}".format) -> FindingWords:
+def finding_words(
+    finding: CalibrationFinding, say: Say = str, written: Callable[[float], str] = "{:.3g}".format
+) -> FindingWords:
     """Headline and remedy of a finding; ``say`` says a phrase in another language, ``written`` writes its figures."""
     template = FINDINGS[finding.kind]
     headline = say(template.headline)
@@ -193,7 +195,7 @@ def finding_words(finding: Finding, say: Say = str, written: Callable[[float], s
     return FindingWords(text[0].upper() + text[1:], say(template.remedy))
 
 
-def _exchanged_in_words(finding: Finding, say: Say) -> str:
+def _exchanged_in_words(finding: CalibrationFinding, say: Say) -> str:
     """``middle finger and ring finger`` where all names of two fingers stand in for each other."""
     if finding.kind != "swapped" or len(finding.markers) <= 2:
         return ""
@@ -201,7 +203,7 @@ def _exchanged_in_words(finding: Finding, say: Say) -> str:
     return say(phrase("{one} and {other}", one=_FINGERS[firsts[0][-1]], other=_FINGERS[firsts[1][-1]]))
 
 
-def finding_sentence(finding: Finding) -> str:
+def finding_sentence(finding: CalibrationFinding) -> str:
     """Headline and remedy on one line."""
     words = finding_words(finding)
     return _joined(words.headline, words.remedy)

@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import tomllib
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -84,6 +85,17 @@ def test_every_need_is_pinned_and_the_lock_names_no_place(lock: str) -> None:
 def test_both_locks_agree() -> None:
     run, dev = pinned("requirements.lock"), pinned("requirements-dev.lock")
     assert {name: dev[name] for name in run} == run
+
+
+def test_a_class_name_means_one_thing() -> None:
+    """A name with an underscore is its file's own."""
+    names = Counter(
+        node.name
+        for path in modules()
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
+    )
+    assert {name for name, count in names.items() if count > 1} == set()
 
 
 def test_core_loads_no_window_and_no_command_line() -> None:

@@ -13,7 +13,7 @@ import pytest
 
 import carpus.core
 from carpus.core import errors
-from carpus.core.calibration.result import Finding, FindingKind
+from carpus.core.calibration.result import CalibrationFinding, FindingKind
 from carpus.core.errors import CarpusFault
 from carpus.core.hand.protocols import HAND21, WRIST6
 from carpus.core.words import (
@@ -138,7 +138,7 @@ def test_a_fault_about_a_marker_names_it_for_the_clinic_and_for_the_file() -> No
 
 @pytest.mark.parametrize("kind", typing.get_args(FindingKind))
 def test_findings_tell_place_and_number(kind: FindingKind) -> None:
-    finding = Finding(kind, ("MCP2", "MCP3"), 22.26, 15.0, "mm")
+    finding = CalibrationFinding(kind, ("MCP2", "MCP3"), 22.26, 15.0, "mm")
     words = finding_words(finding)
     assert words.headline[0].isupper()
     assert "{" not in words.headline
@@ -153,9 +153,12 @@ def test_findings_tell_place_and_number(kind: FindingKind) -> None:
 
 
 def test_swapped_knuckles_read_as_in_the_design() -> None:
-    assert finding_words(Finding("swapped", ("MCP2", "MCP3"))).headline == "Index and middle knuckle look swapped."
+    assert (
+        finding_words(CalibrationFinding("swapped", ("MCP2", "MCP3"))).headline
+        == "Index and middle knuckle look swapped."
+    )
 
 
 def test_shifted_names_say_which_marker_is_which() -> None:
-    words = finding_words(Finding("shifted", ("WRIST", "MCP5", "MCP4", "MCP3", "MCP2", "CMC1")))
+    words = finding_words(CalibrationFinding("shifted", ("WRIST", "MCP5", "MCP4", "MCP3", "MCP2", "CMC1")))
     assert words.headline == "The names look shifted: the marker clicked as wrist is the little knuckle."

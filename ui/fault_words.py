@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from carpus.core import words
-from carpus.core.calibration.result import Finding
+from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import CarpusFault
-from carpus.core.words import FindingWords, Words
+from carpus.core.words import FaultWords, FindingWords
 from carpus.ui import numbers
 from carpus.ui.translate import say
 
 
-def fault_words(fault: CarpusFault) -> Words:
+def fault_words(fault: CarpusFault) -> FaultWords:
     """What happened, whether the data are safe, what to do."""
     return words.words_of(fault, say=say)
 
 
-def finding_words(finding: Finding) -> FindingWords:
+def finding_words(finding: CalibrationFinding) -> FindingWords:
     """Headline and remedy of what is not as it should be at calibration."""
     return words.finding_words(finding, say, lambda value: numbers.figures(value, 3))

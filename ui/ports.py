@@ -11,7 +11,7 @@ from datetime import date, datetime
 from typing import Literal, Protocol
 
 from carpus.core.by_hand.values import HandValue
-from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
+from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.library.set_up import SetUp
@@ -272,7 +272,7 @@ class Phrasebook(Protocol):
 
     def fault(self, fault: Exception) -> Words: ...
 
-    def finding(self, finding: Finding) -> Words: ...
+    def finding(self, finding: CalibrationFinding) -> Words: ...
 
 
 # --- calibration ------------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Verdict
 from carpus.core.capture.identity import Recorded
 from carpus.core.errors import CarpusFault, IntrinsicsAssumed, OutputBusy, OutputNotWritable
-from carpus.core.output.measures_table import MeasureRow, measure_rows
+from carpus.core.output.measures_table import SessionFigure, measure_rows
 from carpus.core.output.report_content import session_figures
 from carpus.core.pipeline.told_settings import differences, settings_told
 from carpus.core.pipeline.track import TrackSettings, retrack_session, track_recording
@@ -60,7 +60,7 @@ class Outcome:
     frames: int = 0
     tracked: float = float("nan")
     lost: float = float("nan")
-    measures: tuple[MeasureRow, ...] = ()
+    measures: tuple[SessionFigure, ...] = ()
     may_pass: bool = False
     """Of a fault: whether it may be gone when tried again."""
 

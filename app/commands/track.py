@@ -295,11 +295,11 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _stream(clicks: Clicks, rate_hz: float, settings: TrackSettings) -> Listener:
     """The open stream of a hand, once somebody listens, though not waited for without end."""
-    from carpus.core.pipeline.stream import Stream, library
+    from carpus.core.pipeline.stream import SampleStream, library
 
     begun_s: list[float] = []
     dip_free = settings.paper is None and settings.tracker.dip == "free"
-    stream = Stream.of_hand(clicks, rate_hz, dip_free=dip_free, clock=lambda: begun_s[0])
+    stream = SampleStream.of_hand(clicks, rate_hz, dip_free=dip_free, clock=lambda: begun_s[0])
     if not stream.wait_for_listener(LISTENER_PATIENCE_S):
         print("carpus: nobody listens to the stream; it goes on.", file=sys.stderr)
     begun_s.append(library().local_clock())

@@ -12,7 +12,7 @@ from PySide6.QtCore import QObject
 from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.phrases import shortened
 from carpus.app.desktop.places import STEPS, TABS, UNDER_TABS, Place
-from carpus.core.calibration.result import Finding
+from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.output.report_content import SessionFigures
 from carpus.core.pipeline.live_values import LiveCounters
 from carpus.ui import numbers, terms
@@ -89,7 +89,7 @@ class Bar(QObject):
         """What must not be forgotten of what is on the screen: that it is simulated, or was doubtful."""
         now, place, figures = self._now, self._place(), self._review.figures
         simulated = False
-        findings: tuple[Finding, ...] = ()
+        findings: tuple[CalibrationFinding, ...] = ()
         measuring = now.source.measuring if now.source is not None else None
         if place in ("markers", "live") and measuring is not None:
             simulated = measuring.is_simulated

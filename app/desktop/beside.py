@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
@@ -14,6 +13,7 @@ from carpus.app.desktop.files_written import tell_written
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.places import Place
+from carpus.app.desktop.viewing import KeptSessions
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.provenance import with_revision
 from carpus.core.records.values import SessionEntry
@@ -25,12 +25,6 @@ from carpus.ui.beside.tables import write_tables
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.sessions.sheets import ChooseSheet
 from carpus.ui.theme import Theme
-
-
-class SessionList(Protocol):
-    """Which sessions there are."""
-
-    def sessions(self, patient_id: str) -> Sequence[SessionEntry]: ...
 
 
 class Beside(QObject):
@@ -47,7 +41,7 @@ class Beside(QObject):
         way: Way,
         tell: Tell,
         now: NowOpen,
-        stored: SessionList,
+        stored: KeptSessions,
         places: LastPlaces,
         background: Background,
         *,

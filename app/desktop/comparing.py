@@ -21,10 +21,10 @@ from carpus.core.agreement.reference import (
     POINT_FILES,
     SESSION_FILES,
     TABLE_FILES,
-    Outline,
+    ReferenceOutline,
     outline_of,
 )
-from carpus.core.agreement.watch import Stopped, Watch
+from carpus.core.agreement.watch import Stopped, WorkWatch
 from carpus.core.hand.sites import PALM_MARKERS, WRIST_ANGLES
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.report_content import RepetitionChoices
@@ -75,7 +75,7 @@ class Comparing(QObject):
         self._session_id = ""
         self._number = 0
         self._choice = ReferenceChoice("")
-        self._outline: Outline | None = None
+        self._outline: ReferenceOutline | None = None
         self._result: Result | None = None
         self.reference = ReferenceSheet(window, theme)
         self.columns = ColumnsSheet(window, theme)
@@ -149,7 +149,7 @@ class Comparing(QObject):
     def _take_file(self, path: Path) -> None:
         choice = ReferenceChoice(path.name, str(path))
 
-        def known(outline: Outline) -> None:
+        def known(outline: ReferenceOutline) -> None:
             self._outline, self._choice = outline, choice
             if missing(outline, dict(outline.found)):
                 self._ask_columns()
@@ -162,7 +162,7 @@ class Comparing(QObject):
         if self._outline is not None:
             self.columns.begin(self._outline, self._ours(self._outline), self._choice)
 
-    def _ours(self, outline: Outline) -> Sequence[str]:
+    def _ours(self, outline: ReferenceOutline) -> Sequence[str]:
         if outline.kind == "points":
             return PALM_MARKERS
         protocol = exercise_named(self._stored.entry(self._session_id).exercise).protocol
@@ -184,7 +184,7 @@ class Comparing(QObject):
             return compare_files(
                 self._stored.entry(session_id).path, Path(choice.path), columns=choice.columns,
                 markers=choice.markers, radians=choice.radians, choices=self._stored.choices(session_id),
-                watch=Watch(self._stepped.emit, stop.is_set),
+                watch=WorkWatch(self._stepped.emit, stop.is_set),
             )  # fmt: skip
 
         def done(result: Result) -> None:

@@ -30,7 +30,7 @@ from carpus.app.desktop.courses import CourseRun, KeptSets
 from carpus.app.desktop.filming import Filming
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.measuring_flow import MeasuringFlow
-from carpus.app.desktop.navigation import Navigator, Stop
+from carpus.app.desktop.navigation import Navigator, ScreenStop
 from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.opening import Opener
 from carpus.app.desktop.patient_view import PatientViewing
@@ -228,31 +228,37 @@ class Journey(QObject):
         """Every place: its screen, what has the keyboard first, where Back leads, what ends with it."""
         put, first, setting_up = self.way.put, self._first, self.setting_up
         up_from_patients = self._past_strips(self.patients, self._to_patient)
-        put("patients", Stop(self.patients, lambda: self.patients.search, up_from_patients))
-        put("exercise", Stop(self.exercise, self.exercise.first, self._to_patient))
-        put("camera", Stop(self.camera, self.camera.first, setting_up.up_from_camera))
-        markers = Stop(
+        put("patients", ScreenStop(self.patients, lambda: self.patients.search, up_from_patients))
+        put("exercise", ScreenStop(self.exercise, self.exercise.first, self._to_patient))
+        put("camera", ScreenStop(self.camera, self.camera.first, setting_up.up_from_camera))
+        markers = ScreenStop(
             self.markers, lambda: self.markers.picture, setting_up.up_from_markers, self.markers.end, while_aside=True
         )
         put("markers", markers)
-        put("live", Stop(self.live, first(self.live), setting_up.up_to_camera))
+        put("live", ScreenStop(self.live, first(self.live), setting_up.up_to_camera))
         up_from_sessions = self._past_strips(self.sessions, self._to_patient)
-        put("sessions", Stop(self.sessions, self.sessions.first, up_from_sessions))
-        put("review", Stop(self.review, first(self.review), self._to_patient, self.review.end))
-        put("progress", Stop(self.progress, first(self.progress), self._up_from_progress))
-        put("by_hand", Stop(self.by_hand, self.by_hand.first, self.entering_by_hand.leave))
-        put("report", Stop(self.report, lambda: self.report.save_button, self._up_from_report))
-        put("correct", Stop(self.correct, first(self.correct), self._to_session, while_aside=True))
+        put("sessions", ScreenStop(self.sessions, self.sessions.first, up_from_sessions))
+        put("review", ScreenStop(self.review, first(self.review), self._to_patient, self.review.end))
+        put("progress", ScreenStop(self.progress, first(self.progress), self._up_from_progress))
+        put("by_hand", ScreenStop(self.by_hand, self.by_hand.first, self.entering_by_hand.leave))
+        put("report", ScreenStop(self.report, lambda: self.report.save_button, self._up_from_report))
+        put("correct", ScreenStop(self.correct, first(self.correct), self._to_session, while_aside=True))
         put(
             "agreement",
-            Stop(self.agreement, self.agreement.first, self._to_session, self.comparing.leave, while_aside=True),
+            ScreenStop(self.agreement, self.agreement.first, self._to_session, self.comparing.leave, while_aside=True),
         )
-        put("beside", Stop(self.beside_screen, first(self.beside_screen), self._up_from_beside, self.beside_screen.end))
-        put("retest", Stop(self.retest, self.retest.first, self._to_patient))
-        put("clinic", Stop(self.clinic, self.clinic.first, self._to_patient))
-        put("board", Stop(self.board, self.board.first, self._up_from_board, self.calibrating.leave, while_aside=True))
-        put("card", Stop(self.card, self.card.first, self._up_from_card, self.checking.leave, while_aside=True))
-        put("help", Stop(self.help, lambda: self.help.text, self._to_patient))
+        put(
+            "beside",
+            ScreenStop(self.beside_screen, first(self.beside_screen), self._up_from_beside, self.beside_screen.end),
+        )
+        put("retest", ScreenStop(self.retest, self.retest.first, self._to_patient))
+        put("clinic", ScreenStop(self.clinic, self.clinic.first, self._to_patient))
+        put(
+            "board",
+            ScreenStop(self.board, self.board.first, self._up_from_board, self.calibrating.leave, while_aside=True),
+        )
+        put("card", ScreenStop(self.card, self.card.first, self._up_from_card, self.checking.leave, while_aside=True))
+        put("help", ScreenStop(self.help, lambda: self.help.text, self._to_patient))
 
     @staticmethod
     def _first(screen: QWidget) -> Callable[[], QWidget]:
@@ -593,7 +599,7 @@ class Journey(QObject):
 
     def put_settings(self, screen: QWidget) -> None:
         """The settings screen, which is made where settings are kept."""
-        self.way.put("settings", Stop(screen, self._first(screen), self._to_patient))
+        self.way.put("settings", ScreenStop(screen, self._first(screen), self._to_patient))
 
     def close(self) -> None:
         """The window closes: finish what runs, in order, and wait for it."""

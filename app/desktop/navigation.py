@@ -17,7 +17,7 @@ def _nothing() -> None: ...
 
 
 @dataclass(frozen=True, slots=True)
-class Stop:
+class ScreenStop:
     """A place: its screen, the control that gets the keyboard, where Back leads, and what ends when it is left.
 
     ``while_aside``: whether it goes on behind help and settings.
@@ -39,7 +39,7 @@ class Navigator(QObject):
     def __init__(self, shell: Shell, is_asked: Callable[[], bool], is_recording: Callable[[], bool]) -> None:
         super().__init__(shell)
         self._shell, self._is_asked, self._is_recording = shell, is_asked, is_recording
-        self._stops: dict[Place, Stop] = {}
+        self._stops: dict[Place, ScreenStop] = {}
         self._place: Place = "patients"
         self._before_aside: Place = "patients"
         self._came: dict[Place, Place] = {}
@@ -54,7 +54,7 @@ class Navigator(QObject):
         """Where the person is, or was before help or settings."""
         return self._before_aside if self._place in ASIDE else self._place
 
-    def put(self, place: Place, stop: Stop) -> None:
+    def put(self, place: Place, stop: ScreenStop) -> None:
         """Enter a place into the table."""
         self._stops[place] = stop
 

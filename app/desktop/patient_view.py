@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from carpus.core.library.set_up import SetUp
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen
-from carpus.ui.patient.guide import Guide, Scene
+from carpus.ui.patient.guide import Guide, GuideScene
 from carpus.ui.patient.window import PatientWindow
 from carpus.ui.theme import Theme
 
@@ -75,20 +75,20 @@ class PatientViewing(QObject):
         if left is not None:
             left_s, rest_s, done, asked = left
             share = math.ceil(10 * left_s / max(rest_s, 1)) / 10
-            self._stand(Scene("rest", done=done, asked=asked, rest_share=share, rest_s=left_s))
+            self._stand(GuideScene("rest", done=done, asked=asked, rest_share=share, rest_s=left_s))
 
     def stored(self) -> None:
         """A recording has ended."""
-        self._stand(Scene("done", asked=self._asked, done=self._done))
+        self._stand(GuideScene("done", asked=self._asked, done=self._done))
 
     def leave(self) -> None:
         """Nobody measures any more: nothing of the hand is left standing."""
         if self.window is None or self.window.view.scene.phase != "done":
-            self._stand(Scene())
+            self._stand(GuideScene())
 
     def hide_all(self) -> None:
         """The program is locked: nothing but a word, whatever still runs, until :meth:`show_again`."""
-        self._stand(Scene())
+        self._stand(GuideScene())
         self._hidden = True
 
     def show_again(self) -> None:
@@ -103,7 +103,7 @@ class PatientViewing(QObject):
     def _done(self) -> int:
         return self.window.view.scene.done if self.window is not None else 0
 
-    def _stand(self, scene: Scene) -> None:
+    def _stand(self, scene: GuideScene) -> None:
         if self.window is not None and not self._hidden:
             self.window.show_standing(scene)
 

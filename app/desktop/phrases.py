@@ -6,7 +6,7 @@ from pathlib import PureWindowsPath
 
 from PySide6.QtCore import QObject
 
-from carpus.core.calibration.result import Finding
+from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import CarpusFault
 from carpus.ui.fault_words import fault_words, finding_words
 from carpus.ui.ports import Words
@@ -48,7 +48,7 @@ class WordTable(QObject):
             self.tr("Go back and try again. If it comes back, start Carpus anew and report it."),
         )
 
-    def finding(self, finding: Finding) -> Words:
+    def finding(self, finding: CalibrationFinding) -> Words:
         """Headline and remedy of a finding; nothing is recorded yet, so nothing can be lost."""
         words = finding_words(finding)
         return Words(words.headline, "", words.remedy)

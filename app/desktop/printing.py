@@ -45,7 +45,7 @@ from carpus.ui.theme import Theme
 T = TypeVar("T")
 
 
-class Printable(Protocol):
+class PatientPapers(Protocol):
     """What is stored of a patient, for paper and for other programs."""
 
     def session(self, session_id: str) -> Session: ...
@@ -108,7 +108,7 @@ class Printing(QObject):
         way: Way,
         tell: Tell,
         now: NowOpen,
-        stored: Printable,
+        stored: PatientPapers,
         places: LastPlaces,
         background: Background,
         *,

@@ -11,12 +11,12 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.erasing import Erasing
 from carpus.core.library.records import Archived, Records
-from carpus.core.records.log import LoggedDeed as StoredDeed
+from carpus.core.records.log import LoggedDeed
 from carpus.core.records.retention import RETENTION_YEARS, Due
 from carpus.ui import numbers, terms
 from carpus.ui.records.cards import RecordsCard
 from carpus.ui.records.list_sheets import LogSheet, RecordsSheet
-from carpus.ui.records.ports import ListedRecord, LoggedDeed
+from carpus.ui.records.ports import DeedLine, ListedRecord
 from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:
@@ -137,16 +137,16 @@ class RecordLists(QObject):
         """Who did what and when."""
         self._run(lambda: (self._records.log(), self._records.names()), self._show_log)
 
-    def _show_log(self, found: tuple[Sequence[StoredDeed], dict[str, str]]) -> None:
+    def _show_log(self, found: tuple[Sequence[LoggedDeed], dict[str, str]]) -> None:
         entries, names = found
         self.log_sheet.begin([self._deed(entry, names) for entry in entries])
 
-    def _deed(self, entry: StoredDeed, names: dict[str, str]) -> LoggedDeed:
+    def _deed(self, entry: LoggedDeed, names: dict[str, str]) -> DeedLine:
         of_whom = names.get(entry.subject, entry.subject[:8])
         by = self.tr("by command") if entry.by == "command" else ""
         facts = ", ".join(filter(None, (self._fact(name, value) for name, value in entry.facts.items())))
         detail = " · ".join(part for part in (facts, by) if part)
-        return LoggedDeed(entry.number, entry.when.astimezone(), entry.who, self._words(entry.did), of_whom, detail)
+        return DeedLine(entry.number, entry.when.astimezone(), entry.who, self._words(entry.did), of_whom, detail)
 
     def _fact(self, name: str, value: object) -> str:
         """What is known of a deed, in words; empty for what says nothing to a person."""

@@ -158,10 +158,10 @@ class Sources:
         def listener(calibration: Calibration) -> Listener | None:
             if not self.streams():
                 return None
-            from carpus.core.pipeline.stream import Stream
+            from carpus.core.pipeline.stream import SampleStream
 
             rate_hz, dip_free = session.info.nominal_fps, self._track(set_up).tracker.dip == "free"
-            return Stream.of_hand(calibration.clicks, rate_hz, dip_free=dip_free)
+            return SampleStream.of_hand(calibration.clicks, rate_hz, dip_free=dip_free)
 
         return listener
 

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QAbstractButton
 from carpus.app.desktop.journey import Journey
 from carpus.ui.controls.sheet import is_covered
 from carpus.ui.tour.bubble import BubbleView
-from carpus.ui.tour.order import ONLY_READ, Bubble, Moment, bubble_at
+from carpus.ui.tour.order import ONLY_READ, Bubble, TourMoment, bubble_at
 
 LOOK_EVERY_MS = 150
 
@@ -99,7 +99,7 @@ class Tour(QObject):
         for place, view in self._views.items():
             view.show_bubble(bubble if place == moment.place else None)
 
-    def moment(self) -> Moment:
+    def moment(self) -> TourMoment:
         """Where the person is."""
         journey = self._journey
         place, recording = journey.place, journey.live.recording_state
@@ -108,7 +108,7 @@ class Tour(QObject):
             "live": journey.live.storing,
             "review": not journey.review.shown,
         }.get(place, False)
-        return Moment(
+        return TourMoment(
             place,
             is_meant=self._asked_for or place == "patients" or journey.now.is_practice,
             is_covered=journey.teller.busy or is_covered(journey.patients.window()),

@@ -21,7 +21,7 @@ from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.sessions.screen import SessionsScreen
 
 
-class SessionList(Protocol):
+class KeptSessions(Protocol):
     """Which sessions there are."""
 
     def sessions(self, patient_id: str) -> Sequence[SessionEntry]: ...
@@ -51,7 +51,7 @@ class Viewing(QObject):
         way: Way,
         tell: Tell,
         now: NowOpen,
-        sessions: SessionList,
+        sessions: KeptSessions,
         find_patient: FindPatient,
         places: LastPlaces,
     ) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from carpus.core.agreement.watch import UNWATCHED, Watch
+from carpus.core.agreement.watch import UNWATCHED, WorkWatch
 from carpus.core.types import FloatArray
 
 STEP_S = 1.0 / 100.0
@@ -86,7 +86,7 @@ def at_times(wanted_s: FloatArray, time_s: FloatArray, values: FloatArray) -> Fl
 
 
 @dataclass(frozen=True, slots=True)
-class Curves:
+class ClockCurves:
     """Signals (N, S) at ``time_s`` (N,) and (K, S) at ``other_s`` (K,), the same quantities in both."""
 
     time_s: FloatArray
@@ -111,7 +111,9 @@ class Curves:
         return _match(self.mine, there, self.weight, 8, self.either_sign)
 
 
-def best_shift(curves: Curves, most_s: float, same_clock_alike: float = 0.0, watch: Watch = UNWATCHED) -> Shift:
+def best_shift(
+    curves: ClockCurves, most_s: float, same_clock_alike: float = 0.0, watch: WorkWatch = UNWATCHED
+) -> Shift:
     """The shift at which the curves go together best, by cross-correlation over what they share: of several that do as
     well, as repetitions do, the smallest. None where without it the correlation is less by no more than
     ``same_clock_alike``."""
@@ -191,7 +193,7 @@ class _Drift:
     length_s: float
 
 
-def _drift(curves: Curves, shift: Shift) -> _Drift | None:
+def _drift(curves: ClockCurves, shift: Shift) -> _Drift | None:
     """The drift with which the curves go together best; None where they are too short for one."""
     at_s = shift.reference_time_s(curves.time_s)
     shared = curves.time_s[(at_s >= curves.other_s[0]) & (at_s <= curves.other_s[-1])]
@@ -226,7 +228,7 @@ def _drift(curves: Curves, shift: Shift) -> _Drift | None:
     return _Drift(drift, sd, moved(drift, later_s).reference_later_s, best, length_s)
 
 
-def with_drift(curves: Curves, shift: Shift) -> Shift:
+def with_drift(curves: ClockCurves, shift: Shift) -> Shift:
     """The same with the drift that is left between the two clocks, where it is sure and adds up to something."""
     found = _drift(curves, shift)
     if found is None or abs(found.drift) < max(LEAST_DRIFT_S / found.length_s, DRIFT_SURE * found.sd):

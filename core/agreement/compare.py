@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from carpus.core import so3
-from carpus.core.agreement.clocks import LEAST_OVERLAP_S, STEP_S, Curves, Shift, at_times, best_shift, with_drift
+from carpus.core.agreement.clocks import LEAST_OVERLAP_S, STEP_S, ClockCurves, Shift, at_times, best_shift, with_drift
 from carpus.core.agreement.reference import Reference
 from carpus.core.agreement.statistics import FEWEST, Agreement, agreement
-from carpus.core.agreement.watch import UNWATCHED, Watch
+from carpus.core.agreement.watch import UNWATCHED, WorkWatch
 from carpus.core.errors import ReferenceUnsuited
 from carpus.core.hand.clinical_angles import angles_from_rotation, rotation_from_angles
 from carpus.core.hand.sites import PALM_MARKERS, WRIST_ANGLES
@@ -96,7 +96,7 @@ def compare(
     lag_s: float = math.nan,
     drift: float = 0.0,
     figures: SessionFigures | None = None,
-    watch: Watch = UNWATCHED,
+    watch: WorkWatch = UNWATCHED,
 ) -> Compared:
     """Agreement of a session with a reference: of the filter's result, or the smoother's.
 
@@ -161,13 +161,13 @@ def _unwrapped(angle_rad: FloatArray) -> FloatArray:
 
 
 def _shift(
-    curves: Curves,
+    curves: ClockCurves,
     session: Session,
     reference: Reference,
     most_shift_s: float,
     lag_s: float,
     drift: float,
-    watch: Watch,
+    watch: WorkWatch,
 ) -> Shift:
     """As given, or the best there is, with the drift that is left."""
     if math.isfinite(lag_s):
@@ -184,7 +184,7 @@ def _shift(
     return shift
 
 
-def _check_match(reference: Reference, curves: Curves, shift: Shift) -> None:
+def _check_match(reference: Reference, curves: ClockCurves, shift: Shift) -> None:
     """Cleared of drift, which over minutes blurs what is the same movement."""
     if math.isnan(shift.match):
         raise ReferenceUnsuited(
@@ -289,7 +289,7 @@ def _one_clock(reference: Reference, session: Session) -> bool:
 
 def _curves_of_angles(
     session: Session, reference: Reference, time_s: FloatArray, own: Mapping[str, FloatArray]
-) -> Curves:
+) -> ClockCurves:
     names = [name for name in reference.angles_rad if name in own]
     if not names:
         why = phrase("no disc of the palm and no angle of the wrist or fingers is in it")
@@ -300,17 +300,17 @@ def _curves_of_angles(
     theirs_s = _since_start(reference, session)
     mine = np.column_stack([own[name] for name in names]) if names else np.empty((len(time_s), 0))
     other = np.column_stack([reference.angles_rad[name] for name in names]) if names else np.empty((len(theirs_s), 0))
-    return Curves(time_s, mine, theirs_s, other, either_sign=True)
+    return ClockCurves(time_s, mine, theirs_s, other, either_sign=True)
 
 
-def _curves_of_points(session: Session, reference: Reference, time_s: FloatArray) -> Curves:
+def _curves_of_points(session: Session, reference: Reference, time_s: FloatArray) -> ClockCurves:
     """How fast each disc moves, which no turn and no shift of the axes changes."""
     names = _common(session, reference)
     markers = session.header.protocol.markers
     theirs_s = _since_start(reference, session)
     mine = np.column_stack([_speed(time_s, session.markers.position_cam_m[:, markers.index(name)]) for name in names])
     other = np.column_stack([_speed(theirs_s, reference.points_m[name]) for name in names])
-    return Curves(time_s, mine, theirs_s, other)
+    return ClockCurves(time_s, mine, theirs_s, other)
 
 
 def _speed(time_s: FloatArray, place_m: FloatArray) -> FloatArray:

@@ -10,7 +10,7 @@ from pathlib import Path
 from carpus.core.agreement.compare import MOST_SHIFT_S, Compared, compare
 from carpus.core.agreement.reference import read_reference
 from carpus.core.agreement.tables import write_tables
-from carpus.core.agreement.watch import UNWATCHED, Watch
+from carpus.core.agreement.watch import UNWATCHED, WorkWatch
 from carpus.core.formats.provenance import provenance
 from carpus.core.output.report_content import RepetitionChoices, session_figures
 from carpus.core.provenance import sha256_of_file
@@ -44,7 +44,7 @@ def compare_files(
     lag_s: float = math.nan,
     drift: float = 0.0,
     choices: RepetitionChoices | None = None,
-    watch: Watch = UNWATCHED,
+    watch: WorkWatch = UNWATCHED,
 ) -> Result:
     """Read both and compare. ``choices`` are what a person left out, for readings of the whole range.
 

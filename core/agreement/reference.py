@@ -37,7 +37,7 @@ DIRECTIONS = {
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class GoniometerReading:
     """One reading of a goniometer, radians with the signs of Carpus; ``time_s`` after the first picture, NaN where it
     is of the whole session's range in the way of ``movement``."""
 
@@ -57,14 +57,14 @@ class Reference:
     time_s: FloatArray = field(default_factory=lambda: np.empty(0))
     angles_rad: Mapping[str, FloatArray] = field(default_factory=dict)
     points_m: Mapping[str, FloatArray] = field(default_factory=dict)
-    readings: tuple[Reading, ...] = ()
+    readings: tuple[GoniometerReading, ...] = ()
     unused: tuple[str, ...] = ()
     same_clock: bool = False
     """Whether its times are those of the session's own pictures."""
 
 
 @dataclass(frozen=True, slots=True)
-class Outline:
+class ReferenceOutline:
     """What a reference is made of: ``names`` of its markers or columns, and ``found`` ours to theirs by their names
     (``time`` among them), before anybody says which is which."""
 
@@ -74,24 +74,24 @@ class Outline:
     found: Mapping[str, str] = field(default_factory=dict)
 
 
-def outline_of(path: Path) -> Outline:
+def outline_of(path: Path) -> ReferenceOutline:
     """The outline of a reference. Raises :class:`ReferenceUnreadable`."""
     suffix = path.suffix.lower()
     if suffix in POINT_FILES:
         track = read_c3d(path) if suffix == ".c3d" else read_trc(path)
         there = {_plain(name): name for name in track.names}
-        return Outline(path, "points", track.names, {name: there[name] for name in SITES if name in there})
+        return ReferenceOutline(path, "points", track.names, {name: there[name] for name in SITES if name in there})
     if suffix in TABLE_FILES:
         _, head, low = _rows_of(path)
         if _is_list(low):
-            return Outline(path, "readings")
+            return ReferenceOutline(path, "readings")
         time = {"time": _time_name(low)} if _time_name(low) else {}
-        return Outline(path, "angles", tuple(head), time | _found(head))
+        return ReferenceOutline(path, "angles", tuple(head), time | _found(head))
     if suffix in ANGLE_FILES:
         values = read_mot(path).values
-        return Outline(path, "angles", tuple(values), {"time": "time"} | _found(values))
+        return ReferenceOutline(path, "angles", tuple(values), {"time": "time"} | _found(values))
     if suffix in SESSION_FILES:
-        return Outline(path, "session")
+        return ReferenceOutline(path, "session")
     raise ReferenceUnreadable(path, phrase("no reader for {value}", value=suffix or "a file without an ending"))
 
 
@@ -261,7 +261,7 @@ def _of_readings(path: Path, rows: list[dict[str, str]], low: Mapping[str, str])
             unused.append(f"line {k}: " + ("no reading" if name else f"no angle is called {said or 'nothing'}"))
             continue
         time_s = _number(row[time_name]) if time_name else math.nan
-        readings.append(Reading(name, movement, sign * math.radians(value), time_s))
+        readings.append(GoniometerReading(name, movement, sign * math.radians(value), time_s))
     if not readings:
         raise ReferenceUnreadable(path, phrase("it holds no reading"))
     return Reference(path, phrase("goniometer list"), readings=tuple(readings), unused=tuple(unused))

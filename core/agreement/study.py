@@ -37,7 +37,7 @@ STUDY_HEAD = (
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class StudyLine:
     """One line of the table: a session of a person and what it is compared with."""
 
     person: str
@@ -67,8 +67,8 @@ class AgreementStudy:
     """``compared`` each line and what came of it; ``left_out`` each line that could not be compared, and why."""
 
     table: Path
-    compared: tuple[tuple[Line, Result], ...]
-    left_out: tuple[tuple[Line, str], ...]
+    compared: tuple[tuple[StudyLine, Result], ...]
+    left_out: tuple[tuple[StudyLine, str], ...]
     angles: tuple[OfPeople, ...]
 
     @property
@@ -90,7 +90,7 @@ class AgreementStudy:
         )  # fmt: skip
 
 
-def read_table(path: Path, read_map: Callable[[str], Mapping[str, str]]) -> tuple[Line, ...]:
+def read_table(path: Path, read_map: Callable[[str], Mapping[str, str]]) -> tuple[StudyLine, ...]:
     """The lines of a study's table. Raises :class:`ReferenceUnreadable`."""
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
@@ -102,14 +102,14 @@ def read_table(path: Path, read_map: Callable[[str], Mapping[str, str]]) -> tupl
         raise ReferenceUnreadable(path, phrase("it cannot be read as a table: {why}", why=str(cause))) from cause
 
 
-def _line(path: Path, row: Mapping[str, str | None], read_map: Callable[[str], Mapping[str, str]]) -> Line:
+def _line(path: Path, row: Mapping[str, str | None], read_map: Callable[[str], Mapping[str, str]]) -> StudyLine:
     said = {name: (value or "").strip() for name, value in row.items() if name}
     if not all(said[name] for name in NEEDED):
         raise ValueError("a line without person, session or reference")
     unit = said.get("unit", "")
     if unit not in ("", "deg", "rad"):
         raise ValueError(f"no unit is called {unit}")
-    return Line(
+    return StudyLine(
         said["person"], path.parent / said["session"], path.parent / said["reference"],
         read_map(said["columns"]) if said.get("columns") else {},
         read_map(said["markers"]) if said.get("markers") else {},
@@ -130,7 +130,7 @@ def _number(said: Mapping[str, str], name: str, usual: float, most: float) -> fl
 
 def study_of(
     table: Path,
-    lines: Sequence[Line],
+    lines: Sequence[StudyLine],
     *,
     smoothed: bool = False,
     most_shift_s: float = MOST_SHIFT_S,
@@ -142,7 +142,7 @@ def study_of(
 
     Raises :class:`ReferenceUnsuited` where nothing can.
     """
-    done, left_out = list[tuple[Line, Result]](), list[tuple[Line, str]]()
+    done, left_out = list[tuple[StudyLine, Result]](), list[tuple[StudyLine, str]]()
     for number, line in enumerate(lines):
         progress(number, len(lines))
         try:
@@ -161,7 +161,7 @@ def study_of(
     return AgreementStudy(table, tuple(done), tuple(left_out), tuple(_of_people(name, done) for name in names))
 
 
-def _of_people(name: str, done: Sequence[tuple[Line, Result]]) -> OfPeople:
+def _of_people(name: str, done: Sequence[tuple[StudyLine, Result]]) -> OfPeople:
     found = [(line.person, pairs) for line, result in done for pairs in result.compared.pairs if pairs.name == name]
     everything = [pairs for _, pairs in found]
     by_person: dict[str, list[Pairs]] = {}

@@ -11,7 +11,7 @@ class Stopped(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Watch:
+class WorkWatch:
     """``progress`` hears (percent, 100); ``cancelled`` is asked each time, and ends the work by :class:`Stopped`."""
 
     progress: Callable[[int, int], None] = lambda _done, _total: None
@@ -24,4 +24,4 @@ class Watch:
         self.progress(round(100.0 * share), 100)
 
 
-UNWATCHED = Watch()
+UNWATCHED = WorkWatch()

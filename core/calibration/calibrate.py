@@ -18,7 +18,7 @@ from carpus.core.calibration.odd_disc import odd_disc
 from carpus.core.calibration.palm_names import shifted_names
 from carpus.core.calibration.plausibility import looks_like_other_side, plan_view
 from carpus.core.calibration.registration import depth_offset_px
-from carpus.core.calibration.result import Calibration, Clicks, Finding, FindingKind, Verdict
+from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, FindingKind, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
 from carpus.core.depth_sensor import DepthSensor
@@ -126,7 +126,7 @@ def calibrate(
     offset_px = depth_offset_px(first, appearance, found_px, settings.registration)
     if offset_px > 0.0:
         limit_px = settings.registration.surely_off_px * camera.width_px / settings.registration.width_px
-        findings.append(Finding("depth_off", (), offset_px, limit_px, "px"))
+        findings.append(CalibrationFinding("depth_off", (), offset_px, limit_px, "px"))
 
     def seen() -> Iterator[tuple[float, Detections]]:
         yield first.timestamp_s, blobs
@@ -177,7 +177,7 @@ def _with_odd_disc(
     kind: FindingKind = "other_spot" if odd.fits else "spare_spot" if odd.spot >= 0 else "no_palm"
     spot_px = tuple(map(float, spare_px[odd.spot])) if odd.spot >= 0 else ()
     marker = (names[palm[odd.marker]],) if odd.marker >= 0 else ()
-    return _doubted(hand, Finding(kind, marker, spot_px=spot_px))
+    return _doubted(hand, CalibrationFinding(kind, marker, spot_px=spot_px))
 
 
 def _with_near_spot(
@@ -197,10 +197,10 @@ def _with_near_spot(
         return hand
     spot, marker = np.unravel_index(int(near.argmin()), near.shape)
     spot_px = tuple(map(float, everywhere.pixel[spot]))
-    return _doubted(hand, Finding("near_spot", (clicks.protocol.markers[marker],), spot_px=spot_px))
+    return _doubted(hand, CalibrationFinding("near_spot", (clicks.protocol.markers[marker],), spot_px=spot_px))
 
 
-def _doubted(hand: MeasuredHand, finding: Finding) -> MeasuredHand:
+def _doubted(hand: MeasuredHand, finding: CalibrationFinding) -> MeasuredHand:
     verdict = replace(hand.verdict, findings=(*hand.verdict.findings, finding))
     calibration = None if hand.calibration is None else replace(hand.calibration, verdict=verdict)
     return replace(hand, verdict=verdict, calibration=calibration)
@@ -213,7 +213,7 @@ class _Found:
     appearance: MarkerAppearance
     blobs: Detections
     taken: NDArray[np.int64]
-    findings: list[Finding]
+    findings: list[CalibrationFinding]
 
 
 def _snapped(pixel: FloatArray, blobs: Detections, reach_px: FloatArray) -> FloatArray:
@@ -253,11 +253,13 @@ def _around(pixel: FloatArray, margin_px: float, camera: Camera) -> Region:
     )
 
 
-def _named(clicks: Clicks, blobs: Detections, reach_px: FloatArray) -> tuple[NDArray[np.int64], list[Finding]]:
+def _named(
+    clicks: Clicks, blobs: Detections, reach_px: FloatArray
+) -> tuple[NDArray[np.int64], list[CalibrationFinding]]:
     """Blob of every click (M,), -1 for none, each blob once, nearest overall; and what was wrong."""
     names = clicks.protocol.markers
     taken = np.full(len(names), -1, dtype=np.int64)
-    findings: list[Finding] = []
+    findings: list[CalibrationFinding] = []
     distance = np.linalg.norm(clicks.pixel[:, None] - blobs.pixel[None], axis=-1)
     far = distance > reach_px[:, None]
     rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
@@ -267,9 +269,9 @@ def _named(clicks: Clicks, blobs: Detections, reach_px: FloatArray) -> tuple[NDA
         rivals = [int(r) for r in range(len(names)) if taken[r] >= 0 and not far[marker, taken[r]]]
         if rivals:
             rival = min(rivals, key=lambda r: float(distance[marker, taken[r]]))
-            findings.append(Finding("two_clicks_on_one", (names[rival], names[marker]), blocks=True))
+            findings.append(CalibrationFinding("two_clicks_on_one", (names[rival], names[marker]), blocks=True))
         else:
-            findings.append(Finding("click_on_no_marker", (names[marker],), blocks=True))
+            findings.append(CalibrationFinding("click_on_no_marker", (names[marker],), blocks=True))
     return taken, findings
 
 
@@ -312,7 +314,7 @@ def measure_hand(
     capture: NeutralCapture,
     camera: Camera,
     settings: CalibrationSettings,
-    found_before: Iterable[Finding] = (),
+    found_before: Iterable[CalibrationFinding] = (),
     start_angles_rad: FloatArray | None = None,
 ) -> MeasuredHand:
     """Average the discs of the still hand, measure its shape and pose, judge them."""
@@ -321,7 +323,7 @@ def measure_hand(
     palm = np.array(clicks.protocol.palm)
     depth_count = np.isfinite(capture.depth_m).sum(axis=0)
     for marker in np.flatnonzero(depth_count == 0):
-        findings.append(Finding("no_depth", (names[marker],), blocks=bool(marker in palm)))
+        findings.append(CalibrationFinding("no_depth", (names[marker],), blocks=bool(marker in palm)))
     if np.any(depth_count[palm] == 0):
         return MeasuredHand(_no_verdict(clicks, findings), None, StillNoise())
     with np.errstate(all="ignore"):
@@ -445,39 +447,43 @@ def _residuals_mm(
     return np.asarray(1e3 * np.sqrt(_nanmean(squared)))
 
 
-def _judged(clicks: Clicks, verdict: Verdict, plan: FloatArray, settings: CalibrationSettings) -> list[Finding]:
+def _judged(
+    clicks: Clicks, verdict: Verdict, plan: FloatArray, settings: CalibrationSettings
+) -> list[CalibrationFinding]:
     names = clicks.protocol.markers
-    out: list[Finding] = []
+    out: list[CalibrationFinding] = []
     shifted = shifted_names(clicks.side, plan[list(clicks.protocol.palm)], settings.palm_names)
     if len(shifted) > 2:
-        out.append(Finding("shifted", shifted))
+        out.append(CalibrationFinding("shifted", shifted))
     elif looks_like_other_side(clicks.protocol, clicks.side, plan, settings.side):
-        out.append(Finding("wrong_side"))
+        out.append(CalibrationFinding("wrong_side"))
     elif shifted and not clicks.protocol.has_fingers:
-        out.append(Finding("swapped", shifted))
+        out.append(CalibrationFinding("swapped", shifted))
     elif clicks.protocol.has_fingers:
         names_at_fault = misnamed(clicks.protocol, clicks.side, plan, settings.finger_order)
         if names_at_fault is not None and names_at_fault.alone:
-            out.append(Finding("misnamed", (names_at_fault.alone,)))
+            out.append(CalibrationFinding("misnamed", (names_at_fault.alone,)))
         elif names_at_fault is not None:
-            out.append(Finding("swapped", sum(names_at_fault.swapped, ())))
+            out.append(CalibrationFinding("swapped", sum(names_at_fault.swapped, ())))
     for marker in np.flatnonzero(verdict.residual_mm > settings.most_residual_mm):
         out.append(
-            Finding("residual", (names[marker],), float(verdict.residual_mm[marker]), settings.most_residual_mm, "mm")
+            CalibrationFinding(
+                "residual", (names[marker],), float(verdict.residual_mm[marker]), settings.most_residual_mm, "mm"
+            )
         )
     low, high = settings.hand_length_mm
     if not low <= verdict.hand_length_mm <= high:
         limit = low if verdict.hand_length_mm < low else high
-        out.append(Finding("hand_length", (), verdict.hand_length_mm, limit, "mm"))
+        out.append(CalibrationFinding("hand_length", (), verdict.hand_length_mm, limit, "mm"))
     if verdict.tilt_deg > settings.most_tilt_deg:
-        out.append(Finding("tilt", (), verdict.tilt_deg, settings.most_tilt_deg, "deg"))
+        out.append(CalibrationFinding("tilt", (), verdict.tilt_deg, settings.most_tilt_deg, "deg"))
     if verdict.distance_m < settings.least_distance_m:
-        out.append(Finding("distance", (), verdict.distance_m, settings.least_distance_m, "m"))
+        out.append(CalibrationFinding("distance", (), verdict.distance_m, settings.least_distance_m, "m"))
     if verdict.frames_used < settings.enough_frames:
-        out.append(Finding("few_frames", (), verdict.frames_used, settings.enough_frames, "frames"))
+        out.append(CalibrationFinding("few_frames", (), verdict.frames_used, settings.enough_frames, "frames"))
     return out
 
 
-def _no_verdict(clicks: Clicks, findings: list[Finding]) -> Verdict:
+def _no_verdict(clicks: Clicks, findings: list[CalibrationFinding]) -> Verdict:
     unknown = np.full(len(clicks.protocol.markers), np.nan)
     return Verdict(unknown, np.nan, np.nan, np.nan, 0, tuple(findings))

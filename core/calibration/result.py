@@ -50,7 +50,7 @@ class Clicks:
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class CalibrationFinding:
     """One thing that is not as it should be. ``value`` in ``unit`` against ``limit``; words are elsewhere.
 
     ``markers`` of "swapped": those of one finger, then as many of the other, each for each; of "shifted": after each
@@ -85,7 +85,7 @@ class Verdict:
     tilt_deg: float
     distance_m: float
     frames_used: int
-    findings: tuple[Finding, ...]
+    findings: tuple[CalibrationFinding, ...]
 
     @property
     def is_good(self) -> bool:

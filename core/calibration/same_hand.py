@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from carpus.core.calibration.calibrate import CalibrationOutcome
-from carpus.core.calibration.result import Finding, Verdict
+from carpus.core.calibration.result import CalibrationFinding, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
 
 
@@ -19,7 +19,7 @@ def compared_with_last_time(
         return outcome
     if abs(now_mm - last_length_mm) <= settings.most_length_change * last_length_mm:
         return outcome
-    finding = Finding("other_length", (), now_mm, last_length_mm, "mm")
+    finding = CalibrationFinding("other_length", (), now_mm, last_length_mm, "mm")
     verdict: Verdict = replace(outcome.verdict, findings=(*outcome.verdict.findings, finding))
     calibration = outcome.calibration
     return replace(

@@ -9,7 +9,7 @@ from typing import Literal
 import cv2
 import numpy as np
 
-from carpus.core.camera_calibration.sheet import PAPER_MM, Box, Mark, Paper, Sheet, Text, ruler
+from carpus.core.camera_calibration.sheet import PAPER_MM, Mark, Paper, PrintedSheet, SheetBox, SheetText, ruler
 from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray
 
@@ -71,12 +71,12 @@ def charuco_board(board: Board) -> cv2.aruco.CharucoBoard:
     return cv2.aruco.CharucoBoard((board.columns, board.rows), board.square_m, board.code_m, codes)
 
 
-def board_sheet(board: Board, paper: Paper) -> Sheet:
+def board_sheet(board: Board, paper: Paper) -> PrintedSheet:
     """The board on a sheet that lies on its side, with a ruler under it."""
     height_mm, width_mm = PAPER_MM[paper]
     marks = board_marks(board, *_placed(board, width_mm, height_mm))
     square = f"{board.square_m * 1e3:g} mm"
-    said = Text(
+    said = SheetText(
         phrase(
             "Carpus camera board: {name}. Glue it flat on a stiff board. Squares: {square}.",
             name=board.name(),
@@ -86,7 +86,7 @@ def board_sheet(board: Board, paper: Paper) -> Sheet:
         height_mm - EDGE_MM - 0.8,
         8.0,
     )
-    return Sheet(width_mm, height_mm, (*marks, *ruler(25.0, height_mm - EDGE_MM - 8.5), said))
+    return PrintedSheet(width_mm, height_mm, (*marks, *ruler(25.0, height_mm - EDGE_MM - 8.5), said))
 
 
 def _placed(board: Board, width_mm: float, height_mm: float) -> tuple[float, float]:
@@ -98,7 +98,7 @@ def board_marks(board: Board, left_mm: float, top_mm: float) -> tuple[Mark, ...]
     """Black squares, and the codes in the white ones, with the first square's corner at a place."""
     side = board.square_m * 1e3
     black = [
-        Box(left_mm + side * column, top_mm + side * row, side, side)
+        SheetBox(left_mm + side * column, top_mm + side * row, side, side)
         for row in range(board.rows)
         for column in range(board.columns)
         if (row + column) % 2 == 0
@@ -106,7 +106,7 @@ def board_marks(board: Board, left_mm: float, top_mm: float) -> tuple[Mark, ...]
     return (*black, *_codes(board, left_mm, top_mm)) if board.pattern == "charuco" else tuple(black)
 
 
-def _codes(board: Board, left_mm: float, top_mm: float) -> list[Box]:
+def _codes(board: Board, left_mm: float, top_mm: float) -> list[SheetBox]:
     described = charuco_board(board)
     codes = described.getDictionary()
     out = []
@@ -118,5 +118,5 @@ def _codes(board: Board, left_mm: float, top_mm: float) -> list[Box]:
             # neighbours as one box: between two a viewer may show a hair of white
             edges = np.flatnonzero(np.diff(np.concatenate(([0], line.astype(np.int8), [0]))))
             for start, end in edges.reshape(-1, 2):
-                out.append(Box(x + cell * float(start), y + cell * row, cell * float(end - start), cell))
+                out.append(SheetBox(x + cell * float(start), y + cell * row, cell * float(end - start), cell))
     return out

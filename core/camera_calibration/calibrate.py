@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from carpus.core.camera import Camera
 from carpus.core.camera_calibration.depth import MOST_APART_PX, DepthCheck, check_depth
 from carpus.core.camera_calibration.solve import FAIR_PX, Intrinsics, solve_intrinsics
-from carpus.core.camera_calibration.views import Judgement, View, board_of, judge
+from carpus.core.camera_calibration.views import BoardView, Judgement, board_of, judge
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ class CameraCalibration:
         return fits and (self.depth is None or self.depth.is_registered)
 
 
-def calibrate_camera(views: Sequence[View], before: Camera, subject: str) -> CameraCalibration:
+def calibrate_camera(views: Sequence[BoardView], before: Camera, subject: str) -> CameraCalibration:
     """Calibrate from kept views; raises what :func:`solve_intrinsics` does."""
     intrinsics = solve_intrinsics(views, before.width_px, before.height_px, subject)
     judgement = judge(views, before.width_px, before.height_px)

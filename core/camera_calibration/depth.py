@@ -16,7 +16,7 @@ import numpy as np
 
 from carpus.core.camera import Camera
 from carpus.core.camera_calibration.solve import Intrinsics
-from carpus.core.camera_calibration.views import NEAR_FAR_RATIO, View
+from carpus.core.camera_calibration.views import NEAR_FAR_RATIO, BoardView
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.types import FloatArray
 
@@ -68,7 +68,7 @@ class DepthCheck:
         return f"Depth reads {abs(share):.1f} % too {'long' if share > 0 else 'short'}{shift}."
 
 
-def check_depth(views: Sequence[View], intrinsics: Intrinsics, sensor: DepthSensor) -> DepthCheck | None:
+def check_depth(views: Sequence[BoardView], intrinsics: Intrinsics, sensor: DepthSensor) -> DepthCheck | None:
     """Depth against the board's plane over all views that count; None where too few have depth."""
     blocks = [
         _readings(views[k], intrinsics.camera, turn, shift)
@@ -126,7 +126,7 @@ def _robust(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSensor
     return values
 
 
-def _readings(view: View, camera: Camera, turn: FloatArray, shift_m: FloatArray) -> FloatArray | None:
+def _readings(view: BoardView, camera: Camera, turn: FloatArray, shift_m: FloatArray) -> FloatArray | None:
     """Rows (R, 4) of measured and true depth and the true depth's slope along u and v, inside the board."""
     if view.depth_raw is None:
         return None

@@ -13,7 +13,7 @@ from carpus.core.camera import Camera
 from carpus.core.camera_calibration.calibrate import CameraCalibration
 from carpus.core.camera_calibration.find_board import FoundBoard
 from carpus.core.camera_calibration.solve import Intrinsics
-from carpus.core.camera_calibration.views import View
+from carpus.core.camera_calibration.views import BoardView
 from carpus.core.types import FloatArray
 
 CELLS = (13, 9)
@@ -36,14 +36,14 @@ class Effect:
     length_more_mm: float
 
 
-def effect_of(made: CameraCalibration, views: Sequence[View]) -> Effect:
+def effect_of(made: CameraCalibration, views: Sequence[BoardView]) -> Effect:
     """What the calibration changes against what the source said of itself."""
     found, before = made.intrinsics, made.before
     more_deg, more_mm = _on_a_hand(made)
     return Effect(_map(found, views), _error_px(before, found, views), _bend_px(found.camera), more_deg, more_mm)
 
 
-def _map(found: Intrinsics, views: Sequence[View]) -> FloatArray:
+def _map(found: Intrinsics, views: Sequence[BoardView]) -> FloatArray:
     camera = found.camera
     total, count = np.zeros((CELLS[1], CELLS[0], 2)), np.zeros((CELLS[1], CELLS[0], 1))
     poses = dict(zip(found.used, zip(found.board_turn, found.board_shift_m, strict=True), strict=True))
@@ -67,7 +67,7 @@ def _pose(camera: Camera, seen: FoundBoard) -> tuple[FloatArray, FloatArray] | N
     return (np.asarray(turn, np.float64), np.asarray(shift, np.float64)) if there else None
 
 
-def _error_px(camera: Camera, found: Intrinsics, views: Sequence[View]) -> float:
+def _error_px(camera: Camera, found: Intrinsics, views: Sequence[BoardView]) -> float:
     squares: list[FloatArray] = []
     for k in found.used:
         seen = views[k].found

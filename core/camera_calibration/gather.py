@@ -10,7 +10,7 @@ from carpus.core.camera_calibration.board import BOARDS, Board
 from carpus.core.camera_calibration.find_board import FoundBoard, find_board
 from carpus.core.camera_calibration.guidance import Lack, Look, is_dark
 from carpus.core.camera_calibration.sharpness import MOST_EDGE_PX, edge_px
-from carpus.core.camera_calibration.views import MOST_MOTION_PX, Judgement, View, is_new, judge, moved_px, view_of
+from carpus.core.camera_calibration.views import MOST_MOTION_PX, BoardView, Judgement, is_new, judge, moved_px, view_of
 from carpus.core.types import Frame
 
 LOOK_EVERY_S = 0.12
@@ -29,14 +29,14 @@ class Gathering:
 
     def __init__(self, camera: Camera, boards: Sequence[Board] = tuple(BOARDS.values())) -> None:
         self._camera, self._boards = camera, tuple(boards)
-        self._views: list[View] = []
+        self._views: list[BoardView] = []
         self._last: tuple[float, FoundBoard] | None = None
         self._looked_s = float("-inf")
         self.looked, self.seen = 0, 0
         self._by_hand, self._undone = False, 0
 
     @property
-    def views(self) -> Sequence[View]:
+    def views(self) -> Sequence[BoardView]:
         """What was kept."""
         return self._views
 

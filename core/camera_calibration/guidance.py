@@ -51,7 +51,7 @@ class Look:
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class GuidanceStep:
     """What to do next: hold the board at a ``field`` (down, across) of the picture, tilt it with a ``side`` nearer, go
     ``near`` or ``far``; ``done`` when all is there."""
 
@@ -70,21 +70,21 @@ def next_step(
     last: FoundBoard | None = None,
     size_px: tuple[int, int] = (640, 480),
     asked: int = ASKED_VIEWS["chessboard"],
-) -> Step:
+) -> GuidanceStep:
     """Whole area first, then the tilts, then near and far, then ``asked`` pictures in all; near places come first."""
     empty, side = np.argwhere(judgement.corners_in_field == 0), _missing_side(judgement)
     if judgement.fields < FEWEST_FIELDS:
-        return Step("place", _nearest(empty, last, size_px), side)
+        return GuidanceStep("place", _nearest(empty, last, size_px), side)
     if len(judgement.sides) < FEWEST_SIDES:
-        return Step("tilt", side=side)
+        return GuidanceStep("tilt", side=side)
     if not judgement.is_near_and_far:
         near = judgement.nearest_m <= 1.15 * NEAR_M or judgement.nearest_m * NEAR_FAR_RATIO < FAR_M
-        return Step("far" if near else "near")
+        return GuidanceStep("far" if near else "near")
     if judgement.views >= asked:
-        return Step("done")
+        return GuidanceStep("done")
     thin = empty if len(empty) else np.argwhere(judgement.corners_in_field == judgement.corners_in_field.min())
     # In a place where it has been before, the board must at least be tilted another way to say something new.
-    return Step("place", _nearest(thin, last, size_px), side or SIDES[judgement.views % len(SIDES)])
+    return GuidanceStep("place", _nearest(thin, last, size_px), side or SIDES[judgement.views % len(SIDES)])
 
 
 def _nearest(fields: np.ndarray, last: FoundBoard | None, size_px: tuple[int, int]) -> tuple[int, int]:
@@ -106,7 +106,7 @@ def _missing_side(judgement: Judgement) -> Side | None:
     return next((side for side in SIDES if side not in judgement.sides), None)
 
 
-def target_outline(step: Step, board: Board, camera: Camera) -> FloatArray | None:
+def target_outline(step: GuidanceStep, board: Board, camera: Camera) -> FloatArray | None:
     """Corners (4, 2) in the picture of the board as the step wants it held, all of it in the picture; None for none."""
     if step.kind == "done":
         return None

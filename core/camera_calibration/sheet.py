@@ -15,7 +15,7 @@ RULER_MM = 100.0
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class SheetBox:
     """A filled rectangle without an outline; ``color`` as #RRGGBB."""
 
     left_mm: float
@@ -36,7 +36,7 @@ class Disc:
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class SheetLine:
     """A fine line; dashed where paper is folded, not cut."""
 
     from_mm: tuple[float, float]
@@ -45,7 +45,7 @@ class Line:
 
 
 @dataclass(frozen=True, slots=True)
-class Text:
+class SheetText:
     """One line of text, from its left end on the base line; ``size_pt`` in points."""
 
     text: str
@@ -55,11 +55,11 @@ class Text:
     bold: bool = False
 
 
-Mark = Box | Disc | Line | Text
+Mark = SheetBox | Disc | SheetLine | SheetText
 
 
 @dataclass(frozen=True, slots=True)
-class Sheet:
+class PrintedSheet:
     """One page."""
 
     width_mm: float
@@ -69,13 +69,13 @@ class Sheet:
 
 def ruler(left_mm: float, top_mm: float) -> tuple[Mark, ...]:
     """A ruler of 100 mm with a mark each centimetre, and what it is for."""
-    marks: list[Mark] = [Line((left_mm, top_mm), (left_mm + RULER_MM, top_mm))]
+    marks: list[Mark] = [SheetLine((left_mm, top_mm), (left_mm + RULER_MM, top_mm))]
     for k in range(11):
         x = left_mm + 10.0 * k
-        marks.append(Line((x, top_mm), (x, top_mm + (4.0 if k % 5 == 0 else 2.5))))
+        marks.append(SheetLine((x, top_mm), (x, top_mm + (4.0 if k % 5 == 0 else 2.5))))
     words = (
         phrase("This line is 100 mm long. If it is not,"),
         phrase("print again at 100 % (“actual size”)."),
     )
-    said = [Text(line, left_mm + RULER_MM + 4.0, top_mm + 1.4 + 3.6 * k, 8.0) for k, line in enumerate(words)]
+    said = [SheetText(line, left_mm + RULER_MM + 4.0, top_mm + 1.4 + 3.6 * k, 8.0) for k, line in enumerate(words)]
     return (*marks, *said)

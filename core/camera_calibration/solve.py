@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 
 from carpus.core.camera import Camera
-from carpus.core.camera_calibration.views import View, judge
+from carpus.core.camera_calibration.views import BoardView, judge
 from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
 from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray
@@ -46,7 +46,7 @@ class Intrinsics:
         return f"poor: above {FAIR_PX:g} px"
 
 
-def solve_intrinsics(views: Sequence[View], width_px: int, height_px: int, subject: str) -> Intrinsics:
+def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, subject: str) -> Intrinsics:
     """Intrinsics and distortion (k1, k2, p1, p2) from the views.
 
     Raises :class:`BoardMissing` where no board was seen, :class:`BoardViewsAlike` where the views are too few or too
@@ -78,7 +78,7 @@ def solve_intrinsics(views: Sequence[View], width_px: int, height_px: int, subje
     return Intrinsics(fit.camera, fit.focal_sd_px, fit.middle_sd_px, fit.error_px, fit.turn, fit.shift_m, tuple(used))
 
 
-def _require(views: Sequence[View], width_px: int, height_px: int, subject: str) -> None:
+def _require(views: Sequence[BoardView], width_px: int, height_px: int, subject: str) -> None:
     missing = judge(views, width_px, height_px).missing
     if missing:
         raise BoardViewsAlike(subject, missing)
@@ -95,7 +95,7 @@ class _Fit:
     shift_m: FloatArray
 
 
-def _fitted(views: Sequence[View], width_px: int, height_px: int) -> _Fit:
+def _fitted(views: Sequence[BoardView], width_px: int, height_px: int) -> _Fit:
     points = [view.found.board.corners_m[view.found.corner].astype(np.float32) for view in views]
     pixels = [view.found.pixel.astype(np.float32).reshape(-1, 1, 2) for view in views]
     guess = np.array([[width_px * 0.82, 0.0, 0.5 * (width_px - 1)], [0.0, width_px * 0.82, 0.5 * (height_px - 1)],

@@ -35,7 +35,7 @@ SIDES: tuple[Side, ...] = ("left", "right", "top", "bottom")
 
 
 @dataclass(frozen=True, slots=True)
-class View:
+class BoardView:
     """One kept picture. ``tilt_deg`` of the board off the straight view and the ``nearer`` side where it is tilted;
     ``distance_m`` of its middle; the depth picture that belongs to it, None without one."""
 
@@ -96,7 +96,7 @@ class Judgement:
         return "Move the board to another place, tilt it another way, nearer or farther."
 
 
-def view_of(found: FoundBoard, camera: Camera, depth_raw: DepthImage | None, depth_unit_m: float) -> View | None:
+def view_of(found: FoundBoard, camera: Camera, depth_raw: DepthImage | None, depth_unit_m: float) -> BoardView | None:
     """What a picture shows; ``camera`` may be a rough guess. None where the board cannot stand like that."""
     points = found.board.corners_m[found.corner]
     there, turn, shift = cv2.solvePnP(points, camera.undistort(found.pixel), camera.matrix, np.zeros(5))
@@ -112,7 +112,7 @@ def view_of(found: FoundBoard, camera: Camera, depth_raw: DepthImage | None, dep
     if tilt_deg > MOST_TILT_DEG:
         return None
     lean = normal - (normal @ away) * away
-    return View(found, tilt_deg, _nearer(lean) if tilt_deg >= LEAST_TILT_DEG else None, float(centre[2]),
+    return BoardView(found, tilt_deg, _nearer(lean) if tilt_deg >= LEAST_TILT_DEG else None, float(centre[2]),
                 depth_raw, depth_unit_m)  # fmt: skip
 
 
@@ -124,7 +124,7 @@ def _nearer(lean: FloatArray) -> Side:
     return "bottom" if lean[1] > 0.0 else "top"
 
 
-def is_new(found: FoundBoard, kept: Sequence[View]) -> bool:
+def is_new(found: FoundBoard, kept: Sequence[BoardView]) -> bool:
     """Whether the board stands elsewhere or otherwise than in every kept picture."""
     return all(moved_px(found, view.found) >= NEW_PX for view in kept)
 
@@ -137,7 +137,7 @@ def moved_px(one: FoundBoard, other: FoundBoard) -> float:
     return float(np.sqrt(np.mean(np.sum((one.pixel[a] - other.pixel[b]) ** 2, axis=1))))
 
 
-def judge(views: Sequence[View], width_px: int, height_px: int) -> Judgement:
+def judge(views: Sequence[BoardView], width_px: int, height_px: int) -> Judgement:
     """Whether these pictures are enough, and different enough."""
     count = np.zeros((FIELDS[1], FIELDS[0]), dtype=np.int64)
     for view in views:
@@ -149,6 +149,6 @@ def judge(views: Sequence[View], width_px: int, height_px: int) -> Judgement:
     return Judgement(len(views), count, sides, min(distances, default=math.nan), max(distances, default=math.nan))
 
 
-def board_of(views: Sequence[View]) -> Board:
+def board_of(views: Sequence[BoardView]) -> Board:
     """The board of all views."""
     return views[0].found.board

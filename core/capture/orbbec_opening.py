@@ -55,7 +55,7 @@ def _speechless() -> Iterator[None]:
 
 
 @dataclass(frozen=True, slots=True)
-class Streams:
+class OrbbecStreams:
     """The chosen profiles. ``shrink``: how many pixels of the camera's picture, across and down, become one."""
 
     color: Any
@@ -89,7 +89,7 @@ def find_camera(ob: Any, context: Any, plan: CameraPlan) -> Any:
     raise why_unlisted(usb_cameras(plan.models), names)
 
 
-def choose_streams(ob: Any, pipeline: Any, plan: CameraPlan) -> Streams:
+def choose_streams(ob: Any, pipeline: Any, plan: CameraPlan) -> OrbbecStreams:
     """Colour of the wanted size, or of twice that to be shrunk, and depth at the same rate; raises :class:`GaveUp`."""
     width, height = plan.size_px
     colors = [each for each in _offered(ob, pipeline, ob.OBSensorType.COLOR_SENSOR) if _is_color(ob, each)]
@@ -104,7 +104,7 @@ def choose_streams(ob: Any, pipeline: Any, plan: CameraPlan) -> Streams:
             red_first = [each for each in fitting if each.get_format() == ob.OBFormat.RGB]
             color = max(red_first or fitting, key=lambda each: _nearness(each, within, plan.fps))
             rate = color.get_fps()
-            return Streams(color, max(depths, key=lambda each: _nearness(each, DEPTH_SIZE_PX, rate)), shrink)
+            return OrbbecStreams(color, max(depths, key=lambda each: _nearness(each, DEPTH_SIZE_PX, rate)), shrink)
     raise GaveUp(CameraUnsuited, f"no colour pictures of {width}x{height}")
 
 
@@ -154,7 +154,7 @@ def whole_lens(ob: Any, color: Any) -> tuple[tuple[int, int], Lens]:
     return size_px, Lens(found.fx, found.fy, found.cx, found.cy, name, tuple(float(each) for each in coefficients))
 
 
-def lens_of(ob: Any, streams: Streams) -> Lens:
+def lens_of(ob: Any, streams: OrbbecStreams) -> Lens:
     """Intrinsics of the colour pictures that are handed on."""
     _, lens = whole_lens(ob, streams.color)
     scale = 1.0 / streams.shrink
@@ -163,7 +163,7 @@ def lens_of(ob: Any, streams: Streams) -> Lens:
     return replace(lens, fx_px=lens.fx_px * scale, fy_px=lens.fy_px * scale, cx_px=cx_px, cy_px=cy_px)
 
 
-def device_settings(ob: Any, device: Any, streams: Streams) -> dict[str, str]:
+def device_settings(ob: Any, device: Any, streams: OrbbecStreams) -> dict[str, str]:
     """What a session says of the camera; only what is known."""
     info = device.get_device_info()
     name = str(info.get_name())

@@ -16,7 +16,7 @@ from carpus.core.capture.color_lock import ColorLock, Control
 from carpus.core.capture.frame_assembly import camera_of_lens
 from carpus.core.capture.lens_bending import LensBending
 from carpus.core.capture.orbbec_opening import (
-    Streams,
+    OrbbecStreams,
     choose_streams,
     device_settings,
     find_camera,
@@ -101,7 +101,7 @@ def _watch(ob: Any, outlet: Outlet, plan: CameraPlan) -> None:
 class _Pictures:
     """Passes colour on, and depth, laid on colour by the library; both with the camera's own times."""
 
-    def __init__(self, ob: Any, outlet: Outlet, streams: Streams) -> None:
+    def __init__(self, ob: Any, outlet: Outlet, streams: OrbbecStreams) -> None:
         self._outlet, self._shrink = outlet, streams.shrink
         self._is_jpeg = streams.color.get_format() == ob.OBFormat.MJPG
         self._align = ob.AlignFilter(align_to_stream=ob.OBStreamType.COLOR_STREAM)
@@ -144,7 +144,7 @@ class _Pictures:
 class _Controls:
     """Exposure and white balance of the colour camera."""
 
-    def __init__(self, ob: Any, device: Any, streams: Streams) -> None:
+    def __init__(self, ob: Any, device: Any, streams: OrbbecStreams) -> None:
         self._ob, self._device, self._prop = ob, device, ob.OBPropertyID
         self._longest = LIGHT_SHARE / streams.color.get_fps() / EXPOSURE_UNIT_S
 

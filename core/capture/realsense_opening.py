@@ -39,7 +39,7 @@ def load_library() -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class Streams:
+class RealsenseStreams:
     """The chosen colour profile and depth profile (None without depth), and which sensor opens which."""
 
     color: Any
@@ -72,7 +72,7 @@ def said(rs: Any, device: Any, fact: str) -> str:
     return str(device.get_info(info)) if device.supports(info) else ""
 
 
-def camera_streams(rs: Any, device: Any, plan: CameraPlan) -> Streams:
+def camera_streams(rs: Any, device: Any, plan: CameraPlan) -> RealsenseStreams:
     """Colour of the wanted size and rate, depth as the camera measures it best; raises :class:`GaveUp`."""
     offered = _offered(rs, device)
     width, height = plan.size_px
@@ -92,7 +92,7 @@ def camera_streams(rs: Any, device: Any, plan: CameraPlan) -> Streams:
     return _streams([color, depth])
 
 
-def stored_streams(rs: Any, playback: Any) -> Streams:
+def stored_streams(rs: Any, playback: Any) -> RealsenseStreams:
     """Colour and, where there is any, depth of a recording; raises :class:`GaveUp`."""
     offered = _offered(rs, playback)
     colors = [pair for pair in offered if _is_color(rs, pair[1])]
@@ -104,7 +104,7 @@ def stored_streams(rs: Any, playback: Any) -> Streams:
     return _streams([readable[0], *depths[:1]])
 
 
-def prepare(rs: Any, streams: Streams) -> dict[str, str]:
+def prepare(rs: Any, streams: RealsenseStreams) -> dict[str, str]:
     """What a camera is set to before it streams; what of it took, for the session."""
     option = rs.option
     done: dict[str, str] = {}
@@ -144,7 +144,7 @@ def put_near(sensor: Any, option: Any, value: float) -> bool:
     return put(sensor, option, reach.min + round((value - reach.min) / step) * step)
 
 
-def depth_unit_m(rs: Any, streams: Streams) -> float:
+def depth_unit_m(rs: Any, streams: RealsenseStreams) -> float:
     """Metres per count of depth."""
     for sensor, profiles in streams.opening:
         if streams.depth in profiles and sensor.supports(rs.option.depth_units):
@@ -166,7 +166,7 @@ def lens_of(rs: Any, profile: Any) -> Lens:
     return Lens(found.fx, found.fy, found.ppx, found.ppy, model, coefficients)
 
 
-def lies_on_color(streams: Streams) -> bool:
+def lies_on_color(streams: RealsenseStreams) -> bool:
     """Whether depth lies on colour as it comes; laying it there once more would only tear holes into it."""
     if streams.depth is None:
         return True
@@ -176,7 +176,7 @@ def lies_on_color(streams: Streams) -> bool:
     return unmoved and all(getattr(here, key) == getattr(there, key) for key in _SEES_LIKE)
 
 
-def device_settings(rs: Any, device: Any, streams: Streams) -> dict[str, str]:
+def device_settings(rs: Any, device: Any, streams: RealsenseStreams) -> dict[str, str]:
     """What a session says of the camera; only what is known."""
     settings = {
         "camera": said(rs, device, "name") or "RealSense",
@@ -212,13 +212,13 @@ def _is_depth(rs: Any, profile: Any) -> bool:
     return bool(profile.stream_type() == rs.stream.depth and profile.format() == rs.format.z16)
 
 
-def _streams(chosen: Sequence[tuple[Any, Any]]) -> Streams:
+def _streams(chosen: Sequence[tuple[Any, Any]]) -> RealsenseStreams:
     """A sensor that sends both (the D405's) is opened once, for both."""
     by_name: dict[str, tuple[Any, list[Any]]] = {}
     for number, (sensor, profile) in enumerate(chosen):
         by_name.setdefault(sensor.name or str(number), (sensor, []))[1].append(profile)
     opening = tuple((sensor, tuple(profiles)) for sensor, profiles in by_name.values())
-    return Streams(chosen[0][1], chosen[1][1] if len(chosen) > 1 else None, opening)
+    return RealsenseStreams(chosen[0][1], chosen[1][1] if len(chosen) > 1 else None, opening)
 
 
 def _mode_text(profile: Any) -> str:

@@ -16,7 +16,7 @@ from carpus.core.capture.capture_process import WAIT_MS, GaveUp, Heard, Outlet
 from carpus.core.capture.color_hold import Step
 from carpus.core.capture.color_lock import ColorLock, Control
 from carpus.core.capture.realsense_opening import (
-    Streams,
+    RealsenseStreams,
     camera_streams,
     depth_unit_m,
     device_settings,
@@ -148,14 +148,14 @@ def _play(rs: Any, outlet: Outlet, path: Path) -> None:
         outlet.stay_alive()
 
 
-def _start(streams: Streams, take: Callable[[Any], None]) -> None:
+def _start(streams: RealsenseStreams, take: Callable[[Any], None]) -> None:
     for sensor, profiles in streams.opening:
         sensor.open(list(profiles))
     for sensor, _ in streams.opening:
         sensor.start(take)
 
 
-def _stop(streams: Streams) -> None:
+def _stop(streams: RealsenseStreams) -> None:
     for sensor, _ in streams.opening:
         sensor.stop()
         sensor.close()
@@ -177,7 +177,7 @@ def _clock(rs: Any, frame: Any) -> str:
     return "computer" if frame.get_frame_timestamp_domain() == rs.timestamp_domain.system_time else "camera"
 
 
-def _opened(rs: Any, streams: Streams, settings: dict[str, str]) -> Opened:
+def _opened(rs: Any, streams: RealsenseStreams, settings: dict[str, str]) -> Opened:
     mirrored = dict.fromkeys(streams.modes, False)
     return Opened(streams.modes, mirrored, None, settings, lens_of(rs, streams.color), depth_unit_m(rs, streams))
 
@@ -185,7 +185,7 @@ def _opened(rs: Any, streams: Streams, settings: dict[str, str]) -> Opened:
 class _Pictures:
     """Passes colour on, and depth, laid on colour by the library; both with their own times."""
 
-    def __init__(self, rs: Any, outlet: Outlet, streams: Streams) -> None:
+    def __init__(self, rs: Any, outlet: Outlet, streams: RealsenseStreams) -> None:
         self._rs, self._outlet = rs, outlet
         self._lies = lies_on_color(streams)
         self._align = rs.align(rs.stream.color)
@@ -238,7 +238,7 @@ def _turned(blue_first: memoryview) -> memoryview:
 class _Controls:
     """Exposure and white balance of the colour sensor."""
 
-    def __init__(self, rs: Any, streams: Streams) -> None:
+    def __init__(self, rs: Any, streams: RealsenseStreams) -> None:
         self._option = rs.option
         self._sensor = next(sensor for sensor, profiles in streams.opening if streams.color in profiles)
         self._longest = LIGHT_SHARE / streams.color.fps() / EXPOSURE_UNIT_S

@@ -10,7 +10,7 @@ from carpus.core.cameras_folder import CAMERAS, file_stem
 from carpus.core.capture.calibrated import SUFFIX as CALIBRATION_SUFFIX
 from carpus.core.capture.calibrated import age_days, stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
-from carpus.core.check_card.chart import OLD_DAYS, SUFFIX, Check, chart_path, read_checks, verdict_of
+from carpus.core.check_card.chart import OLD_DAYS, SUFFIX, CardCheck, chart_path, read_checks, verdict_of
 from carpus.core.check_card.standing import standing_of
 from carpus.core.errors import CarpusFault
 from carpus.core.finding import Finding, State
@@ -75,7 +75,7 @@ def _camera(data_folder: Path, serial: str, now: datetime) -> Finding:
     return Finding(f"Camera {serial}", state, ", ".join(said), " ".join(remedies))
 
 
-def _result(checks: list[Check]) -> str:
+def _result(checks: list[CardCheck]) -> str:
     last = checks[-1]
     return f"{verdict_of(checks[:-1], last)} ({last.angle_error_deg:.1f}°, {last.length_error_mm:.1f} mm off at most)"
 

@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.camera_calibration.sheet import PAPER_MM, Disc, Line, Mark, Paper, Sheet, Text, ruler
+from carpus.core.camera_calibration.sheet import PAPER_MM, Disc, Mark, Paper, PrintedSheet, SheetLine, SheetText, ruler
 from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray
 
@@ -32,7 +32,7 @@ _TAB_MM = 12.0
 
 
 @dataclass(frozen=True, slots=True)
-class Figure:
+class CardFigure:
     """Something on the card that is known: between which discs, and its true value in degrees or millimetres."""
 
     name: str
@@ -41,12 +41,12 @@ class Figure:
 
 
 FIGURES = (
-    Figure("Wedge 30°", "angle", 30.0),
-    Figure("Over the ridge 50°", "angle", _BEND_DEG),
-    Figure("Flat 90°", "angle", 90.0),
-    Figure("80 mm across", "length", 80.0),
-    Figure("120 mm along", "length", 120.0),
-    Figure("25 mm high", "length", 25.0),
+    CardFigure("Wedge 30°", "angle", 30.0),
+    CardFigure("Over the ridge 50°", "angle", _BEND_DEG),
+    CardFigure("Flat 90°", "angle", 90.0),
+    CardFigure("80 mm across", "length", 80.0),
+    CardFigure("120 mm along", "length", 120.0),
+    CardFigure("25 mm high", "length", 25.0),
 )
 
 
@@ -84,7 +84,7 @@ def _between(one: FloatArray, other: FloatArray) -> float:
     return math.degrees(math.acos(float(np.clip(share, -1.0, 1.0))))
 
 
-def card_sheets(paper: Paper) -> tuple[Sheet, Sheet]:
+def card_sheets(paper: Paper) -> tuple[PrintedSheet, PrintedSheet]:
     """The card, and the wedge to cut out and fold."""
     return card_sheet(paper), wedge_sheet(paper)
 
@@ -93,7 +93,7 @@ CARD_CORNER_MM = (62.0, 60.0)
 """Disc A on the sheet."""
 
 
-def card_sheet(paper: Paper) -> Sheet:
+def card_sheet(paper: Paper) -> PrintedSheet:
     """The flat sheet."""
     width_mm, height_mm = PAPER_MM[paper]
     x0, y0 = CARD_CORNER_MM
@@ -102,29 +102,29 @@ def card_sheet(paper: Paper) -> Sheet:
     left, top = x0 + FOOT_CORNER_MM[0], y0 + FOOT_CORNER_MM[1]
     right, bottom = left + WIDTH_MM, top + FOOT_MM
     corners = [(left, top), (right, top), (right, bottom), (left, bottom)]
-    foot = [Line(one, other, dashed=True) for one, other in zip(corners, corners[1:] + corners[:1], strict=True)]
+    foot = [SheetLine(one, other, dashed=True) for one, other in zip(corners, corners[1:] + corners[:1], strict=True)]
     said = [
-        Text(phrase("Carpus check card"), 20.0, 20.0, 14.0, bold=True),
-        Text(phrase("1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm."), 20.0, 28.0),
-        Text(
+        SheetText(phrase("Carpus check card"), 20.0, 20.0, 14.0, bold=True),
+        SheetText(phrase("1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm."), 20.0, 28.0),
+        SheetText(
             phrase("2. Glue this page flat on stiff card. Fold the wedge and glue it onto the dashed field."),
             20.0,
             33.0,
         ),
-        Text(
+        SheetText(
             phrase("3. Lay it flat under the camera, about 60 cm away, and run the check for 30 seconds."), 20.0, 38.0
         ),
-        Text(phrase("the wedge’s side with two discs here"), left + 1.0, top + 5.0, 7.0),
-        Text(phrase("its side with one disc here"), left + 4.0, bottom - 2.5, 7.0),
+        SheetText(phrase("the wedge’s side with two discs here"), left + 1.0, top + 5.0, 7.0),
+        SheetText(phrase("its side with one disc here"), left + 4.0, bottom - 2.5, 7.0),
     ]
-    return Sheet(width_mm, height_mm, (*discs, *foot, *said, *ruler(20.0, height_mm - 14.0)))
+    return PrintedSheet(width_mm, height_mm, (*discs, *foot, *said, *ruler(20.0, height_mm - 14.0)))
 
 
 WEDGE_CORNER_MM = (80.0, 22.0)
 """Upper left corner of the slope on the sheet."""
 
 
-def wedge_sheet(paper: Paper) -> Sheet:
+def wedge_sheet(paper: Paper) -> PrintedSheet:
     """The wedge, unfolded: both faces, foot and a tab, a flap on either side of the foot."""
     width_mm, height_mm = PAPER_MM[paper]
     left, top = WEDGE_CORNER_MM
@@ -133,22 +133,22 @@ def wedge_sheet(paper: Paper) -> Sheet:
     end = folds[-1] + _TAB_MM
     marks: list[Mark] = [Disc(middle, top + s, DISC_RADIUS_MM, BLUE) for s in _ON_SLOPE_MM]
     marks.append(Disc(middle, folds[0] + _down_mm(), DISC_RADIUS_MM, BLUE))
-    marks += [Line((left, y), (right, y), dashed=True) for y in folds]
-    marks += [Line((left, top), (right, top)), Line((left + 4.0, end), (right - 4.0, end))]
+    marks += [SheetLine((left, y), (right, y), dashed=True) for y in folds]
+    marks += [SheetLine((left, top), (right, top)), SheetLine((left + 4.0, end), (right - 4.0, end))]
     for edge, outwards in ((left, -1.0), (right, 1.0)):
         apex = (edge + outwards * HEIGHT_MM, folds[1] + 0.5 * FOOT_MM)
         marks += [
-            Line((edge, top), (edge, folds[1])),
-            Line((edge, folds[1]), (edge, folds[2]), dashed=True),
-            Line((edge, folds[1]), apex),
-            Line(apex, (edge, folds[2])),
-            Line((edge, folds[2]), (edge - outwards * 4.0, end)),
+            SheetLine((edge, top), (edge, folds[1])),
+            SheetLine((edge, folds[1]), (edge, folds[2]), dashed=True),
+            SheetLine((edge, folds[1]), apex),
+            SheetLine(apex, (edge, folds[2])),
+            SheetLine((edge, folds[2]), (edge - outwards * 4.0, end)),
         ]
     said = [
-        Text(phrase("Wedge: cut along the lines, fold back along the dashes"), 20.0, 16.0, 11.0, bold=True),
-        Text("30°", left + 3.0, folds[0] - 3.0, 8.0),
-        Text("30°", left + 3.0, folds[0] + 5.0, 8.0),
-        Text(phrase("foot: glue onto the card"), left + 3.0, folds[1] + 0.5 * FOOT_MM, 8.0),
-        Text(phrase("glue under the low edge"), left + 6.0, end - 3.0, 8.0),
+        SheetText(phrase("Wedge: cut along the lines, fold back along the dashes"), 20.0, 16.0, 11.0, bold=True),
+        SheetText("30°", left + 3.0, folds[0] - 3.0, 8.0),
+        SheetText("30°", left + 3.0, folds[0] + 5.0, 8.0),
+        SheetText(phrase("foot: glue onto the card"), left + 3.0, folds[1] + 0.5 * FOOT_MM, 8.0),
+        SheetText(phrase("glue under the low edge"), left + 6.0, end - 3.0, 8.0),
     ]
-    return Sheet(width_mm, height_mm, (*marks, *said, *ruler(20.0, height_mm - 14.0)))
+    return PrintedSheet(width_mm, height_mm, (*marks, *said, *ruler(20.0, height_mm - 14.0)))

@@ -42,7 +42,7 @@ Verdict = Literal["right", "unusual", "out"]
 
 
 @dataclass(frozen=True, slots=True)
-class Check:
+class CardCheck:
     """One line of the file. ``calibrated`` names the calibration that was used, empty without one; ``most_angle_deg``
     and ``most_length_mm`` the limits of its camera's sensor."""
 
@@ -81,9 +81,9 @@ class Usual:
     mean: np.ndarray
 
 
-def check_of(reading: CardReading, serial: str, when: str, calibrated: str) -> Check:
+def check_of(reading: CardReading, serial: str, when: str, calibrated: str) -> CardCheck:
     """A reading as it is kept."""
-    return Check(
+    return CardCheck(
         when,
         serial,
         reading.angle_error_deg,
@@ -102,7 +102,7 @@ def chart_path(data_folder: Path, serial: str) -> Path:
     return data_folder / CAMERAS / f"{file_stem(serial)}{SUFFIX}"
 
 
-def read_checks(path: Path) -> list[Check]:
+def read_checks(path: Path) -> list[CardCheck]:
     """All checks in order of time; a torn or strange line is passed over, as the others are still true."""
     try:
         lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
@@ -112,15 +112,15 @@ def read_checks(path: Path) -> list[Check]:
     return sorted(found, key=lambda check: datetime.fromisoformat(check.when))
 
 
-def before(checks: Sequence[Check], check: Check) -> list[Check]:
+def before(checks: Sequence[CardCheck], check: CardCheck) -> list[CardCheck]:
     """Those made before another one."""
     moment = datetime.fromisoformat(check.when)
     return [one for one in checks if datetime.fromisoformat(one.when) < moment]
 
 
-def add_check(path: Path, check: Check) -> None:
+def add_check(path: Path, check: CardCheck) -> None:
     """Append one check and bring it to the disk. Raises :class:`OutputNotWritable`."""
-    content = {name: getattr(check, name) for name in Check.__dataclass_fields__}
+    content = {name: getattr(check, name) for name in CardCheck.__dataclass_fields__}
     try:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         with open(path, "ab", opener=private) as file:
@@ -132,7 +132,7 @@ def add_check(path: Path, check: Check) -> None:
         raise OutputNotWritable(path, cause.strerror or "") from cause
 
 
-def usual_of(earlier: Sequence[Check], calibrated: str) -> Usual | None:
+def usual_of(earlier: Sequence[CardCheck], calibrated: str) -> Usual | None:
     """What is usual with this calibration, of its first checks within the limits; None while too few are known."""
     good = [one.values for one in earlier if one.calibrated == calibrated and one.angles_hold and one.lengths_hold]
     if len(good) < FEWEST_USUAL:
@@ -143,7 +143,7 @@ def usual_of(earlier: Sequence[Check], calibrated: str) -> Usual | None:
     return Usual(np.column_stack((mean - reach, mean + reach)), mean)
 
 
-def verdict_of(earlier: Sequence[Check], check: Check) -> Verdict:
+def verdict_of(earlier: Sequence[CardCheck], check: CardCheck) -> Verdict:
     """Out of the fixed limits, outside what is usual or drifting, or right. An error smaller than usual is no fault."""
     if not (check.angles_hold and check.lengths_hold):
         return "out"
@@ -160,7 +160,7 @@ def verdict_of(earlier: Sequence[Check], check: Check) -> Verdict:
     return "unusual" if drifts else "right"
 
 
-def sentence_of(check: Check, verdict: Verdict) -> Phrase:
+def sentence_of(check: CardCheck, verdict: Verdict) -> Phrase:
     """What a check says, for people."""
     figures = {
         "angle": f"{check.angle_error_deg:.1f}",
@@ -198,7 +198,7 @@ def sentence_of(check: Check, verdict: Verdict) -> Phrase:
     )
 
 
-def _check(line: str) -> Check | None:
+def _check(line: str) -> CardCheck | None:
     try:
         content = json.loads(line)
         angle, length, scale = (float(content[name]) for name in ("angle_error_deg", "length_error_mm", "scale"))
@@ -210,7 +210,7 @@ def _check(line: str) -> Check | None:
         return None
     if not is_moment(when) or not all(map(math.isfinite, (angle, length, scale, most_angle_deg, most_length_mm))):
         return None
-    return Check(when, serial, angle, length, scale, measured, sd, calibrated, most_angle_deg, most_length_mm)
+    return CardCheck(when, serial, angle, length, scale, measured, sd, calibrated, most_angle_deg, most_length_mm)
 
 
 def _ends_a_line(path: Path) -> bool:

@@ -8,7 +8,7 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus.core.capture.calibrated import age_days, stored_calibration
-from carpus.core.check_card.chart import OLD_DAYS, Check, Verdict, chart_path, read_checks, verdict_of
+from carpus.core.check_card.chart import OLD_DAYS, CardCheck, Verdict, chart_path, read_checks, verdict_of
 from carpus.core.dates import is_moment
 
 
@@ -20,7 +20,7 @@ class Standing:
     serial: str
     calibrated_days: float = math.nan
     checked_days: float = math.nan
-    check: Check | None = None
+    check: CardCheck | None = None
     verdict: Verdict | None = None
     recalibrated: bool = False
 

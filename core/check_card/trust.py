@@ -10,7 +10,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from carpus.core.cameras_folder import CAMERAS
-from carpus.core.check_card.chart import Check, chart_path, read_checks
+from carpus.core.check_card.chart import CardCheck, chart_path, read_checks
 from carpus.core.output.camera_said import CameraSaid, camera_said
 from carpus.core.output.report_content import SessionFigures
 from carpus.core.session.values import Session
@@ -20,7 +20,7 @@ CHECKED_AGAIN = timedelta(hours=1)
 unless it says the same. What was out twice was out, also where a third check was right."""
 
 
-def unsure_of(checks: Sequence[Check], recorded: datetime, calibrated: str) -> tuple[bool, bool]:
+def unsure_of(checks: Sequence[CardCheck], recorded: datetime, calibrated: str) -> tuple[bool, bool]:
     """Whether lengths and angles of a session are not sure: the first check after it, with the same calibration, or the
     last one before it was out of its limits. ``checks`` in order of time."""
     alike = _standing([one for one in checks if one.calibrated == calibrated])
@@ -30,7 +30,7 @@ def unsure_of(checks: Sequence[Check], recorded: datetime, calibrated: str) -> t
     return any(not one.lengths_hold for one in near), any(not one.angles_hold for one in near)
 
 
-def _standing(checks: Sequence[Check]) -> list[Check]:
+def _standing(checks: Sequence[CardCheck]) -> list[CardCheck]:
     """Those that were not checked once more with another result."""
     when = [datetime.fromisoformat(one.when) for one in checks]
     holds = [(one.lengths_hold, one.angles_hold) for one in checks]
@@ -51,7 +51,7 @@ def with_checks(camera: CameraSaid, when: datetime, data_folder: Path | None) ->
     return replace(camera, lengths_not_sure=lengths, angles_not_sure=angles)
 
 
-def _known_checks(path: Path) -> tuple[Check, ...]:
+def _known_checks(path: Path) -> tuple[CardCheck, ...]:
     """Read once as long as the file stays: a list asks for each of its sessions."""
     try:
         now = path.stat()
@@ -61,7 +61,7 @@ def _known_checks(path: Path) -> tuple[Check, ...]:
 
 
 @lru_cache(maxsize=8)
-def _read_once(path: Path, changed_ns: int, size: int) -> tuple[Check, ...]:
+def _read_once(path: Path, changed_ns: int, size: int) -> tuple[CardCheck, ...]:
     return tuple(read_checks(path))
 
 

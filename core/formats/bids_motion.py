@@ -34,7 +34,7 @@ MISSING = "n/a"
 DESCRIPTION = "dataset_description.json"
 
 
-class Channel(NamedTuple):
+class BidsChannel(NamedTuple):
     """One column of ``_motion.tsv``, and its row of ``_channels.tsv``."""
 
     name: str
@@ -141,26 +141,26 @@ def complete(folder: Path, written: Sequence[About]) -> list[Path]:
     ]
 
 
-def channels(session: Session) -> list[Channel]:
+def channels(session: Session) -> list[BidsChannel]:
     """Every column: time, status, discs, hand, angles and their standard deviations."""
     motion, header = session.motion, session.header
     count = len(session)
     start_s = session.timestamp_s[0] if count else 0.0
     out = [
-        Channel("latency", MISSING, "LATENCY", MISSING, "s", MISSING, "after the first picture",
+        BidsChannel("latency", MISSING, "LATENCY", MISSING, "s", MISSING, "after the first picture",
                 session.timestamp_s - start_s),
-        Channel("status", MISSING, "MISC", MISSING, MISSING, MISSING, "0 tracked, 1 predicted, 2 lost, 3 doubtful",
+        BidsChannel("status", MISSING, "MISC", MISSING, MISSING, MISSING, "0 tracked, 1 predicted, 2 lost, 3 doubtful",
                 np.asarray(session.status, dtype=np.float64), 0),
     ]  # fmt: skip
     for m, marker in enumerate(header.protocol.markers):
         for axis, letter in enumerate("xyz"):
             out.append(
-                Channel(f"{marker}_POS_{letter}", letter, "POS", marker, "m", "camera",
+                BidsChannel(f"{marker}_POS_{letter}", letter, "POS", marker, "m", "camera",
                         "centre of the paper disc", session.markers.position_cam_m[:, m, axis])
             )  # fmt: skip
         seen = measured(session)[:, m].astype(np.float64)
         out.append(
-            Channel(f"{marker}_seen", MISSING, "MISC", marker, MISSING, MISSING, "1 seen in this picture, else 0",
+            BidsChannel(f"{marker}_seen", MISSING, "MISC", marker, MISSING, MISSING, "1 seen in this picture, else 0",
                     seen, 0)
         )  # fmt: skip
     known = np.isfinite(motion.rotation_w2_w0).all(axis=(-2, -1))
@@ -169,17 +169,17 @@ def channels(session: Session) -> list[Channel]:
         turn[known] = Rotation.from_matrix(motion.rotation_w2_w0[known]).as_quat(canonical=True)
     for k, letter in zip((3, 0, 1, 2), "wxyz", strict=True):
         out.append(
-            Channel(f"HAND_ORNT_quat_{letter}", f"quat_{letter}", "ORNT", "HAND", MISSING, "w0",
+            BidsChannel(f"HAND_ORNT_quat_{letter}", f"quat_{letter}", "ORNT", "HAND", MISSING, "w0",
                     "rotation of W2 in W0", turn[:, k], 8)
         )  # fmt: skip
     for axis, letter in enumerate("xyz"):
         out.append(
-            Channel(f"HAND_VEL_{letter}", letter, "VEL", "HAND", "m/s", "w0", "velocity of the WRIST disc",
+            BidsChannel(f"HAND_VEL_{letter}", letter, "VEL", "HAND", "m/s", "w0", "velocity of the WRIST disc",
                     motion.velocity_m_s[:, axis])
         )  # fmt: skip
     for axis, letter in enumerate("xyz"):
         out.append(
-            Channel(f"HAND_GYRO_{letter}", letter, "GYRO", "HAND", "rad/s", "w2", "angular velocity of the hand",
+            BidsChannel(f"HAND_GYRO_{letter}", letter, "GYRO", "HAND", "rad/s", "w2", "angular velocity of the hand",
                     motion.angular_velocity_rad_s[:, axis])
         )  # fmt: skip
     names = [f"wrist_{name}" for name in WRIST_ANGLES] + list(header.joint_names)
@@ -187,8 +187,10 @@ def channels(session: Session) -> list[Channel]:
     sds = np.degrees(np.column_stack((motion.angles_sd_rad, motion.joint_angles_sd_rad)))
     for k, name in enumerate(names):
         point = "HAND" if k < len(WRIST_ANGLES) else name.split("_")[0]
-        out.append(Channel(name, MISSING, "JNTANG", point, "deg", "joints", "angle, by the filter", angles[:, k]))
-        out.append(Channel(f"{name}_sd", MISSING, "MISC", point, "deg", "joints", "its standard deviation", sds[:, k]))
+        out.append(BidsChannel(name, MISSING, "JNTANG", point, "deg", "joints", "angle, by the filter", angles[:, k]))
+        out.append(
+            BidsChannel(f"{name}_sd", MISSING, "MISC", point, "deg", "joints", "its standard deviation", sds[:, k])
+        )
     return out
 
 
@@ -242,7 +244,7 @@ def _moment(take: Take) -> str:
     return datetime.fromisoformat(recorded).strftime("%Y-%m-%dT%H:%M:%S") if recorded else MISSING
 
 
-def _about(take: Take, found: Sequence[Channel], task: str) -> dict[str, Any]:
+def _about(take: Take, found: Sequence[BidsChannel], task: str) -> dict[str, Any]:
     session = take.session
     counts = {
         kind: sum(channel.type == kind for channel in found)

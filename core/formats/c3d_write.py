@@ -37,7 +37,7 @@ JOINT_PREFIX = "J_"
 
 
 @dataclass(frozen=True, slots=True)
-class Points:
+class C3dPoints:
     """``labels`` and ``descriptions`` of P points; ``place_mm`` (K, P, 3), NaN for none; ``residual_mm`` (K, P), above
     0 for what was seen, else 0."""
 
@@ -61,7 +61,7 @@ def write(take: Take, folder: Path) -> list[Path]:
     return [path]
 
 
-def points_of(session: Session, even: EvenTimes) -> Points:
+def points_of(session: Session, even: EvenTimes) -> C3dPoints:
     """The discs, then the joint centres of the whole hand, which are computed and never seen."""
     names = session.header.protocol.markers
     discs = even.of(session.markers.position_cam_m)
@@ -77,7 +77,7 @@ def points_of(session: Session, even: EvenTimes) -> Points:
         residual = np.concatenate((residual, np.zeros(joints.shape[:2])), axis=1)
         labels += tuple(f"{JOINT_PREFIX}{name}" for name in names)
         words += tuple(f"{'finger tip' if 'TIP' in name else 'joint centre'} {name}, computed" for name in names)
-    return Points(labels, words, 1e3 * discs, residual)
+    return C3dPoints(labels, words, 1e3 * discs, residual)
 
 
 def even_residual_mm(session: Session) -> FloatArray:
@@ -89,7 +89,7 @@ def even_residual_mm(session: Session) -> FloatArray:
     return np.asarray(1e3 * off_px * place[..., 2] / math.sqrt(camera.fx_px * camera.fy_px))
 
 
-def _data(points: Points, at_once: int = 4096) -> Iterator[bytes]:
+def _data(points: C3dPoints, at_once: int = 4096) -> Iterator[bytes]:
     for begin in range(0, len(points.place_mm), at_once):
         place = points.place_mm[begin : begin + at_once]
         known = np.asarray(np.isfinite(place).all(axis=-1))
@@ -102,7 +102,7 @@ def _data(points: Points, at_once: int = 4096) -> Iterator[bytes]:
         yield out.tobytes()
 
 
-def _head(take: Take, even: EvenTimes, points: Points) -> bytes:
+def _head(take: Take, even: EvenTimes, points: C3dPoints) -> bytes:
     """Header and parameters; the parameters say where the data begin, and are laid out twice to know it."""
     first = b"".join(_groups(take, even, points, 0))
     blocks = -(-(len(first) + 4 + 1) // BLOCK)
@@ -122,7 +122,7 @@ def _header(points: int, frames: int, rate_hz: float, data_block: int) -> bytes:
     return bytes(out)
 
 
-def _groups(take: Take, even: EvenTimes, points: Points, data_block: int) -> Iterator[bytes]:
+def _groups(take: Take, even: EvenTimes, points: C3dPoints, data_block: int) -> Iterator[bytes]:
     session, header = take.session, take.session.header
     frames = len(even)
     yield _group(1, "POINT", "three-dimensional points")

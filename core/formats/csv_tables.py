@@ -20,7 +20,7 @@ from carpus.core.by_hand.table import COLUMNS, rows_of
 from carpus.core.formats.new_output import new_json, new_table
 from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.output.measures_table import MEASURE_COLUMNS, MeasureRow, measure_rows, positive_of
+from carpus.core.output.measures_table import MEASURE_COLUMNS, SessionFigure, measure_rows, positive_of
 from carpus.core.output.motion_table import motion_columns
 from carpus.core.output.repetition_rows import trained_name
 from carpus.core.output.report_content import SessionFigures
@@ -122,7 +122,7 @@ def write(take: Take, folder: Path) -> list[Path]:
     for name, table in (tables(take.session) | {"repetitions": repetition_table(take.session, take.figures)}).items():
         out.append(new_table(folder / f"{take.name}.{name}.csv", list(table), _rows(table)))
     measures = (tuple(_cell(value) for value in astuple(row)) for row in measure_rows(take.figures, take.name))
-    head = [field.name for field in fields(MeasureRow)]
+    head = [field.name for field in fields(SessionFigure)]
     out.append(new_table(folder / f"{take.name}.measures.csv", head, measures))
     if take.by_hand:
         rows = ([_cell(text) for text in row] for row in rows_of(take.by_hand))

@@ -13,11 +13,11 @@ from typing import Any
 
 from carpus.core.errors import ExtraMissing, OutputExists
 from carpus.core.formats.new_output import new_bytes, plain_cell
-from carpus.core.output.measures_table import MeasureRow
+from carpus.core.output.measures_table import SessionFigure
 
 PARQUET = ".parquet"
 ROWS_AT_ONCE = 10_000
-HEAD = tuple(field.name for field in fields(MeasureRow))
+HEAD = tuple(field.name for field in fields(SessionFigure))
 
 
 def check_place(path: Path) -> None:
@@ -48,7 +48,7 @@ def _parquet() -> tuple[Any, Any]:
 
 
 @contextmanager
-def measures_file(path: Path, *, replaces: bool = False) -> Iterator[Callable[[Sequence[MeasureRow]], None]]:
+def measures_file(path: Path, *, replaces: bool = False) -> Iterator[Callable[[Sequence[SessionFigure]], None]]:
     """A table that takes rows as they come and holds few of them in memory, by the ending of its name ``.parquet`` or
     else CSV; it has its name when all is written.
 
@@ -64,8 +64,8 @@ def measures_file(path: Path, *, replaces: bool = False) -> Iterator[Callable[[S
         return
     pyarrow, parquet = _parquet()
     by_kind = {"str": pyarrow.string(), "float": pyarrow.float64(), "int": pyarrow.int64(), "bool": pyarrow.bool_()}
-    schema = pyarrow.schema([(field.name, by_kind[str(field.type)]) for field in fields(MeasureRow)])
-    waiting: list[MeasureRow] = []
+    schema = pyarrow.schema([(field.name, by_kind[str(field.type)]) for field in fields(SessionFigure)])
+    waiting: list[SessionFigure] = []
     with new_bytes(path, replaces=replaces) as file, parquet.ParquetWriter(file, schema) as writer:
 
         def store() -> None:
@@ -74,7 +74,7 @@ def measures_file(path: Path, *, replaces: bool = False) -> Iterator[Callable[[S
             writer.write_table(pyarrow.table(arrays, schema=schema))
             waiting.clear()
 
-        def take(rows: Sequence[MeasureRow]) -> None:
+        def take(rows: Sequence[SessionFigure]) -> None:
             waiting.extend(rows)
             if len(waiting) >= ROWS_AT_ONCE:
                 store()
@@ -84,14 +84,14 @@ def measures_file(path: Path, *, replaces: bool = False) -> Iterator[Callable[[S
             store()
 
 
-def write_measures(rows: Sequence[MeasureRow], path: Path) -> Path:
+def write_measures(rows: Sequence[SessionFigure], path: Path) -> Path:
     """Write the whole table, as :func:`measures_file`."""
     with measures_file(path) as take:
         take(rows)
     return path
 
 
-def csv_rows(rows: Sequence[MeasureRow]) -> list[list[str]]:
+def csv_rows(rows: Sequence[SessionFigure]) -> list[list[str]]:
     """Every row as texts: unknown is empty, numbers to six digits that count."""
     return [[plain_cell(_cell(value)) for value in astuple(row)] for row in rows]
 

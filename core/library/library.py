@@ -47,7 +47,7 @@ from carpus.core.records.log import By, Deed, Fact, Kind, Log, was_erased
 from carpus.core.records.of_sessions import MOST_CHARACTERS, Comment, MadeKind
 from carpus.core.records.patients import Patients
 from carpus.core.records.schema import PATIENT
-from carpus.core.records.session_list import FilesOfSessions, SessionList, free_path, look_for_share
+from carpus.core.records.session_list import FilesOfSessions, ListedSessions, free_path, look_for_share
 from carpus.core.records.store import Store
 from carpus.core.records.values import HomePlan, SessionEntry, entry_of, newest_results
 from carpus.core.session.reader import has_raw, read_outline, read_raw_color, read_session
@@ -110,7 +110,7 @@ class Library:
             self._told.append(fault)
         self.store = Store(folder, sessions, url, lambda fault: self.log_fault(fault))
         self.log = Log(self.store, by, lambda: self.who())
-        self.patients, self.index = Patients(self.store), SessionList(self.store)
+        self.patients, self.index = Patients(self.store), ListedSessions(self.store)
         self._files = FilesOfSessions(self.store)
         if self.patients.one(PRACTICE_PATIENT).entry.pseudonym != practice_name:
             self.store.do([changed(PATIENT, PRACTICE_PATIENT, pseudonym=practice_name)])

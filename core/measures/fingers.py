@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from carpus.core.hand.anatomy import HARD_LIMITS_RAD
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.sites import joint_discs
-from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD, Figure, MotionRange, motion_range
+from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD, MotionRange, RangeFigure, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
 from carpus.core.measures.repetitions import Repetition
 from carpus.core.measures.signals import BoolArray, Signal, even_signal, low_pass
@@ -62,9 +62,9 @@ class TotalMotion:
     """
 
     finger: int
-    total: Figure
-    flexion: Figure
-    deficit: Figure
+    total: RangeFigure
+    flexion: RangeFigure
+    deficit: RangeFigure
     limited: bool
     inferred: bool
     seen_share: float
@@ -127,7 +127,7 @@ def joint_range(track: JointTrack, repetitions: Sequence[Repetition]) -> MotionR
     """
     usable = _usable(track.seen, repetitions)
     if not track.known or (repetitions and not usable):
-        nothing = Figure(np.empty(0), math.nan, math.nan)
+        nothing = RangeFigure(np.empty(0), math.nan, math.nan)
         return MotionRange(nothing, nothing, nothing, 0, True, True)
     limits = []
     for start_s, end_s in _windows(track.seen, usable):
@@ -165,7 +165,7 @@ def total_active_motion(
     ``inferred`` the end joint is taken as two thirds of the last joint given.
     """
     weight = bending_weights(len(tracks), inferred=inferred)
-    nothing = Figure(np.empty(0), math.nan, math.nan)
+    nothing = RangeFigure(np.empty(0), math.nan, math.nan)
     if not all(track.known for track in tracks):
         return TotalMotion(finger, nothing, nothing, nothing, True, inferred, 0.0)
     time_s, seen, seen_sd = _side_by_side([track.seen for track in tracks], [track.seen_sd for track in tracks])
@@ -191,9 +191,9 @@ def total_active_motion(
     total = flexion - deficit
     return TotalMotion(
         finger,
-        Figure(total, float(total.max()) if kept else math.nan, sd),
-        Figure(flexion, float(flexion.max()) if kept else math.nan, sd),
-        Figure(deficit, float(deficit.min()) if kept else math.nan, sd),
+        RangeFigure(total, float(total.max()) if kept else math.nan, sd),
+        RangeFigure(flexion, float(flexion.max()) if kept else math.nan, sd),
+        RangeFigure(deficit, float(deficit.min()) if kept else math.nan, sd),
         not kept or any(item[3] for item in kept),
         inferred,
         min(track.seen_share for track in tracks),

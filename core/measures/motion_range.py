@@ -21,7 +21,7 @@ LEAST_VALID_SHARE = 0.7
 
 
 @dataclass(frozen=True, slots=True)
-class Figure:
+class RangeFigure:
     """One quantity over the repetitions: ``values`` (n,), in order, rad.
 
     ``measurement_sd`` is the standard deviation of one value by the filter's own account, calibration included.
@@ -56,9 +56,9 @@ class MotionRange:
     further out ("limited by camera view").
     """
 
-    arc: Figure
-    maximum: Figure
-    minimum: Figure
+    arc: RangeFigure
+    maximum: RangeFigure
+    minimum: RangeFigure
     repetitions: int
     top_limited: bool
     bottom_limited: bool
@@ -112,11 +112,11 @@ def motion_range(
     )
 
 
-def _figure(values: FloatArray, measurement_sd: float, *, largest: bool) -> Figure:
+def _figure(values: FloatArray, measurement_sd: float, *, largest: bool) -> RangeFigure:
     best = math.nan
     if len(values):
         best = float(values.max() if largest else values.min())
-    return Figure(values, best, measurement_sd)
+    return RangeFigure(values, best, measurement_sd)
 
 
 def _rms(values: list[float]) -> float:

@@ -63,7 +63,7 @@ class Stroke:
 
 
 @dataclass(frozen=True, slots=True)
-class Exercise:
+class FoundRepetitions:
     """What was found in one angle; all empty where nothing was repeated. ``cut`` are repetitions of which a piece was
     seen, which count nowhere; ``unseen_s`` from when to when nothing was seen for so long that nothing is counted
     across it."""
@@ -90,10 +90,10 @@ class _Turn:
         return self.value - level if self.high else level - self.value
 
 
-NOTHING = Exercise((), ())
+NOTHING = FoundRepetitions((), ())
 
 
-def find_repetitions(angle: Signal) -> Exercise:
+def find_repetitions(angle: Signal) -> FoundRepetitions:
     """Repetitions and strokes in an angle (rad).
 
     A turning point is where the angle turns back over max(10 degrees, 0.3 R) or more, R being the usual swing: the
@@ -116,7 +116,7 @@ def find_repetitions(angle: Signal) -> Exercise:
     extent = _usual_swing([_turning_points(smooth, least, part) for part in parts])
     unseen = tuple((float(start), float(end)) for start, end in angle.gaps_s if end - start > LONGEST_HIDDEN_S)
     if math.isnan(extent):
-        return Exercise((), (), unseen_s=unseen)
+        return FoundRepetitions((), (), unseen_s=unseen)
     least = max(least, _LEAST_AMPLITUDE_SHARE * extent)
     turned = [(part, _turning_points(smooth, least, part)) for part in parts]
     near = max(_HYSTERESIS_SHARE * extent, _LEAST_HYSTERESIS_RAD)
@@ -158,7 +158,7 @@ def find_repetitions(angle: Signal) -> Exercise:
         left = home.side is not None and end.high is not home.side and abs(end.value - before.value) >= least
         if (left or not home.rests(end)) and marks and marks[-1] < run.turns[-1].turn:
             cut.append(between(marks[-1], last, last))
-    return Exercise(tuple(whole), tuple(strokes), tuple(cut), unseen)
+    return FoundRepetitions(tuple(whole), tuple(strokes), tuple(cut), unseen)
 
 
 Uncounted = Literal["too_short", "nothing_seen", "small_range", "no_return", "too_quick"]
@@ -166,7 +166,7 @@ Uncounted = Literal["too_short", "nothing_seen", "small_range", "no_return", "to
 less than 0.4 s."""
 
 
-def what_was_not_counted(angle: Signal, found: Exercise) -> Uncounted | None:
+def what_was_not_counted(angle: Signal, found: FoundRepetitions) -> Uncounted | None:
     """Why an angle has no repetition; None where it has some."""
     if found.repetitions:
         return None

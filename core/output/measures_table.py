@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.output.range_rows import RangeRow, is_total
-from carpus.core.output.report_content import SessionFigures, Spread
+from carpus.core.output.report_content import SessionFigures, StrokeSpread
 
 
 @dataclass(frozen=True, slots=True)
-class MeasureRow:
+class SessionFigure:
     """One figure of one session. ``measure`` and ``of``: the arc of flexion, the peak speed of the trained angle;
     ``positive`` what a larger figure means, the same in every column of the row; ``estimate`` filter or smoother;
     ``mean``, ``sd`` between repetitions, ``best``, ``measurement_sd`` of one value, over ``count`` of them;
@@ -49,7 +49,7 @@ class MeasureRow:
     estimate: str = ""
 
 
-def measure_rows(figures: SessionFigures, session: str) -> tuple[MeasureRow, ...]:
+def measure_rows(figures: SessionFigures, session: str) -> tuple[SessionFigure, ...]:
     """All measures of a session whose file is called ``session``."""
     unsure, estimate = figures.camera.not_sure, "smoother" if figures.smoothed else "filter"
     return tuple(
@@ -96,7 +96,7 @@ def positive_of(angle: str) -> str:
     return {"flexion": "flexed", "abduction": "to the thumb" if joint[-1:] != "1" else "thumb abducted"}.get(kind, "")
 
 
-def _positive(row: MeasureRow) -> str:
+def _positive(row: SessionFigure) -> str:
     if row.measure in ("largest", "smallest"):
         return positive_of(row.of.partition(",")[0])
     words = {
@@ -113,7 +113,7 @@ def _measure(row: RangeRow) -> str:
     return (_TOTAL_MEASURES if is_total(row.joint) else _JOINT_MEASURES).get(row.movement, row.movement)
 
 
-def _rows(figures: SessionFigures, session: str) -> Iterator[MeasureRow]:
+def _rows(figures: SessionFigures, session: str) -> Iterator[SessionFigure]:
     quality = figures.quality
     common = (
         session, figures.session_id, figures.recording_id, figures.subject_id,
@@ -121,17 +121,17 @@ def _rows(figures: SessionFigures, session: str) -> Iterator[MeasureRow]:
         figures.exercise.id, figures.duration_s, quality.frames, quality.measured_share, figures.counted,
     )  # fmt: skip
     for row in (*figures.rows, *figures.joint_rows):
-        yield MeasureRow(
+        yield SessionFigure(
             *common, _measure(row), row.joint or WRIST_ANGLES[row.angle], "deg", row.mean_deg, row.sd_deg, row.best_deg,
             row.measurement_sd_deg, row.count, row.limited, row.seen_share, row.inferred,
         )  # fmt: skip
     helped = figures.passive
     for row in () if helped is None else (*helped.rows, *helped.joint_rows):
-        yield MeasureRow(
+        yield SessionFigure(
             *common, _measure(row), f"{row.joint or WRIST_ANGLES[row.angle]}, passive", "deg", row.mean_deg,
             row.sd_deg, row.best_deg, row.measurement_sd_deg, row.count, row.limited, row.seen_share, row.inferred,
         )  # fmt: skip
-    trained: tuple[tuple[str, str, Spread], ...] = (
+    trained: tuple[tuple[str, str, StrokeSpread], ...] = (
         ("peak speed", "deg/s", figures.peak_speed), ("smoothness", "SPARC", figures.smoothness),
         *(
             () if figures.speed is None else (
@@ -143,12 +143,12 @@ def _rows(figures: SessionFigures, session: str) -> Iterator[MeasureRow]:
         ),
     )  # fmt: skip
     for item in figures.further:
-        yield MeasureRow(
+        yield SessionFigure(
             *common, item.name, item.of, item.unit, item.mean, item.sd, math.nan, math.nan, item.count,
             False, math.nan, False,
         )  # fmt: skip
     for grade in figures.grades:
-        yield MeasureRow(
+        yield SessionFigure(
             *common, f"share of the usual TAM{f', {grade.grade}' if grade.grade else ''}", f"TAM{grade.finger}",
             "share", grade.share, math.nan, math.nan, math.nan, 1, grade.grade is None, math.nan, False,
         )  # fmt: skip
@@ -156,7 +156,7 @@ def _rows(figures: SessionFigures, session: str) -> Iterator[MeasureRow]:
     name = exercise.joint or ("" if exercise.angle is None else WRIST_ANGLES[exercise.angle])
     for measure, unit, spread in trained:
         if spread.count:
-            yield MeasureRow(
+            yield SessionFigure(
                 *common, measure, name, unit, spread.mean, spread.sd, spread.best, spread.measurement_sd,
                 spread.count,
                 False, math.nan, False,

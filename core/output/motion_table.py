@@ -20,14 +20,14 @@ from carpus.core.types import FloatArray
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class CurveColumn:
     """One curve: ``name`` with its unit at the end, ``values`` (N,)."""
 
     name: str
     values: FloatArray
 
 
-def motion_columns(session: Session, motion: Motion | None = None) -> tuple[Column, ...]:
+def motion_columns(session: Session, motion: Motion | None = None) -> tuple[CurveColumn, ...]:
     """Every curve of a session by its filter or its smoother, ``motion``; without it the smoother's where it ran."""
     return tuple(_columns(session, best_motion(session) if motion is None else motion))
 
@@ -38,22 +38,22 @@ def hand_axes(session: Session) -> FloatArray:
     return rotation_in_place(motion.rotation_w2_w0, motion.w0_turn_rad)
 
 
-def _columns(session: Session, motion: Motion) -> Iterator[Column]:
+def _columns(session: Session, motion: Motion) -> Iterator[CurveColumn]:
     side = session.header.hand
     for axis, letter in enumerate("xyz"):
-        yield Column(f"position_{letter}_mm", 1e3 * motion.position_m[:, axis])
+        yield CurveColumn(f"position_{letter}_mm", 1e3 * motion.position_m[:, axis])
     for axis, letter in enumerate("xyz"):
-        yield Column(f"velocity_{letter}_mm_s", 1e3 * motion.velocity_m_s[:, axis])
+        yield CurveColumn(f"velocity_{letter}_mm_s", 1e3 * motion.velocity_m_s[:, axis])
     for axis, letter in enumerate("xyz"):
-        yield Column(f"angular_velocity_{letter}_deg_s", np.degrees(motion.angular_velocity_rad_s[:, axis]))
+        yield CurveColumn(f"angular_velocity_{letter}_deg_s", np.degrees(motion.angular_velocity_rad_s[:, axis]))
     zyz, sd, total = zyz_with_sd(motion.rotation_w2_w0, motion.angles_sd_rad, side)
     for k, name in enumerate(("alpha", "beta", "gamma")):
-        yield Column(f"zyz_{name}_deg", np.degrees(zyz[:, k]))
-        yield Column(f"zyz_{name}_sd_deg", np.degrees(sd[:, k]))
-    yield Column("zyz_alpha_plus_gamma_deg", np.degrees(total))
+        yield CurveColumn(f"zyz_{name}_deg", np.degrees(zyz[:, k]))
+        yield CurveColumn(f"zyz_{name}_sd_deg", np.degrees(sd[:, k]))
+    yield CurveColumn("zyz_alpha_plus_gamma_deg", np.degrees(total))
     isb = np.degrees(isb_from_rotation(motion.rotation_w2_w0, side))
     for k, name in enumerate(WRIST_ANGLES):
-        yield Column(f"isb_{name}_deg", isb[:, k])
+        yield CurveColumn(f"isb_{name}_deg", isb[:, k])
     for m, marker in enumerate(session.header.protocol.markers[: motion.joint_position_m.shape[1]]):
         for axis, letter in enumerate("xyz"):
-            yield Column(f"joint_{marker}_{letter}_mm", 1e3 * motion.joint_position_m[:, m, axis])
+            yield CurveColumn(f"joint_{marker}_{letter}_mm", 1e3 * motion.joint_position_m[:, m, axis])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from carpus.core.measures.motion_range import Figure
+from carpus.core.measures.motion_range import RangeFigure
 from carpus.core.output.exercises import Movement
 from carpus.core.session.values import Motion, Session
 
@@ -53,7 +53,7 @@ def is_total(joint: str) -> bool:
     return joint.startswith("TAM")
 
 
-def range_row(movement: Movement, angle: int, figure: Figure, limited: bool) -> RangeRow:
+def range_row(movement: Movement, angle: int, figure: RangeFigure, limited: bool) -> RangeRow:
     """A row of the wrist; :func:`dataclasses.replace` makes it one of a joint."""
     values = tuple(math.degrees(value) for value in figure.values)
     return RangeRow(

@@ -14,8 +14,14 @@ from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.fingers import JointTrack, joint_range
 from carpus.core.measures.motion_range import LEAST_VALID_SHARE, MotionRange, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
-from carpus.core.measures.repetitions import COUNTING_CUTOFF_HZ, Cut, Repetition, Stroke, find_repetitions
-from carpus.core.measures.repetitions import Exercise as Found
+from carpus.core.measures.repetitions import (
+    COUNTING_CUTOFF_HZ,
+    Cut,
+    FoundRepetitions,
+    Repetition,
+    Stroke,
+    find_repetitions,
+)
 from carpus.core.measures.signals import BoolArray, Signal, even_signal, low_pass, stretches
 from carpus.core.measures.speed import PLACE_SHARE, StrokeMeasures, measure_stroke
 from carpus.core.measures.validity import settled, valid_view, valid_wrist_angles
@@ -58,7 +64,7 @@ class Trained:
     where repetitions are counted, ``range_of`` some of them. Times after the first frame, rad."""
 
     name: str
-    found: Found
+    found: FoundRepetitions
     seen: Signal
     seen_sd: Signal
     tracked: Signal

@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.by_hand.values import HandValue
-from carpus.core.calibration.result import Finding
+from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.change import ARC_LIMIT_FACTOR, TOTAL_ACTIVE_MOTION, MeasuredMean, Obstacle, change_between
 from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
@@ -23,8 +23,7 @@ from carpus.core.measures.fingers import JointTrack
 from carpus.core.measures.forearm import WristCentre, rotation_in_place, wrist_centre
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD, MotionRange, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
-from carpus.core.measures.repetitions import Exercise as FoundExercise
-from carpus.core.measures.repetitions import Repetition, Uncounted, what_was_not_counted
+from carpus.core.measures.repetitions import FoundRepetitions, Repetition, Uncounted, what_was_not_counted
 from carpus.core.measures.signals import Signal, even_signal, low_pass
 from carpus.core.measures.speed import StrokeMeasures
 from carpus.core.output.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said
@@ -114,7 +113,7 @@ class ShownRepetition:
 
 
 @dataclass(frozen=True, slots=True)
-class Spread:
+class StrokeSpread:
     """A quantity over strokes or repetitions; ``best`` the quickest or smoothest, NaN where neither way is better;
     ``measurement_sd`` of one of them by the tracker's noise, NaN unknown."""
 
@@ -136,13 +135,13 @@ class SpeedFigures:
     count: int
     too_slow: int
     too_slow_to_be_smooth: int
-    mean_speed: Spread
-    movement_time: Spread
-    time_to_peak: Spread
-    peaks: Spread
-    ldlj: Spread
-    pauses: Spread
-    pause_time: Spread
+    mean_speed: StrokeSpread
+    movement_time: StrokeSpread
+    time_to_peak: StrokeSpread
+    peaks: StrokeSpread
+    ldlj: StrokeSpread
+    pauses: StrokeSpread
+    pause_time: StrokeSpread
 
     @classmethod
     def of(cls, strokes: Sequence[StrokeMeasures]) -> SpeedFigures:
@@ -185,7 +184,7 @@ class Quality:
 
 
 @dataclass(frozen=True, slots=True)
-class Curves:
+class ReportCurves:
     """Angles over the session as they are drawn: ``time_s`` (N,) after the first frame, the rest (N, 3)."""
 
     time_s: FloatArray
@@ -213,14 +212,14 @@ class SessionFigures:
     repetitions: tuple[ShownRepetition, ...]
     rows: tuple[RangeRow, ...]
     trick_deg: FloatArray
-    peak_speed: Spread
-    smoothness: Spread
+    peak_speed: StrokeSpread
+    smoothness: StrokeSpread
     quality: Quality
     pain: tuple[int, ...]
     notes: tuple[tuple[float, str], ...]
     joint_rows: tuple[RangeRow, ...] = ()
     """Of the whole hand: arc, most bent and least bent of every joint, and the TAM of every finger."""
-    findings: tuple[Finding, ...] = ()
+    findings: tuple[CalibrationFinding, ...] = ()
     """What was doubtful at the calibration, and measured all the same."""
     simulated: bool = False
     """Whether a simulated hand was measured: nobody's movement."""
@@ -361,11 +360,13 @@ class Progress:
         return best[0]
 
 
-def session_curves(session: Session) -> Curves:
+def session_curves(session: Session) -> ReportCurves:
     """Angles ready to draw."""
     motion = best_motion(session)
     time_s = session.timestamp_s - session.timestamp_s[0] if len(session) else np.empty(0)
-    return Curves(time_s, np.degrees(motion.angles_rad), np.degrees(motion.angles_sd_rad), np.asarray(session.status))
+    return ReportCurves(
+        time_s, np.degrees(motion.angles_rad), np.degrees(motion.angles_sd_rad), np.asarray(session.status)
+    )
 
 
 def session_figures(
@@ -381,7 +382,7 @@ def session_figures(
     centre = wrist_centre(motion.position_m, rotation_in_place(motion.rotation_w2_w0, motion.w0_turn_rad), view)
     tracks = joint_tracks(session)
     trained = trained_angle(exercise, signals, tracks, session)
-    found = trained.found if trained is not None else FoundExercise((), ())
+    found = trained.found if trained is not None else FoundRepetitions((), ())
     measured = measured_repetitions(trained, choices) if trained is not None else ()
     repetitions = _shown(measured)
     counted = tuple(one.window for one in measured if one.row.counted)
@@ -680,15 +681,15 @@ def _rows(angle: int, signal: Signal, counted: tuple[Repetition, ...], looked_ba
 
 def _spread(
     values: Sequence[float], sds: Sequence[float] = (), best: Callable[[Sequence[float]], float] | None = max
-) -> Spread:
+) -> StrokeSpread:
     known = np.array([value for value in values if math.isfinite(value)])
     if not len(known):
-        return Spread(math.nan, math.nan, math.nan, 0)
+        return StrokeSpread(math.nan, math.nan, math.nan, 0)
     stated = np.array([sd for value, sd in zip(values, sds, strict=False) if math.isfinite(value + sd)])
     sd = float(known.std(ddof=1)) if len(known) >= FEWEST_FOR_SPREAD else math.nan
     measurement_sd = float(np.sqrt(np.mean(stated**2))) if len(stated) else math.nan
     the_best = math.nan if best is None else float(best(known.tolist()))
-    return Spread(float(known.mean()), sd, the_best, len(known), measurement_sd)
+    return StrokeSpread(float(known.mean()), sd, the_best, len(known), measurement_sd)
 
 
 def _hidden_share(session: Session, time_s: FloatArray, within: Sequence[ShownRepetition]) -> float:
@@ -720,7 +721,7 @@ def _forearm_mm(time_s: FloatArray, centre: WristCentre) -> float:
     return 1000.0 * float(np.nanmax(moved)) if np.isfinite(moved).any() else math.nan
 
 
-def _typical_sd(curves: Curves, exercise: Exercise) -> float:
+def _typical_sd(curves: ReportCurves, exercise: Exercise) -> float:
     columns = curves.sds_deg if exercise.angle is None else curves.sds_deg[:, [exercise.angle]]
     known = columns[(curves.status == TrackStatus.TRACKED)[:, None] & np.isfinite(columns)]
     return float(np.median(known)) if known.size else math.nan

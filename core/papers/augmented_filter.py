@@ -19,7 +19,7 @@ Motion = Callable[[FloatArray, FloatArray], FloatArray]
 
 
 @dataclass(frozen=True, slots=True)
-class Gaussian:
+class AugmentedGaussian:
     """``mean`` (n,) and ``covariance`` (n, n)."""
 
     mean: FloatArray
@@ -34,11 +34,11 @@ class Predicted:
     points: FloatArray
     mean_weight: FloatArray
     covariance_weight: FloatArray
-    state: Gaussian
+    state: AugmentedGaussian
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
+class SeenOutputs:
     """What the predicted points show of m outputs: their mean (10) and covariance (11) without the noise of the
     measurement, and their covariance (n, m) with the state."""
 
@@ -51,11 +51,11 @@ class Seen:
 class Corrected:
     """The state after a measurement, and the normalised innovation squared."""
 
-    state: Gaussian
+    state: AugmentedGaussian
     nis: float
 
 
-def predict(state: Gaussian, noise_covariance: FloatArray, motion: Motion, spread: Spread) -> Predicted:
+def predict(state: AugmentedGaussian, noise_covariance: FloatArray, motion: Motion, spread: Spread) -> Predicted:
     """Draw points over state and noise (k, k) together and move them.
 
     Raises ``numpy.linalg.LinAlgError`` when the covariance of the state is none.
@@ -69,18 +69,18 @@ def predict(state: Gaussian, noise_covariance: FloatArray, motion: Motion, sprea
     mean = weights.mean @ points
     apart = points - mean
     covariance = (apart * weights.covariance[:, None]).T @ apart
-    return Predicted(points, weights.mean, weights.covariance, Gaussian(mean, covariance))
+    return Predicted(points, weights.mean, weights.covariance, AugmentedGaussian(mean, covariance))
 
 
-def seen_from(ahead: Predicted, outputs: FloatArray) -> Seen:
+def seen_from(ahead: Predicted, outputs: FloatArray) -> SeenOutputs:
     """Mean and covariances of outputs (P, m) of the predicted points."""
     mean = ahead.mean_weight @ outputs
     apart = outputs - mean
     weighted = apart * ahead.covariance_weight[:, None]
-    return Seen(mean, weighted.T @ apart, (ahead.points - ahead.state.mean).T @ weighted)
+    return SeenOutputs(mean, weighted.T @ apart, (ahead.points - ahead.state.mean).T @ weighted)
 
 
-def correct(ahead: Predicted, seen: Seen, measured: FloatArray, noise_variance: FloatArray) -> Corrected:
+def correct(ahead: Predicted, seen: SeenOutputs, measured: FloatArray, noise_variance: FloatArray) -> Corrected:
     """The classical update by measurements (m,) with noise variances (m,)."""
     if not measured.size:
         return Corrected(ahead.state, float("nan"))
@@ -88,5 +88,5 @@ def correct(ahead: Predicted, seen: Seen, measured: FloatArray, noise_variance: 
     spread = seen.covariance + np.diag(noise_variance)
     gain = np.linalg.solve(spread, seen.with_state.T).T
     covariance = ahead.state.covariance - gain @ spread @ gain.T
-    state = Gaussian(ahead.state.mean + gain @ innovation, 0.5 * (covariance + covariance.T))
+    state = AugmentedGaussian(ahead.state.mean + gain @ innovation, 0.5 * (covariance + covariance.T))
     return Corrected(state, float(innovation @ np.linalg.solve(spread, innovation)))

@@ -20,11 +20,11 @@ from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
 from carpus.core.hand.sites import SITES, joint_angle_names, joint_discs
 from carpus.core.papers.augmented_filter import (
+    AugmentedGaussian,
     Corrected,
-    Gaussian,
     Motion,
     Predicted,
-    Seen,
+    SeenOutputs,
     correct,
     predict,
     seen_from,
@@ -53,12 +53,12 @@ class PaperMotion:
         """(6 + J, 6 + J): eta_v, eta_omega and eta_theta in units of their standard deviations."""
         return np.eye(PALM_NOISES + self.joint_count)
 
-    def at_neutral(self) -> Gaussian:
+    def at_neutral(self) -> AugmentedGaussian:
         """At rest at the pose that was clicked."""
         s, joints = self.settings, self.joint_count
         sd = [s.position_start_m] * 3 + [s.velocity_start_m_s] * 3 + [s.angle_start_rad] * 3
         sd += [s.joint_start_rad] * joints
-        return Gaussian(np.zeros(PALM_STATES + joints), np.diag(np.square(sd)))
+        return AugmentedGaussian(np.zeros(PALM_STATES + joints), np.diag(np.square(sd)))
 
     def over(self, dt_s: float) -> Motion:
         """(1) over ``dt_s``, for many states (P, n) and noises (P, k) at once."""
@@ -209,23 +209,23 @@ class PaperTracker:
         out[..., 2] = np.maximum(out[..., 2], _NEAREST_M)
         return out
 
-    def _innovations(self, seen: Seen) -> tuple[FloatArray, FloatArray]:
+    def _innovations(self, seen: SeenOutputs) -> tuple[FloatArray, FloatArray]:
         """(10) and (11) of every marker: (M, 2) and (M, 2, 2)."""
         marker = np.arange(self._markers)
         own = seen.covariance.reshape(self._markers, 2, self._markers, 2)[marker, :, marker, :]
         return seen.mean.reshape(-1, 2), own + self.settings.pixel_sd_px**2 * np.eye(2)
 
-    def _named(self, pixel: FloatArray, seen: Seen) -> NDArray[np.int64]:
+    def _named(self, pixel: FloatArray, seen: SeenOutputs) -> NDArray[np.int64]:
         resolution_px2 = float(self._camera.width_px * self._camera.height_px)
         return blobs_of_markers(
             log_posteriors(pixel, *self._innovations(seen), self.settings.clutter_prior, resolution_px2)
         )
 
-    def _corrected(self, ahead: Predicted, seen: Seen, pixel: FloatArray, taken: NDArray[np.int64]) -> Corrected:
+    def _corrected(self, ahead: Predicted, seen: SeenOutputs, pixel: FloatArray, taken: NDArray[np.int64]) -> Corrected:
         """The correction by the visible markers V(t) and the blobs associated with them."""
         used = np.flatnonzero(taken >= 0)
         rows = (2 * used[:, None] + np.arange(2)).ravel()
-        part = Seen(seen.mean[rows], seen.covariance[np.ix_(rows, rows)], seen.with_state[:, rows])
+        part = SeenOutputs(seen.mean[rows], seen.covariance[np.ix_(rows, rows)], seen.with_state[:, rows])
         return correct(ahead, part, pixel[taken[used]].ravel(), np.full(rows.size, self.settings.pixel_sd_px**2))
 
     def _shown(

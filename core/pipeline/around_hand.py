@@ -33,14 +33,16 @@ class Area:
 
 
 class PictureSink(Protocol):
-    """A raw recording in the making."""
+    """The raw recording in the making."""
 
     @property
     def path(self) -> Path: ...
 
     def append_frame(self, frame: Frame) -> None: ...
 
-    def go_on_elsewhere(self, frame: Frame | None) -> PictureSink: ...
+    def go_on_elsewhere(self, frame: Frame | None) -> PictureSink:
+        """Another file that begins with the frame at which this one hangs in the disk."""
+        ...
 
     def close(self) -> None: ...
 

@@ -10,13 +10,13 @@ from carpus.core import errors
 from carpus.core.errors import CarpusFault, NotCorrected
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.correcting_process import run
-from carpus.core.pipeline.correction import Task
+from carpus.core.pipeline.correction import CorrectionTask
 
 LOOK_EVERY_S = 0.2
 KILLED_S = 2.0
 
 
-def correct_beside(task: Task, progress: Callable[[int, int], None], stopping: threading.Event) -> bool:
+def correct_beside(task: CorrectionTask, progress: Callable[[int, int], None], stopping: threading.Event) -> bool:
     """Carry a task out in a process of its own and wait for it: whether it was done; False if ``stopping`` came first.
 
     Raises what went wrong there; :class:`NotCorrected` where the process died.
@@ -55,7 +55,7 @@ def _fault(kind: str, subject: str, detail: str) -> CarpusFault:
     return NotCorrected(subject, f"{kind}: {detail}")
 
 
-def _clear(task: Task) -> None:
+def _clear(task: CorrectionTask) -> None:
     """A process that was killed leaves a part behind: the session it was made from is still there."""
     for path in task.output.parent.glob(f"{task.output.stem}.*"):
         if path != task.output:

@@ -35,7 +35,7 @@ HELD_WITHIN_S = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class Task:
+class CorrectionTask:
     """A session with its blobs, where the new one goes, and what was put right; ``by`` the initials of who did."""
 
     session: Session
@@ -46,7 +46,9 @@ class Task:
     by: str = ""
 
 
-def task_of(origin: Path, output: Path, corrections: Sequence[Correction], software_version: str, by: str = "") -> Task:
+def task_of(
+    origin: Path, output: Path, corrections: Sequence[Correction], software_version: str, by: str = ""
+) -> CorrectionTask:
     """Read what is needed. Raises :class:`NotCorrectable` for a session without stored blobs, or tracked by the papers'
     own filter."""
     session, table = read_session(origin), read_detections(origin)
@@ -54,10 +56,10 @@ def task_of(origin: Path, output: Path, corrections: Sequence[Correction], softw
         raise NotCorrectable(origin, phrase("it stored no blue spots"))
     if _settings(session).paper is not None:
         raise NotCorrectable(origin, phrase("it was tracked by the papers' own filter"))
-    return Task(session, table, output, tuple(corrections), software_version, by)
+    return CorrectionTask(session, table, output, tuple(corrections), software_version, by)
 
 
-def correct(task: Task, progress: Progress | None = None) -> None:
+def correct(task: CorrectionTask, progress: Progress | None = None) -> None:
     """Track again and store. When it cannot be done nothing half-done is left behind."""
     if task.output.exists():
         raise OutputExists(task.output)

@@ -31,6 +31,7 @@ import numpy as np
 
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.errors import CameraLost, CameraReturned
+from carpus.core.pipeline.around_hand import PictureSink
 from carpus.core.pipeline.channels import ChannelClosed, ChannelFull, NeverDrop, Newest, Waits
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, LiveEventKind, TrackedView
 from carpus.core.pipeline.recorder import Patience, Recorder, Sink
@@ -56,16 +57,6 @@ class SessionSink(Sink, Protocol):
 
     def go_on_elsewhere(self) -> SessionSink:
         """Another file with what this one, which hangs in the disk, has taken and not stored."""
-        ...
-
-
-class PictureSink(Sink, Protocol):
-    """The raw recording in the making."""
-
-    def append_frame(self, frame: Frame) -> None: ...
-
-    def go_on_elsewhere(self, frame: Frame | None) -> PictureSink:
-        """Another file that begins with the frame at which this one hangs in the disk."""
         ...
 
 

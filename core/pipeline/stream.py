@@ -62,7 +62,7 @@ def sample_of(frame: TrackedFrame) -> list[float]:
 
 
 @dataclass(slots=True)
-class Stream:
+class SampleStream:
     """Two open outlets; used by one thread. ``wall`` and ``monotonic`` clocks are injectable."""
 
     _samples: Any
@@ -78,7 +78,7 @@ class Stream:
         source_id: str,
         rate_hz: float = 30.0,
         offset_s: Callable[[float], float] | None = None,
-    ) -> Stream:
+    ) -> SampleStream:
         """Offer both outlets. ``offset_s`` of a picture's time gives what leads from it to LSL's clock; without it the
         first picture counts as taken when it comes. Raises :class:`ExtraMissing` without pylsl."""
         lsl = library()
@@ -102,7 +102,7 @@ class Stream:
     @classmethod
     def of_hand(
         cls, clicks: Clicks, rate_hz: float, *, dip_free: bool, clock: Callable[[], float] | None = None
-    ) -> Stream:
+    ) -> SampleStream:
         """As :meth:`open`, of the hand that was clicked, under :data:`LIVE_ID`; the first picture was taken at what
         ``clock``, asked once, says in LSL's time: without it when it comes."""
         names = clicks.protocol.joint_names(dip_free)

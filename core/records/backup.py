@@ -92,7 +92,7 @@ class RestorePlan:
 
 
 @dataclass(frozen=True, slots=True)
-class Sources:
+class BackupSources:
     """What a back-up is made of: ``snapshot`` of the store, empty for none; path in the back-up, file and size of all
     else; how many recordings run; names of what is missing or cannot be read."""
 
@@ -133,7 +133,7 @@ def back_up(
         return _back_up(sources, place, software_version, now or datetime.now().astimezone(), progress)
 
 
-def _back_up(sources: Sources, place: Path, software_version: str, now: datetime, progress: Progress) -> Backup:
+def _back_up(sources: BackupSources, place: Path, software_version: str, now: datetime, progress: Progress) -> Backup:
     before = backups(place)
     known = {one.path: one for one in before[0].files} if before else {}
     done, total = 0, 2 * sources.size_bytes or 1
@@ -180,7 +180,7 @@ def backup_of(
     )
 
 
-def gather(data_folder: Path, place: Path, settings_folder: Path | None, sessions: Path | None = None) -> Sources:
+def gather(data_folder: Path, place: Path, settings_folder: Path | None, sessions: Path | None = None) -> BackupSources:
     """Everything that a back-up of a data folder holds, the ``sessions`` of a share too. Raises :class:`FolderMissing`,
     :class:`BackupUnreadable` for a store that cannot be read, :class:`BackupPlaceUnsuited` for a place that a link
     leads into."""
@@ -207,7 +207,7 @@ def gather(data_folder: Path, place: Path, settings_folder: Path | None, session
     for name, path in files:
         with contextlib.suppress(FileNotFoundError):
             sized.append((name, path, path.stat().st_size))
-    return Sources(snapshot, tuple(sized), len(busy), tuple(lacking))
+    return BackupSources(snapshot, tuple(sized), len(busy), tuple(lacking))
 
 
 def backups(place: Path) -> list[Backup]:

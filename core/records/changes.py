@@ -32,7 +32,7 @@ Way = Literal["new", "change", "keep", "drop", "join"]
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class RowChange:
     """What becomes of one row. ``new`` must not be there; ``change`` must be, in ``version`` unless that is 0; ``keep``
     makes it or changes it, whatever is there; ``drop`` takes it away with all that belongs to it; ``join`` makes it on
     a server, unless it is or was there.
@@ -52,27 +52,27 @@ class Row:
         return (version + self.mark) % _MOST_VERSION + 1
 
 
-Change = Sequence[Row]
+Change = Sequence[RowChange]
 
 
-def new(table: Table, id: str, **values: Any) -> Row:
+def new(table: Table, id: str, **values: Any) -> RowChange:
     """A row that is not there yet."""
-    return Row("new", table.name, id, _storable(values))
+    return RowChange("new", table.name, id, _storable(values))
 
 
-def changed(table: Table, id: str, version: int = 0, **values: Any) -> Row:
+def changed(table: Table, id: str, version: int = 0, **values: Any) -> RowChange:
     """A row that is there, as it was read."""
-    return Row("change", table.name, id, _storable(values), version)
+    return RowChange("change", table.name, id, _storable(values), version)
 
 
-def kept(table: Table, id: str, **values: Any) -> Row:
+def kept(table: Table, id: str, **values: Any) -> RowChange:
     """A row as it is from now on."""
-    return Row("keep", table.name, id, _storable(values))
+    return RowChange("keep", table.name, id, _storable(values))
 
 
-def dropped(table: Table, id: str) -> Row:
+def dropped(table: Table, id: str) -> RowChange:
     """A row that goes."""
-    return Row("drop", table.name, id, {})
+    return RowChange("drop", table.name, id, {})
 
 
 def _storable(values: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -87,7 +87,8 @@ def _storable(values: Mapping[str, Any]) -> Mapping[str, Any]:
 def joining(table: Table, rows: Sequence[RowMapping]) -> Change:
     """Rows of a copy, for a server that may know them."""
     return [
-        Row("join", table.name, row["id"], {k: v for k, v in row.items() if k not in ("id", "step")}) for row in rows
+        RowChange("join", table.name, row["id"], {k: v for k, v in row.items() if k not in ("id", "step")})
+        for row in rows
     ]
 
 
@@ -98,7 +99,7 @@ def told(change: Change) -> str:
 
 def read_back(text: str) -> Change:
     """What :func:`told` wrote."""
-    return [Row(*row) for row in json.loads(text)]
+    return [RowChange(*row) for row in json.loads(text)]
 
 
 def make(connection: Connection, change: Change) -> None:
@@ -124,19 +125,19 @@ def make(connection: Connection, change: Change) -> None:
         _count(connection, patient_id)
 
 
-def _refused(row: Row, cause: IntegrityError) -> CarpusFault:
+def _refused(row: RowChange, cause: IntegrityError) -> CarpusFault:
     if "folded" in str(cause.orig):
         return PseudonymTaken(row.values.get("pseudonym", ""))
     return ChangedMeanwhile(row.table)
 
 
-def _new(connection: Connection, table: Table, row: Row) -> None:
+def _new(connection: Connection, table: Table, row: RowChange) -> None:
     if table is PATIENT and _typed_after_file(connection, row):
         return
     connection.execute(insert(table).values(id=row.id, version=row.after(0), **row.values))
 
 
-def _typed_after_file(connection: Connection, row: Row) -> bool:
+def _typed_after_file(connection: Connection, row: RowChange) -> bool:
     """A patient whom one computer has typed and another made of a file, by the identity that the folder says: what was
     typed holds, whichever comes first. Whether it was so."""
     added_s = connection.execute(select(PATIENT.c.added_s).where(PATIENT.c.id == row.id)).scalar()
@@ -147,7 +148,7 @@ def _typed_after_file(connection: Connection, row: Row) -> bool:
     return True
 
 
-def _changed(connection: Connection, table: Table, row: Row) -> None:
+def _changed(connection: Connection, table: Table, row: RowChange) -> None:
     these = update(table).where(table.c.id == row.id)
     if row.version:
         these = these.where(table.c.version == row.version)
@@ -155,14 +156,14 @@ def _changed(connection: Connection, table: Table, row: Row) -> None:
         raise ChangedMeanwhile(row.table)
 
 
-def _kept(connection: Connection, table: Table, row: Row) -> None:
+def _kept(connection: Connection, table: Table, row: RowChange) -> None:
     kind = sqlite if connection.dialect.name == "sqlite" else postgresql
     these = kind.insert(table).values({**row.values, "id": row.id, "version": row.after(0)})
     then = {**row.values, "version": row.after(table.c.version)}
     connection.execute(these.on_conflict_do_update(index_elements=["id"], set_=then))
 
 
-def _dropped(connection: Connection, table: Table, row: Row) -> None:
+def _dropped(connection: Connection, table: Table, row: RowChange) -> None:
     connection.execute(delete(table).where(table.c.id == row.id))
 
 
@@ -199,7 +200,7 @@ def is_identity(text: str) -> bool:
     return text == PRACTICE or _IDENTITY.fullmatch(text) is not None
 
 
-def is_practice(connection: Connection, row: Row) -> bool:
+def is_practice(connection: Connection, row: RowChange) -> bool:
     """Whether a row is the practice patient's, and so of this computer alone."""
     if row.table == "patient":
         return row.id == PRACTICE

@@ -21,14 +21,14 @@ from sqlalchemy import delete, select
 
 from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished, FolderMissing
 from carpus.core.names import folded
-from carpus.core.records.changes import PRACTICE, Row, changed, dropped, is_identity
+from carpus.core.records.changes import PRACTICE, RowChange, changed, dropped, is_identity
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import Kind, Log
 from carpus.core.records.of_clinic import PLACE
 from carpus.core.records.of_sessions import MadeFile, made_from
 from carpus.core.records.patients import Patients
 from carpus.core.records.schema import DIAGNOSIS, OWN, PATIENT, RECIPIENT, SEEN, SESSION, SHARED
-from carpus.core.records.session_list import FilesOfSessions, SessionList, file_name, look_for_share, trials_of
+from carpus.core.records.session_list import FilesOfSessions, ListedSessions, file_name, look_for_share, trials_of
 from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry
 
@@ -57,7 +57,7 @@ def plan_session(store: Store, session_id: str) -> ErasurePlan:
     """One recording with all its results, also those copied in since the last look. Raises KeyError for a session that
     is not in the store, :class:`ErasureLeadsOut`, :class:`FolderMissing` for a share that is away."""
     FilesOfSessions(store).take_in(tells=False)
-    sessions = SessionList(store)
+    sessions = ListedSessions(store)
     results, patient_id = sessions.results_of(session_id), sessions.owner(session_id)
     mine = {one.recording_id for one in sessions.of_patient(patient_id, archived=True)} if patient_id else set()
     return _plan(store, "session", session_id, patient_id, results, len(mine - {results[0].recording_id}))
@@ -68,7 +68,7 @@ def plan_patient(store: Store, patient_id: str) -> ErasurePlan:
     store, :class:`ErasureLeadsOut`, :class:`FolderMissing`."""
     FilesOfSessions(store).take_in(tells=False)
     Patients(store).one(patient_id)
-    results = SessionList(store).of_patient(patient_id, archived=True)
+    results = ListedSessions(store).of_patient(patient_id, archived=True)
     return _plan(store, "patient", patient_id, patient_id, results, 0)
 
 
@@ -172,7 +172,7 @@ def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]
     return [] if store.leave_no_trace() else [store.folder / f"{STORE_FILE}-wal"]
 
 
-def _naming(store: Store, names: Sequence[str]) -> list[Row]:
+def _naming(store: Store, names: Sequence[str]) -> list[RowChange]:
     """What belongs to the clinic and names one of these: an address of letters, a diagnosis of the clinic's list."""
     if not names:
         return []

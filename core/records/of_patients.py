@@ -9,14 +9,13 @@ from collections.abc import Iterable
 from datetime import UTC, date, datetime
 from typing import Any
 
-from sqlalchemy import Row as SqlRow
-from sqlalchemy import select
+from sqlalchemy import Row, select
 
 from carpus.core.by_hand.measures import MEASURES
 from carpus.core.by_hand.values import HandValue
 from carpus.core.dates import day_of
 from carpus.core.output.goals import Goals
-from carpus.core.records.changes import Row, kept, new
+from carpus.core.records.changes import RowChange, kept, new
 from carpus.core.records.schema import GOAL, HOME_PLAN, MEASURED
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, moment
@@ -46,7 +45,7 @@ def by_hand(store: Store, patient_id: str) -> list[HandValue]:
     return store.sound(store.rows(query.order_by(MEASURED.c.entered_ns, MEASURED.c.id)), _hand_value)
 
 
-def _hand_value(row: SqlRow[Any]) -> HandValue:
+def _hand_value(row: Row[Any]) -> HandValue:
     return HandValue(
         row.measure, row.way, row.side, date.fromisoformat(row.day), tuple(map(float, json.loads(row.tries))),
         row.place, row.by, moment(row.entered, row.entered_ns / 1e9),
@@ -61,7 +60,7 @@ def goals(store: Store, patient_id: str) -> Goals:
     return out
 
 
-def goal(patient_id: str, exercise: str, side: Side, positive_deg: float, negative_deg: float) -> Row:
+def goal(patient_id: str, exercise: str, side: Side, positive_deg: float, negative_deg: float) -> RowChange:
     """The change that sets one."""
     return kept(
         GOAL, f"{patient_id}:{exercise}:{side}", patient_id=patient_id, exercise=exercise, side=side,
@@ -75,7 +74,7 @@ def home_plan(store: Store, patient_id: str) -> HomePlan | None:
     return next(iter(found), None)
 
 
-def _home_plan(row: SqlRow[Any]) -> HomePlan:
+def _home_plan(row: Row[Any]) -> HomePlan:
     return HomePlan(
         tuple(row.exercises.split("\n")), row.times, row.rounds, date.fromisoformat(row.made), day_of(row.again),
         row.at, row.note, row.language,

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from sqlalchemy import Connection, delete, insert, select, update
 
-from carpus.core.records.changes import Change, Row, read_back, told
+from carpus.core.records.changes import Change, RowChange, read_back, told
 from carpus.core.records.schema import OUTBOX, OWN, SESSION
 
 
@@ -33,7 +33,7 @@ def forget(connection: Connection, ids: Collection[str]) -> None:
             connection.execute(rewritten if left else delete(OUTBOX).where(these))
 
 
-def _without(row: Row, ids: Collection[str]) -> Row | None:
+def _without(row: RowChange, ids: Collection[str]) -> RowChange | None:
     if row.id in ids or row.values.get("session_id") in ids:
         return None
     if row.values.get("patient_id") not in ids:

@@ -26,8 +26,7 @@ from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.exc import DataError, DBAPIError, IntegrityError, InterfaceError, OperationalError
 
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, ChangeRefused, PseudonymGiven, PseudonymTaken, ServerGone
-from carpus.core.records.changes import PRACTICE, Change, is_practice, joining, make, read_back
-from carpus.core.records.changes import Row as Changed
+from carpus.core.records.changes import PRACTICE, Change, RowChange, is_practice, joining, make, read_back
 from carpus.core.records.database import Database, up_to_date
 from carpus.core.records.outbox import lay_out
 from carpus.core.records.schema import COPIED, DEED, DELIVERED, OUTBOX, OWN, PATIENT, SEEN, SESSION, SHARED, TOMBSTONE
@@ -206,7 +205,7 @@ class Server:
         for row in waiting:
             if self._ends.is_set():
                 return False
-            change, fault = list[Changed](), None
+            change, fault = list[RowChange](), None
             try:
                 change = [*read_back(row.change)]
                 self._send(row.id, change)
@@ -285,7 +284,7 @@ class Server:
                     self._tell(PseudonymGiven(row.values["pseudonym"], f"{given[row.id]}"))
             return
 
-    def _as_there(self, change: Change) -> list[tuple[Changed, dict[str, Any] | None]]:
+    def _as_there(self, change: Change) -> list[tuple[RowChange, dict[str, Any] | None]]:
         """Rows of a refused change, as the server has them."""
         with self._engine.connect() as there:
             rows = [one for one in change if one.table in SHARED and one.table != DEED.name]
@@ -341,7 +340,7 @@ class Server:
             there.execute(delete(DELIVERED).where(DELIVERED.c.at_s < time.time() - KEEP_DELIVERED_S))
 
 
-def _put_back(connection: Connection, refused: Changed, found: dict[str, Any] | None) -> None:
+def _put_back(connection: Connection, refused: RowChange, found: dict[str, Any] | None) -> None:
     table = SHARED[refused.table]
     if found is not None:
         _put(connection, table.name, [found])
@@ -370,7 +369,7 @@ def _put(connection: Connection, name: str, rows: Sequence[dict[str, Any]]) -> N
     connection.execute(made.on_conflict_do_update(index_elements=["id"], set_=values), rows)
 
 
-def _numbered(row: Changed, number: int) -> Changed:
+def _numbered(row: RowChange, number: int) -> RowChange:
     """A new patient with a number behind the pseudonym."""
     named = {name: f"{row.values[name]} ({number})" for name in ("pseudonym", "folded")}
     return replace(row, values={**row.values, **named})

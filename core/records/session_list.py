@@ -60,7 +60,7 @@ def look_for_share(store: Store) -> None:
         mark.touch()
 
 
-class SessionList:
+class ListedSessions:
     """The sessions of a store."""
 
     def __init__(self, store: Store) -> None:
@@ -217,7 +217,7 @@ class FilesOfSessions:
     wrote comes of the files."""
 
     def __init__(self, store: Store) -> None:
-        self._store, self._list = store, SessionList(store)
+        self._store, self._list = store, ListedSessions(store)
         self._folder = store.sessions_folder
 
     def take_in(self, *, tells: bool = True) -> Rebuilt:
@@ -273,7 +273,7 @@ class FilesOfSessions:
         rows_of_people = self._store.rows(select(PATIENT.c.id, PATIENT.c.folded, PATIENT.c.former))
         people = {str(row.folded): str(row.id) for row in rows_of_people}
         former = {str(row.id): {folded(one) for one in row.former.split("\n")} for row in rows_of_people}
-        change: list[changes.Row] = []
+        change: list[changes.RowChange] = []
         added = taken = 0
         for path, outline in sorted(found, key=lambda one: (one[0] not in known, -one[1].frames, one[0])):
             session_id = outline.header.session_id

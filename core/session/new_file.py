@@ -15,7 +15,7 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand.back_surface import TABLE_ROWS
 from carpus.core.session import schema
-from carpus.core.session.schema import Field, Layout
+from carpus.core.session.schema import Field, TableLayout
 from carpus.core.session.values import SessionHeader
 
 _CHUNK_ROWS = {"N": 1024, "D": 32768, "E": 32, "C": 1 << 23, "B": 1 << 23}
@@ -60,7 +60,7 @@ def version_for(camera: Camera) -> int:
     return schema.LENS_VERSION if is_inverse else schema.FORMAT_VERSION
 
 
-def write_calibration(file: h5py.File, layout: Layout, calibration: Calibration) -> None:
+def write_calibration(file: h5py.File, layout: TableLayout, calibration: Calibration) -> None:
     """The datasets of ``/calibration`` and the verdict as its attributes."""
     verdict = calibration.verdict
     surface = calibration.surface
@@ -79,7 +79,7 @@ def write_calibration(file: h5py.File, layout: Layout, calibration: Calibration)
         file["/calibration"].attrs[name] = value
 
 
-def create_growing(file: h5py.File, layout: Layout, raw_depth_unit_m: float | None) -> dict[str, h5py.Dataset]:
+def create_growing(file: h5py.File, layout: TableLayout, raw_depth_unit_m: float | None) -> dict[str, h5py.Dataset]:
     """Every dataset that grows while the session runs, still without rows; ``/raw`` only with a depth unit."""
     raw = (*schema.RAW_STREAMS, *schema.RAW_ENDS) if raw_depth_unit_m is not None else ()
     detections = (schema.DETECTION_FRAME, *schema.DETECTION_FIELDS, schema.DETECTION_COUNT)
@@ -94,7 +94,7 @@ def create_growing(file: h5py.File, layout: Layout, raw_depth_unit_m: float | No
     return growing
 
 
-def create_smoothed(file: h5py.File, layout: Layout) -> dict[str, h5py.Dataset]:
+def create_smoothed(file: h5py.File, layout: TableLayout) -> dict[str, h5py.Dataset]:
     """The datasets of the smoother's result, still without rows."""
     fields = [field for field in schema.SMOOTHED_FIELDS if layout.has(field)]
     growing = {field.path: _create_growing(file, field, layout) for field in fields}
@@ -104,7 +104,7 @@ def create_smoothed(file: h5py.File, layout: Layout) -> dict[str, h5py.Dataset]:
     return growing
 
 
-def _create_growing(file: h5py.File, field: Field, layout: Layout) -> h5py.Dataset:
+def _create_growing(file: h5py.File, field: Field, layout: TableLayout) -> h5py.Dataset:
     row = layout.row_shape(field)
     dataset = file.create_dataset(
         field.path,
@@ -128,7 +128,7 @@ def create_checked(file: h5py.File, path: str, data: Any) -> h5py.Dataset:
     return file.create_dataset(path, data=data, chunks=chunks, fletcher32=True)
 
 
-def describe(dataset: h5py.Dataset, field: Field, layout: Layout) -> None:
+def describe(dataset: h5py.Dataset, field: Field, layout: TableLayout) -> None:
     """Unit, description and names of a dataset."""
     dataset.attrs["unit"] = field.unit
     dataset.attrs["description"] = field.description

@@ -12,7 +12,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
+from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import COEFFICIENTS, Camera
 from carpus.core.dates import iso, time_of_day
 from carpus.core.depth_sensor import ASSUMED_SENSOR, DepthSensor, sensor_of
@@ -30,7 +30,7 @@ from carpus.core.session import schema
 from carpus.core.session.plain_file import check_plain
 from carpus.core.session.plausible import LONGEST_S, check_blobs, check_header, check_values
 from carpus.core.session.rows import Rows, rows_of, whole_rows
-from carpus.core.session.schema import Field, Layout
+from carpus.core.session.schema import Field, TableLayout
 from carpus.core.session.seal import ATTRIBUTE, seal_of
 from carpus.core.session.values import (
     DetectionTable,
@@ -187,7 +187,7 @@ class _Source:
         self._path = path
         self._file = file
         self._header = self._read_header()
-        self._layout = Layout(self._header.protocol, self._header.joint_names)
+        self._layout = TableLayout(self._header.protocol, self._header.joint_names)
         self._complete = bool(self._attribute("complete"))
         self._rows = self._read_rows()
 
@@ -412,7 +412,7 @@ class _Source:
         said = self._file["/calibration"].attrs
         findings = []
         for fact in json.loads(said.get("findings", "[]")):
-            findings.append(Finding(**(fact | {"markers": tuple(fact.get("markers", ()))})))
+            findings.append(CalibrationFinding(**(fact | {"markers": tuple(fact.get("markers", ()))})))
         unknown = float("nan")
         verdict = Verdict(
             residual_mm=residual_m * 1e3,

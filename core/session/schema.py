@@ -123,7 +123,7 @@ class Column:
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class TableLayout:
     """What the axis letters mean in one file."""
 
     protocol: MarkerProtocol

@@ -44,7 +44,7 @@ from carpus.core.session.new_file import (
     write_header,
 )
 from carpus.core.session.opened import session_in
-from carpus.core.session.schema import Field, Layout
+from carpus.core.session.schema import Field, TableLayout
 from carpus.core.session.seal import ATTRIBUTE, Digests, seal_of
 from carpus.core.session.values import Event, Motion, RawPictures, Repetitions, Session, SessionHeader
 from carpus.core.types import SurfaceSamples, TrackedFrame
@@ -99,7 +99,7 @@ class SessionWriter:
         file: h5py.File,
         path: Path,
         part: Path,
-        layout: Layout,
+        layout: TableLayout,
         clock: Callable[[], float],
         beginning: _Beginning,
         fallback: Fallback | None,
@@ -149,7 +149,7 @@ class SessionWriter:
             raise OutputExists(part) from cause
         except OSError as cause:
             raise OutputNotWritable(path.parent, os.strerror(cause.errno) if cause.errno else "") from cause
-        layout = Layout(header.protocol, header.joint_names)
+        layout = TableLayout(header.protocol, header.joint_names)
         beginning = _Beginning(header, camera, calibration, raw_depth_unit_m)
         writer = cls(file, path, part, layout, clock, beginning, fallback)
         try:

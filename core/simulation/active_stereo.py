@@ -12,7 +12,7 @@ import numpy as np
 
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.simulation.sensor import counts, depth_scale, flecks, in_shadow, window_noise
-from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.trace import FloatImage
 from carpus.core.types import DepthImage
 
@@ -25,7 +25,7 @@ class ActiveStereo:
     """Turns true depth into the depth picture laid on colour, of focal length ``color_focal_px``; one per recording."""
 
     def __init__(self, spec: RecordingSpec, sensor: DepthSensor, shape: tuple[int, int], color_focal_px: float) -> None:
-        rng = np.random.default_rng([spec.seed, Stream.DEPTH_NOISE, 2, 0])
+        rng = np.random.default_rng([spec.seed, RandomStream.DEPTH_NOISE, 2, 0])
         self._seed = spec.seed
         self._noisy = spec.sensor_noise
         self._scale = depth_scale(spec)
@@ -46,7 +46,7 @@ class ActiveStereo:
         The noise depends on seed and frame number alone; the projector brings its own light."""
         if not self._noisy:
             return counts(depth_m)
-        rng = np.random.default_rng([self._seed, Stream.DEPTH_NOISE, 2, 1 + frame])
+        rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, 2, 1 + frame])
         disparity = np.float32(self._product_px_m) / depth_m
         width = self._window_px
         # The window matches what is in front wherever it holds enough of it: the hand is half a window thicker.

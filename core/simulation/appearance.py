@@ -10,7 +10,7 @@ import numpy as np
 
 from carpus.core.camera import Camera
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.trace import FloatImage
 from carpus.core.types import FloatArray
 
@@ -79,14 +79,14 @@ def light_of(spec: RecordingSpec) -> str:
     """How bright the room of a recording is: a key of :data:`LIGHTS`."""
     if spec.light != "drawn":
         return spec.light
-    rng = np.random.default_rng([spec.seed, Stream.SCENE, 2])
+    rng = np.random.default_rng([spec.seed, RandomStream.SCENE, 2])
     return ("bright", "normal", "normal", "dim")[int(rng.integers(4))]
 
 
 def appearance_of(scene: Scene) -> Appearance:
     """Draw the looks of a recording; the table is painted once."""
     spec = scene.spec
-    rng = np.random.default_rng([spec.seed, Stream.SCENE, 1])
+    rng = np.random.default_rng([spec.seed, RandomStream.SCENE, 1])
     tone = int(rng.integers(6)) if spec.skin_tone is None else spec.skin_tone
     sleeve_drawn = ("none", "grey", "white")[int(rng.integers(3))]
     sleeve = sleeve_drawn if spec.sleeve == "drawn" else spec.sleeve
@@ -105,7 +105,9 @@ def appearance_of(scene: Scene) -> Appearance:
         skin=linear(SKIN_TONES_SRGB[tone] * rng.uniform(0.96, 1.04, 3)),
         paper=linear(PAPER_BLUE_SRGB * rng.uniform(0.85, 1.15, 3)),
         bands=_bands(spec, sleeve, sleeve_start, rng.uniform(0.85, 1.1)),
-        ring=linear(_METALS_SRGB[int(spec.random(Stream.WORN).integers(2))]) if "ring" in spec.things_worn else None,
+        ring=linear(_METALS_SRGB[int(spec.random(RandomStream.WORN).integers(2))])
+        if "ring" in spec.things_worn
+        else None,
         thing=linear(np.array([150.0, 140.0, 130.0]) * rng.uniform(0.4, 1.3)),
         light_cam=to_lamp,
         lamp=level * lamp_share * 1.25 * white,
@@ -120,7 +122,7 @@ def appearance_of(scene: Scene) -> Appearance:
 
 def _bands(spec: RecordingSpec, sleeve: str, sleeve_start_m: float, shade: float) -> tuple[Band, ...]:
     """Bandage, watch and sleeve in the order in which they are put on."""
-    rng = np.random.default_rng([spec.seed, Stream.WORN, 1])
+    rng = np.random.default_rng([spec.seed, RandomStream.WORN, 1])
     bandage_m, watch_m, strap = rng.uniform(0.010, 0.025), rng.uniform(0.020, 0.040), int(rng.integers(3))
     out = []
     if "bandage" in spec.things_worn:

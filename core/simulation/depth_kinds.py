@@ -6,7 +6,7 @@ from typing import Protocol
 
 from carpus.core.camera import Camera
 from carpus.core.simulation.active_stereo import ActiveStereo
-from carpus.core.simulation.sensor import DepthSensor
+from carpus.core.simulation.sensor import SimulatedDepth
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.time_of_flight import TimeOfFlight
 from carpus.core.simulation.trace import FloatImage
@@ -28,4 +28,4 @@ def depth_pictures(spec: RecordingSpec, camera: Camera) -> DepthPictures:
         return ActiveStereo(spec, sensor, shape, camera.fx_px)
     if sensor.kind == "time of flight":
         return TimeOfFlight(spec, sensor, shape, camera.fx_px)
-    return DepthSensor(spec, shape)
+    return SimulatedDepth(spec, shape)

@@ -7,7 +7,7 @@ import numpy as np
 
 from carpus.core.camera import Camera
 from carpus.core.simulation.appearance import Appearance
-from carpus.core.simulation.trace import FloatImage, Surface
+from carpus.core.simulation.trace import FloatImage, TracedSurface
 from carpus.core.types import FloatArray
 
 _GLOSS, _GLOSS_POWER = 0.05, 24
@@ -32,7 +32,7 @@ def shaded_skin(albedo: FloatImage, normal: FloatImage, corners: FloatImage, loo
     return out
 
 
-def corner_light(skin: Surface, background_m: FloatImage) -> FloatImage:
+def corner_light(skin: TracedSurface, background_m: FloatImage) -> FloatImage:
     """Share of the ambient light that reaches each pixel: less where its neighbourhood is nearer to the camera."""
     around = np.where(skin.coverage > 0.5, skin.depth_m, background_m)
     small = around
@@ -45,7 +45,7 @@ def corner_light(skin: Surface, background_m: FloatImage) -> FloatImage:
 
 
 def shadow_on_table(
-    camera: Camera, skin: Surface, to_lamp: FloatArray, table_normal: FloatArray, table_point_m: FloatArray
+    camera: Camera, skin: TracedSurface, to_lamp: FloatArray, table_normal: FloatArray, table_point_m: FloatArray
 ) -> FloatImage:
     """Share of the lamp's light (H, W) that the table gets; softer the higher the hand is above it."""
     v, u = np.nonzero(skin.coverage[::_COARSE, ::_COARSE] > 0.5)

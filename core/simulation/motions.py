@@ -15,7 +15,7 @@ import numpy as np
 from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.sites import joint_angle_names
 from carpus.core.simulation.hand_motion import STILL_S, HandMotion, drawn_habits, drawn_sway
-from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.strokes import StrokeWriter
 from carpus.core.types import FloatArray
 
@@ -373,10 +373,10 @@ def motion_of(spec: RecordingSpec) -> HandMotion:
     if spec.motion not in MOTIONS:
         raise SettingsInvalid("motion", f"{spec.motion} ({', '.join(MOTIONS)})")
     write, default_hz = MOTIONS[spec.motion]
-    rng = spec.random(Stream.MOTION)
+    rng = spec.random(RandomStream.MOTION)
     patient = _Patient(spec, rng, default_hz)
     write(patient)
-    habit = spec.random(Stream.HABIT)
+    habit = spec.random(RandomStream.HABIT)
     _with_fingers(patient, spec, habit)
     if spec.leaves_picture:
         _leave(patient)

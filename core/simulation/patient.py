@@ -12,7 +12,7 @@ from carpus.core.hand.kinematics import disc_centres
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.sites import PALM_SITES, SITES
 from carpus.core.hand.wrist_frame import wrist_axes
-from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.types import FloatArray
 
 WRIST_JOINT_DEPTH_M = 0.015
@@ -48,7 +48,7 @@ class Patient:
 
 def patient_of(spec: RecordingSpec) -> Patient:
     """Draw a patient: segments vary by 5 %, flesh by 8 %, disc places by 0.7 mm around the reference's table."""
-    rng = spec.random(Stream.PATIENT)
+    rng = spec.random(RandomStream.PATIENT)
     drawn_m = rng.uniform(*_LENGTH_RANGE_M[spec.marker_protocol.has_fingers])
     length_m = drawn_m if spec.hand_length_mm is None else spec.hand_length_mm / 1000.0
     size = length_m / 0.180

@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 
 from carpus.core.camera import Camera
-from carpus.core.camera_calibration.sheet import Box, Disc, Sheet
+from carpus.core.camera_calibration.sheet import Disc, PrintedSheet, SheetBox
 from carpus.core.simulation.appearance import appearance_of, linear
 from carpus.core.simulation.depth_kinds import depth_pictures
 from carpus.core.simulation.scene import Scene
@@ -36,12 +36,12 @@ class Placed:
     shift_m: FloatArray
 
 
-def texture_of(sheet: Sheet) -> FloatArray:
+def texture_of(sheet: PrintedSheet) -> FloatArray:
     """White paper with the sheet's boxes and discs, in linear light."""
     size = (round(sheet.height_mm * PX_PER_MM), round(sheet.width_mm * PX_PER_MM))
     out = np.full((*size, 3), 0.86, dtype=np.float32)
     for mark in sheet.marks:
-        if isinstance(mark, Box):
+        if isinstance(mark, SheetBox):
             left, top = round(mark.left_mm * PX_PER_MM), round(mark.top_mm * PX_PER_MM)
             right = round((mark.left_mm + mark.width_mm) * PX_PER_MM)
             bottom = round((mark.top_mm + mark.height_mm) * PX_PER_MM)

@@ -27,7 +27,7 @@ from carpus.core.simulation.depth_kinds import depth_pictures
 from carpus.core.simulation.render import CleanPicture, Renderer
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import ColorSensor
-from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.trouble import FrameTimes, covered_discs, frame_times
 from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, truth_of
 from carpus.core.simulation.truth_file import read_visible_share, write_truth
@@ -121,7 +121,7 @@ class SimulatedPictures:
 def clicks_of(truth: Truth) -> Clicks:
     """A person's clicks on the first frame: the true places, off by ``spec.click_error_px``."""
     spec = truth.spec
-    rng = spec.random(Stream.CLICKS)
+    rng = spec.random(RandomStream.CLICKS)
     error = rng.normal(0.0, 1.0, truth.disc_pixel[0].shape) * spec.click_error_px
     limit = max(_LARGEST_CLICK_ERROR_PX, spec.click_error_px)
     return Clicks(spec.hand, spec.marker_protocol, np.round(truth.disc_pixel[0] + np.clip(error, -limit, limit), 1))

@@ -15,7 +15,7 @@ from carpus.core.simulation.appearance import Appearance, appearance_of
 from carpus.core.simulation.lighting import corner_light, shaded_skin, shadow_on_table
 from carpus.core.simulation.scene import HandPose, Scene
 from carpus.core.simulation.skin import Cones, Part
-from carpus.core.simulation.trace import FloatImage, Surface, trace
+from carpus.core.simulation.trace import FloatImage, TracedSurface, trace
 from carpus.core.simulation.trouble import false_blobs, passing_thing
 from carpus.core.simulation.truth import protocol_rows
 from carpus.core.types import FloatArray
@@ -40,8 +40,8 @@ class _Bodies:
     """What stands where at one time: depth of everything but floating blobs, skin and passing thing apart."""
 
     depth_m: FloatImage
-    skin: Surface | None
-    thing: Surface | None
+    skin: TracedSurface | None
+    thing: TracedSurface | None
     pose: HandPose
 
 
@@ -92,7 +92,7 @@ class Renderer:
                 _put_nearer(depth, surface)
         return _Bodies(depth, skin, thing, pose)
 
-    def _thing_surface(self, time_s: float) -> Surface | None:
+    def _thing_surface(self, time_s: float) -> TracedSurface | None:
         ends = None if self._thing is None else self._thing.ends_w0_m(time_s)
         if ends is None or self._thing is None:
             return None
@@ -117,7 +117,7 @@ class Renderer:
         light = (facing * lit)[..., None] * looks.lamp.astype(np.float32) + looks.ambient.astype(np.float32)
         return np.asarray(looks.table * light)
 
-    def _draw_skin(self, color: FloatImage, bodies: _Bodies, skin: Surface) -> None:
+    def _draw_skin(self, color: FloatImage, bodies: _Bodies, skin: TracedSurface) -> None:
         """Shade hand and forearm into ``color``."""
         scene, looks, pose = self.scene, self.looks, bodies.pose
         rows, columns = skin.box.slices
@@ -196,7 +196,7 @@ class Renderer:
             _put_nearer(front, bodies.thing)
         return front
 
-    def _draw_thing(self, color: FloatImage, depth_m: FloatImage, thing: Surface) -> None:
+    def _draw_thing(self, color: FloatImage, depth_m: FloatImage, thing: TracedSurface) -> None:
         looks = self.looks
         rows, columns = thing.box.slices
         lambert = np.clip(thing.normal @ looks.light_cam.astype(np.float32), 0.0, 1.0)[..., None]
@@ -206,6 +206,6 @@ class Renderer:
         inner += (alpha * (shaded - inner)).astype(np.float32)
 
 
-def _put_nearer(depth_m: FloatImage, surface: Surface) -> None:
+def _put_nearer(depth_m: FloatImage, surface: TracedSurface) -> None:
     inner = depth_m[surface.box.slices]
     np.copyto(inner, surface.depth_m, where=(surface.coverage > 0.5) & (surface.depth_m < inner))

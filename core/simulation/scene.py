@@ -19,7 +19,7 @@ from carpus.core.simulation.motions import motion_of
 from carpus.core.simulation.patient import Patient, patient_of
 from carpus.core.simulation.skin import Cones, HandSkin, joined, on_surface
 from carpus.core.simulation.soft_tissue import TissueMovement, TissueState, tissue_of
-from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.wide_anatomy import widened
 from carpus.core.types import FloatArray
 
@@ -64,7 +64,7 @@ class Scene:
         self._discs_ride = not self.tissue.is_rigid or bool(self.patient.stuck_off_m.any())
         self._palm_normals = self.skin.palm_normals()
         self._skin_rise_m = self._skin_rises_m() if spec.skin_movement_mm > 0.0 else np.zeros((2, 6))
-        rng = spec.random(Stream.SCENE)
+        rng = spec.random(RandomStream.SCENE)
         focal_px = 525.0 * rng.uniform(0.98, 1.02)
         self.camera = Camera(
             focal_px, focal_px * rng.uniform(0.998, 1.002), 319.5 + rng.uniform(-5, 5), 239.5 + rng.uniform(-5, 5),

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.simulation.appearance import READ_NOISE_ELECTRONS, Appearance
-from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.trace import FloatImage
 from carpus.core.types import ByteImage, DepthImage
 
@@ -62,7 +62,7 @@ class ColorSensor:
         raw[0::2, 0::2] = light[0::2, 0::2, 0]
         raw[1::2, 1::2] = light[1::2, 1::2, 2]
         raw = np.maximum(raw, np.float32(0.0))
-        rng = np.random.default_rng([self._seed, Stream.COLOR_NOISE, frame])
+        rng = np.random.default_rng([self._seed, RandomStream.COLOR_NOISE, frame])
         electrons = self._looks.electrons
         variance = raw / np.float32(electrons) + np.float32((READ_NOISE_ELECTRONS / electrons) ** 2)
         raw += rng.standard_normal(raw.shape, dtype=np.float32) * np.sqrt(variance)
@@ -88,14 +88,14 @@ def depth_scale(spec: RecordingSpec) -> float:
     """Measured over true depth of the simulated unit, within ``spec.depth_scale_error`` of 1."""
     if not spec.sensor_noise:
         return 1.0
-    return 1.0 + spec.depth_scale_error * float(spec.random(Stream.DEPTH_NOISE).uniform(-1.0, 1.0))
+    return 1.0 + spec.depth_scale_error * float(spec.random(RandomStream.DEPTH_NOISE).uniform(-1.0, 1.0))
 
 
-class DepthSensor:
+class SimulatedDepth:
     """Turns true depth into the registered depth picture; one per recording, which has its own scale and pattern."""
 
     def __init__(self, spec: RecordingSpec, shape: tuple[int, int]) -> None:
-        rng = np.random.default_rng([spec.seed, Stream.DEPTH_NOISE, 1, 0])
+        rng = np.random.default_rng([spec.seed, RandomStream.DEPTH_NOISE, 1, 0])
         self._seed = spec.seed
         self._noisy = spec.sensor_noise
         self._scale = depth_scale(spec)
@@ -109,7 +109,7 @@ class DepthSensor:
         The noise depends on seed and frame number alone; the light in ``color`` plays no part."""
         if not self._noisy:
             return counts(depth_m)
-        rng = np.random.default_rng([self._seed, Stream.DEPTH_NOISE, frame])
+        rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, frame])
         disparity = np.float32(DISPARITY_PX_M) / depth_m
         window = np.ones((5, 5), np.uint8)
         spread = cv2.dilate(disparity, window) - cv2.erode(disparity, window)

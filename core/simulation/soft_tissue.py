@@ -14,7 +14,7 @@ import numpy as np
 from carpus.core.hand.kinematics import finger_angles
 from carpus.core.hand.sites import SITES
 from carpus.core.simulation.hand_motion import HandMotion
-from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.types import FloatArray
 
 MOST_GLIDE_MM = 8.0
@@ -53,7 +53,7 @@ class TissueState:
 
 
 @dataclass(frozen=True, slots=True)
-class SoftTissue:
+class SimulatedTissue:
     """One person: ``glide_m_rad`` (21,) per angle of the joint beneath; ``swerve_rad`` (21,) of that glide off the
     finger's direction; ``cup_rad`` (2,) in a full grip; ``knuckle_rise_m``; ``lag_s``; ``play_rad``."""
 
@@ -69,16 +69,16 @@ class SoftTissue:
         return not (self.glide_m_rad.any() or self.cup_rad.any())
 
 
-def tissue_of(spec: RecordingSpec) -> SoftTissue:
+def tissue_of(spec: RecordingSpec) -> SimulatedTissue:
     """Draw a person's tissue; what the spec gives is taken instead."""
-    rng = spec.random(Stream.TISSUE)
+    rng = spec.random(RandomStream.TISSUE)
     drawn_mm, drawn_cup = rng.uniform(0.0, MOST_GLIDE_MM), rng.uniform(0.3, 1.0)
     glide_mm = drawn_mm if spec.skin_glide_mm is None else spec.skin_glide_mm
     cupping = drawn_cup if spec.cupping is None else spec.cupping
     share = np.array([_GAIN_OF_JOINT.get(name, _GAIN_OF_JOINT.get(name[:3], 0.0)) for name in SITES])
     gain = share * rng.uniform(0.8, 1.2, len(share)) * glide_mm * 1e-3 / (0.5 * math.pi)
     swerve = rng.uniform(-0.25, 0.25, len(share))
-    return SoftTissue(
+    return SimulatedTissue(
         glide_m_rad=gain,
         swerve_rad=swerve,
         cup_rad=FULL_CUP_RAD * cupping,
@@ -91,7 +91,7 @@ def tissue_of(spec: RecordingSpec) -> SoftTissue:
 class TissueMovement:
     """How the soft parts of one person follow one motion."""
 
-    def __init__(self, tissue: SoftTissue, motion: HandMotion, seconds: float) -> None:
+    def __init__(self, tissue: SimulatedTissue, motion: HandMotion, seconds: float) -> None:
         self._tissue = tissue
         if tissue.is_rigid:
             return

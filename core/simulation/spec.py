@@ -30,7 +30,7 @@ Light = Literal["drawn", "bright", "normal", "dim"]
 Sleeve = Literal["drawn", "none", "grey", "white", "blue", "jeans"]
 
 
-class Stream(IntEnum):
+class RandomStream(IntEnum):
     """Independent random streams of one seed, so that one option does not change what another draws."""
 
     PATIENT = 1
@@ -177,7 +177,7 @@ class RecordingSpec:
     def marker_protocol(self) -> MarkerProtocol:
         return protocol_named(self.protocol)
 
-    def random(self, stream: Stream) -> np.random.Generator:
+    def random(self, stream: RandomStream) -> np.random.Generator:
         """The generator of one concern; always the same for the same seed."""
         return np.random.default_rng([self.seed, int(stream)])
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.simulation.sensor import counts, depth_scale, flecks, in_shadow
-from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.trace import FloatImage
 from carpus.core.types import DepthImage
 
@@ -35,7 +35,7 @@ class TimeOfFlight:
     """Turns true depth into the depth picture laid on colour, of focal length ``color_focal_px``; one per recording."""
 
     def __init__(self, spec: RecordingSpec, sensor: DepthSensor, shape: tuple[int, int], color_focal_px: float) -> None:
-        rng = np.random.default_rng([spec.seed, Stream.DEPTH_NOISE, 3, 0])
+        rng = np.random.default_rng([spec.seed, RandomStream.DEPTH_NOISE, 3, 0])
         self._seed = spec.seed
         self._noisy = spec.sensor_noise
         self._scale = depth_scale(spec)
@@ -57,7 +57,7 @@ class TimeOfFlight:
         noise depends on seed, frame number and this alone."""
         if not self._noisy:
             return counts(depth_m)
-        rng = np.random.default_rng([self._seed, Stream.DEPTH_NOISE, 3, 1 + frame])
+        rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, 3, 1 + frame])
         around = np.ones((3, 3), np.uint8)
         flying = cv2.dilate(depth_m, around) - cv2.erode(depth_m, around) > _EDGE_M
         seen = np.where(flying, cv2.blur(depth_m, (3, 3)), depth_m)

@@ -61,7 +61,7 @@ class Box:
 
 
 @dataclass(frozen=True, slots=True)
-class Surface:
+class TracedSurface:
     """The seen surface inside ``box``: ``depth_m`` along z where each ray meets it or passes nearest, ``coverage``
     0 to 1 of each pixel, unit ``normal`` (H, W, 3) outwards, ``part`` (the nearest :class:`Part`) as uint8."""
 
@@ -153,7 +153,7 @@ def _fillet(a: FloatImage, b: FloatImage, reach: float) -> FloatImage:
     return np.asarray(np.minimum(a, b) - near)
 
 
-def trace(camera: Camera, cones: Cones) -> Surface | None:
+def trace(camera: Camera, cones: Cones) -> TracedSurface | None:
     """The skin as the camera sees it; None when none of it is in the picture."""
     x = ((np.arange(camera.width_px) - camera.cx_px) / camera.fx_px).astype(np.float32)
     y = ((np.arange(camera.height_px) - camera.cy_px) / camera.fy_px).astype(np.float32)
@@ -200,7 +200,7 @@ def trace(camera: Camera, cones: Cones) -> Surface | None:
     normal -= _union(seen, part_box, whole, depth, np.zeros(3))[..., None]
     length = np.sqrt(np.einsum("hwi,hwi->hw", normal, normal))
     normal /= np.maximum(length, np.float32(1e-9))[..., None]
-    return Surface(whole, depth, coverage, normal, part_image)
+    return TracedSurface(whole, depth, coverage, normal, part_image)
 
 
 def _union(

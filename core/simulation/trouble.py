@@ -14,7 +14,7 @@ from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.patient import DISC_RADIUS_M
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.types import FloatArray
 
 BLOB_MEAN_S = 0.8
@@ -72,13 +72,13 @@ class FrameTimes:
 
 def frame_times(spec: RecordingSpec) -> FrameTimes:
     """True times: regular but for a millisecond of jitter, also across dropped frames; the first is always kept."""
-    rng = spec.random(Stream.TIMES)
+    rng = spec.random(RandomStream.TIMES)
     count = max(1, round(spec.seconds * spec.fps))
     jitter_s = np.clip(rng.normal(0.0, 0.001, (2, count)), -0.003, 0.003)
     nominal_s = np.arange(count) / spec.fps
     color_s = np.round(nominal_s + jitter_s[0] - jitter_s[0, 0], 6)
     depth_s = np.round(color_s + spec.depth_delay_s + 0.5 * jitter_s[1], 6)
-    kept = spec.random(Stream.TROUBLE).random(count) >= spec.dropped_share
+    kept = spec.random(RandomStream.TROUBLE).random(count) >= spec.dropped_share
     kept[0] = True
     index = np.flatnonzero(kept)
     dropped_before = np.diff(index, prepend=index[0] - 1) - 1
@@ -90,7 +90,7 @@ def covered_discs(spec: RecordingSpec, time_s: FloatArray) -> NDArray[np.bool_]:
     covered = np.zeros((len(time_s), 21), dtype=bool)
     if spec.hidden_share <= 0.0:
         return covered
-    rng = np.random.default_rng([spec.seed, Stream.TROUBLE, 1])
+    rng = np.random.default_rng([spec.seed, RandomStream.TROUBLE, 1])
     open_mean_s = spec.hidden_mean_s * (1.0 / spec.hidden_share - 1.0)
     for marker in range(21):
         now_s, is_covered = STILL_S, bool(rng.random() < spec.hidden_share)
@@ -106,7 +106,7 @@ def covered_discs(spec: RecordingSpec, time_s: FloatArray) -> NDArray[np.bool_]:
 def false_blobs(scene: Scene) -> tuple[FalseBlob, ...]:
     """All false blobs of a recording: at each time ``spec.false_blobs`` of them on average."""
     spec = scene.spec
-    rng = np.random.default_rng([spec.seed, Stream.TROUBLE, 2])
+    rng = np.random.default_rng([spec.seed, RandomStream.TROUBLE, 2])
     slots = int(spec.false_blobs) + (1 if rng.random() < spec.false_blobs % 1.0 else 0)
     blobs = []
     for _ in range(slots):
@@ -121,7 +121,7 @@ def false_blobs(scene: Scene) -> tuple[FalseBlob, ...]:
 def _pen_marks(scene: Scene) -> Iterator[FalseBlob]:
     """Dots of a blue pen beside the discs, as somebody made who marked their places; there all the time."""
     spec = scene.spec
-    rng = spec.random(Stream.WORN)
+    rng = spec.random(RandomStream.WORN)
     discs = scene.patient.anatomy.palm_disc_m * [1.0, -1.0 if spec.hand == "left" else 1.0, 1.0]
     for _ in range(spec.pen_marks):
         disc = discs[int(rng.integers(len(discs)))]
@@ -174,7 +174,7 @@ def passing_thing(scene: Scene) -> PassingThing | None:
     spec = scene.spec
     if not spec.object_passes:
         return None
-    rng = np.random.default_rng([spec.seed, Stream.TROUBLE, 3])
+    rng = np.random.default_rng([spec.seed, RandomStream.TROUBLE, 3])
     lasts_s = rng.uniform(0.9, 1.5)
     start_s = rng.uniform(max(STILL_S + 0.4, 0.3 * spec.seconds), max(STILL_S + 0.5, 0.7 * spec.seconds - lasts_s))
     height_m, heading = rng.uniform(0.05, 0.09), rng.uniform(-0.6, 0.6)

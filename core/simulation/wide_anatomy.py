@@ -14,7 +14,7 @@ from carpus.core.hand.kinematics import disc_centres
 from carpus.core.hand.sites import SITES
 from carpus.core.hand.wrist_frame import wrist_axes
 from carpus.core.simulation.patient import Patient, disc_radii
-from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.types import FloatArray
 
 MOST_OFF_M = 0.005
@@ -37,7 +37,7 @@ _SWELLING_M, _SWOLLEN_DIGIT = (0.002, 0.005), (1.1, 1.25)
 
 def widened(patient: Patient, spec: RecordingSpec) -> Patient:
     """The patient with an anatomy drawn more widely around it."""
-    rng = spec.random(Stream.ANATOMY)
+    rng = spec.random(RandomStream.ANATOMY)
     size, usual = patient.size, patient.anatomy
     swollen = rng.random() < _SWOLLEN_CHANCE
     swelling_m, digit_swelling = (

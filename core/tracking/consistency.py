@@ -30,7 +30,7 @@ class ConsistencySettings:
 
 
 @dataclass(frozen=True, slots=True)
-class Doubt:
+class Inconsistency:
     """``doubted`` (M,) markers in question; ``widens`` factor on the standard deviations, 1 without doubt."""
 
     doubted: NDArray[np.bool_]
@@ -54,7 +54,7 @@ class ConsistencyTest:
         self._unused_s[:] = 0.0
         self._mean_nis = 1.0
 
-    def watch(self, dt_s: float, unused: NDArray[np.bool_], nis: float, dof: int, worst: int) -> Doubt:
+    def watch(self, dt_s: float, unused: NDArray[np.bool_], nis: float, dof: int, worst: int) -> Inconsistency:
         """The doubt after one more frame. ``unused`` (M,) discs passed over while a blob lies there, ``nis`` with
         ``dof`` of all that was measured, ``worst`` the marker that contributes most."""
         settings = self._settings
@@ -68,7 +68,7 @@ class ConsistencyTest:
             widens = max(widens, math.sqrt(self._mean_nis))
             doubted = doubted.copy()
             doubted[worst] = True
-        return Doubt(doubted, widens)
+        return Inconsistency(doubted, widens)
 
 
 def passed_over(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.hand.marker_protocol import MarkerProtocol
-from carpus.core.tracking.consistency import ConsistencyTest, Doubt, passed_over
+from carpus.core.tracking.consistency import ConsistencyTest, Inconsistency, passed_over
 from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.hand_filter import Posterior, Scan
 from carpus.core.tracking.hand_geometry import JointMoment
@@ -119,7 +119,7 @@ class FrameResults:
         discs_cam_m: FloatArray,
         nis: float,
         dof: int,
-    ) -> Doubt:
+    ) -> Inconsistency:
         camera, fingers = posterior.predicted.view.camera, posterior.fingers
         surprise = (posterior.palm.raw_residual**2).sum(axis=-1)
         surprise = self._order.by_marker(surprise, None if fingers is None else fingers.surprise)

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.agreement.clocks import Curves, Shift, _correlations, best_shift, with_drift
+from carpus.core.agreement.clocks import ClockCurves, Shift, _correlations, best_shift, with_drift
 from carpus.core.types import FloatArray
 
 
@@ -26,12 +26,12 @@ def hand(time_s: FloatArray) -> FloatArray:
 def curves(
     way: Callable[[FloatArray], FloatArray], lag_s: float, *, length_s: float = 30.0, drift: float = 0.0,
     sign: float = 1.0, noise_deg: float = 0.3,
-) -> Curves:  # fmt: skip
+) -> ClockCurves:  # fmt: skip
     rng = np.random.default_rng(4)
     time_s, other_s = np.arange(0.0, length_s, 1 / 30), np.arange(0.0, length_s + 6.0, 0.01)
     mine = way(time_s) + rng.normal(0.0, noise_deg, len(time_s))
     other = sign * way((other_s - lag_s) / (1.0 + drift)) + rng.normal(0.0, noise_deg, len(other_s))
-    return Curves(time_s, mine[:, None], other_s, other[:, None], either_sign=True)
+    return ClockCurves(time_s, mine[:, None], other_s, other[:, None], either_sign=True)
 
 
 @pytest.mark.parametrize(("lag_s", "noise_deg"), [(3.0, 0.3), (-1.6, 0.3), (1.2, 15.0)])

@@ -13,9 +13,9 @@ import pytest
 
 from carpus.app.__main__ import main
 from carpus.core import so3
-from carpus.core.agreement.clocks import Curves, Shift, best_shift, with_drift
+from carpus.core.agreement.clocks import ClockCurves, Shift, best_shift, with_drift
 from carpus.core.agreement.compare import LEAST_MATCH, _check_match, compare, remarks_of
-from carpus.core.agreement.reference import Reading, Reference, read_reference
+from carpus.core.agreement.reference import GoniometerReading, Reference, read_reference
 from carpus.core.agreement.tables import lines
 from carpus.core.errors import ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.formats import c3d_write, mot, trc
@@ -196,7 +196,9 @@ def test_a_range_is_compared_with_the_sessions_own(session: Session) -> None:
     figures = session_figures(session)
     row = figures.row("flexion", 1)
     assert row is not None
-    readings = tuple(Reading("flexion", "flexion", math.radians(row.mean_deg + d), math.nan) for d in (1.0, 2.0, 3.0))
+    readings = tuple(
+        GoniometerReading("flexion", "flexion", math.radians(row.mean_deg + d), math.nan) for d in (1.0, 2.0, 3.0)
+    )
     found = compare(session, Reference(Path("list.csv"), "list", readings=readings), figures=figures)
     assert found.pairs[0].figures_deg.bias == pytest.approx(-2.0)
 
@@ -261,7 +263,7 @@ def test_drift_over_minutes_is_no_other_movement() -> None:
     time_s = np.arange(0.0, 140.0, 1 / 30)
     mine = np.sin(np.pi * time_s)
     there_s = np.arange(0.0, 140.0, 0.01)
-    curves = Curves(time_s, mine[:, None], there_s, np.sin(np.pi * there_s / 0.99)[:, None], either_sign=True)
+    curves = ClockCurves(time_s, mine[:, None], there_s, np.sin(np.pi * there_s / 0.99)[:, None], either_sign=True)
     shift = best_shift(curves, 10.0)
     assert abs(shift.match) < LEAST_MATCH
     _check_match(Reference(Path("x.mot"), "angles"), curves, with_drift(curves, shift))

@@ -19,7 +19,7 @@ from carpus.app import compose
 from carpus.app.settings import RecordingSettings, ReportSettings, ScreenSettings, Settings
 from carpus.core.agreement.compared_files import compare_files
 from carpus.core.agreement.reference import outline_of
-from carpus.core.agreement.watch import Stopped, Watch
+from carpus.core.agreement.watch import Stopped, WorkWatch
 from carpus.core.library.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.values import PatientEntry
@@ -179,15 +179,15 @@ def test_a_comparison_is_given_up_when_the_screen_is_left(
     choosing(monkeypatch, held, tmp_path)
     comparing.show(journey.session_id)
     asked: list[bool] = []
-    real = Watch.at
+    real = WorkWatch.at
 
-    def at(watch: Watch, share: float) -> None:
+    def at(watch: WorkWatch, share: float) -> None:
         if share == 0.0 and not asked:
             asked.append(True)
             comparing.leave()  # as the way back does
         real(watch, share)
 
-    monkeypatch.setattr(Watch, "at", at)
+    monkeypatch.setattr(WorkWatch, "at", at)
     comparing.reference.file_button.click()
     qtbot.waitUntil(lambda: bool(asked))
     qtbot.waitUntil(journey.agreement.other_button.isEnabled)
@@ -198,14 +198,14 @@ def test_a_comparison_is_given_up_when_the_screen_is_left(
 def test_progress_rises_and_a_stop_writes_nothing(recorded: Path, optical: Path) -> None:
     heard: list[int] = []
     columns = {"time": "Zeit", "flexion": "-FlexExt"}
-    watched = Watch(lambda done, _: heard.append(done))
+    watched = WorkWatch(lambda done, _: heard.append(done))
     compare_files(recorded, optical, columns=columns, watch=watched)
     assert heard == sorted(heard)
     assert heard[0] == 0
     assert heard[-1] == 100
     assert len(heard) > 2
     with pytest.raises(Stopped):
-        compare_files(recorded, optical, columns=columns, watch=Watch(cancelled=lambda: True))
+        compare_files(recorded, optical, columns=columns, watch=WorkWatch(cancelled=lambda: True))
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ from carpus.core.library.records import Records
 from carpus.core.library.set_up import MARKERS_SUFFIX
 from carpus.core.output.repetition_rows import PASSIVE
 from carpus.core.output.report_content import RepetitionChoices, session_figures
-from carpus.core.pipeline.correction import Task, correct, task_of
+from carpus.core.pipeline.correction import CorrectionTask, correct, task_of
 from carpus.core.records.values import PatientEntry
 from carpus.ui.background import Background
 from carpus.ui.correct.results_sheet import ResultsSheet
@@ -101,7 +101,7 @@ def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
 ) -> None:  # fmt: skip
     patient, session_id = entered(library, stored)
 
-    def beside(task: Task, progress: Callable[[int, int], None], stopping: threading.Event) -> bool:
+    def beside(task: CorrectionTask, progress: Callable[[int, int], None], stopping: threading.Event) -> bool:
         progress(30, 120)
         if again and stopping.wait(30.0):
             return False

@@ -16,7 +16,7 @@ import pytest
 
 from carpus.app.desktop.patients import PatientShelf
 from carpus.app.desktop.shelf import StoredSessions
-from carpus.core.calibration.result import Finding
+from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, SessionUnreadable
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
@@ -47,7 +47,7 @@ def store(
     wanted: SetUp,
     frames: int = 40,
     hand_length_mm: float = 180.0,
-    findings: tuple[Finding, ...] = (),
+    findings: tuple[CalibrationFinding, ...] = (),
     parameters: str = "{}",
     after: timedelta = timedelta(0),
 ) -> str:
@@ -88,16 +88,16 @@ def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(lib
     assert math.isnan(library.last_hand_length_mm(wanted, simulated=False))
     steps = iter(range(1, 9))
 
-    def stored(length_mm: float, *findings: Finding, parameters: str = "{}") -> None:
+    def stored(length_mm: float, *findings: CalibrationFinding, parameters: str = "{}") -> None:
         store(library, wanted, 3, length_mm, findings, parameters, timedelta(minutes=next(steps)))
 
     stored(180.0)
-    stored(150.0, Finding("shifted", ("WRIST", "MCP5", "MCP4")))
+    stored(150.0, CalibrationFinding("shifted", ("WRIST", "MCP5", "MCP4")))
     stored(140.0, parameters=json.dumps({"source": {"simulated": "yes"}}))
     assert library.last_hand_length_mm(wanted, simulated=False) == pytest.approx(180.0)
     assert library.last_hand_length_mm(wanted, simulated=True) == pytest.approx(140.0)
     assert math.isnan(library.last_hand_length_mm(replace(wanted, side="left"), simulated=False))
-    stored(210.0, Finding("other_length", (), 210.0, 180.0, "mm"))
+    stored(210.0, CalibrationFinding("other_length", (), 210.0, 180.0, "mm"))
     assert library.last_hand_length_mm(wanted, simulated=False) == pytest.approx(210.0), "accepted by a person"
 
 

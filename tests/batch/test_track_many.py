@@ -17,7 +17,7 @@ from tqdm import tqdm
 from carpus.app.__main__ import main
 from carpus.app.batch.tables import MEASURES_FILE, OUTCOMES_FILE
 from carpus.core.formats import measures_files
-from carpus.core.output.measures_table import MeasureRow
+from carpus.core.output.measures_table import SessionFigure
 from carpus.core.output.report_content import session_figures
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, simulate
@@ -176,7 +176,7 @@ def test_the_measures_of_all_sessions_are_one_table(
 def test_a_table_holds_few_rows_in_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(measures_files, "ROWS_AT_ONCE", 5)
     kinds = {"str": "", "float": math.nan, "int": 0, "bool": False}
-    row = MeasureRow(**{field.name: kinds[str(field.type)] for field in fields(MeasureRow)})  # type: ignore[arg-type]
+    row = SessionFigure(**{field.name: kinds[str(field.type)] for field in fields(SessionFigure)})  # type: ignore[arg-type]
     with measures_files.measures_file(tmp_path / "t.parquet") as take:
         for _ in range(4):
             take([row] * 3)

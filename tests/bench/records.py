@@ -27,7 +27,7 @@ from carpus.core.records.of_sessions import comments
 from carpus.core.records.patients import Patients
 from carpus.core.records.pseudonyms import WORDS
 from carpus.core.records.schema import COMMENT, OUTBOX, PATIENT, SESSION
-from carpus.core.records.session_list import SessionList
+from carpus.core.records.session_list import ListedSessions
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from tests.records.postgres import Cluster
@@ -153,7 +153,7 @@ def main() -> None:
         begin = time.perf_counter()
         store = Store(Path(folder))
         print(f"opened in {(time.perf_counter() - begin) * 1e3:.0f} ms")
-        people, sessions = Patients(store), SessionList(store)
+        people, sessions = Patients(store), ListedSessions(store)
         somebody = f"{patients // 2:032x}"
         last = sessions.of_patient(somebody)[0].session_id
         for name, what in {

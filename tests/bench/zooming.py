@@ -14,7 +14,7 @@ from PySide6.QtWidgets import QApplication
 from carpus.app import compose
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.joint_content import JointCurves
-from carpus.core.output.report_content import Curves
+from carpus.core.output.report_content import ReportCurves
 from carpus.ui.figures import FIGURES
 from carpus.ui.plot.session import HandPlot, SessionPlot
 from carpus.ui.plot.session_view import CurveView
@@ -57,14 +57,14 @@ def report() -> Iterator[str]:
     yield f"{WANTED_MS:.0f} ms were wanted at most; on a computer that does other work too the CPU time says more"
 
 
-def _curves() -> Curves:
+def _curves() -> ReportCurves:
     time_s = np.arange(0.0, SECONDS, 1.0 / RATE_HZ)
     noise = np.random.default_rng(1).normal(0.0, 0.4, (len(time_s), 3))
     angles_deg = np.array([8.0, 50.0, 5.0]) * np.sin(2.0 * np.pi * 0.4 * time_s)[:, None] + noise
-    return Curves(time_s, angles_deg, np.full_like(angles_deg, 0.7), np.zeros(len(time_s), dtype=np.int64))
+    return ReportCurves(time_s, angles_deg, np.full_like(angles_deg, 0.7), np.zeros(len(time_s), dtype=np.int64))
 
 
-def _joints(curves: Curves) -> JointCurves:
+def _joints(curves: ReportCurves) -> JointCurves:
     """All joints bend and straighten in turn, with the wrist's noise."""
     names = tuple(dict.fromkeys(figure.joint for figure in FIGURES if figure.row != "tam"))
     bent = np.abs(curves.angles_deg[:, 1:2]) + np.arange(len(names))

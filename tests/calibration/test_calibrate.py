@@ -11,7 +11,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from carpus.core.calibration.calibrate import NeutralCapture, calibrate, measure_hand, require_calibration
-from carpus.core.calibration.result import Calibration, Clicks, Finding
+from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks
 from carpus.core.calibration.same_hand import compared_with_last_time
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.depth_sensor import PRIMESENSE
@@ -34,7 +34,7 @@ def good(scene: Scene, **kwargs: object) -> Calibration:
     return outcome.calibration
 
 
-def only(findings: tuple[Finding, ...], kind: str) -> Finding:
+def only(findings: tuple[CalibrationFinding, ...], kind: str) -> CalibrationFinding:
     assert [finding.kind for finding in findings] == [kind]
     return findings[0]
 

@@ -14,9 +14,9 @@ from carpus.core.camera_calibration.calibrate import CameraCalibration, calibrat
 from carpus.core.camera_calibration.effect import HAND_LENGTH_M, effect_of
 from carpus.core.camera_calibration.find_board import LEAST_CORNERS, FoundBoard, find_board
 from carpus.core.camera_calibration.gather import Gathering
-from carpus.core.camera_calibration.guidance import ASKED_VIEWS, Step, next_step, target_outline
-from carpus.core.camera_calibration.sheet import PAPER_MM, Box, Line, Paper, Text
-from carpus.core.camera_calibration.views import FEWEST_VIEWS, SIDES, View, is_new, judge, view_of
+from carpus.core.camera_calibration.guidance import ASKED_VIEWS, GuidanceStep, next_step, target_outline
+from carpus.core.camera_calibration.sheet import PAPER_MM, Paper, SheetBox, SheetLine, SheetText
+from carpus.core.camera_calibration.views import FEWEST_VIEWS, SIDES, BoardView, is_new, judge, view_of
 from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
 from carpus.core.simulation.practice_camera import BOARD_DISTANCES_M, DIFFERENT
 from carpus.core.simulation.printed_sheets import LENS, PX_PER_MM, Studio, held, poses, texture_of
@@ -62,7 +62,7 @@ def test_the_scale_of_depth_is_found_within_two_in_a_thousand(made: CameraCalibr
 
 
 def test_depth_beside_the_colours_and_a_shift_are_told(gathered: Gathering) -> None:
-    def moved(view: View) -> View:
+    def moved(view: BoardView) -> BoardView:
         assert view.depth_raw is not None
         depth = np.roll(view.depth_raw, 3, axis=1)
         far = np.where(depth > 0, depth + round(0.006 / view.depth_unit_m), 0).astype(np.uint16)
@@ -118,7 +118,7 @@ def test_views_of_one_part_of_the_picture_are_refused(gathered: Gathering) -> No
 
 
 def test_a_bent_board_is_refused(gathered: Gathering) -> None:
-    def bent(view: View) -> View:
+    def bent(view: BoardView) -> BoardView:
         off = 8.0 * np.sin(view.found.corner * 2.1)[:, None] * [1.0, -1.0]
         return replace(view, found=replace(view.found, pixel=view.found.pixel + off))
 
@@ -135,12 +135,12 @@ def test_what_to_do_next_is_where_nothing_has_been_and_all_of_the_board_fits_the
             assert judgement.corners_in_field[step.field] == judgement.corners_in_field.min()
     for field in ((0, 0), (0, 5), (3, 0), (3, 5), (1, 2)):
         for side in SIDES:
-            outline = target_outline(Step("place", field, side), CHESSBOARD, DEFAULT_CAMERA)
+            outline = target_outline(GuidanceStep("place", field, side), CHESSBOARD, DEFAULT_CAMERA)
             assert outline is not None
             assert outline.min() > 0.0
             assert (outline.max(axis=0) < [640, 480]).all()
     upright = replace(judge(gathered.views, 640, 480), sides=frozenset({"left"}))
-    assert next_step(upright) == Step("tilt", side="right")
+    assert next_step(upright) == GuidanceStep("tilt", side="right")
     assert next_step(replace(judge(gathered.views, 640, 480), views=ASKED_VIEWS["chessboard"])).kind == "done"
 
 
@@ -233,15 +233,15 @@ def test_a_moving_board_is_not_kept(studio: Studio) -> None:
 @pytest.mark.parametrize("paper", PAPER_MM)
 def test_the_board_fits_the_paper_with_a_white_border(board: Board, paper: Paper) -> None:
     sheet = board_sheet(board, paper)
-    boxes = [mark for mark in sheet.marks if isinstance(mark, Box)]
+    boxes = [mark for mark in sheet.marks if isinstance(mark, SheetBox)]
     foot_mm = max(box.top_mm + box.height_mm for box in boxes)
     assert min(box.left_mm for box in boxes) >= EDGE_MM
     assert min(box.top_mm for box in boxes) >= EDGE_MM
     assert max(box.left_mm + box.width_mm for box in boxes) <= sheet.width_mm - EDGE_MM
     for mark in sheet.marks:  # ruler and words: beside the board, not on it, and where every printer prints
-        if isinstance(mark, Line):
+        if isinstance(mark, SheetLine):
             (left, top), (right, bottom) = mark.from_mm, mark.to_mm
-        elif isinstance(mark, Text):
+        elif isinstance(mark, SheetText):
             em_mm = mark.size_pt * 0.3528
             left, right = mark.x_mm, mark.x_mm + 0.6 * em_mm * len(mark.text)
             top, bottom = mark.y_mm - 0.75 * em_mm, mark.y_mm + 0.25 * em_mm
@@ -266,7 +266,7 @@ def test_the_simulated_board_is_shown_in_as_many_ways_as_are_asked_for(board: Bo
     sheet = board_sheet(board, "a4")
     texture = np.zeros((round(sheet.height_mm * PX_PER_MM), round(sheet.width_mm * PX_PER_MM), 3), dtype=np.float32)
     corner_m = np.array([0.5 * (sheet.width_mm - 1e3 * board.columns * board.square_m), 20.0, 0.0]) / 1e3
-    kept: list[View] = []
+    kept: list[BoardView] = []
     for lap in range(3):
         for placed in poses(texture, DIFFERENT, BOARD_DISTANCES_M[board.pattern], lap):
             pixel = LENS.project((board.corners_m + corner_m) @ placed.rotation.T + placed.shift_m)

@@ -15,7 +15,7 @@ from tqdm import tqdm
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
 from carpus.core.camera import Camera
-from carpus.core.camera_calibration.sheet import PAPER_MM, Disc, Line, Paper, Text
+from carpus.core.camera_calibration.sheet import PAPER_MM, Disc, Paper, SheetLine, SheetText
 from carpus.core.capture.calibrated import new_calibration_path
 from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
 from carpus.core.capture.raw import RawWriter
@@ -24,7 +24,7 @@ from carpus.core.check_card.ages import camera_ages
 from carpus.core.check_card.card import FIGURES, card_sheets, disc_places_m, figures_of
 from carpus.core.check_card.chart import (
     IN_A_ROW,
-    Check,
+    CardCheck,
     add_check,
     chart_path,
     read_checks,
@@ -61,9 +61,9 @@ def stretched(frames: Sequence[Frame], share: float) -> list[Frame]:
     return [replace(frame, depth_unit_m=frame.depth_unit_m * share) for frame in frames]
 
 
-def check(day: int, angle: float = 0.6, length: float = 0.8, scale: float = 1.0, calibrated: str = "x") -> Check:
+def check(day: int, angle: float = 0.6, length: float = 0.8, scale: float = 1.0, calibrated: str = "x") -> CardCheck:
     when = (NOW + timedelta(days=day)).isoformat()
-    return Check(when, "77", angle, length, scale, tuple(one.true for one in FIGURES), (0.1,) * 6, calibrated)
+    return CardCheck(when, "77", angle, length, scale, tuple(one.true for one in FIGURES), (0.1,) * 6, calibrated)
 
 
 def test_the_places_of_the_discs_have_the_figures_of_the_card() -> None:
@@ -127,11 +127,11 @@ def test_card_and_wedge_fit_the_paper_and_fold_up(paper: Paper) -> None:
     for sheet in card_sheets(paper):
         discs = [mark for mark in sheet.marks if isinstance(mark, Disc)]
         assert len(discs) == 3
-        lines = [end for mark in sheet.marks if isinstance(mark, Line) for end in (mark.from_mm, mark.to_mm)]
+        lines = [end for mark in sheet.marks if isinstance(mark, SheetLine) for end in (mark.from_mm, mark.to_mm)]
         assert min(min(end) for end in lines) > 5.0
         assert max(x for x, _ in lines) < sheet.width_mm - 5.0
         assert max(y for _, y in lines) < sheet.height_mm - 5.0
-        assert any(isinstance(mark, Text) and "100 mm" in mark.text for mark in sheet.marks)
+        assert any(isinstance(mark, SheetText) and "100 mm" in mark.text for mark in sheet.marks)
 
 
 def test_usual_is_what_the_first_checks_were() -> None:

@@ -21,7 +21,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.compose import Desktop
 from carpus.app.desktop.sources import RECENT_FRAMES, Sources
-from carpus.core.calibration.result import Finding
+from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.capture.oni_writer import sidecar_path, write_oni
 from carpus.core.capture.tum import TumFolder
 from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
@@ -305,7 +305,7 @@ def test_depth_that_is_measured_beside_the_colours_is_opened_again_the_other_way
     at(qtbot, desktop, "markers")
     assert journey.source is not None
     verdict = make_calibration().verdict
-    off = replace(verdict, findings=(Finding("depth_off", (), 11.0, 3.0, "px"),))
+    off = replace(verdict, findings=(CalibrationFinding("depth_off", (), 11.0, 3.0, "px"),))
     journey.setting_up.check_registration(off)
     assert not journey.teller.busy, "a camera says it itself"
     journey.now.source = replace(journey.source, asks_registration=True)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from carpus.core.hand.clinical_angles import rotation_from_angles
-from carpus.core.measures.motion_range import Figure, MotionRange, motion_range
+from carpus.core.measures.motion_range import MotionRange, RangeFigure, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import even_signal, low_pass
@@ -135,7 +135,7 @@ def test_nothing_valid_is_unknown_not_zero() -> None:
     assert found.range.repetitions == 0
     assert math.isnan(found.range.arc.mean)
     assert math.isnan(found.range.arc.best)
-    assert math.isnan(Figure(np.empty(0), math.nan, math.nan).variation)
+    assert math.isnan(RangeFigure(np.empty(0), math.nan, math.nan).variation)
 
 
 def test_a_top_out_of_sight_is_said_to_be_limited() -> None:

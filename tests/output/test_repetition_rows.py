@@ -14,8 +14,7 @@ import pytest
 from numpy.lib.recfunctions import repack_fields
 
 from carpus.core.measures.motion_range import motion_range
-from carpus.core.measures.repetitions import Exercise as Found
-from carpus.core.measures.repetitions import Repetition, Stroke, find_repetitions
+from carpus.core.measures.repetitions import FoundRepetitions, Repetition, Stroke, find_repetitions
 from carpus.core.measures.signals import even_signal
 from carpus.core.output.repetition_rows import (
     HIDDEN,
@@ -126,7 +125,7 @@ def test_the_summary_has_a_line_for_each(session: Session) -> None:
     assert "not counted: pain" in lines[1]
 
 
-def trained_in(knots_s: list[float], knots_deg: list[float], found: Found | None = None) -> Trained:
+def trained_in(knots_s: list[float], knots_deg: list[float], found: FoundRepetitions | None = None) -> Trained:
     """Straight ways between knots, with noise."""
     time_s = np.arange(0.0, knots_s[-1], 1 / 60)
     noise_deg = np.random.default_rng(4).normal(0.0, 0.2, len(time_s))
@@ -226,7 +225,7 @@ def test_edges_that_a_person_moved_have_their_own_share_and_leave_out_the_cut() 
     tracked = replace(trained.tracked, value=np.where(np.abs(trained.tracked.time_s - 8.0) < 0.45, np.nan, 0.3))
     whole = Repetition(5.0, 9.0, 0.55)
     piece = Repetition(1.0, 5.0, 1.0, "cut_by_gap", 5.0)
-    trained = replace(trained, tracked=tracked, found=Found((whole,), (), (piece,)))
+    trained = replace(trained, tracked=tracked, found=FoundRepetitions((whole,), (), (piece,)))
 
     def reasons(edges_s: dict[int, tuple[float, float]]) -> list[str]:
         return [each.row.reason for each in measured_repetitions(trained, RepetitionChoices({}, edges_s))]
@@ -238,7 +237,7 @@ def test_edges_that_a_person_moved_have_their_own_share_and_leave_out_the_cut() 
 
 
 def test_who_comes_back_too_far_has_the_peak_at_the_turn() -> None:
-    whole = Found((Repetition(1.0, 5.0, 1.0),), (Stroke(1.0, 2.4, True), Stroke(2.4, 5.0, False)))
+    whole = FoundRepetitions((Repetition(1.0, 5.0, 1.0),), (Stroke(1.0, 2.4, True), Stroke(2.4, 5.0, False)))
     trained = trained_in([0.0, 1.0, 2.0, 2.8, 4.4, 5.5], [0.0, 0.0, 50.0, 50.0, -60.0, -60.0], whole)
     (one,) = measured_repetitions(trained, RepetitionChoices())
     assert one.row.peak_s == pytest.approx(2.4, abs=0.2)

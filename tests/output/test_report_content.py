@@ -10,7 +10,7 @@ from datetime import timedelta
 import numpy as np
 import pytest
 
-from carpus.core.calibration.result import Finding
+from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.output.exercises import Movement, exercise_named
 from carpus.core.output.norms import total_norm, wrist_norm
 from carpus.core.output.report_content import (
@@ -140,7 +140,7 @@ def test_what_the_progress_leaves_out_is_judged_nowhere(figures: SessionFigures,
     quality = figures.quality
     unfair = {
         "forearm_moved": {"quality": replace(quality, forearm_mm=25.0)},
-        "doubtful": {"findings": (Finding("swapped", ("MCP2", "MCP3")),)},
+        "doubtful": {"findings": (CalibrationFinding("swapped", ("MCP2", "MCP3")),)},
         "not_counted": {"not_counted": True},
         "simulated": {"simulated": True},
         "distance": {"quality": replace(quality, distance_m=quality.distance_m + 0.2)},
@@ -156,7 +156,7 @@ def test_what_the_progress_leaves_out_is_judged_nowhere(figures: SessionFigures,
 
 
 def test_a_doubt_that_leaves_the_angles_what_they_are_is_kept_but_compared(figures: SessionFigures) -> None:
-    near = replace(figures, findings=(Finding("distance", (), 0.5, 0.6, "m"),))
+    near = replace(figures, findings=(CalibrationFinding("distance", (), 0.5, 0.6, "m"),))
     assert unfair_reasons(figures, near) == ()
 
 
@@ -183,7 +183,7 @@ def test_the_previous_session_is_one_that_counts(figures: SessionFigures) -> Non
 
 def test_the_findings_of_the_calibration_stay_with_the_figures() -> None:
     stored = session()
-    doubted = Finding("tilt", (), 22.0, 15.0, "deg")
+    doubted = CalibrationFinding("tilt", (), 22.0, 15.0, "deg")
     verdict = replace(stored.calibration.verdict, findings=(doubted,))
     stored = replace(stored, calibration=replace(stored.calibration, verdict=verdict))
     assert session_figures(stored).findings == (doubted,)

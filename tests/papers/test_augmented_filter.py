@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from filterpy.kalman import MerweScaledSigmaPoints, UnscentedKalmanFilter
 
-from carpus.core.papers.augmented_filter import Gaussian, correct, predict, seen_from
+from carpus.core.papers.augmented_filter import AugmentedGaussian, correct, predict, seen_from
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray
 
@@ -26,7 +26,7 @@ def test_on_a_linear_model_it_is_the_kalman_filter(spread: Spread) -> None:
     f, g, h = rng.normal(size=(n, n)), rng.normal(size=(n, k)), rng.normal(size=(m, n))
     r, y = rng.uniform(0.5, 2.0, m), rng.normal(size=m)
 
-    ahead = predict(Gaussian(x, p), q, lambda states, noise: states @ f.T + noise @ g.T, spread)
+    ahead = predict(AugmentedGaussian(x, p), q, lambda states, noise: states @ f.T + noise @ g.T, spread)
     there, spread_there = f @ x, f @ p @ f.T + g @ q @ g.T
     assert np.allclose(ahead.state.mean, there)
     assert np.allclose(ahead.state.covariance, spread_there)
@@ -42,7 +42,7 @@ def test_on_a_linear_model_it_is_the_kalman_filter(spread: Spread) -> None:
 
 
 def test_nothing_measured_changes_nothing() -> None:
-    ahead = predict(Gaussian(np.ones(2), np.eye(2)), np.eye(1), lambda x, w: x + w, SPREADS[0])
+    ahead = predict(AugmentedGaussian(np.ones(2), np.eye(2)), np.eye(1), lambda x, w: x + w, SPREADS[0])
     after = correct(ahead, seen_from(ahead, ahead.points[:, :0]), np.empty(0), np.empty(0))
     assert after.state is ahead.state
     assert np.isnan(after.nis)
@@ -77,7 +77,7 @@ def test_predict_and_update_are_filterpys(spread: Spread, seed: int) -> None:
     oracle.compute_process_sigmas(1.0)
     predicted_points = oracle.sigmas_f.copy()
     oracle.predict()
-    ahead = predict(Gaussian(x, p), q, moved, spread)
+    ahead = predict(AugmentedGaussian(x, p), q, moved, spread)
     assert np.allclose(ahead.state.mean, oracle.x[:3], rtol=1e-9, atol=1e-12)
     assert np.allclose(ahead.state.covariance, oracle.P[:3, :3], rtol=1e-9, atol=1e-12)
 
@@ -91,4 +91,4 @@ def test_predict_and_update_are_filterpys(spread: Spread, seed: int) -> None:
 
 def test_a_covariance_that_is_none_is_told() -> None:
     with pytest.raises(np.linalg.LinAlgError):
-        predict(Gaussian(np.zeros(2), np.diag([1.0, -1.0])), np.eye(1), lambda x, _w: x, SPREADS[0])
+        predict(AugmentedGaussian(np.zeros(2), np.diag([1.0, -1.0])), np.eye(1), lambda x, _w: x, SPREADS[0])

@@ -15,7 +15,7 @@ from carpus.core.errors import CarpusFault, NotCorrectable, OutputExists
 from carpus.core.pipeline import correcting
 from carpus.core.pipeline.correcting import correct_beside
 from carpus.core.pipeline.correction import (
-    Task,
+    CorrectionTask,
     correct,
     not_held,
     task_of,
@@ -77,7 +77,7 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> Stored:
     return Stored(path, truth, false_px, disc_px)
 
 
-def task(stored: Stored, output: Path, *corrections: Correction) -> Task:
+def task(stored: Stored, output: Path, *corrections: Correction) -> CorrectionTask:
     return task_of(stored.path, output, corrections, "2.0", by="MK")
 
 

@@ -14,7 +14,7 @@ import pytest
 
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.sites import joint_angle_names
-from carpus.core.pipeline.stream import Stream, channels, sample_of
+from carpus.core.pipeline.stream import SampleStream, channels, sample_of
 from tests.session.samples import make_frame, time_of
 
 SETTINGS = "[lab]\nKnownPeers = {127.0.0.1}\n[multicast]\nResolveScope = machine\n"
@@ -44,7 +44,7 @@ def test_a_second_process_reads_what_was_sent(tmp_path: Path, monkeypatch: pytes
     source = f"carpus-{uuid.uuid4()}"
     names = joint_angle_names()
     offset_s = pylsl.local_clock() - time_of(0)
-    stream = Stream.open(HAND21, names, "left", source, offset_s=lambda _: offset_s)
+    stream = SampleStream.open(HAND21, names, "left", source, offset_s=lambda _: offset_s)
     listener = subprocess.Popen(
         [sys.executable, "-c", LISTENER, source], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )

@@ -17,7 +17,7 @@ from carpus.core.hand.protocols import WRIST6
 from carpus.core.records.log import Log
 from carpus.core.records.patients import Patients
 from carpus.core.records.schema import OUTBOX
-from carpus.core.records.session_list import FilesOfSessions, SessionList
+from carpus.core.records.session_list import FilesOfSessions, ListedSessions
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.values import new_header
@@ -40,7 +40,7 @@ class House:
 
     store: Store
     patients: Patients
-    index: SessionList
+    index: ListedSessions
     files: FilesOfSessions
     log: Log
 
@@ -55,7 +55,7 @@ def opened(
 ) -> Iterator[House]:
     """The store of a folder, open."""
     with Store(folder, sessions, url, tell) as store:
-        yield House(store, Patients(store), SessionList(store), FilesOfSessions(store), Log(store, "window"))
+        yield House(store, Patients(store), ListedSessions(store), FilesOfSessions(store), Log(store, "window"))
 
 
 def until(what: Callable[[], bool]) -> None:

@@ -27,8 +27,7 @@ from carpus.core.errors import (
 )
 from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records import changes, erasure, of_clinic, of_sessions, server
-from carpus.core.records.changes import PRACTICE, Change, dropped, new
-from carpus.core.records.changes import Row as Changed
+from carpus.core.records.changes import PRACTICE, Change, RowChange, dropped, new
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import COMMENT, DEED, OUTBOX, OWN, PATIENT, SESSION
 from carpus.core.records.server import Server
@@ -469,7 +468,7 @@ def test_a_change_that_can_never_be_made_lets_the_others_pass(
     told: list[CarpusFault] = []
     with opened(tmp_path, there, told.append) as house:
         settled(house)
-        lost = Changed("keep", "of a newer Carpus", "x", {})
+        lost = RowChange("keep", "of a newer Carpus", "x", {})
         house.store.own(insert(OUTBOX).values(id="y", change=changes.told([lost])))
         house.patients.add(LINDEN)
         until(lambda: any(isinstance(one, ChangeRefused) for one in told))

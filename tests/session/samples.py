@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 
 import numpy as np
 
-from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
+from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session.values import SessionHeader, new_header
@@ -49,7 +49,7 @@ def make_calibration(protocol: MarkerProtocol = WRIST6) -> Calibration:
         tilt_deg=12.5,
         distance_m=0.7,
         frames_used=15,
-        findings=(Finding("swapped", ("MCP2", "MCP3")), Finding("tilt", (), 22.0, 15.0, "deg")),
+        findings=(CalibrationFinding("swapped", ("MCP2", "MCP3")), CalibrationFinding("tilt", (), 22.0, 15.0, "deg")),
     )
     return Calibration(
         clicks=Clicks("left", protocol, rng.uniform(100, 400, (m, 2)), (True, True, False, True, True)),

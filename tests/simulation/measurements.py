@@ -17,7 +17,7 @@ from carpus.core.depth_sensor import DepthSensor, NoiseLaw
 from carpus.core.simulation.appearance import light_of
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import depth_scale
-from carpus.core.simulation.spec import RecordingSpec, Stream
+from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.trouble import LEAST_FOUND_M, covered_discs, false_blobs, frame_times, passing_thing
 from carpus.core.simulation.truth import Truth, protocol_rows, truth_of
 from carpus.core.types import Detections, FloatArray
@@ -87,7 +87,7 @@ def measurement_sequence(spec: RecordingSpec) -> MeasurementSequence:
     truth = truth_of(scene, times)
     t = times.color_s
     count, markers = truth.disc_pixel.shape[:2]
-    rng = spec.random(Stream.MEASUREMENTS)
+    rng = spec.random(RandomStream.MEASUREMENTS)
     rows = protocol_rows(spec)
     pose = scene.pose(t)
     share, facing = coarse_visibility(scene, pose, t, passing_thing(scene))

@@ -12,7 +12,7 @@ from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.skin import skin_distance
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.trace import Box, Surface
+from carpus.core.simulation.trace import Box, TracedSurface
 from carpus.core.types import ByteImage, FloatArray
 
 ALL_PALM = [HAND21.markers.index(name) for name in ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")]
@@ -192,7 +192,9 @@ def test_moving_hand_is_blurred_when_the_exposure_is_long() -> None:
 
 def test_the_last_column_of_a_hand_that_leaves_can_be_lit() -> None:
     depth_m = np.full((40, 1), 0.7, dtype=np.float32)
-    sliver = Surface(Box(100, 140, 639, 640), depth_m, np.ones_like(depth_m), np.zeros((40, 1, 3)), np.zeros((40, 1)))
+    sliver = TracedSurface(
+        Box(100, 140, 639, 640), depth_m, np.ones_like(depth_m), np.zeros((40, 1, 3)), np.zeros((40, 1))
+    )
     light = corner_light(sliver, depth_m)
     assert light.shape == (40, 1)
     assert np.all(light == 1.0)

@@ -13,7 +13,7 @@ from carpus.core.session.reader import read_session
 from carpus.core.simulation.depth_kinds import depth_pictures
 from carpus.core.simulation.recording import SimulatedPictures, simulate
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.sensor import DepthSensor
+from carpus.core.simulation.sensor import SimulatedDepth
 from carpus.core.simulation.spec import RecordingSpec
 
 SHAPE = (480, 640)
@@ -29,7 +29,7 @@ def slope(z_m: float) -> np.ndarray:
 
 @pytest.mark.parametrize("z_m", [0.6, 0.7, 0.9])
 def test_depth_noise_is_that_of_the_reference(z_m: float) -> None:
-    sensor, wall = DepthSensor(RecordingSpec(seed=1, depth_scale_error=0.0), SHAPE), slope(z_m)
+    sensor, wall = SimulatedDepth(RecordingSpec(seed=1, depth_scale_error=0.0), SHAPE), slope(z_m)
     stack = np.stack([sensor.measure(wall, i) * UNIT_M for i in range(12)])
     error = np.where(stack > 0.0, stack - wall, np.nan)
     sigma = 1.425e-3 * z_m**2
@@ -109,7 +109,7 @@ def test_the_written_recording_says_its_sensor(tmp_path: Path) -> None:
 
 def test_depth_comes_in_steps_of_an_eighth_of_a_pixel() -> None:
     wall = slope(0.8)
-    raw = DepthSensor(RecordingSpec(seed=2, depth_scale_error=0.0), SHAPE).measure(wall, 0) * UNIT_M
+    raw = SimulatedDepth(RecordingSpec(seed=2, depth_scale_error=0.0), SHAPE).measure(wall, 0) * UNIT_M
     values = np.unique(raw[raw > 0.0])
     step = 2.85e-3 * 0.8**2
     assert np.median(np.diff(values)) == pytest.approx(step, abs=6e-4)
@@ -121,7 +121,7 @@ def test_depth_comes_in_steps_of_an_eighth_of_a_pixel() -> None:
 def test_edges_have_holes_and_a_shadow_on_one_side() -> None:
     depth = np.full(SHAPE, 0.80, dtype=np.float32)
     depth[100:380, 200:400] = 0.70
-    raw = DepthSensor(RecordingSpec(seed=3), SHAPE).measure(depth, 0)[150:330] > 0
+    raw = SimulatedDepth(RecordingSpec(seed=3), SHAPE).measure(depth, 0)[150:330] > 0
     holes = 1.0 - raw.mean(axis=0)
     assert holes[206:394].max() < 0.1
     assert holes[:180].max() < 0.1
@@ -136,7 +136,7 @@ def test_scale_error_is_one_number_of_the_unit_and_bounded() -> None:
     wall = slope(0.7)
     scales = []
     for seed in range(8):
-        sensor = DepthSensor(RecordingSpec(seed=seed, depth_scale_error=0.01), SHAPE)
+        sensor = SimulatedDepth(RecordingSpec(seed=seed, depth_scale_error=0.01), SHAPE)
         means = [float((sensor.measure(wall, i) * UNIT_M / wall).mean()) for i in range(2)]
         assert means[0] == pytest.approx(means[1], abs=5e-4)
         scales.append(means[0] - 1.0)
@@ -147,7 +147,7 @@ def test_scale_error_is_one_number_of_the_unit_and_bounded() -> None:
 def test_noise_depends_on_seed_and_frame_alone() -> None:
     wall = slope(0.7)
     spec = RecordingSpec(seed=4)
-    first, again = DepthSensor(spec, SHAPE), DepthSensor(spec, SHAPE)
+    first, again = SimulatedDepth(spec, SHAPE), SimulatedDepth(spec, SHAPE)
     first.measure(wall, 0)
     np.testing.assert_array_equal(first.measure(wall, 5), again.measure(wall, 5))
     assert np.any(first.measure(wall, 5) != first.measure(wall, 6))

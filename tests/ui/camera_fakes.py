@@ -18,7 +18,7 @@ from carpus.core.camera_calibration.guidance import next_step, target_outline
 from carpus.core.camera_calibration.solve import Intrinsics
 from carpus.core.camera_calibration.views import FIELDS, Judgement
 from carpus.core.check_card.card import FIGURES
-from carpus.core.check_card.chart import Check, verdict_of
+from carpus.core.check_card.chart import CardCheck, verdict_of
 from carpus.core.check_card.measure import CardWatch
 from carpus.core.simulation.practice_camera import card_scene
 from carpus.core.simulation.printed_sheets import LENS, Studio, poses, texture_of
@@ -60,7 +60,7 @@ def board_result(*, poor: bool = False) -> BoardResult:
 def camera_checks(*, out: bool = False) -> CameraChecks:
     """Three months of a camera: an odd check, a calibration, and now."""
     rng = np.random.default_rng(8)
-    checks: list[Check] = []
+    checks: list[CardCheck] = []
     for k in range(12):
         when = (NOW - timedelta(days=7 * (11 - k))).isoformat()
         angle, length = 0.6 + 0.1 * float(rng.normal()), 0.8 + 0.1 * float(rng.normal())
@@ -71,7 +71,7 @@ def camera_checks(*, out: bool = False) -> CameraChecks:
             length = 3.3
         measured = [one.true * (scale if one.kind == "length" else 1.0) + 0.3 for one in FIGURES]
         calibrated = (NOW - timedelta(days=200 if k < 7 else 31)).isoformat()
-        checks.append(Check(when, "1210130114", angle, length, scale, tuple(measured), (0.2,) * 6, calibrated))
+        checks.append(CardCheck(when, "1210130114", angle, length, scale, tuple(measured), (0.2,) * 6, calibrated))
     verdict = verdict_of(checks[:-1], checks[-1])
     return CameraChecks("Xtion PRO LIVE", "1210130114", checks, verdict, 0.1, "20 Oct 2026")
 

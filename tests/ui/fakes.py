@@ -19,7 +19,7 @@ from carpus.core.agreement.retest import Retest, StudyFigures
 from carpus.core.agreement.retest_plan import Mounting, Person, RetestPlan
 from carpus.core.agreement.statistics import agreement
 from carpus.core.by_hand.values import HandValue
-from carpus.core.calibration.result import Calibration, Clicks, Finding, Verdict
+from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.sites import WRIST_ANGLES, joint_angle_names
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
@@ -531,7 +531,7 @@ class FakeCalibrator:
         self.side = self.pictures.spec.hand
         self.protocol = self.pictures.spec.marker_protocol
         self.limits = VerdictLimits(0.6, 15.0, 4.0, (110.0, 225.0))
-        self.findings: tuple[Finding, ...] = ()
+        self.findings: tuple[CalibrationFinding, ...] = ()
         self.doubtful: tuple[str, ...] = ()
         self.not_found: tuple[str, ...] = self.protocol.markers if protocol == "wrist6" else ()
         """Not proposed: of six discs a test asks for proposals."""
@@ -592,7 +592,7 @@ class FakePhrasebook:
     def fault(self, fault: Exception) -> Words:
         return Words(f"{type(fault).__name__} happened.", "Your data are safe.", "Do something.")
 
-    def finding(self, finding: Finding) -> Words:
+    def finding(self, finding: CalibrationFinding) -> Words:
         words = {
             "swapped": Words(
                 "Index and middle knuckle are swapped.",

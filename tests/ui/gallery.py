@@ -18,8 +18,8 @@ from PySide6.QtCore import QEvent, QLocale
 from PySide6.QtWidgets import QApplication, QWidget
 
 from carpus.app.desktop.phrases import WordTable
-from carpus.core.agreement.reference import Outline
-from carpus.core.calibration.result import Finding
+from carpus.core.agreement.reference import ReferenceOutline
+from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import DiskFull
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.library.exercise_sets import USUAL_SETS
@@ -50,7 +50,7 @@ from carpus.ui.live.screen import LiveScreen
 from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.messages.stop_card import Answer, StopCard
 from carpus.ui.messages.strip import NoticeStrip
-from carpus.ui.patient.guide import Scene
+from carpus.ui.patient.guide import GuideScene
 from carpus.ui.patient.view import PatientView
 from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.ports import Preferences, ReferenceChoice, Words
@@ -60,7 +60,7 @@ from carpus.ui.records.erase_sheet import EraseSheet
 from carpus.ui.records.list_sheets import LogSheet, RecordsSheet
 from carpus.ui.records.lock_sheet import LockSheet
 from carpus.ui.records.pin_sheet import PinSheet
-from carpus.ui.records.ports import ErasureFacts, ListedRecord, LoggedDeed
+from carpus.ui.records.ports import DeedLine, ErasureFacts, ListedRecord
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_page import LetterReport
@@ -148,7 +148,7 @@ ScreenT = TypeVar("ScreenT", bound=QWidget)
 class Phrases(FakePhrasebook):
     """The real words for findings."""
 
-    def finding(self, finding: Finding) -> Words:
+    def finding(self, finding: CalibrationFinding) -> Words:
         words = finding_words(finding)
         return Words(words.headline, "", words.remedy)
 
@@ -314,7 +314,7 @@ class Gallery:
         screen.begin(set_up(), "camera")
         self.show(screen, screen.first())
 
-    def _markers(self, clicks: int, *findings: Finding) -> tuple[MarkersScreen, FakeCalibrator]:
+    def _markers(self, clicks: int, *findings: CalibrationFinding) -> tuple[MarkersScreen, FakeCalibrator]:
         self.place(steps=2)
         screen = MarkersScreen(self.theme, self.keys, self.background, Phrases())
         calibrator = FakeCalibrator()
@@ -336,10 +336,10 @@ class Gallery:
         self._markers(6)
 
     def markers_swapped(self) -> None:
-        self._markers(6, Finding("swapped", ("MCP2", "MCP3")))
+        self._markers(6, CalibrationFinding("swapped", ("MCP2", "MCP3")))
 
     def markers_doubtful(self) -> None:
-        self._markers(6, Finding("tilt", (), 19.0, 15.0, "deg"))
+        self._markers(6, CalibrationFinding("tilt", (), 19.0, 15.0, "deg"))
 
     def _proposed(self, doubtful: tuple[str, ...] = (), not_found: tuple[str, ...] = ()) -> MarkersScreen:
         self.place(steps=2)
@@ -400,19 +400,19 @@ class Gallery:
             pass
 
     def patient_view(self) -> None:
-        self._patient_view("WRIST_FE", Scene("out", 1, 42.0, 60.0, done=5, asked=10))
+        self._patient_view("WRIST_FE", GuideScene("out", 1, 42.0, 60.0, done=5, asked=10))
 
     def patient_view_goal(self) -> None:
-        self._patient_view("FIST_COMPOSITE", Scene("there", 1, 81.0, 80.0, done=5, asked=10), side="left")
+        self._patient_view("FIST_COMPOSITE", GuideScene("there", 1, 81.0, 80.0, done=5, asked=10), side="left")
 
     def patient_view_child(self) -> None:
-        self._patient_view("WRIST_RU", Scene("out", 1, 14.0, 20.0, done=5, asked=10), for_child=True)
+        self._patient_view("WRIST_RU", GuideScene("out", 1, 14.0, 20.0, done=5, asked=10), for_child=True)
 
     def patient_view_lost(self) -> None:
-        self._patient_view("FOREARM_PS", Scene("lost", 1, goal_deg=70.0, done=5, asked=10))
+        self._patient_view("FOREARM_PS", GuideScene("lost", 1, goal_deg=70.0, done=5, asked=10))
 
     def patient_view_rest(self) -> None:
-        self._patient_view("WRIST_RU", Scene("rest", done=1, asked=3, rest_share=0.5, rest_s=30))
+        self._patient_view("WRIST_RU", GuideScene("rest", done=1, asked=3, rest_share=0.5, rest_s=30))
 
     def exercise_goals(self) -> None:
         self.exercise()
@@ -426,7 +426,7 @@ class Gallery:
         self._over(SetSheet(self.shell.stage, self.theme)).begin(USUAL_SETS, "wrist6")
         self.settle()
 
-    def _patient_view(self, exercise: str, scene: Scene, side: Side = "right", *, for_child: bool = False) -> None:
+    def _patient_view(self, exercise: str, scene: GuideScene, side: Side = "right", *, for_child: bool = False) -> None:
         self.shell.bar.hide()
         view = PatientView(self.theme)
         self.show(view)
@@ -848,7 +848,7 @@ class Gallery:
 
     def markers_other_spot(self) -> None:
         spot = tuple(map(float, FakeCalibrator().disc_px[3] + [14.0, 24.0]))
-        self._markers(6, Finding("other_spot", ("MCP3",), spot_px=spot))
+        self._markers(6, CalibrationFinding("other_spot", ("MCP3",), spot_px=spot))
 
     def agreement(self, *, readings: bool = False, hand: bool = False, limit_deg: float = 5.0) -> AgreementScreen:
         self.place(tab=1, camera="")
@@ -888,7 +888,7 @@ class Gallery:
     def agreement_columns(self) -> None:
         self.place(tab=1, camera="")
         self.show(AgreementScreen(self.theme, self.keys))
-        outline = Outline(Path("optical.csv"), "angles", ("Zeit", "FlexExt", "RadUln"), {})
+        outline = ReferenceOutline(Path("optical.csv"), "angles", ("Zeit", "FlexExt", "RadUln"), {})
         sheet = self._over(ColumnsSheet(self.shell.stage, self.theme))
         sheet.begin(outline, ("time", *WRIST_ANGLES), ReferenceChoice("optical.csv", "optical.csv"))
         self.settle()
@@ -1015,7 +1015,7 @@ class Gallery:
     def records_log(self) -> None:
         self.patients()
         deeds = [
-            LoggedDeed(number, datetime(2026, 11, 20, 9, number), "AB", what, "Linden 42, 2026-11-20 09:01", detail)
+            DeedLine(number, datetime(2026, 11, 20, 9, number), "AB", what, "Linden 42, 2026-11-20 09:01", detail)
             for number, (what, detail) in enumerate(
                 (("recorded", ""), ("opened", ""), ("exported", "files 7 · by command"), ("erased", "files 4, made 3")),
                 1,

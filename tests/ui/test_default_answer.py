@@ -21,7 +21,7 @@ from pytestqt.qtbot import QtBot
 
 import carpus.app
 import carpus.ui
-from carpus.core.agreement.reference import Outline
+from carpus.core.agreement.reference import ReferenceOutline
 from carpus.core.library.exercise_sets import USUAL_SETS
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
@@ -89,7 +89,7 @@ def _card(host: QWidget, theme: Theme) -> Opened:
 
 def _columns(host: QWidget, theme: Theme) -> Opened:
     sheet = ColumnsSheet(host, theme)
-    outline = Outline(Path("gonio.csv"), "angles", ("time", "flexion"), {"time": "time", "flexion": "flexion"})
+    outline = ReferenceOutline(Path("gonio.csv"), "angles", ("time", "flexion"), {"time": "time", "flexion": "flexion"})
     sheet.begin(outline, ("time", "flexion"), ReferenceChoice("gonio.csv"))
     return sheet, "Compare"
 

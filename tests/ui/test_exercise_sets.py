@@ -34,7 +34,7 @@ from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen
-from carpus.ui.patient.guide import Scene
+from carpus.ui.patient.guide import GuideScene
 from carpus.ui.plot.course import Goals, still
 from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.setup.set_sheet import SetSheet
@@ -169,13 +169,13 @@ def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) ->
     patient.begin(set_up())
     told = Glance(9.2, 10.0, True, True, (0.0, 5.0, 0.0), state="recording")
     live.glanced.emit(told)
-    assert patient.window.view.scene.phase != Scene().phase
+    assert patient.window.view.scene.phase != GuideScene().phase
     patient.hide_all()
     live.glanced.emit(told)
-    assert patient.window.view.scene.phase == Scene().phase, "the program is locked"
+    assert patient.window.view.scene.phase == GuideScene().phase, "the program is locked"
     patient.show_again()
     live.glanced.emit(told)
-    assert patient.window.view.scene.phase != Scene().phase
+    assert patient.window.view.scene.phase != GuideScene().phase
     patient.close()
 
 

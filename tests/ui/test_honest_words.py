@@ -16,13 +16,13 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core import so3
-from carpus.core.check_card.chart import Check, add_check, chart_path
+from carpus.core.check_card.chart import CardCheck, add_check, chart_path
 from carpus.core.check_card.trust import camera_of, with_trust
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.repetitions import Uncounted
 from carpus.core.output.joint_content import joint_curves
 from carpus.core.output.measures_table import measure_rows
-from carpus.core.output.report_content import SessionFigures, Spread, progress, session_curves, session_figures
+from carpus.core.output.report_content import SessionFigures, StrokeSpread, progress, session_curves, session_figures
 from carpus.core.types import TrackedFrame
 from carpus.ui.background import Background
 from carpus.ui.check_card.standing_words import unsure_name
@@ -84,7 +84,7 @@ def test_a_session_of_a_camera_that_was_out_says_so_everywhere(
     tmp_path: Path, angle_deg: float, scale: float, not_sure: str
 ) -> None:
     after = (NOW + timedelta(days=2)).isoformat()
-    add_check(chart_path(tmp_path, "77"), Check(after, "77", angle_deg, 0.5, scale, (0.0,) * 6, (0.1,) * 6))
+    add_check(chart_path(tmp_path, "77"), CardCheck(after, "77", angle_deg, 0.5, scale, (0.0,) * 6, (0.1,) * 6))
     made = session(exercise="WRIST_FE")
     source = {"source": {"serial": "77"}}
     made = replace(made, header=replace(made.header, parameters=json.dumps(source)), path=tmp_path / "p" / "s.h5")
@@ -258,7 +258,7 @@ def test_what_was_not_seen_is_said_beside_the_count() -> None:
 def test_a_speed_lost_in_noise_is_too_slow_to_judge() -> None:
     made = session_figures(session())
     assert made.speed is not None
-    unknown = Spread(math.nan, math.nan, math.nan, 0)
+    unknown = StrokeSpread(math.nan, math.nan, math.nan, 0)
     slow = replace(made, peak_speed=unknown, speed=replace(made.speed, too_slow=made.speed.count))
     assert next(row for row in table_rows(slow, None, None) if row.movement == "Peak speed").today == (
         "too slow to judge"

@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.calibration.result import Finding
+from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.hand.protocols import HAND21, WRIST6
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
@@ -170,7 +170,7 @@ def test_a_marker_can_be_dragged_to_another_disc(qtbot: QtBot, screen: MarkersSc
 
 def test_swapped_markers_are_exchanged_by_enter_and_judged_again(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = FakeCalibrator()
-    calibrator.findings = (Finding("swapped", ("MCP2", "MCP3")),)
+    calibrator.findings = (CalibrationFinding("swapped", ("MCP2", "MCP3")),)
     screen.begin(calibrator)
     click_all(qtbot, screen, calibrator)
     wait_for_verdict(qtbot, screen)
@@ -186,7 +186,7 @@ def test_swapped_markers_are_exchanged_by_enter_and_judged_again(qtbot: QtBot, s
 def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = FakeCalibrator()
     names = calibrator.protocol.markers
-    calibrator.findings = (Finding("shifted", names),)
+    calibrator.findings = (CalibrationFinding("shifted", names),)
     screen.begin(calibrator)
     click_all(qtbot, screen, calibrator)
     wait_for_verdict(qtbot, screen)
@@ -204,7 +204,7 @@ def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(qtbot: QtB
 
 def test_a_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = FakeCalibrator()
-    calibrator.findings = (Finding("tilt", (), 19.0, 15.0, "deg"),)
+    calibrator.findings = (CalibrationFinding("tilt", (), 19.0, 15.0, "deg"),)
     screen.begin(calibrator)
     click_all(qtbot, screen, calibrator)
     wait_for_verdict(qtbot, screen)
@@ -223,7 +223,7 @@ def test_a_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, scre
 
 def test_what_blocks_cannot_be_started_at_all(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = FakeCalibrator()
-    calibrator.findings = (Finding("no_depth", ("CMC1",), blocks=True),)
+    calibrator.findings = (CalibrationFinding("no_depth", ("CMC1",), blocks=True),)
     screen.begin(calibrator)
     click_all(qtbot, screen, calibrator)
     wait_for_verdict(qtbot, screen)
@@ -380,7 +380,7 @@ def test_all_markers_can_still_be_clicked_by_hand(qtbot: QtBot, screen: MarkersS
 
 def test_a_bad_picture_is_taken_again_by_enter_and_wrong_names_are_not(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = FakeCalibrator(is_live=True)
-    calibrator.findings = (Finding("tilt", (), 19.0, 15.0, "deg"),)
+    calibrator.findings = (CalibrationFinding("tilt", (), 19.0, 15.0, "deg"),)
     screen.begin(calibrator)
     qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
     click_all(qtbot, screen, calibrator)
@@ -389,7 +389,7 @@ def test_a_bad_picture_is_taken_again_by_enter_and_wrong_names_are_not(qtbot: Qt
     assert screen.click_all.isVisible()
     qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
     assert screen.clicking is None
-    calibrator.findings = (Finding("misnamed", ("MCP4",)),)
+    calibrator.findings = (CalibrationFinding("misnamed", ("MCP4",)),)
     qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
     click_all(qtbot, screen, calibrator)
     wait_for_verdict(qtbot, screen)
@@ -404,7 +404,7 @@ def test_a_bad_picture_is_taken_again_by_enter_and_wrong_names_are_not(qtbot: Qt
 def test_two_fingers_named_for_each_other_change_places_by_one_key(qtbot: QtBot, screen: MarkersScreen) -> None:
     fingers = [tuple(f"{joint}{k}" for joint in ("MCP", "PIP", "DIP", "TIP")) for k in (3, 4)]
     calibrator = proposed(qtbot, screen)
-    calibrator.findings = (Finding("swapped", (*fingers[0], *fingers[1])),)
+    calibrator.findings = (CalibrationFinding("swapped", (*fingers[0], *fingers[1])),)
     qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
     wait_for_verdict(qtbot, screen)
     calibrator.findings = ()
@@ -461,7 +461,7 @@ def test_the_loupe_keeps_off_the_discs(qtbot: QtBot, screen: MarkersScreen) -> N
 def test_another_spot_that_may_be_the_disc_is_shown_and_enter_takes_it(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = FakeCalibrator()
     spot = tuple(map(float, calibrator.disc_px[3] + 25.0))
-    calibrator.findings = (Finding("other_spot", ("MCP3",), spot_px=spot),)
+    calibrator.findings = (CalibrationFinding("other_spot", ("MCP3",), spot_px=spot),)
     screen.begin(calibrator)
     click_all(qtbot, screen, calibrator)
     wait_for_verdict(qtbot, screen)

@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from carpus.core.output.exercises import EXERCISES, exercise_named
 from carpus.ui.live.glance import Glance
 from carpus.ui.patient.figure import arc_of, figure_at
-from carpus.ui.patient.guide import LOST_AFTER_S, Guide, Scene
+from carpus.ui.patient.guide import LOST_AFTER_S, Guide, GuideScene
 from carpus.ui.patient.view import PatientView
 from carpus.ui.patient.window import PatientWindow
 from carpus.ui.patient.words import said
@@ -25,7 +25,7 @@ NONE = math.nan
 
 def walk(
     guide: Guide, values_deg: list[float], *, sure: bool = True, seen: bool = True, from_s: float = 0.0
-) -> list[Scene]:
+) -> list[GuideScene]:
     """One look every tenth of a second."""
     state = {"sure": sure, "hand_seen": seen, "state": "recording", "asked": 10}
     return [
@@ -43,7 +43,7 @@ def ramp(*corners_deg: float) -> list[float]:
     return [*way, corners_deg[-1]]
 
 
-def phases(scenes: list[Scene]) -> list[tuple[str, int]]:
+def phases(scenes: list[GuideScene]) -> list[tuple[str, int]]:
     """Each phase once, with its aim."""
     found: list[tuple[str, int]] = []
     for scene in scenes:
@@ -104,7 +104,7 @@ def test_every_exercise_has_words_a_figure_and_a_way_and_a_left_hand_is_its_mirr
     qtbot.addWidget(view)
     view.resize(640, 360)
     for exercise in EXERCISES:
-        scene = Scene("out", 1, 20.0, 30.0) if exercise.counts else Scene("free", wrist_deg=(5.0, 20.0, 0.0))
+        scene = GuideScene("out", 1, 20.0, 30.0) if exercise.counts else GuideScene("free", wrist_deg=(5.0, 20.0, 0.0))
         for audience in ("adult", "child"):
             assert said(exercise.id, scene, audience).task, exercise.id  # type: ignore[arg-type]
         pictures = []
@@ -124,7 +124,7 @@ def test_a_window_that_hears_nothing_more_shows_no_hand(qtbot: QtBot, theme: The
     qtbot.addWidget(window)
     assert window.windowFlags() & Qt.WindowType.WindowDoesNotAcceptFocus
     window.view.begin(set_up())
-    window.show_running(Scene("out", 1, 30.0, 60.0))
+    window.show_running(GuideScene("out", 1, 30.0, 60.0))
     assert window.view.words().task == "Bend your hand down"
-    qtbot.waitUntil(lambda: window.view.scene.phase == Scene().phase)
+    qtbot.waitUntil(lambda: window.view.scene.phase == GuideScene().phase)
     assert window.view.accessibleName() == "One moment."

@@ -19,7 +19,7 @@ from pytestqt.qtbot import QtBot
 from carpus.core.errors import OutputNotWritable
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.output.exercises import exercise_named
-from carpus.core.output.report_content import Curves, session_curves, session_figures
+from carpus.core.output.report_content import ReportCurves, session_curves, session_figures
 from carpus.core.types import ByteImage, FloatArray
 from carpus.ui.numbers import with_spread
 from carpus.ui.plot.axes import Panel, Scale
@@ -169,7 +169,7 @@ def test_the_table_has_what_is_shown_with_gaps_empty(view: CurveView, tmp_path: 
     assert plot is not None
     angles = plot.curves.angles_deg.copy()
     angles[330:333] = math.nan
-    curves = Curves(plot.curves.time_s, angles, plot.curves.sds_deg, plot.curves.status)
+    curves = ReportCurves(plot.curves.time_s, angles, plot.curves.sds_deg, plot.curves.status)
     view.show_plot(SessionPlot(curves, plot.exercise, plot.repetitions))
     view.show_window((10.0, 14.0))
     view.save(tmp_path / "curves.csv")
@@ -226,7 +226,7 @@ def test_twenty_minutes_are_drawn_with_few_points_and_every_peak() -> None:
     time_s = np.arange(0.0, MINUTES_20_S, 1.0 / 30.0)
     angles = np.stack([40.0 * np.sin(time_s * (k + 1)) for k in range(3)], axis=1)
     angles[17_000, 1] = 83.0
-    curves = Curves(time_s, angles, np.ones_like(angles), np.zeros(len(time_s), dtype=int))
+    curves = ReportCurves(time_s, angles, np.ones_like(angles), np.zeros(len(time_s), dtype=int))
     plot = SessionPlot(curves, exercise_named("WRIST_FE"), ())
     for window in (None, (500.0, 900.0), (560.0, 570.0)):
         drawn = SessionPlot(curves, plot.exercise, (), window_s=window).moving(1, 600)[0].series

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import carpus
-from carpus.core.calibration.result import Finding
+from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, OutputNotWritable
 from carpus.core.output.report_content import RepetitionChoices, session_figures
 from carpus.core.provenance import revision
@@ -98,7 +98,7 @@ def doubted(tmp_path_factory: pytest.TempPathFactory) -> str:
     """Words of the report of a simulated session that was started although the camera was tilted."""
     stored = session()
     parameters = json.dumps({"source": {"simulated": "yes"}, "set_up": {"targets_deg": [45.0, -30.0]}})
-    verdict = replace(stored.calibration.verdict, findings=(Finding("tilt", (), 22.0, 15.0, "deg"),))
+    verdict = replace(stored.calibration.verdict, findings=(CalibrationFinding("tilt", (), 22.0, 15.0, "deg"),))
     stored = replace(
         stored,
         header=replace(stored.header, parameters=parameters),
@@ -221,8 +221,8 @@ def test_a_report_is_written_without_any_window_or_display(tmp_path: Path) -> No
 
 def test_many_warnings_make_the_page_smaller_and_nothing_is_lost(tmp_path: Path, report: Path) -> None:
     stored = session()
-    findings = tuple(Finding("residual", (name,), 5.0, 2.0, "mm") for name in stored.header.protocol.markers)
-    findings += (Finding("tilt", (), 22.0, 15.0, "deg"), Finding("distance", (), 1.22, 1.1, "m"))
+    findings = tuple(CalibrationFinding("residual", (name,), 5.0, 2.0, "mm") for name in stored.header.protocol.markers)
+    findings += (CalibrationFinding("tilt", (), 22.0, 15.0, "deg"), CalibrationFinding("distance", (), 1.22, 1.1, "m"))
     doubtful = replace(stored.calibration, verdict=replace(stored.calibration.verdict, findings=findings))
     path = write_session_report(replace(stored, calibration=doubtful), tmp_path / "x.pdf")
     assert re.search(r"Pages:\s+2\n", tool("pdfinfo", str(path)))
@@ -248,7 +248,7 @@ def test_a_page_that_cannot_be_painted_leaves_the_program_running(
 
 def test_many_doubts_in_the_course_leave_less_room_for_its_chart(tmp_path: Path) -> None:
     names = session().header.protocol.markers
-    findings = tuple(Finding("residual", (name,), 5.0, 2.0, "mm") for name in names)
+    findings = tuple(CalibrationFinding("residual", (name,), 5.0, 2.0, "mm") for name in names)
     history = [replace(figures, findings=findings) for figures in FakeSessions().history("linden")]
     path = write_progress_report(history, tmp_path / "p.pdf")
     assert "off its place" in words_of(path)

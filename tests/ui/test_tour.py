@@ -12,12 +12,12 @@ from hypothesis import strategies as st
 
 from carpus.ui.theme import Theme
 from carpus.ui.tour.bubble import BubbleView
-from carpus.ui.tour.order import ONLY_READ, PARTS, PLACES, Bubble, Moment, Work, bubble_at, part_of, words_of
+from carpus.ui.tour.order import ONLY_READ, PARTS, PLACES, Bubble, TourMoment, Work, bubble_at, part_of, words_of
 
 BUBBLES: tuple[Bubble, ...] = get_args(Bubble)
 PLACES_OF_ALL = (*dict.fromkeys(PLACES.values()), "exercise", "sessions", "progress", "help", "settings", "correct")
 MOMENTS = st.builds(
-    Moment,
+    TourMoment,
     st.sampled_from(PLACES_OF_ALL),
     is_meant=st.booleans(),
     is_covered=st.booleans(),
@@ -28,19 +28,19 @@ MOMENTS = st.builds(
 )
 READ = st.frozensets(st.sampled_from(BUBBLES))
 SESSION = (
-    Moment("patients"),
-    Moment("camera", is_busy=True),
-    Moment("markers", work="aiming"),
-    Moment("markers", work="clicking"),
-    Moment("markers", work="doubtful"),
-    Moment("markers", work="checked"),
-    Moment("live"),
-    Moment("live", is_recording=True),
-    Moment("live", is_busy=True),
-    Moment("review", is_busy=True),
-    Moment("review"),
-    Moment("report"),
-    Moment("report", is_saved=True),
+    TourMoment("patients"),
+    TourMoment("camera", is_busy=True),
+    TourMoment("markers", work="aiming"),
+    TourMoment("markers", work="clicking"),
+    TourMoment("markers", work="doubtful"),
+    TourMoment("markers", work="checked"),
+    TourMoment("live"),
+    TourMoment("live", is_recording=True),
+    TourMoment("live", is_busy=True),
+    TourMoment("review", is_busy=True),
+    TourMoment("review"),
+    TourMoment("report"),
+    TourMoment("report", is_saved=True),
 )
 """The moments that a person comes by, from the patient to the report."""
 
@@ -50,13 +50,13 @@ def test_a_session_comes_by_the_bubbles_in_their_order() -> None:
     assert shown == [
         "patient", None, "aim", "click", None, "check", "record", "stop", None, None, "results", "save", "end",
     ]  # fmt: skip
-    assert bubble_at(Moment("review"), frozenset({"results"})) == "report"
+    assert bubble_at(TourMoment("review"), frozenset({"results"})) == "report"
     places = [PARTS.index(PLACES[bubble]) for bubble in shown if bubble is not None]
     assert places == sorted(places)
 
 
 @given(MOMENTS, READ)
-def test_a_bubble_is_on_its_own_screen_and_not_read_yet(moment: Moment, read: frozenset[Bubble]) -> None:
+def test_a_bubble_is_on_its_own_screen_and_not_read_yet(moment: TourMoment, read: frozenset[Bubble]) -> None:
     bubble = bubble_at(moment, read)
     if bubble is not None:
         assert PLACES[bubble] == moment.place
@@ -67,7 +67,7 @@ def test_a_bubble_is_on_its_own_screen_and_not_read_yet(moment: Moment, read: fr
 
 
 @given(MOMENTS, READ)
-def test_reading_leads_on_and_never_back(moment: Moment, read: frozenset[Bubble]) -> None:
+def test_reading_leads_on_and_never_back(moment: TourMoment, read: frozenset[Bubble]) -> None:
     seen = []
     while (bubble := bubble_at(moment, read)) is not None:
         assert bubble not in seen
@@ -78,7 +78,7 @@ def test_reading_leads_on_and_never_back(moment: Moment, read: frozenset[Bubble]
 
 
 @given(MOMENTS, READ)
-def test_while_recording_nothing_speaks_of_beginning_one(moment: Moment, read: frozenset[Bubble]) -> None:
+def test_while_recording_nothing_speaks_of_beginning_one(moment: TourMoment, read: frozenset[Bubble]) -> None:
     recording = bubble_at(replace(moment, place="live", is_recording=True), read)
     waiting = bubble_at(replace(moment, place="live", is_recording=False), read)
     assert recording in ("stop", None)
@@ -86,7 +86,7 @@ def test_while_recording_nothing_speaks_of_beginning_one(moment: Moment, read: f
 
 
 @given(MOMENTS)
-def test_what_is_wrong_with_the_markers_is_the_screens_to_say(moment: Moment) -> None:
+def test_what_is_wrong_with_the_markers_is_the_screens_to_say(moment: TourMoment) -> None:
     assert bubble_at(replace(moment, place="markers", work="doubtful")) is None
 
 

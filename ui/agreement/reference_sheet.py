@@ -25,7 +25,7 @@ from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
-    from carpus.core.agreement.reference import Outline
+    from carpus.core.agreement.reference import ReferenceOutline
 
 LEAST_DISCS = 3
 
@@ -101,7 +101,7 @@ class ColumnsSheet(Sheet):
         self._scroll = scroll_area(QWidget())
         self.boxes: dict[str, QComboBox] = {}
         self.signs: dict[str, Tick] = {}
-        self._outline: Outline | None = None
+        self._outline: ReferenceOutline | None = None
         self._choice = ReferenceChoice("")
         close = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
         self.take = Button(theme, self.tr("Compare"), "primary", height_px=44)
@@ -118,7 +118,7 @@ class ColumnsSheet(Sheet):
         self.take.clicked.connect(self._take)
         self.set_default(self.take)
 
-    def begin(self, outline: Outline, ours: Sequence[str], choice: ReferenceChoice) -> None:
+    def begin(self, outline: ReferenceOutline, ours: Sequence[str], choice: ReferenceChoice) -> None:
         """Ask for every one of ``ours``; what its names tell, or was said before, is chosen already."""
         self._outline, self._choice = outline, choice
         points = outline.kind == "points"
@@ -136,7 +136,7 @@ class ColumnsSheet(Sheet):
         self._check()
         self.open(next(iter(self.boxes.values())))
 
-    def _fill(self, outline: Outline, ours: Sequence[str], said: dict[str, str], points: bool) -> None:
+    def _fill(self, outline: ReferenceOutline, ours: Sequence[str], said: dict[str, str], points: bool) -> None:
         rows = QWidget()
         grid = QGridLayout(rows)
         grid.setContentsMargins(RING_PX, RING_PX, RING_PX + 8, RING_PX)
@@ -212,7 +212,7 @@ def _name_sign(sign: Tick, angle: str) -> None:
     sign.setAccessibleName(tr("{name}, other sign").format(name=angle))
 
 
-def missing(outline: Outline, said: dict[str, str]) -> str:
+def missing(outline: ReferenceOutline, said: dict[str, str]) -> str:
     """What must be said before anything can be compared: ``discs``, ``time``, ``angle``; empty for nothing."""
     if outline.kind == "points":
         return "" if len([name for name in PALM_MARKERS if name in said]) >= LEAST_DISCS else "discs"

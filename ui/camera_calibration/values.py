@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from carpus.core.camera_calibration.board import BOARDS, Board, Pattern
 from carpus.core.camera_calibration.calibrate import CameraCalibration
 from carpus.core.camera_calibration.effect import Effect
-from carpus.core.camera_calibration.guidance import Look, Step
+from carpus.core.camera_calibration.guidance import GuidanceStep, Look
 from carpus.core.camera_calibration.sheet import RULER_MM, Paper
 from carpus.core.camera_calibration.views import Judgement
 from carpus.core.types import FloatArray, Frame
@@ -37,7 +37,7 @@ class BoardProgress:
 
     look: Look
     judgement: Judgement
-    step: Step
+    step: GuidanceStep
     target: FloatArray | None
     corner_count: int
     asked: int

@@ -8,7 +8,7 @@ import numpy as np
 
 from carpus.core.camera_calibration.depth import MOST_APART_PX, DepthCheck
 from carpus.core.camera_calibration.effect import FLEXION_DEG, HAND_LENGTH_M
-from carpus.core.camera_calibration.guidance import Lack, Step
+from carpus.core.camera_calibration.guidance import GuidanceStep, Lack
 from carpus.core.camera_calibration.sharpness import MOST_EDGE_PX
 from carpus.core.camera_calibration.solve import FAIR_PX, GOOD_PX
 from carpus.core.camera_calibration.views import (
@@ -54,7 +54,7 @@ def place_name(field: tuple[int, int]) -> str:
     return tr("top") if up else tr("bottom") if low else tr("centre")
 
 
-def step_words(step: Step) -> tuple[str, str]:
+def step_words(step: GuidanceStep) -> tuple[str, str]:
     """The instruction, and how."""
     if step.kind == "place" and step.field is not None:
         what = tr("Move the board to the {place}").format(place=place_name(step.field))

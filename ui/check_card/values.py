@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from carpus.core.check_card.chart import Check, Verdict
+from carpus.core.check_card.chart import CardCheck, Verdict
 from carpus.core.types import FloatArray
 
 
@@ -16,7 +16,7 @@ class CameraChecks:
 
     camera: str
     serial: str
-    checks: Sequence[Check] = ()
+    checks: Sequence[CardCheck] = ()
     verdict: Verdict | None = None
     days: float = float("nan")
     calibrated: str = ""
@@ -24,7 +24,7 @@ class CameraChecks:
     simulated: bool = False
 
     @property
-    def newest(self) -> Check | None:
+    def newest(self) -> CardCheck | None:
         """The newest check."""
         return self.checks[-1] if self.checks else None
 

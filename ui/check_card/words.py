@@ -6,7 +6,7 @@ import math
 from datetime import datetime, timedelta
 
 from carpus.core.check_card.card import FIGURES
-from carpus.core.check_card.chart import OLD_DAYS, Check
+from carpus.core.check_card.chart import OLD_DAYS, CardCheck
 from carpus.core.check_card.reading import MOST_SCALE
 from carpus.ui import numbers
 from carpus.ui.check_card.values import CameraChecks, CardProgress
@@ -49,7 +49,7 @@ def headline(now: CameraChecks) -> tuple[str, str]:
     return tr("The camera measures right."), basis
 
 
-def _out_words(last: Check) -> str:
+def _out_words(last: CardCheck) -> str:
     """Which of them is out."""
     if not last.lengths_hold and not last.angles_hold:
         return tr("The camera is out: lengths and angles are wrong.")
@@ -68,18 +68,18 @@ def _out_words(last: Check) -> str:
     return pattern.format(share=numbers.fixed(abs(share), 1))
 
 
-def out_next(last: Check) -> str:
+def out_next(last: CardCheck) -> str:
     """What still holds, and that nothing is lost."""
     holds = tr("Angles still hold.") if last.angles_hold else ""
     return f"{holds} {tr('Nothing is lost; sessions near this check say that they are not sure.')}".strip()
 
 
-def check_day(check: Check) -> str:
+def check_day(check: CardCheck) -> str:
     """``20 Nov 2026, 08:12``."""
     return numbers.report_date(datetime.fromisoformat(check.when))
 
 
-def figure_rows(check: Check) -> list[tuple[State, str, str, str]]:
+def figure_rows(check: CardCheck) -> list[tuple[State, str, str, str]]:
     """State, what on the card, measured, off by."""
     rows: list[tuple[State, str, str, str]] = []
     for figure, measured, sd in zip(FIGURES, check.measured, check.sd, strict=True):

@@ -8,7 +8,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QWidget
 
 from carpus.core.output.joint_content import JointCurves
-from carpus.core.output.report_content import Curves, SessionFigures
+from carpus.core.output.report_content import ReportCurves, SessionFigures
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Surface
 from carpus.ui.controls.field import Choices
@@ -30,8 +30,8 @@ class BothResults:
     """What is drawn of the old and of the new result of one recording."""
 
     figures: SessionFigures
-    old: Curves
-    new: Curves
+    old: ReportCurves
+    new: ReportCurves
     old_joints: JointCurves | None = None
     new_joints: JointCurves | None = None
 

@@ -10,7 +10,7 @@ from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QVBoxLayout, QWidget
 
-from carpus.core.calibration.result import Finding
+from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.types import ByteImage, FloatArray
 from carpus.core.words import marker_in_words
 from carpus.ui import terms
@@ -528,11 +528,11 @@ class MarkersScreen(QWidget):
                 self.clicking.pixel[name] = np.array(finding.spot_px)
         self._changed()
 
-    def _spots(self, findings: Sequence[Finding]) -> list[tuple[tuple[float, ...], str]]:
+    def _spots(self, findings: Sequence[CalibrationFinding]) -> list[tuple[tuple[float, ...], str]]:
         return [(one.spot_px, one.markers[0] if one.markers else "") for one in findings if one.spot_px]
 
     def _wrong_markers(self) -> tuple[str, ...]:
-        findings: Sequence[Finding] = self._judged.verdict.findings if self._judged else ()
+        findings: Sequence[CalibrationFinding] = self._judged.verdict.findings if self._judged else ()
         return tuple(dict.fromkeys(name for finding in findings for name in finding.markers))
 
     # --- showing ------------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout
 
-from carpus.core.calibration.result import Finding, Verdict
+from carpus.core.calibration.result import CalibrationFinding, Verdict
 from carpus.ui import numbers
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, StateText, Text
@@ -169,14 +169,14 @@ def headline(verdict: Verdict) -> tuple[str, State]:
     return (tr("Doubtful"), "warn") if verdict.can_start else (tr("Cannot start yet"), "bad")
 
 
-def _worst(findings: Sequence[Finding]) -> State:
+def _worst(findings: Sequence[CalibrationFinding]) -> State:
     if not findings:
         return "good"
     serious = any(finding.blocks or finding.kind in NAMES_WRONG for finding in findings)
     return "bad" if serious else "warn"
 
 
-def _state(finding: Finding | None, value: float) -> State:
+def _state(finding: CalibrationFinding | None, value: float) -> State:
     if not math.isfinite(value):
         return "open"
     return "good" if finding is None else "bad" if finding.blocks else "warn"

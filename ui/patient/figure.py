@@ -50,7 +50,7 @@ class Arc:
 
 
 @dataclass(frozen=True, slots=True)
-class Figure:
+class DrawnPose:
     """A drawn pose: ``arm`` stays, ``hand`` moves, ``whole`` is both in one line; ``dots`` are the blue discs on it,
     with their radius."""
 
@@ -61,13 +61,13 @@ class Figure:
     dot_radius: float
 
 
-def figure_at(exercise: Exercise, value_deg: float) -> Figure:
+def figure_at(exercise: Exercise, value_deg: float) -> DrawnPose:
     """The hand with its trained angle at a value, to half a degree: less cannot be seen."""
     return _figure_at(exercise, round(2.0 * value_deg) / 2.0)
 
 
 @lru_cache(maxsize=512)
-def _figure_at(exercise: Exercise, value_deg: float) -> Figure:
+def _figure_at(exercise: Exercise, value_deg: float) -> DrawnPose:
     if exercise.angle == FLEXION:
         return side_figure(wrist_deg=value_deg)
     if exercise.angle == DEVIATION:
@@ -85,7 +85,7 @@ def _figure_at(exercise: Exercise, value_deg: float) -> Figure:
     return above_figure(spread_deg=value_deg)
 
 
-def free_figure(exercise: Exercise, wrist_deg: tuple[float, float, float], bent_deg: float) -> Figure:
+def free_figure(exercise: Exercise, wrist_deg: tuple[float, float, float], bent_deg: float) -> DrawnPose:
     """The hand of an exercise without a trained angle: the wrist from above, fingers from the side."""
     deviation, flexion, _ = wrist_deg
     if not exercise.digits:
@@ -124,7 +124,7 @@ _THUMB_AWAY_DEG = 40.0
 def side_figure(
     *, wrist_deg: float = 0.0, knuckle_deg: float = 0.0, middle_deg: float = 0.0, end_deg: float = 0.0,
     thumb_deg: float = 22.0,
-) -> Figure:  # fmt: skip
+) -> DrawnPose:  # fmt: skip
     """From the side, the palm below: bending goes down, the thumb is lifted away from the palm."""
     hand = _capsule(QPointF(0, 0), 46.0, _KNUCKLE, 36.0)
     at, turned = _KNUCKLE, 0.0
@@ -152,7 +152,7 @@ _LEAN_DEG = {2: 4.0, 3: 1.0, 4: -3.0, 5: -8.0}
 _SPREADS = {2: 1.0, 3: 0.0, 4: -0.8, 5: -1.5}
 
 
-def above_figure(*, deviation_deg: float = 0.0, spread_deg: float = 0.0, lifted_deg: float = 0.0) -> Figure:
+def above_figure(*, deviation_deg: float = 0.0, spread_deg: float = 0.0, lifted_deg: float = 0.0) -> DrawnPose:
     """From above, the fingers up: towards the thumb is to the left. ``lifted_deg`` shortens what points out of the
     plane."""
     hand = QPainterPath()
@@ -169,7 +169,7 @@ def above_figure(*, deviation_deg: float = 0.0, spread_deg: float = 0.0, lifted_
 
 
 # --- along the forearm ------------------------------------------------------------------------------------
-def turned_figure(supination_deg: float) -> Figure:
+def turned_figure(supination_deg: float) -> DrawnPose:
     """Along the forearm as one sees it oneself, the palm down: turning the palm up lifts the thumb."""
     hand = _capsule(QPointF(-120, 6), 58.0, QPointF(120, 12), 50.0)
     for x, y, half in ((-128, -24, 44.0), (-46, -38, 46.0), (38, -34, 45.0), (116, -18, 40.0)):
@@ -183,8 +183,8 @@ def turned_figure(supination_deg: float) -> Figure:
     return _figure(QPainterPath(), to.map(hand), dots)
 
 
-def _figure(arm: QPainterPath, hand: QPainterPath, dots: tuple[QPointF, ...], dot_radius: float = 11.0) -> Figure:
-    return Figure(arm, hand, arm.united(hand), dots, dot_radius)
+def _figure(arm: QPainterPath, hand: QPainterPath, dots: tuple[QPointF, ...], dot_radius: float = 11.0) -> DrawnPose:
+    return DrawnPose(arm, hand, arm.united(hand), dots, dot_radius)
 
 
 def _without_holes(path: QPainterPath) -> QPainterPath:

@@ -28,7 +28,7 @@ NEUTRAL_SHARE = 0.35
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class GuideScene:
     """What is shown. ``aim`` is the direction, 1 or -1; ``value_deg`` of the trained angle, NaN where no hand is to be
     drawn; ``goal_deg`` with its sign, NaN for none; ``opacity`` of the hand, 0 to 1; ``tries``: nothing is recorded
     yet."""
@@ -73,27 +73,27 @@ class Guide:
         self.reached = 0
         """How often the goal was reached, for a sound."""
 
-    def take(self, glance: Glance) -> Scene:
+    def take(self, glance: Glance) -> GuideScene:
         """The scene of this moment."""
         counted = {"tries": glance.state == "off", "done": glance.done, "asked": glance.asked}
         counted["starts_s"] = glance.starts_s
         goal = self._goals[self._aim]
         if glance.state == "paused":
-            return Scene("paused", self._aim, goal_deg=goal, **counted)  # type: ignore[arg-type]
+            return GuideScene("paused", self._aim, goal_deg=goal, **counted)  # type: ignore[arg-type]
         if self._is_lost(glance):
-            return Scene("lost", self._aim, goal_deg=goal, **counted)  # type: ignore[arg-type]
+            return GuideScene("lost", self._aim, goal_deg=goal, **counted)  # type: ignore[arg-type]
         if glance.state == "recording" and 0 < glance.asked <= glance.done:
-            return Scene("done", self._aim, **counted)  # type: ignore[arg-type]
+            return GuideScene("done", self._aim, **counted)  # type: ignore[arg-type]
         opacity = self._opacity(glance)
         if not self._exercise.counts:
             wrist = glance.wrist_deg
-            return Scene("free", wrist_deg=wrist, bent_deg=glance.bent_deg, opacity=opacity, **counted)  # type: ignore[arg-type]
+            return GuideScene("free", wrist_deg=wrist, bent_deg=glance.bent_deg, opacity=opacity, **counted)  # type: ignore[arg-type]
         if not glance.sure and self._is_at_far_end() and glance.hand_seen:
-            return Scene("hidden", self._aim, goal_deg=goal, **counted)  # type: ignore[arg-type]
+            return GuideScene("hidden", self._aim, goal_deg=goal, **counted)  # type: ignore[arg-type]
         if glance.sure:
             self._move(glance.value_deg, glance.at_s)
         goal = self._goals[self._aim]
-        return Scene(self._phase, self._aim, glance.value_deg, goal, opacity, **counted)  # type: ignore[arg-type]
+        return GuideScene(self._phase, self._aim, glance.value_deg, goal, opacity, **counted)  # type: ignore[arg-type]
 
     # --- whether the hand is there ------------------------------------------------------------------------
     def _is_lost(self, glance: Glance) -> bool:

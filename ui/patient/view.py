@@ -16,8 +16,8 @@ from carpus.core.output.exercises import FLEXION, PRONOSUPINATION, Exercise
 from carpus.ui import numbers
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.icons import paint_icon, paint_state
-from carpus.ui.patient.figure import Arc, Figure, arc_of, figure_at, free_figure
-from carpus.ui.patient.guide import Scene
+from carpus.ui.patient.figure import Arc, DrawnPose, arc_of, figure_at, free_figure
+from carpus.ui.patient.guide import GuideScene
 from carpus.ui.patient.story import paint_climber, paint_flower, paint_stem
 from carpus.ui.patient.words import Audience, Said, rest_words, said, then_words
 from carpus.ui.theme import Theme
@@ -33,7 +33,7 @@ END_DEG = 80.0
 
 
 class PatientView(QWidget):
-    """Paints a :class:`Scene` of one exercise."""
+    """Paints a :class:`GuideScene` of one exercise."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -41,7 +41,7 @@ class PatientView(QWidget):
         self._set_up: SetUp | None = None
         self.audience: Audience = "adult"
         self.sound_on = False
-        self.scene = Scene()
+        self.scene = GuideScene()
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         theme.changed.connect(self.update)
 
@@ -52,9 +52,9 @@ class PatientView(QWidget):
         """Another exercise, or nothing."""
         self._set_up = set_up
         self.audience = "child" if set_up is not None and set_up.for_child else "adult"
-        self.show_scene(Scene())
+        self.show_scene(GuideScene())
 
-    def show_scene(self, scene: Scene) -> None:
+    def show_scene(self, scene: GuideScene) -> None:
         """Show how it stands."""
         if scene != self.scene:
             self.scene = scene
@@ -143,7 +143,7 @@ class PatientView(QWidget):
     def _paint_exercise(self, painter: QPainter, set_up: SetUp, width: float) -> None:
         exercise, scene = set_up.exercise, self.scene
         to = _placement(exercise, width, mirrored=set_up.side == "left")
-        hand: Figure | None = None
+        hand: DrawnPose | None = None
         if scene.phase == "free":
             if all(math.isfinite(value) for value in scene.wrist_deg):
                 hand = free_figure(exercise, scene.wrist_deg, scene.bent_deg)
@@ -160,7 +160,9 @@ class PatientView(QWidget):
         self._paint_hand(painter, to, hand if hand is not None else None, arm=figure_at(exercise, 0.0))
         self._paint_goal(painter, to, arc_of(exercise))
 
-    def _paint_hand(self, painter: QPainter, to: QTransform, hand: Figure | None, arm: Figure | None = None) -> None:
+    def _paint_hand(
+        self, painter: QPainter, to: QTransform, hand: DrawnPose | None, arm: DrawnPose | None = None
+    ) -> None:
         """The arm always, the hand only where it is known, the fainter the longer it was not seen."""
         color, line = self._theme.color, 8.0 if self.audience == "child" else 5.0
         painter.setPen(QPen(color("border"), line))

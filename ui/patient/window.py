@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QScreen
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from carpus.ui.patient.guide import Scene
+from carpus.ui.patient.guide import GuideScene
 from carpus.ui.patient.view import PatientView
 from carpus.ui.theme import Theme
 
@@ -34,7 +34,7 @@ class PatientWindow(QWidget):
         self._watch = QTimer(self)
         self._watch.setSingleShot(True)
         self._watch.setInterval(STALE_MS)
-        self._watch.timeout.connect(lambda: self.view.show_scene(Scene()))
+        self._watch.timeout.connect(lambda: self.view.show_scene(GuideScene()))
 
     def open_beside(self, other: QWidget) -> None:
         """Show on a screen that the other window is not on; on the same one as a window."""
@@ -49,12 +49,12 @@ class PatientWindow(QWidget):
             self.setWindowState(Qt.WindowState.WindowNoState)
         self.show()
 
-    def show_running(self, scene: Scene) -> None:
+    def show_running(self, scene: GuideScene) -> None:
         """A scene that is true only now: without the next one it goes."""
         self.view.show_scene(scene)
         self._watch.start()
 
-    def show_standing(self, scene: Scene) -> None:
+    def show_standing(self, scene: GuideScene) -> None:
         """A scene that holds until another one comes."""
         self._watch.stop()
         self.view.show_scene(scene)

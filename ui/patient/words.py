@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from carpus.core.output.exercises import exercise_named, known_exercise
-from carpus.ui.patient.guide import Scene
+from carpus.ui.patient.guide import GuideScene
 from carpus.ui.translate import inside, say, tr
 
 Audience = Literal["adult", "child"]
@@ -22,7 +22,7 @@ class Said:
     now: str
 
 
-def said(exercise_id: str, scene: Scene, audience: Audience) -> Said:
+def said(exercise_id: str, scene: GuideScene, audience: Audience) -> Said:
     """The words of a scene."""
     child = audience == "child"
     if scene.phase == "away":
@@ -61,7 +61,7 @@ def rest_words(seconds: int) -> str:
     return tr("About half a minute") if seconds > 15 else tr("A moment longer")
 
 
-def then_words(exercise_id: str, scene: Scene, audience: Audience) -> str:
+def then_words(exercise_id: str, scene: GuideScene, audience: Audience) -> str:
     """What comes after a rest."""
     task = _task(exercise_id, 1, audience == "child")
     return tr("then: {task}").format(task=inside(task)) if task else ""

@@ -79,7 +79,7 @@ def columns(text_scale: float) -> tuple[float, ...]:
     return LARGE_COLUMNS if text_scale > LARGE_FROM else COLUMNS
 
 
-class RowPainter(QStyledItemDelegate):
+class PatientRowPainter(QStyledItemDelegate):
     """Paints one row from the tokens."""
 
     def __init__(self, theme: Theme, model: PatientModel) -> None:
@@ -185,7 +185,7 @@ class PatientList(QListView):
         self._theme = theme
         self.rows = PatientModel(today)
         self.setModel(self.rows)
-        self._painter_of_rows = RowPainter(theme, self.rows)
+        self._painter_of_rows = PatientRowPainter(theme, self.rows)
         self.setItemDelegate(self._painter_of_rows)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setMouseTracking(True)

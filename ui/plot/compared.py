@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from carpus.core.output.joint_content import JointCurves
-from carpus.core.output.report_content import Curves
+from carpus.core.output.report_content import ReportCurves
 from carpus.ui import numbers
 from carpus.ui.figures import figure_of
 from carpus.ui.plot.marks import Curve
@@ -28,7 +28,7 @@ def _dashed(series: Series) -> Series:
 class ComparedPlot(SessionPlot):
     """The wrist's angles as a session has them, and ``old`` as it had them before."""
 
-    old: Curves | None = None
+    old: ReportCurves | None = None
 
     @property
     def _before(self) -> SessionPlot:

@@ -11,7 +11,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
 
-from carpus.core.check_card.chart import Check, Verdict, usual_of, verdict_of
+from carpus.core.check_card.chart import CardCheck, Verdict, usual_of, verdict_of
 from carpus.ui import numbers
 from carpus.ui.icons import octagon
 from carpus.ui.plot.axes import Panel, Scale
@@ -52,7 +52,7 @@ class ControlPlot:
         return Panel(box, self.scale(), -0.5, max(len(self.value) - 0.5, 0.5))
 
 
-def control_plots(checks: Sequence[Check]) -> list[ControlPlot]:
+def control_plots(checks: Sequence[CardCheck]) -> list[ControlPlot]:
     """Angles and lengths of the last checks; none where there was no check."""
     if not checks:
         return []
@@ -76,7 +76,7 @@ def control_plots(checks: Sequence[Check]) -> list[ControlPlot]:
     ]  # fmt: skip
 
 
-def _verdict(earlier: Sequence[Check], check: Check, kind: int) -> Verdict:
+def _verdict(earlier: Sequence[CardCheck], check: CardCheck, kind: int) -> Verdict:
     """What is said of one figure of a check; a drift, which shows on none by itself, is said of both."""
     if not (check.angles_hold, check.lengths_hold)[kind]:
         return "out"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter
 
-from carpus.core.check_card.chart import Check
+from carpus.core.check_card.chart import CardCheck
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.card import PlotCard
@@ -32,7 +32,7 @@ class ControlCharts(PlotCard):
         self.empty_words = ""
         self.setAccessibleName(self.tr("Checks of this camera"))
 
-    def show_checks(self, checks: Sequence[Check], empty_words: str = "") -> None:
+    def show_checks(self, checks: Sequence[CardCheck], empty_words: str = "") -> None:
         """The checks of one camera, oldest first."""
         self._plots, self.empty_words = control_plots(checks), empty_words
         self.forget()

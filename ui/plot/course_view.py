@@ -15,7 +15,7 @@ from carpus.core.output.report_content import Progress
 from carpus.ui import numbers, terms
 from carpus.ui.plot import axes, course
 from carpus.ui.plot.axes import Panel
-from carpus.ui.plot.marks import Readout
+from carpus.ui.plot.marks import MouseReadout
 from carpus.ui.plot.style import PlotStyle, screen_style
 from carpus.ui.plot.zoom_card import ZoomCard
 from carpus.ui.progress.words import doubt_words, unfair_words
@@ -169,7 +169,7 @@ class ProgressChart(ZoomCard):
         at = next((at for other, own, at in self.points() if (other, own) == (number, key)), None)
         if at is not None:
             room = QRectF(self.rect()).adjusted(4, 4, -4, -4)
-            Readout(self.said_of(number, key), at, room).paint(painter, screen_style(self._theme))
+            MouseReadout(self.said_of(number, key), at, room).paint(painter, screen_style(self._theme))
 
     def _point_at(self, found: tuple[int, RowKey] | None) -> None:
         if found != self._pointed:

@@ -227,7 +227,7 @@ class Name:
 
 
 @dataclass(frozen=True, slots=True)
-class Repetitions:
+class RepetitionMarks:
     """Shaded stretches with their numbers; the current one in its own colour, one that is left out hatched."""
 
     shown: Sequence[ShownRepetition]
@@ -299,7 +299,7 @@ class Cursor:
 
 
 @dataclass(frozen=True, slots=True)
-class Readout:
+class MouseReadout:
     """Lines of words in a small frame beside a point, within an area: what is under the mouse."""
 
     lines: Sequence[str]

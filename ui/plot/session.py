@@ -14,15 +14,14 @@ from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.output.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, FLEXION, PRONOSUPINATION, SIDES, Exercise
 from carpus.core.output.joint_content import JointCurves
-from carpus.core.output.report_content import Curves, ShownRepetition
+from carpus.core.output.report_content import ReportCurves, ShownRepetition
 from carpus.core.types import TrackStatus
 from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure, Row, spread_labels
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.marks import Curve, Mark, Name, Repetitions, Scales, StayWithin, Target, Times
-from carpus.ui.plot.marks import Curves as CurvesMark
+from carpus.ui.plot.marks import Curve, Curves, Mark, Name, RepetitionMarks, Scales, StayWithin, Target, Times
 from carpus.ui.plot.series import LONGEST_STEP_S, Series
 from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle
 from carpus.ui.plot.thin import thinned, within
@@ -79,7 +78,7 @@ class Value:
 class SessionPlot:
     """The wrist's three angles, with exercise, repetitions, and the current one (-1 for none)."""
 
-    curves: Curves
+    curves: ReportCurves
     exercise: Exercise
     repetitions: Sequence[ShownRepetition]
     current: int = -1
@@ -270,7 +269,7 @@ def _spread_scale(finger: int) -> Scale:
 
 def paint_behind(painter: QPainter, style: PlotStyle, plot: SessionPlot, panels: Sequence[tuple[Panel, int]]) -> None:
     """Everything but the curves: repetitions, grid, limits, target, time axis."""
-    repetitions = Repetitions(plot.repetitions, plot.current)
+    repetitions = RepetitionMarks(plot.repetitions, plot.current)
     for panel, _ in panels:
         repetitions.paint(painter, style, panel)
     repetitions.paint_numbers(painter, style, panels[0][0])
@@ -284,10 +283,10 @@ def paint_session(painter: QPainter, style: PlotStyle, plot: SessionPlot, panels
     """The whole plot at once, as on paper."""
     paint_behind(painter, style, plot, panels)
     for panel, key in panels:
-        CurvesMark(plot.moving(key, int(panel.box.width() / style.unit))).paint(painter, style, panel)
+        Curves(plot.moving(key, int(panel.box.width() / style.unit))).paint(painter, style, panel)
 
 
-def value_at(curves: Curves, column: int, time_s: float) -> tuple[float, float]:
+def value_at(curves: ReportCurves, column: int, time_s: float) -> tuple[float, float]:
     """Angle and its deviation in degrees at the frame nearest to a time; NaN in a gap."""
     if not len(curves.time_s):
         return math.nan, math.nan
@@ -308,6 +307,6 @@ def joint_at(plot: HandPlot, figure: Figure, time_s: float) -> tuple[float, floa
     return float(series.value[row]), float(series.sd[row]), bool(series.predicted[row])
 
 
-def row_at(curves: Curves, time_s: float) -> int:
+def row_at(curves: ReportCurves, time_s: float) -> int:
     """Row of the frame nearest to a time."""
     return int(np.abs(curves.time_s - time_s).argmin())

@@ -14,7 +14,7 @@ from PySide6.QtGui import QPainter
 from carpus.ui import numbers
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel
-from carpus.ui.plot.marks import NUMBERS_ABOVE, Cursor, Curves, Edges, Readout
+from carpus.ui.plot.marks import NUMBERS_ABOVE, Cursor, Curves, Edges, MouseReadout
 from carpus.ui.plot.readings import paint_readings
 from carpus.ui.plot.session import HandPlot, SessionPlot, paint_behind, paint_session
 from carpus.ui.plot.style import PlotStyle, screen_style
@@ -190,7 +190,7 @@ class CurveView(ZoomCard):
         style, time_s = screen_style(self._theme), self.time_at(self._mouse.x())
         for panel, _ in self.panels():
             Cursor(time_s, "text2", 1.0).paint(painter, style, panel)
-        Readout(self.said_at(self._mouse), self._mouse, QRectF(self.rect()).adjusted(4, 4, -4, -4)).paint(
+        MouseReadout(self.said_at(self._mouse), self._mouse, QRectF(self.rect()).adjusted(4, 4, -4, -4)).paint(
             painter, style
         )
 

@@ -40,7 +40,7 @@ _JOINT_TOKENS = ("curve_a", "curve_b", "curve_c", "accent")
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class WayLine:
     """One line: ``place_mm`` (N, 3) in W0, its colour, what it is called at its end, and where it was not ``seen``."""
 
     place_mm: FloatArray
@@ -55,7 +55,7 @@ class WayPlot:
     and ``high_mm`` (3,) what they need in W0."""
 
     time_s: FloatArray
-    ways: Sequence[Way]
+    ways: Sequence[WayLine]
     axes: FloatArray | None
     side: Side
     low_mm: FloatArray
@@ -76,7 +76,7 @@ class WayPlot:
 
 def wrist_way(curves: MotionCurves) -> WayPlot:
     """The WRIST disc's way with the hand's axes (wrist paper, figures 3 and 5)."""
-    way = Way(curves.position_mm, "accent", "", ~curves.predicted)
+    way = WayLine(curves.position_mm, "accent", "", ~curves.predicted)
     return _plot(curves, [way], curves.axes)
 
 
@@ -91,11 +91,11 @@ def finger_ways(curves: MotionCurves, finger: int) -> WayPlot:
         ]
     there = curves.joint_names
     at = [(there.index(joint), token, words) for joint, token, words in named if joint in there]
-    ways = [Way(curves.joint_mm[:, k], token, words, curves.joint_seen[:, k]) for k, token, words in at]
+    ways = [WayLine(curves.joint_mm[:, k], token, words, curves.joint_seen[:, k]) for k, token, words in at]
     return _plot(curves, ways, None)
 
 
-def _plot(curves: MotionCurves, ways: Sequence[Way], axes: FloatArray | None) -> WayPlot:
+def _plot(curves: MotionCurves, ways: Sequence[WayLine], axes: FloatArray | None) -> WayPlot:
     every = np.concatenate([np.empty((0, 3)), *(way.place_mm for way in ways)])
     known = every[np.isfinite(every).all(axis=1)]
     low, high = (known.min(axis=0), known.max(axis=0)) if len(known) else (np.zeros(3), np.zeros(3))
@@ -166,7 +166,7 @@ class PlaneMark:
         center = panel.box.center()
         return center.x() + sign * away[:, across] * scale, center.y() - away[:, up] * scale
 
-    def _paint_way(self, painter: QPainter, style: PlotStyle, way: Way, x: FloatArray, y: FloatArray) -> None:
+    def _paint_way(self, painter: QPainter, style: PlotStyle, way: WayLine, x: FloatArray, y: FloatArray) -> None:
         """Solid where it was seen, dashed where it was not; of a way with an end what lies ahead is faint."""
         painter.setBrush(Qt.BrushStyle.NoBrush)
         known = np.isfinite(x) & np.isfinite(y)
@@ -188,13 +188,13 @@ class PlaneMark:
             for first, last in runs(known[recent : row + 1]):
                 painter.drawPolyline(polygon(x[recent + first : recent + last], y[recent + first : recent + last]))
 
-    def _paint_now(self, painter: QPainter, style: PlotStyle, way: Way, at: QPointF) -> None:
+    def _paint_now(self, painter: QPainter, style: PlotStyle, way: WayLine, at: QPointF) -> None:
         painter.setPen(QPen(style.color("surface"), 1.5 * style.unit))
         painter.setBrush(style.color(way.token))
         painter.drawEllipse(at, 4.5 * style.unit, 4.5 * style.unit)
 
     def _paint_name(
-        self, painter: QPainter, style: PlotStyle, panel: Panel, way: Way,
+        self, painter: QPainter, style: PlotStyle, panel: Panel, way: WayLine,
         places: tuple[FloatArray, FloatArray], taken: list[QRectF],
     ) -> None:  # fmt: skip
         """At the outermost point of the way that is free; none where there is no room."""

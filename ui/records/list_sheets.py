@@ -15,7 +15,7 @@ from carpus.ui.controls.host import host_of
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
 from carpus.ui.fonts import font
-from carpus.ui.records.ports import ListedRecord, LoggedDeed
+from carpus.ui.records.ports import DeedLine, ListedRecord
 from carpus.ui.theme import Theme
 
 
@@ -118,7 +118,7 @@ class LogSheet(Sheet):
         self.card.body.addWidget(self.table)
         self.card.body.addWidget(self.done, 0, Qt.AlignmentFlag.AlignRight)
 
-    def begin(self, deeds: Sequence[LoggedDeed]) -> None:
+    def begin(self, deeds: Sequence[DeedLine]) -> None:
         """Show the deeds."""
         self.title.setText(self.tr("Log: {n} lines").format(n=len(deeds)))
         self.table.setRowCount(len(deeds))

@@ -42,7 +42,7 @@ class ListedRecord:
 
 
 @dataclass(frozen=True, slots=True)
-class LoggedDeed:
+class DeedLine:
     """A line of the log, in words."""
 
     number: int

@@ -8,7 +8,7 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus.core.check_card.card import FIGURES
-from carpus.core.check_card.chart import USUAL_OF, Check, Verdict, sentence_of, verdict_of
+from carpus.core.check_card.chart import USUAL_OF, CardCheck, Verdict, sentence_of, verdict_of
 from carpus.ui import numbers
 from carpus.ui.check_card.words import figure_name
 from carpus.ui.fonts import MEDIUM, SEMIBOLD
@@ -28,8 +28,8 @@ class CheckResult:
     """The newest ``check`` of a camera, those before it, and what is said of the picture-taking (``asides``)."""
 
     camera: str
-    check: Check
-    earlier: Sequence[Check]
+    check: CardCheck
+    earlier: Sequence[CardCheck]
     asides: Sequence[tuple[str, str]]
 
 
@@ -60,7 +60,7 @@ def paint_check_page(page: Page, result: CheckResult) -> None:
     page.paragraph(said.format(count=USUAL_OF), page.left, top + 22, page.right - page.left, 8.5, token="text2")
 
 
-def _table(page: Page, check: Check, top: float) -> float:
+def _table(page: Page, check: CardCheck, top: float) -> float:
     """The six figures; returns the lower edge."""
     columns = (page.left + 250, page.left + 370, page.right)
     page.text(tr("On the card"), page.left, top, 8.5, token="text2")

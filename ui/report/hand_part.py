@@ -10,7 +10,7 @@ from PySide6.QtCore import QPointF
 from PySide6.QtGui import QColor, QPen
 
 from carpus.core.output.joint_content import JointCurves
-from carpus.core.output.report_content import Curves, SessionFigures
+from carpus.core.output.report_content import ReportCurves, SessionFigures
 from carpus.ui.figures import TOKENS, row_name
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.plot.session import BENDING, HandPlot, paint_session
@@ -36,7 +36,7 @@ def paint_finger_table(
     heads, rows = column_heads(figures, previous, other), finger_rows(figures, previous, other)
     edges = column_edges(page, heads, rows)
     for column, head in enumerate(heads, 1):
-        _fitted(page, edges, column, Line(head, 8.0, MEDIUM, "text2"), baseline)
+        _fitted(page, edges, column, CellLine(head, 8.0, MEDIUM, "text2"), baseline)
     y = baseline + 4.5
     for row in rows:
         page.rule(y)
@@ -51,7 +51,7 @@ def paint_finger_table(
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class CellLine:
     """A line of a cell at the size it should have."""
 
     text: str
@@ -60,21 +60,21 @@ class Line:
     token: str = "text"
 
 
-def lines_of(row: FingerRow) -> list[tuple[Line, ...]]:
+def lines_of(row: FingerRow) -> list[tuple[CellLine, ...]]:
     """What stands in each column of a finger's row, one line or two."""
     cells = [
-        (Line(cell.shown, 9.0, SEMIBOLD), Line(cell.small, 7.5, REGULAR, "text2"))
+        (CellLine(cell.shown, 9.0, SEMIBOLD), CellLine(cell.small, 7.5, REGULAR, "text2"))
         if cell.small
-        else (Line(cell.shown, 8.5, REGULAR, "text2"),)
+        else (CellLine(cell.shown, 8.5, REGULAR, "text2"),)
         for cell in row.cells
     ]
-    share = (Line(row.share.main, 9.0, SEMIBOLD), Line(row.share.small, 7.5, REGULAR, "text2"))
+    share = (CellLine(row.share.main, 9.0, SEMIBOLD), CellLine(row.share.small, 7.5, REGULAR, "text2"))
     return [
-        (Line(row.name, 9.0, MEDIUM),),
+        (CellLine(row.name, 9.0, MEDIUM),),
         *cells,
         share if row.share.small else (),
-        (Line(row.last, 8.5),),
-        (Line(row.change, 8.0, MEDIUM),),
+        (CellLine(row.last, 8.5),),
+        (CellLine(row.change, 8.0, MEDIUM),),
     ]
 
 
@@ -82,7 +82,7 @@ def column_edges(page: Page, heads: Sequence[str], rows: Sequence[FingerRow]) ->
     """Left edges of finger, five figures, share, last time and change in points after the page's left, and the right
     one: as wide as the words of this language and these figures ask for, and closer in one measure where that is
     more than the page has."""
-    columns: list[list[Line]] = [[], *([Line(head, 8.0, MEDIUM)] for head in heads)]
+    columns: list[list[CellLine]] = [[], *([CellLine(head, 8.0, MEDIUM)] for head in heads)]
     for row in rows:
         for column, lines in enumerate(lines_of(row)):
             columns[column].extend(lines)
@@ -96,7 +96,7 @@ def column_edges(page: Page, heads: Sequence[str], rows: Sequence[FingerRow]) ->
     return tuple(accumulate((share * width for width in asked), initial=0.0))
 
 
-def _fitted(page: Page, edges: tuple[float, ...], column: int, line: Line, baseline: float) -> None:
+def _fitted(page: Page, edges: tuple[float, ...], column: int, line: CellLine, baseline: float) -> None:
     """A text in its column, smaller or on two lines where it is too long."""
     room = edges[column + 1] - edges[column] - GAP_PT
     left, size = page.left + edges[column], line.size_pt
@@ -125,7 +125,7 @@ def paint_wrist_line(page: Page, figures: SessionFigures, top: float) -> float:
 
 
 def paint_finger_curves(
-    page: Page, curves: Curves, joints: JointCurves, figures: SessionFigures, top: float, room: float
+    page: Page, curves: ReportCurves, joints: JointCurves, figures: SessionFigures, top: float, room: float
 ) -> float:
     """Bending of every finger over time, in the height that is left; dashed where it was hidden."""
     height = min(CURVES_PT, max(room - 28 - 16, LEAST_CURVES_PT))

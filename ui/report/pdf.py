@@ -12,7 +12,7 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QSizeF
 from PySide6.QtGui import QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter
 
 from carpus.core.by_hand.values import HandValue, of_session
-from carpus.core.camera_calibration.sheet import Sheet
+from carpus.core.camera_calibration.sheet import PrintedSheet
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
 from carpus.core.output.camera_said import CameraSaid
 from carpus.core.output.joint_content import joint_curves
@@ -169,13 +169,13 @@ def write_page(output_path: Path, paint: Callable[[Page], None], title: str) -> 
     return _write_pages(output_path, [(None, paint)], title)
 
 
-def write_sheets(output_path: Path, sheets: Sequence[Sheet], title: str) -> Path:
+def write_sheets(output_path: Path, sheets: Sequence[PrintedSheet], title: str) -> Path:
     """Write sheets to print, each in its own size, in millimetres as drawn; faults as above."""
     pages = [(QSizeF(sheet.width_mm, sheet.height_mm), _painting(sheet)) for sheet in sheets]
     return _write_pages(output_path, pages, title)
 
 
-def _painting(sheet: Sheet) -> Callable[[Page], None]:
+def _painting(sheet: PrintedSheet) -> Callable[[Page], None]:
     return lambda page: paint_sheet(page, sheet)
 
 

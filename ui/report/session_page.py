@@ -15,7 +15,7 @@ from carpus.core.output.exercises import AXIS_TICK_DEG, SIDES
 from carpus.core.output.joint_content import JointCurves
 from carpus.core.output.motion_curves import MotionCurves
 from carpus.core.output.norms import wrist_norm
-from carpus.core.output.report_content import Curves, SessionFigures, compare_rows
+from carpus.core.output.report_content import ReportCurves, SessionFigures, compare_rows
 from carpus.core.output.report_form import USUAL_FORM, ReportForm
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.names import day_words
@@ -44,7 +44,7 @@ class SessionReport:
     """All that is on the page."""
 
     figures: SessionFigures
-    curves: Curves
+    curves: ReportCurves
     markers: int
     pseudonym: str
     session_number: int = 0

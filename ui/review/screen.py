@@ -20,8 +20,8 @@ from carpus.core.output.joint_content import JointCurves, joint_curves
 from carpus.core.output.motion_curves import MotionCurves, motion_curves
 from carpus.core.output.repetition_rows import PASSIVE
 from carpus.core.output.report_content import (
-    Curves,
     RepetitionChoices,
+    ReportCurves,
     SessionFigures,
     limits_of,
     other_hand_of,
@@ -118,7 +118,7 @@ class ReviewScreen(QWidget):
         self._partner: SessionFigures | None = None
         self._camera = UNKNOWN_CAMERA
         self._by_hand: Sequence[HandValue] = ()
-        self._curves: Curves | None = None
+        self._curves: ReportCurves | None = None
         self._joints: JointCurves | None = None
         self._motion: MotionCurves | None = None
         self._modelled_px: FloatArray | None = None
@@ -497,7 +497,7 @@ class ReviewScreen(QWidget):
         if self._partner is not None:
             self.beside.emit(self._session_id, self._partner.session_id)
 
-    def _plot(self, curves: Curves, figures: SessionFigures) -> SessionPlot:
+    def _plot(self, curves: ReportCurves, figures: SessionFigures) -> SessionPlot:
         """The curves that are chosen."""
         shown = (curves, figures.exercise, figures.repetitions, self._current)
         if self._view in ("place", "zyz") and self._motion is not None:

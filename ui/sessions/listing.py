@@ -96,7 +96,7 @@ class SessionModel(QAbstractListModel):
         return line if role == Qt.ItemDataRole.UserRole else None
 
 
-class RowPainter(QStyledItemDelegate):
+class SessionRowPainter(QStyledItemDelegate):
     """Paints one row from the tokens; a session that does not count is grey and hatched, and says why."""
 
     def __init__(self, theme: Theme, model: SessionModel) -> None:
@@ -182,7 +182,7 @@ class SessionList(QListView):
         super().__init__()
         self.rows = SessionModel()
         self.setModel(self.rows)
-        self._painter_of_rows = RowPainter(theme, self.rows)
+        self._painter_of_rows = SessionRowPainter(theme, self.rows)
         self.setItemDelegate(self._painter_of_rows)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setMouseTracking(True)

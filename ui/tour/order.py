@@ -27,7 +27,7 @@ POINTLESS: tuple[Bubble, ...] = (*ONLY_READ, "end")
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class TourMoment:
     """What decides. ``is_meant``: the practice patient is open, or somebody asked to be shown around; ``is_covered``: a
     message or a sheet lies over the screen; ``is_busy``: what was begun here is still under way."""
 
@@ -40,14 +40,14 @@ class Moment:
     is_saved: bool = False
 
 
-def bubble_at(moment: Moment, read: frozenset[Bubble] = frozenset()) -> Bubble | None:
+def bubble_at(moment: TourMoment, read: frozenset[Bubble] = frozenset()) -> Bubble | None:
     """The bubble to show, None for none: what was read is not shown again."""
     if moment.is_covered or moment.is_busy or not moment.is_meant:
         return None
     return next((bubble for bubble in _fitting(moment) if bubble not in read), None)
 
 
-def _fitting(moment: Moment) -> tuple[Bubble, ...]:
+def _fitting(moment: TourMoment) -> tuple[Bubble, ...]:
     if moment.place == "markers":
         at_work: Mapping[Work, tuple[Bubble, ...]] = {"aiming": ("aim",), "clicking": ("click",), "checked": ("check",)}
         return at_work.get(moment.work, ())  # the screen itself says what is wrong
