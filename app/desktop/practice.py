@@ -1,6 +1,7 @@
 """The practice patient: which simulated take belongs to a set-up, drawn once and kept in the user's cache.
 
-Its still hand takes a second to draw and is there at once; the movement is drawn while a person looks and clicks.
+Its still hand takes a second to draw and is there at once; the movement is drawn while a person looks and clicks. What
+draws is loaded when somebody practises: the program starts without it.
 """
 
 from __future__ import annotations
@@ -14,9 +15,7 @@ from typing import Any
 from carpus.core.capture.source import FrameSource
 from carpus.core.capture.tum import TumFolder
 from carpus.core.library.set_up import SetUp
-from carpus.core.simulation.first_pictures import FirstPictures
 from carpus.core.simulation.hand_motion import STILL_S
-from carpus.core.simulation.recording import cached_recording, is_cached
 from carpus.core.simulation.spec import RecordingSpec
 
 _SPEED_HZ, _RANGE_SHARE, _SECONDS = 0.4, 0.8, 9.0
@@ -65,12 +64,17 @@ def practice_times(set_up: SetUp) -> int:
 
 def practice_take(set_up: SetUp, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:
     """The take as a source, and how long it is still at its start."""
+    from carpus.core.simulation.recording import cached_recording
+
     folder = cached_recording(practice_spec(set_up), progress, workers=os.cpu_count() or 1)
     return TumFolder(folder, read_ahead=_READ_AHEAD), STILL_S - 1.0 / _FPS
 
 
 def practice_beginning(set_up: SetUp) -> tuple[FrameSource, float] | None:
     """The same hand in the same place, as long as it is still; None where the whole take was drawn before."""
+    from carpus.core.simulation.first_pictures import FirstPictures
+    from carpus.core.simulation.recording import is_cached
+
     if is_cached(practice_spec(set_up)):
         return None
     return FirstPictures(practice_spec(set_up), STILL_S), STILL_S - 1.0 / _FPS

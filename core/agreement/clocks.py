@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import minimize
 
 from carpus.core.agreement.watch import UNWATCHED, WorkWatch
 from carpus.core.types import FloatArray
@@ -217,7 +217,7 @@ def _drift(curves: ClockCurves, shift: Shift) -> _Drift | None:
     start = max(grid.tolist(), key=lambda drift: match(drift, 0.0))
     simplex = np.array([[start, 0.0], [start + step, 0.0], [start, 0.05]])
     options = {"initial_simplex": simplex, "xatol": 1e-5, "fatol": 1e-7, "maxiter": 200}
-    found = minimize(lambda x: -match(*x), simplex[0], method="Nelder-Mead", options=options)  # type: ignore[call-overload]
+    found = scipy.optimize.minimize(lambda x: -match(*x), simplex[0], method="Nelder-Mead", options=options)  # type: ignore[call-overload]
     drift, later_s = map(float, found.x)
     best = -float(found.fun)
     # A correlation that falls by c d^2 / 2 about its top: the variance of where the top is, by least squares.

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import chdtri
+import scipy
 
 from carpus.core.agreement.statistics import Interval, icc_2_1, icc_3_1
 from carpus.core.hand.sites import WRIST_ANGLES
@@ -96,7 +96,7 @@ def _freedom(table: FloatArray, most: float) -> float:
 
 def _chi2(df: float, share: float) -> float:
     """The value that a chi-square of ``df`` stays below with a probability."""
-    return float(chdtri(df, 1.0 - share))
+    return float(scipy.special.chdtri(df, 1.0 - share))
 
 
 def _same_rater(kept: Sequence[Sequence[tuple[float, str]]]) -> float:

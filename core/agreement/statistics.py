@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import chdtri, fdtri, stdtrit
+import scipy
 
 from carpus.core.types import FloatArray
 
@@ -65,7 +65,7 @@ def agreement(measured: FloatArray, reference: FloatArray, waveform: bool = True
     difference = a - b
     bias, sd = float(difference.mean()), float(difference.std(ddof=1))
     worth = independent_count(difference) if waveform else float(n)
-    t = float(stdtrit(max(worth - 1.0, 1.0), 0.975))
+    t = float(scipy.special.stdtrit(max(worth - 1.0, 1.0), 0.975))
     half_bias = t * sd / math.sqrt(worth)
     half_limit = t * sd * math.sqrt(1.0 / worth + 1.96**2 / (2.0 * max(worth - 1.0, 1.0)))
     low, high = bias - 1.96 * sd, bias + 1.96 * sd
@@ -137,12 +137,12 @@ def agreement_of_people(
     share = 1.0 - float((1.0 / worth).mean())
     sd = math.sqrt(of_means + share * within)
     bias, z = float(means.mean()), 1.96
-    t = float(stdtrit(people - 1.0, 0.975))
+    t = float(scipy.special.stdtrit(people - 1.0, 0.975))
 
     def aside(p: float) -> float:
         """How far the variance may be off, to the side that a chi-square's ``p`` belongs to."""
         parts = [(of_means, people - 1.0), *([(share * within, df)] if df > 0.0 else [])]
-        return math.sqrt(sum((v * (1.0 - d / float(chdtri(d, 1.0 - p)))) ** 2 for v, d in parts))
+        return math.sqrt(sum((v * (1.0 - d / float(scipy.special.chdtri(d, 1.0 - p)))) ** 2 for v, d in parts))
 
     sd_low, sd_high = math.sqrt(max(sd**2 - aside(0.975), 0.0)), math.sqrt(sd**2 + aside(0.025))
     mean_part = t**2 * of_means / people
@@ -210,7 +210,7 @@ def icc_2_1(readings: FloatArray, worth: float | None = None) -> tuple[float, In
     above = (m - 1) * (k - 1) * (k * own * ratio + m * (1 + (k - 1) * own) - k * own) ** 2
     under = (m - 1) * k**2 * own**2 * ratio**2 + (m * (1 + (k - 1) * own) - k * own) ** 2
     v = above / under if under > 0.0 else 1.0
-    f_low, f_high = float(fdtri(m - 1, v, 0.975)), float(fdtri(v, m - 1, 0.975))
+    f_low, f_high = float(scipy.special.fdtri(m - 1, v, 0.975)), float(scipy.special.fdtri(v, m - 1, 0.975))
     ms_columns_m = ratio * ms_rest
     rows_part = k * ms_columns_m + (k * m - k - m) * ms_rest
     low = m * (ms_rows - f_low * ms_rest) / (f_low * rows_part + m * ms_rows)
@@ -220,7 +220,7 @@ def icc_2_1(readings: FloatArray, worth: float | None = None) -> tuple[float, In
 
 def _concordance_interval(pairs: FloatArray, m: float) -> Interval:
     """Of Lin's coefficient of two readings (N, 2), which is ICC(2,1) but for terms of 1/N."""
-    (a, b), t = pairs.T, float(stdtrit(max(m - 1.0, 1.0), 0.975))
+    (a, b), t = pairs.T, float(scipy.special.stdtrit(max(m - 1.0, 1.0), 0.975))
     product = float(a.std() * b.std())
     r, u = float(np.corrcoef(a, b)[0, 1]), float((a.mean() - b.mean()) ** 2) / product
     c = 2.0 * r * product / float(a.var() + b.var() + u * product)
@@ -250,7 +250,7 @@ def icc_3_1(readings: FloatArray, worth: float | None = None) -> tuple[float, In
         return icc, (icc, icc)
     m = n if worth is None else max(worth, 2.0)
     f, df, df_rest = ms_rows / ms_rest, m - 1.0, (m - 1.0) * (k - 1.0)
-    low, high = f / float(fdtri(df, df_rest, 0.975)), f * float(fdtri(df_rest, df, 0.975))
+    low, high = f / float(scipy.special.fdtri(df, df_rest, 0.975)), f * float(scipy.special.fdtri(df_rest, df, 0.975))
     return icc, _within(icc, (low - 1) / (low + k - 1), (high - 1) / (high + k - 1), k)
 
 
