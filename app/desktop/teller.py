@@ -142,7 +142,9 @@ class Teller(QObject):
     def recovered_words(self, found: Recovered) -> Words:
         """What is said of a session that had been cut short."""
         what = self.tr("A session of {name} was cut short on {day} at {time}. It has been recovered.")
-        safe = self.tr("All data up to {kept} are safe; at most the last second is missing.")
+        safe = self.tr(
+            "All data up to {kept} are safe; at most the last second is missing; more only where the figures came late."
+        )
         day, at = numbers.short_date(found.when), f"{found.when:%H:%M}"
         return Words(
             what.format(name=found.pseudonym, day=day, time=at),

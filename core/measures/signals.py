@@ -94,8 +94,8 @@ def low_pass(signal: Signal, cutoff_hz: float = SPEED_CUTOFF_HZ) -> Signal:
         return signal
     from scipy import signal as sps  # half a second to load, and not needed before something has been recorded
 
-    # Each pass has -1.5 dB at the cut-off, so its own lies higher (Winter 2009), in the bilinear transform's scale; there
-    # the filter of second order is these five numbers. Designed for every stroke, it cost more than filtering.
+    # Each pass has -1.5 dB at the cut-off, so its own lies higher (Winter 2009), in the bilinear transform's scale;
+    # there the filter of second order is these five numbers. To have SciPy design it cost more than to filter.
     turn = math.tan(math.pi * cutoff_hz / signal.rate_hz) / _PASSES_APART
     under = 1.0 + math.sqrt(2.0) * turn + turn**2
     b = np.array([1.0, 2.0, 1.0]) * (turn**2 / under)

@@ -4848,8 +4848,8 @@
         <translation>Alles bisher Aufgenommene ist auf diesem Computer gespeichert.</translation>
     </message>
     <message>
-        <source>Everything stored before is safe; at most the last second is missing.</source>
-        <translation>Alles vorher Gespeicherte ist sicher; höchstens die letzte Sekunde fehlt.</translation>
+        <source>Everything stored before is safe; at most the last second is missing; more only where the figures came late.</source>
+        <translation>Alles vorher Gespeicherte ist sicher; höchstens die letzte Sekunde fehlt; mehr nur, wo die Werte später kamen.</translation>
     </message>
     <message>
         <source>Everything stored up to then is safe.</source>
@@ -12712,8 +12712,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Eine Sitzung von {name} brach am {day} um {time} ab. Sie ist wiederhergestellt.</translation>
     </message>
     <message>
-        <source>All data up to {kept} are safe; at most the last second is missing.</source>
-        <translation>Alle Daten bis {kept} sind sicher; höchstens die letzte Sekunde fehlt.</translation>
+        <source>All data up to {kept} are safe; at most the last second is missing; more only where the figures came late.</source>
+        <translation>Alle Daten bis {kept} sind sicher; höchstens die letzte Sekunde fehlt; mehr nur, wo die Werte später kamen.</translation>
     </message>
     <message>
         <source>Review it now, or leave it for later: it stays in the patient&apos;s list.</source>

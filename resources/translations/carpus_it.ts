@@ -4856,8 +4856,8 @@
         <translation>Tutto ciò che è stato registrato finora è salvato su questo computer.</translation>
     </message>
     <message>
-        <source>Everything stored before is safe; at most the last second is missing.</source>
-        <translation>Tutto ciò che era già salvato è al sicuro; manca al massimo l’ultimo secondo.</translation>
+        <source>Everything stored before is safe; at most the last second is missing; more only where the figures came late.</source>
+        <translation>Tutto ciò che era già salvato è al sicuro; manca al massimo l’ultimo secondo; di più solo se i valori arrivavano in ritardo.</translation>
     </message>
     <message>
         <source>Everything stored up to then is safe.</source>
@@ -12712,8 +12712,8 @@ Maiusc+F8 di lato</translation>
         <translation>Una seduta di {name} si è interrotta il {day} alle {time}. È stata recuperata.</translation>
     </message>
     <message>
-        <source>All data up to {kept} are safe; at most the last second is missing.</source>
-        <translation>Tutti i dati fino a {kept} sono al sicuro; manca al massimo l’ultimo secondo.</translation>
+        <source>All data up to {kept} are safe; at most the last second is missing; more only where the figures came late.</source>
+        <translation>Tutti i dati fino a {kept} sono al sicuro; manca al massimo l’ultimo secondo; di più solo se i valori arrivavano in ritardo.</translation>
     </message>
     <message>
         <source>Review it now, or leave it for later: it stays in the patient&apos;s list.</source>

@@ -116,7 +116,8 @@ LOST = Words(
 )
 RECOVERED = Words(
     "A session of Heron 17 was cut short yesterday at 16:42. It has been recovered.",
-    "All data up to 04:12 are safe; at most the last second is missing. The file is marked “recovered”.",
+    "All data up to 04:12 are safe; at most the last second is missing; more only where the figures came late."
+    " The file is marked “recovered”.",
     "Review it now, or leave it for later: it stays in the patient’s list.",
 )
 
