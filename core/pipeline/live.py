@@ -41,6 +41,8 @@ log = logging.getLogger(__name__)
 
 PREVIEW_WAITING = 16
 """Pictures that wait for the tracker while nothing is recorded: half a second. What is seen is to be of now."""
+FREE_SHARE = 0.5
+"""No more than this part of the memory that is free when a recording begins is for pictures that wait."""
 _LOOK_S = 0.005
 _FRAME_PATIENCE_S = 0.25
 """A stop waits this long for the capture thread to come back with a frame before it closes the source under it."""
@@ -73,8 +75,9 @@ class LiveSettings:
     """Bounds of the live session.
 
     ``tracking_waiting`` recorded frames that may wait for the tracker before new ones are left out: a minute of a
-    camera at twice the work that the computer can do, as they came, 1.5 GB of 640x480. ``pictures_waiting`` may wait
-    for the disk before the raw recording ends; the newest are the same as those above, so the two share their memory.
+    camera at twice the work that the computer can do, as they came, 1.5 GB of 640x480, fewer where the computer has
+    not twice as much memory free. ``pictures_waiting`` may wait for the disk before the raw recording ends; the newest
+    are the same as those above, so the two share their memory.
     ``rows_waiting`` as many results, beside those that wait for the tracker, before the recording ends (30 s);
     ``history_s`` of tracked frames kept for curves; ``row_bytes`` and ``picture_bytes`` on the disk by experience, for
     the time that is left; a warning comes once below ``low_disk_bytes``. ``folder`` is where sessions will go, for the
@@ -149,6 +152,7 @@ class LiveSession:
         self._events: deque[LiveEvent] = deque(maxlen=1000)
         self._arrivals: deque[float] = deque(maxlen=math.ceil(2.0 * fps) + 1)
         self._latencies: deque[float] = deque(maxlen=math.ceil(10.0 * fps))
+        self._room = self._settings.tracking_waiting
         self._captured = self._tracked = self._missing = 0
         self._handed = self._worked = self._left_out = self._left_out_before = 0
         self._worked_at: deque[float] = deque(maxlen=math.ceil(2.0 * fps))
@@ -272,6 +276,7 @@ class LiveSession:
         if self.recording:
             raise RuntimeError("a recording runs already")
         settings = self._settings
+        self._room = _room_for(self._newest_frame.look(), settings.tracking_waiting)
         self._row_count, self._disk_warned, self._disk_free = 0, False, None
         rows: Recorder[SessionSink, TrackedFrame | _Note] = Recorder(
             "writing",
@@ -291,7 +296,7 @@ class LiveSession:
                 "pictures",
                 open_pictures,
                 lambda sink, frame: sink.append_frame(frame),
-                self._settings.pictures_waiting,
+                _room_for(self._newest_frame.look(), settings.pictures_waiting),
                 lambda cause: self._tell("pictures_failed", cause),
                 waits=self._source_waits,
                 patience=Patience(
@@ -483,7 +488,7 @@ class LiveSession:
         frame = captured.frame
         if self._left_out_before:
             frame = replace(frame, dropped_before=frame.dropped_before + self._left_out_before)
-        room = self._settings.tracking_waiting
+        room = self._room
         if captured.rows is None and not self._source_waits:
             room = 0 if self._catching_up else min(PREVIEW_WAITING, room)
         try:
@@ -567,6 +572,24 @@ class LiveSession:
                 self._disk_warned = True
                 self._tell("disk_low", value=float(self._disk_free or 0))
         self._row_count += 1
+
+
+def _room_for(frame: Frame | None, most: int) -> int:
+    """How many pictures like this one may wait in memory: ``most``, or what the share of the free memory holds."""
+    free = free_memory_bytes()
+    if frame is None or free is None:
+        return most
+    frame_bytes = frame.color_rgb.nbytes + (0 if frame.depth_raw is None else frame.depth_raw.nbytes)
+    return min(most, max(PREVIEW_WAITING, int(FREE_SHARE * free) // frame_bytes))
+
+
+def free_memory_bytes() -> int | None:
+    """Memory that programs may still take without others being swapped out; None where the system does not tell."""
+    with suppress(OSError):
+        for line in Path("/proc/meminfo").read_text(encoding="ascii").splitlines():
+            if line.startswith("MemAvailable:"):
+                return 1024 * int(line.split()[1])
+    return None
 
 
 def _free_bytes(folder: Path | None) -> int | None:

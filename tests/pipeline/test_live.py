@@ -11,10 +11,11 @@ from pathlib import Path
 import pytest
 
 from carpus.core.errors import CameraLost, CameraReturned, DiskTooSlow, OutputExists, PictureDamaged
+from carpus.core.pipeline import live as live_module
 from carpus.core.pipeline.live import LiveSession, LiveSettings
 from carpus.core.pipeline.live_values import LiveEvent
 from carpus.core.types import Frame, TrackedFrame
-from tests.pipeline.live_fakes import FakeSession, Gate, HeldSource, tracked, wait_until
+from tests.pipeline.live_fakes import FakeSession, Gate, HeldSource, frame, tracked, wait_until
 
 OUT = Path("session.h5")
 
@@ -107,6 +108,26 @@ def test_beyond_the_room_new_pictures_are_left_out_and_each_is_counted_and_store
         assert live.stop_recording() == OUT
     assert [row.index for row in sink.rows] == [*range(9), 51, 52]
     assert [row.dropped_before for row in sink.rows] == [*[0] * 9, 42, 0]
+
+
+def test_a_computer_with_little_memory_lets_fewer_pictures_wait(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(live_module, "free_memory_bytes", lambda: 50 * frame(0).color_rgb.nbytes)
+    source, gate = HeldSource(), Gate()
+
+    def slow(picture: Frame) -> TrackedFrame:
+        gate.pass_through()
+        return tracked(picture)
+
+    with LiveSession(source) as live:
+        deliver(live, source, 1)
+        live.begin_tracking(slow)
+        live.start_recording(lambda: FakeSession(OUT))
+        deliver(live, source, 1)
+        wait_until(lambda: gate.waiting)
+        deliver(live, source, 40)
+        assert live.counters().waiting_tracking == 25
+        assert live.counters().dropped == 15
+        gate.open()
 
 
 def test_frames_missing_at_the_source_add_to_those_lost_here() -> None:
