@@ -7449,7 +7449,7 @@
     </message>
     <message>
         <source>{count} pictures are missing, the rest is kept: close other programs</source>
-        <translation>{count} Bilder fehlen, der Rest ist da: andere Programme schließen</translation>
+        <translation type="vanished">{count} Bilder fehlen, der Rest ist da: andere Programme schließen</translation>
     </message>
     <message>
         <source>The computer is too busy</source>
@@ -7457,11 +7457,23 @@
     </message>
     <message>
         <source>The figures come {seconds} s late; every picture is kept</source>
-        <translation>Die Werte kommen {seconds} s später; kein Bild geht verloren</translation>
+        <translation type="vanished">Die Werte kommen {seconds} s später; kein Bild geht verloren</translation>
     </message>
     <message>
         <source>The figures come {seconds} s late</source>
-        <translation>Die Werte kommen {seconds} s später</translation>
+        <translation type="vanished">Die Werte kommen {seconds} s später</translation>
+    </message>
+    <message>
+        <source>{count} pictures are missing: close other programs</source>
+        <translation>{count} Bilder fehlen: Programme schließen</translation>
+    </message>
+    <message>
+        <source>The computer is busy; every picture is kept</source>
+        <translation>Der Computer ist ausgelastet; nichts fehlt</translation>
+    </message>
+    <message>
+        <source>The figures are {seconds} s late</source>
+        <translation>Werte kommen {seconds} s später</translation>
     </message>
     <message>
         <source>The computer is busy</source>

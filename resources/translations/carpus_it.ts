@@ -7449,7 +7449,7 @@
     </message>
     <message>
         <source>{count} pictures are missing, the rest is kept: close other programs</source>
-        <translation>{count} immagini mancano, il resto c’è: chiudere altri programmi</translation>
+        <translation type="vanished">{count} immagini mancano, il resto c’è: chiudere altri programmi</translation>
     </message>
     <message>
         <source>The computer is too busy</source>
@@ -7457,11 +7457,23 @@
     </message>
     <message>
         <source>The figures come {seconds} s late; every picture is kept</source>
-        <translation>I valori arrivano con {seconds} s di ritardo; nessuna immagine va persa</translation>
+        <translation type="vanished">I valori arrivano con {seconds} s di ritardo; nessuna immagine va persa</translation>
     </message>
     <message>
         <source>The figures come {seconds} s late</source>
-        <translation>I valori arrivano con {seconds} s di ritardo</translation>
+        <translation type="vanished">I valori arrivano con {seconds} s di ritardo</translation>
+    </message>
+    <message>
+        <source>{count} pictures are missing: close other programs</source>
+        <translation>{count} immagini mancano: chiudere altri programmi</translation>
+    </message>
+    <message>
+        <source>The computer is busy; every picture is kept</source>
+        <translation>Il computer è occupato; non si perde nulla</translation>
+    </message>
+    <message>
+        <source>The figures are {seconds} s late</source>
+        <translation>Valori in ritardo di {seconds} s</translation>
     </message>
     <message>
         <source>The computer is busy</source>

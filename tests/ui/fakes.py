@@ -289,6 +289,22 @@ class FakeFeed:
         self.paused = False
 
 
+class LateFeed(FakeFeed):
+    """The camera is ahead of the tracker."""
+
+    ahead_s = 0.0
+    dropped = 0
+    waiting = 0
+
+    def newest_frame(self) -> Frame | None:
+        frame = super().newest_frame()
+        return None if frame is None else replace(frame, timestamp_s=frame.timestamp_s + self.ahead_s)
+
+    def counters(self) -> LiveCounters:
+        left_s = self.waiting / 100.0
+        return replace(super().counters(), dropped=self.dropped, waiting_tracking=self.waiting, catching_up_s=left_s)
+
+
 def with_other_spot(feed: FakeFeed, marker: int, from_s: float, *, taken: bool, off_px: tuple[float, float]) -> None:
     """From a time on a marker is hidden while another blue spot lies by it, or with ``taken`` it is doubted."""
     for number, frame in enumerate(feed.frames):

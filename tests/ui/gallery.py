@@ -90,6 +90,7 @@ from tests.ui.fakes import (
     FakeSessions,
     FakeShelf,
     FakeStore,
+    LateFeed,
     clinic,
     compared,
     hand_values,
@@ -438,6 +439,18 @@ class Gallery:
     def live_large(self) -> None:
         with self._live(FakeFeed(seconds=32.0)) as screen:
             screen.toggle_large()
+            self.settle()
+
+    def live_catching_up(self) -> None:
+        """Stopped on a busy computer: the newest picture by itself, and how long it takes until all is tracked."""
+        feed = LateFeed(seconds=32.0)
+        with self._live(feed) as screen:
+            feed.ahead_s, feed.waiting = 21.0, 1200
+            screen._stopping = True
+            screen._show_values()
+            feed.waiting = 500
+            screen.tick()
+            screen._show_values()
             self.settle()
 
     def live_speeds(self) -> None:
@@ -1099,7 +1112,8 @@ class Gallery:
             "markers_start_angle", "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete",
             "markers_straight", "markers_other_spot", "sessions_list", "sessions_erase",
             "patient_erase",
-            "live", "live_large", "live_speeds", "live_marker_hidden", "live_which_spot", "live_hand_lost", "live_hand",
+            "live", "live_large", "live_catching_up",
+            "live_speeds", "live_marker_hidden", "live_which_spot", "live_hand_lost", "live_hand",
             "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved",
             "live_disk_full", "live_note", "patient_view", "patient_view_goal", "patient_view_child",
             "patient_view_lost", "patient_view_rest", "exercise_sets", "exercise_goals",

@@ -55,7 +55,7 @@ STATES = (
     "report_own", "report_letter", "letter_sheet", "report_home",
     "home_sheet", "clinic",
     "patient_view", "patient_view_goal", "patient_view_child", "patient_view_lost", "patient_view_rest",
-    "exercise_sets", "exercise_goals", "live_large",
+    "exercise_sets", "exercise_goals", "live_large", "live_catching_up",
     "settings", "settings_safe", "settings_research", "locked", "pin_change", "records_due", "records_log", "help",
     "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",
     "markers_guided", "markers_ready_guided", "live_guided", "live_hand_guided", "review_guided", "report_guided",

@@ -15,8 +15,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import DiskFull
 from carpus.core.hand.protocols import WRIST6
-from carpus.core.pipeline.live_values import LiveCounters
-from carpus.core.types import Detections, Frame, TrackStatus
+from carpus.core.types import Detections, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.live import screen as live_screen
@@ -29,7 +28,7 @@ from carpus.ui.plot.history import KEPT_S, History
 from carpus.ui.plot.live_curves import LiveCurves
 from carpus.ui.theme import Theme
 from tests.moments import with_moment
-from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up, with_other_spot
+from tests.ui.fakes import FakeFeed, FakeMeasuring, LateFeed, set_up, with_other_spot
 
 MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
 
@@ -512,22 +511,6 @@ def test_a_question_stands_only_after_it_has_lasted() -> None:
     assert not gone[-1]
 
 
-class LateFeed(FakeFeed):
-    """The camera is ahead of the tracker."""
-
-    ahead_s = 0.0
-    dropped = 0
-    waiting = 0
-
-    def newest_frame(self) -> Frame | None:
-        frame = super().newest_frame()
-        return None if frame is None else replace(frame, timestamp_s=frame.timestamp_s + self.ahead_s)
-
-    def counters(self) -> LiveCounters:
-        left_s = self.waiting / 100.0
-        return replace(super().counters(), dropped=self.dropped, waiting_tracking=self.waiting, catching_up_s=left_s)
-
-
 def test_a_busy_computer_shows_the_newest_picture_and_says_how_late_the_figures_are(qtbot: QtBot, theme: Theme) -> None:
     feed = LateFeed()
     screen, measuring = live(qtbot, theme, feed)
@@ -538,7 +521,7 @@ def test_a_busy_computer_shows_the_newest_picture_and_says_how_late_the_figures_
     screen._show_slow()
     run(screen, feed, 0.5)
     screen._show_values()
-    assert screen.light.lamp == Lamp("idle", "The computer is busy", "The figures come 4 s late; every picture is kept")
+    assert screen.light.lamp == Lamp("idle", "The figures are 4 s late", "The computer is busy; every picture is kept")
     assert math.isnan(screen.glance().value_deg)
     newest = feed.newest_frame()
     feed.newest_frame = lambda: newest  # type: ignore[method-assign]
@@ -557,7 +540,7 @@ def test_a_busy_computer_shows_the_newest_picture_and_says_how_late_the_figures_
     feed.ahead_s = 0.0
     run(screen, feed, 0.5)
     screen._show_values()
-    assert "computer" not in screen.light.lamp.state
+    assert "late" not in screen.light.lamp.state
 
 
 def test_a_stop_says_how_long_catching_up_takes(qtbot: QtBot, theme: Theme) -> None:

@@ -54,12 +54,11 @@ class Behind:
 def behind_lamp(behind: Behind, *, recording: bool) -> Lamp:
     """What the tracking light says instead of what the camera saw a while ago."""
     if behind.left_out and recording:
-        words = tr("{count} pictures are missing, the rest is kept: close other programs")
+        words = tr("{count} pictures are missing: close other programs")
         return Lamp("warn", tr("The computer is too busy"), words.format(count=behind.left_out))
-    words = tr("The figures come {seconds} s late; every picture is kept")
-    if not recording:
-        words = tr("The figures come {seconds} s late")
-    return Lamp("idle", tr("The computer is busy"), words.format(seconds=f"{behind.late_s:.0f}"))
+    kept = tr("The computer is busy; every picture is kept")
+    words = tr("The figures are {seconds} s late").format(seconds=f"{behind.late_s:.0f}")
+    return Lamp("idle", words, kept if recording else tr("The computer is busy"))
 
 
 def words_left(counters: LiveCounters) -> str:
