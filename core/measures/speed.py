@@ -27,7 +27,7 @@ from carpus.core.measures.noise import (
     moving_noise,
 )
 from carpus.core.measures.repetitions import LEAST_RANGE_RAD, Stroke
-from carpus.core.measures.signals import Signal, low_pass, rate_of_change, stretches
+from carpus.core.measures.signals import SPEED_CUTOFF_HZ, Signal, low_pass, rate_of_change, stretches
 from carpus.core.measures.smoothness import LEAST_PEAK_RAD_S, log_dimensionless_jerk, sparc, speed_peaks
 from carpus.core.types import FloatArray
 
@@ -49,6 +49,8 @@ _HALF_HEIGHT_SHARE, _PEAK_OVER_MEAN = 0.541, 1.875
 """Of its time a minimum-jerk movement is above half of its peak speed, which is so many times its mean speed."""
 _SHORT_PART, _PART_IN_SDS = 0.6, 2.0
 """A quickest part below this share of the whole way's time is a sub-movement, if it is so much above the noise."""
+_REACH_TURNS, _REACH_S = 8.0, 5.0
+"""A low-pass forgets within less than this many turns of its cut-off; movements end within so many seconds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,10 +89,12 @@ def measure_stroke(angle: Signal, stroke: Stroke, sd: Signal | None = None, *, s
     speed left zero, or its last minimum, to where it is back, as published figures have it. Movement units are unknown
     where none rises as they must (5 degrees a second).
     """
-    part = low_pass(angle, HIGHEST_CUTOFF_HZ).between(stroke.start_s, stroke.end_s)
+    part = _low_pass_about(angle, stroke, HIGHEST_CUTOFF_HZ).between(stroke.start_s, stroke.end_s)
     if not part.finite.all() or len(part.time_s) < 2:
         return StrokeMeasures(stroke, float(np.ptp(part.value[part.finite])) if part.finite.any() else math.nan)
-    duration_s = usual_duration_s(low_pass(angle).between(stroke.start_s, stroke.end_s).value, angle.rate_hz)
+    duration_s = usual_duration_s(
+        _low_pass_about(angle, stroke, SPEED_CUTOFF_HZ).between(stroke.start_s, stroke.end_s).value, angle.rate_hz
+    )
     noise = _noise(angle, stroke, sd, duration_s, smoothed=smoothed)
     arc = _arc(part, noise, duration_s)
     if not arc >= LEAST_RANGE_RAD:
@@ -223,7 +227,15 @@ def _pace(angle: Signal, stroke: Stroke, noise: Noise, arc: float, duration_s: f
 
 def _speed(angle: Signal, stroke: Stroke, cutoff_hz: float) -> FloatArray:
     """Speed (n,) in the direction of a stroke without gaps."""
-    return stroke.toward * rate_of_change(low_pass(angle, cutoff_hz)).between(stroke.start_s, stroke.end_s).value
+    smooth = _low_pass_about(angle, stroke, cutoff_hz)
+    return stroke.toward * rate_of_change(smooth).between(stroke.start_s, stroke.end_s).value
+
+
+def _low_pass_about(angle: Signal, stroke: Stroke, cutoff_hz: float) -> Signal:
+    """As :func:`low_pass`, of the time about a stroke alone: of what lies further away less than 1e-15 would be left in
+    the stroke, and all of a long recording for every stroke would cost the square of its length."""
+    reach_s = _REACH_TURNS / cutoff_hz + _REACH_S
+    return low_pass(angle.between(stroke.start_s - reach_s, stroke.end_s + reach_s), cutoff_hz)
 
 
 def _above_half_s(speed: FloatArray, rate_hz: float) -> float:
@@ -254,9 +266,9 @@ def _moved(angle: Signal, stroke: Stroke, noise: Noise, cutoff_hz: float) -> _Mo
     """None where the speed does not fall below 5 % of its peak on both sides, and where no cut-off will do (NaN)."""
     if math.isnan(cutoff_hz):
         return None
-    smooth = low_pass(angle, cutoff_hz)
+    smooth = _low_pass_about(angle, stroke, cutoff_hz)
     velocity = stroke.toward * rate_of_change(smooth).value
-    first, last = np.searchsorted(angle.time_s, (stroke.start_s - 1e-9, stroke.end_s + 0.25 / angle.rate_hz))
+    first, last = np.searchsorted(smooth.time_s, (stroke.start_s - 1e-9, stroke.end_s + 0.25 / angle.rate_hz))
     inside = slice(int(first), int(last))
     if not np.isfinite(velocity[inside]).all() or not (velocity[inside] > 0.0).any():
         return None
@@ -278,8 +290,8 @@ def _moved(angle: Signal, stroke: Stroke, noise: Noise, cutoff_hz: float) -> _Mo
         duration_s=(offset - onset) / angle.rate_hz,
         to_peak_share=(peak_at - onset) / (offset - onset),
         standing_s=_standing_s(at / angle.rate_hz, np.abs(speeds), STANDING_SHARE * peak),
-        onset_s=float(angle.time_s[0]) + onset / angle.rate_hz,
-        offset_s=float(angle.time_s[0]) + offset / angle.rate_hz,
+        onset_s=float(smooth.time_s[0]) + onset / angle.rate_hz,
+        offset_s=float(smooth.time_s[0]) + offset / angle.rate_hz,
         moving=np.abs(velocity[begin : end + 1]),
         whole=np.abs(velocity[from_rest : to_rest + 1]),
     )
