@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QFontMetricsF, QPainter
 
 from carpus.core.types import FloatArray
 from carpus.ui.agreement.words import angle_token, ends, interval, signed
 from carpus.ui.plot.axes import Panel, Scale, hatch, time_labels
-from carpus.ui.plot.marks import Mark, Remark, Scales, Times
+from carpus.ui.plot.marks import Curve, Curves, Level, Mark, Remark, Scales, Times
+from carpus.ui.plot.series import Series
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
 
@@ -127,17 +128,27 @@ class AgreementPlot:
         if self.view == "differences":
             rows = self.drawn
             values = (self.measured_deg - self.reference_deg)[rows]
-            return [_Dots(self.mean_deg[rows], values, token, 3.0 if self.over_time else 4.5), _Lines(self)]
+            figures = self.pairs.figures_deg
+            limits = [Level(value, "text", (7.0, 5.0)) for value in figures.limits]
+            dots = _Dots(self.mean_deg[rows], values, token, 3.0 if self.over_time else 4.5)
+            return [dots, Level(figures.bias, token, ()), *limits]
         if not self.over_time:
             return [
                 _Dots(self.along, self.reference_deg, "border", 5.0),
                 _Dots(self.along, self.measured_deg, token, 4.5),
             ]
-        curves: list[Mark] = [
-            _Curve(self.along, self.reference_deg, "curve_c" if token != "curve_c" else "border", dashed=True),
-            _Curve(self.along, self.measured_deg, token),
+        step_s = 3.0 * float(np.median(np.diff(self.along))) if len(self.along) > 1 else 1.0
+        return [
+            Curves(
+                [
+                    Curve(Series(self.along, values, None, np.full(len(values), dashed), step_s), own)
+                    for values, own, dashed in (
+                        (self.reference_deg, "curve_c" if token != "curve_c" else "border", True),
+                        (self.measured_deg, token, False),
+                    )
+                ]
+            )
         ]
-        return curves
 
     def beside(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         """The words right of the panel."""
@@ -281,46 +292,3 @@ class _Dots:
         for x, y in zip(panel.x(self.x), panel.y(self.y), strict=True):
             if math.isfinite(y) and panel.box.left() - 1 <= x <= panel.box.right() + 1:
                 painter.drawEllipse(QPointF(float(x), float(y)), reach, reach)
-
-
-@dataclass(frozen=True, slots=True)
-class _Lines:
-    """Mean, solid, and the limits of agreement, dashed."""
-
-    plot: AgreementPlot
-
-    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        figures = self.plot.pairs.figures_deg
-        for value, is_mean in ((figures.bias, True), (figures.limits[0], False), (figures.limits[1], False)):
-            if math.isfinite(value):
-                token = angle_token(self.plot.pairs.name) if is_mean else "text"
-                pen = QPen(style.color(token), style.line_width)
-                if not is_mean:
-                    pen.setDashPattern([7, 5])
-                painter.setPen(pen)
-                y = float(panel.y(value))
-                painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Curve:
-    """A line over time, broken where nothing was compared."""
-
-    x: FloatArray
-    y: FloatArray
-    token: str
-    dashed: bool = False
-
-    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        pen = QPen(style.color(self.token), style.line_width)
-        if self.dashed:
-            pen.setDashPattern([6, 4])
-        painter.save()
-        painter.setClipRect(panel.box.adjusted(0, -2, 0, 2).toAlignedRect(), Qt.ClipOperation.IntersectClip)
-        painter.setPen(pen)
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        longest = 3.0 * float(np.median(np.diff(self.x))) if len(self.x) > 1 else 1.0
-        for part in np.split(np.arange(len(self.x)), np.flatnonzero(np.diff(self.x) > longest) + 1):
-            xs, ys = panel.x(self.x[part]), panel.y(self.y[part])
-            painter.drawPolyline(QPolygonF([QPointF(float(x), float(y)) for x, y in zip(xs, ys, strict=True)]))
-        painter.restore()

@@ -15,7 +15,7 @@ from carpus.core.types import FloatArray
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of, with_side
 from carpus.ui.plot.axes import Panel, Scale, angle_scale, hatch
-from carpus.ui.plot.marks import Scales, Times
+from carpus.ui.plot.marks import EndLabels, Scales, Times
 from carpus.ui.plot.polygon import runs
 from carpus.ui.plot.series import Drawn, Series, paint_series
 from carpus.ui.plot.style import PlotStyle
@@ -116,26 +116,13 @@ class BesidePlot:
         return Series(mean.share, self.sign * mean.mean_deg, sd, dashed, step)
 
     def _paint_names(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        """At the ends of the curves, one above the other where they meet."""
-        painter.setFont(style.end_label)
-        metrics = QFontMetricsF(style.end_label)
-        rows = []
+        """At the ends of the curves, one below the other where they meet."""
+        labels = []
         for mean, name, token in zip((self.first, self.second), self.names, TOKENS, strict=True):
-            known = np.flatnonzero(np.isfinite(mean.mean_deg))
+            known = self.sign * mean.mean_deg[np.isfinite(mean.mean_deg)]
             if len(known):
-                value = self.sign * mean.mean_deg
-                rows.append((float(panel.y(float(value[known[-1]]))), -float(np.nanmax(value)), name, token))
-        rows.sort(key=lambda row: (round(row[0] / metrics.height()), row[1]))
-        middles = [row[0] for row in rows]
-        if len(rows) > 1 and middles[1] - middles[0] < metrics.height():
-            centre = sum(middles) / 2
-            middles = [centre - metrics.height() / 2, centre + metrics.height() / 2]
-        low, high = panel.box.top(), panel.box.bottom()
-        for middle, (_, _, name, token) in zip(middles, rows, strict=True):
-            painter.setPen(style.color(token))
-            inside = min(max(middle, low), high)
-            baseline = inside + (metrics.ascent() - metrics.descent()) / 2
-            painter.drawText(QPointF(panel.box.right() + 12 * style.unit, baseline), name)
+                labels.append((float(known[-1]), name, token))
+        EndLabels(labels).paint(painter, style, panel)
 
     def _paint_places(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         """A line where the first is, and a dot on each curve."""

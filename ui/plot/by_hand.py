@@ -9,7 +9,7 @@ from datetime import date, datetime, time
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF
-from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
 
 from carpus.core.by_hand.measures import HandMeasure
 from carpus.core.by_hand.values import HandValue
@@ -17,7 +17,7 @@ from carpus.ui import numbers
 from carpus.ui.by_hand.names import measure_name, value_words
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.marks import EndLabels, Scales
+from carpus.ui.plot.marks import EndLabels, Scales, Times
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
 
@@ -82,6 +82,50 @@ def paint_square(painter: QPainter, at: QPointF, unit: float, *, turned: bool = 
         painter.drawRect(QRectF(at.x() - half, at.y() - half, 2 * half, 2 * half))
 
 
+def paint_at_least(painter: QPainter, x: float, y: float, unit: float) -> None:
+    """An arrow upwards: the joint went out of sight, the true value may be larger."""
+    painter.drawPolygon(QPolygonF([QPointF(x, y - 7 * unit), QPointF(x - 4.5 * unit, y), QPointF(x + 4.5 * unit, y)]))
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """What the signs mean (sign, words, token), at the lower end of a box in as many lines as it needs."""
+
+    entries: Sequence[tuple[str, str, str]]
+
+    def lines(self, style: PlotStyle, box: QRectF) -> list[list[tuple[float, str, str, str]]]:
+        """Each entry after its left edge."""
+        metrics, unit = QFontMetricsF(style.end_label), style.unit
+        lines: list[list[tuple[float, str, str, str]]] = [[]]
+        across = 8 * unit
+        for sign, words, token in self.entries:
+            width = 17 * unit + metrics.horizontalAdvance(words)
+            if lines[-1] and across + width > box.width():
+                lines.append([])
+                across = 8 * unit
+            lines[-1].append((box.left() + across, sign, words, token))
+            across += width + 18 * unit
+        return lines
+
+    def paint(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
+        unit, metrics = style.unit, QFontMetricsF(style.end_label)
+        painter.setFont(style.end_label)
+        for number, entries in enumerate(reversed(self.lines(style, box))):
+            baseline = box.bottom() - 6 * unit - number * metrics.height()
+            for left, sign, words, token in entries:
+                at = QPointF(left + 5 * unit, baseline - 0.36 * metrics.ascent())
+                painter.setPen(QPen(style.color(token), 1.6 * unit))
+                painter.setBrush(style.color(token if sign == "dot" else "surface"))
+                if sign == "arrow":
+                    paint_at_least(painter, at.x(), baseline - 1 * unit, unit)
+                elif sign in ("square", "diamond"):
+                    paint_square(painter, at, unit, turned=sign == "diamond")
+                else:
+                    painter.drawEllipse(at, HALF_PX * unit, HALF_PX * unit)
+                painter.setPen(style.color("text2"))
+                painter.drawText(QPointF(left + 17 * unit, baseline), words)
+
+
 @dataclass(frozen=True, slots=True)
 class OurDots:
     """What Carpus measured of the same, each session's mean."""
@@ -131,13 +175,18 @@ def paint_course(
         painter.setPen(style.color("text2"))
         painter.drawText(QPointF(box.left(), box.top() + 2.2 * title), tr("Nothing measured by hand yet."))
         return
+    key = Key(
+        [("square", tr("by hand, active") if len(measure.ways) > 1 else tr("by hand"), "text")]
+        + ([("diamond", tr("by hand, passive"), "text")] if passive else [])
+        + ([("dot", tr("Carpus, mean"), "curve_a")] if ours else [])
+    )
     pad = max(0.06 * (max(times) - min(times)), 2 * DAY_S)
     scale = scale_of(measure, [one.value for one in values] + [value for _, value in ours])
     left = max(metrics.horizontalAdvance(text) for _, text in scale.labels) + 14 * unit
     right = metrics.horizontalAdvance(tr("passive {value}").format(value="100°")) + 20 * unit
     area = QRectF(
         box.left() + left, box.top() + title + 12 * unit, box.width() - left - right,
-        box.height() - title - 2 * metrics.height() - 34 * unit,
+        box.height() - title - (1 + len(key.lines(style, box))) * metrics.height() - 34 * unit,
     )  # fmt: skip
     panel = Panel(area, scale, min(times) - pad, max(times) + pad)
     Scales().paint(painter, style, panel)
@@ -154,49 +203,6 @@ def paint_course(
             words = pattern.format(value=value_words(measure, some[-1].value))
             labels.append((some[-1].value, words, "text"))
     EndLabels(labels).paint(painter, style, panel)
-    _paint_days(painter, style, panel, [one.day for one in values] + [one.date() for one in when])
-    _paint_meaning(painter, style, box, has_passive=bool(passive), has_ours=bool(ours), ways=len(measure.ways))
-
-
-def _paint_days(painter: QPainter, style: PlotStyle, panel: Panel, days: Sequence[date]) -> None:
-    """The first and the last day, and what fits between."""
-    metrics, taken = QFontMetricsF(style.end_label), list[tuple[float, float]]()
-    painter.setFont(style.end_label)
-    painter.setPen(style.color("text2"))
-    known = sorted(set(days))
-    for day in [known[-1], known[0], *known[1:-1]]:
-        text = numbers.day_month(day)
-        width = metrics.horizontalAdvance(text)
-        left = float(panel.x(day_s(day))) - width / 2
-        if any(left < end + 6 * style.unit and left + width > start - 6 * style.unit for start, end in taken):
-            continue
-        taken.append((left, left + width))
-        painter.drawText(QPointF(left, panel.box.bottom() + metrics.ascent() + 6 * style.unit), text)
-
-
-def _paint_meaning(
-    painter: QPainter, style: PlotStyle, box: QRectF, *, has_passive: bool, has_ours: bool, ways: int
-) -> None:
-    unit, metrics = style.unit, QFontMetricsF(style.end_label)
-    baseline = box.bottom() - 5 * unit
-    across = box.left() + 8 * unit
-    signs = [("square", tr("by hand, active") if ways > 1 else tr("by hand"))]
-    signs += [("diamond", tr("by hand, passive"))] if has_passive else []
-    signs += [("dot", tr("Carpus, mean"))] if has_ours else []
-    needed = sum(28 * unit + metrics.horizontalAdvance(words) for _, words in signs) + 8 * unit
-    if needed > box.width():  # longer words are smaller
-        face = QFont(style.end_label)
-        face.setPixelSize(max(1, int(face.pixelSize() * max(0.6, (box.width() - 28 * unit * len(signs)) / needed))))
-        painter.setFont(face)
-        metrics = QFontMetricsF(face)
-    for sign, words in signs:
-        at = QPointF(across, baseline - 0.36 * metrics.ascent())
-        painter.setPen(QPen(style.color("curve_a" if sign == "dot" else "text"), 1.6 * unit))
-        painter.setBrush(style.color("curve_a" if sign == "dot" else "surface"))
-        if sign == "dot":
-            painter.drawEllipse(at, 4 * unit, 4 * unit)
-        else:
-            paint_square(painter, at, unit, turned=sign == "diamond")
-        painter.setPen(style.color("text2"))
-        painter.drawText(QPointF(across + 12 * unit, baseline), words)
-        across += 28 * unit + metrics.horizontalAdvance(words)
+    days = sorted({one.day for one in values} | {one.date() for one in when})
+    Times([(day_s(day), numbers.day_month(day)) for day in days], days=True).paint(painter, style, panel)
+    key.paint(painter, style, box)

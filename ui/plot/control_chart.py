@@ -15,6 +15,7 @@ from carpus.core.check_card.chart import CardCheck, Verdict, usual_of, verdict_o
 from carpus.ui import numbers
 from carpus.ui.icons import octagon
 from carpus.ui.plot.axes import Panel, Scale
+from carpus.ui.plot.marks import EndLabels, Level, Times
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
 
@@ -90,33 +91,27 @@ def _verdict(earlier: Sequence[CardCheck], check: CardCheck, kind: int) -> Verdi
 def paint_control_ground(painter: QPainter, style: PlotStyle, plot: ControlPlot, panel: Panel) -> None:
     """What stays: the usual band, the limit, days, and the words at the right."""
     box, unit = panel.box, style.unit
-    taken: list[float] = []
     if math.isfinite(plot.usual):
         left = float(panel.x(plot.usual_from - 0.5))
         top = float(panel.y(plot.usual))
         painter.fillRect(QRectF(left, top, box.right() - left, box.bottom() - top), style.color("norm"))
-    pen = QPen(style.color("bad"), 1.5 * style.grid_width)
-    pen.setDashPattern([6, 4])
-    painter.setPen(pen)
-    at = float(panel.y(plot.limit))
-    painter.drawLine(QPointF(box.left(), at), QPointF(box.right(), at))
+    Level(plot.limit, "bad", (6.0, 4.0)).paint(painter, style, panel)
     last = float(plot.value[-1])
-    words = tr("newest {value}").format(value=f"{numbers.fixed(last, 1)}{plot.unit}")
     token = {"right": "text", "unusual": "warn", "out": "bad"}[plot.verdict[-1]] if last > plot.limit else "text"
-    _say(
-        painter,
-        style,
-        panel,
-        plot.limit,
-        tr("Limit {value}").format(value=f"{numbers.fixed(plot.limit, 1)}{plot.unit}"),
-        "bad",
-        taken,
+    said = [
+        (plot.limit, tr("Limit {value}"), "bad"), (last, tr("newest {value}"), token),
+        (plot.usual, tr("usual, up to {value}"), "text2"),
+    ]  # fmt: skip
+    EndLabels(
+        [
+            (value, words.format(value=f"{numbers.fixed(value, 1)}{plot.unit}"), token)
+            for value, words, token in said
+            if math.isfinite(value)
+        ]
+    ).paint(painter, style, panel)
+    Times([(float(k), numbers.day_month(when)) for k, when in enumerate(plot.when)], 4.0, days=True).paint(
+        painter, style, panel
     )
-    _say(painter, style, panel, last, words, token, taken)
-    if math.isfinite(plot.usual):
-        words = tr("usual, up to {value}").format(value=f"{numbers.fixed(plot.usual, 1)}{plot.unit}")
-        _say(painter, style, panel, plot.usual, words, "text2", taken)
-    _paint_days(painter, style, plot, panel)
     for k in np.flatnonzero(plot.cut).tolist():
         x = float(panel.x(k - 0.5))
         pen = QPen(style.color("text2"), style.grid_width)
@@ -125,39 +120,6 @@ def paint_control_ground(painter: QPainter, style: PlotStyle, plot: ControlPlot,
         painter.drawLine(QPointF(x, box.top()), QPointF(x, box.bottom()))
         painter.setFont(style.label)
         painter.drawText(QPointF(x + 4 * unit, box.top() + QFontMetricsF(style.label).ascent()), tr("calibrated"))
-
-
-def _say(
-    painter: QPainter, style: PlotStyle, panel: Panel, value: float, words: str, token: str, taken: list[float]
-) -> None:
-    """Words right of the panel beside a value, moved aside from those that stand there already."""
-    painter.setFont(style.end_label)
-    height = QFontMetricsF(style.end_label).height()
-    middle = float(panel.y(value))
-    for away in (0.0, height, -height, 2 * height, -2 * height):
-        if all(abs(middle + away - other) >= height for other in taken):
-            middle += away
-            break
-    taken.append(middle)
-    painter.setPen(style.color(token))
-    box = QRectF(panel.box.right() + 10 * style.unit, middle - height / 2, 400 * style.unit, height)
-    painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter), words)
-
-
-def _paint_days(painter: QPainter, style: PlotStyle, plot: ControlPlot, panel: Panel) -> None:
-    """Days under the checks: the newest, the first, and those between as far as there is room."""
-    painter.setFont(style.label)
-    painter.setPen(style.color("text2"))
-    metrics = QFontMetricsF(style.label)
-    taken: list[tuple[float, float]] = []
-    count = len(plot.when)
-    for k in [count - 1, 0, *range(count - 2, 0, -1)]:
-        words = numbers.day_month(plot.when[k])
-        width = metrics.horizontalAdvance(words)
-        left = min(float(panel.x(k)) - width / 2, panel.box.right() - width)
-        if all(left > right + 14 or left + width < start - 14 for start, right in taken):
-            taken.append((left, left + width))
-            painter.drawText(QPointF(left, panel.box.bottom() + 4 * style.unit + metrics.ascent()), words)
 
 
 @dataclass(frozen=True, slots=True)

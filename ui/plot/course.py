@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
 from carpus.core.by_hand.measures import measure_named
 from carpus.core.by_hand.values import HandValue
@@ -22,8 +22,8 @@ from carpus.ui.figures import figure_of
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.icons import triangle
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.by_hand import Squares, day_s, paint_square
-from carpus.ui.plot.marks import Across, EndLabels, Level, Mark, Scales
+from carpus.ui.plot.by_hand import Key, Squares, day_s, paint_at_least
+from carpus.ui.plot.marks import Across, EndLabels, Level, Mark, Scales, Times
 from carpus.ui.plot.polygon import polygon
 from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle
 from carpus.ui.terms import end_words
@@ -109,7 +109,7 @@ def place_panels(
         return []
     line = QFontMetricsF(style.end_label).height()
     title = line + 14 * unit
-    foot = line * (1 + len(_key_lines(style, box, progress))) + 26 * unit
+    foot = line * (1 + len(_key(progress).lines(style, box))) + 26 * unit
     columns = 1 if len(keys) <= MOST_PANELS else 2
     lines = math.ceil(len(keys) / columns)
     height, width = (box.height() - foot) / lines, box.width() / columns
@@ -304,18 +304,11 @@ class Points:
         painter.drawText(QPointF(x - metrics.horizontalAdvance(text) / 2, baseline), text)
 
 
-def paint_at_least(painter: QPainter, x: float, y: float, unit: float) -> None:
-    """An arrow upwards: the joint went out of sight, the true value may be larger."""
-    painter.drawPolygon(QPolygonF([QPointF(x, y - 7 * unit), QPointF(x - 4.5 * unit, y), QPointF(x + 4.5 * unit, y)]))
-
-
 def paint_behind(
     painter: QPainter, style: PlotStyle, box: QRectF, progress: Progress, panels: Sequence[tuple[Panel, RowKey]]
 ) -> None:
     """Everything but the points: titles, bands, grid, dates, and what the signs mean."""
     unit = style.unit
-    line = QFontMetricsF(style.end_label).height()
-    dates: set[float] = set()
     when = [point.figures.when for point in progress.points]
     for panel, key in panels:
         painter.setFont(font(style.end_label.pixelSize() * 1.25, SEMIBOLD, display=False))
@@ -323,12 +316,11 @@ def paint_behind(
         painter.drawText(QPointF(panel.box.left(), panel.box.top() - 9 * unit), name_of(progress, key))
         for mark in (*still(progress, key), Squares(by_hand_of(progress, key), sessions=when)):
             mark.paint(painter, style, panel)
-        if panel.box.left() not in dates:
-            dates.add(panel.box.left())
-            foot = line * (1 + len(_key_lines(style, box, progress)))
-            _paint_dates(painter, style, panel, box.bottom() - foot - 22 * unit, progress)
+    days = Times([(day.timestamp(), numbers.day_month(day)) for day in when], 14.0, days=True)
+    for panel in {panel.box.left(): panel for panel, _ in panels}.values():  # the lowest of each column
+        days.paint(painter, style, panel)
     if panels:
-        _paint_key(painter, style, progress, box)
+        _key(progress).paint(painter, style, box)
 
 
 def paint_chart(painter: QPainter, style: PlotStyle, box: QRectF, progress: Progress) -> None:
@@ -343,63 +335,10 @@ def _is_spread(joint: str) -> bool:
     return figure_of(joint).row == "spread"
 
 
-def _paint_dates(painter: QPainter, style: PlotStyle, panel: Panel, top: float, progress: Progress) -> None:
-    painter.setFont(style.end_label)
-    metrics = QFontMetricsF(style.end_label)
-    days = [point.figures.when for point in progress.points]
-    places = [float(panel.x(day.timestamp())) for day in days]
-    taken: list[tuple[float, float]] = []
-    ends = [0, len(days) - 1]
-    for number in [*ends, *range(1, len(days) - 1)]:
-        if not panel.box.left() <= places[number] <= panel.box.right():
-            continue
-        text = numbers.day_month(days[number])
-        width = metrics.horizontalAdvance(text)
-        left = places[number] - width / 2
-        if any(left < right + 6 * style.unit and left + width > other - 6 * style.unit for other, right in taken):
-            continue
-        taken.append((left, left + width))
-        painter.setPen(style.color("text" if number in ends else "text2"))
-        painter.drawText(QPointF(left, top + metrics.ascent()), text)
-
-
-def _key_lines(style: PlotStyle, box: QRectF, progress: Progress) -> list[list[tuple[str, str]]]:
-    """What the signs mean, sign and words, in as many lines as it needs."""
-    entries = [("dot", tr("mean, ± sd between repetitions")), ("ring", tr("not compared"))]
-    entries += [("arrow", tr("at least: hidden in part"))] if progress.keys else []
+def _key(progress: Progress) -> Key:
+    """What the signs mean."""
+    entries = [("dot", tr("mean, ± sd between repetitions"), "text"), ("ring", tr("not compared"), "text2")]
+    entries += [("arrow", tr("at least: hidden in part"), "text2")] if progress.keys else []
     if any(by_hand_of(progress, key) for key in panels_of(progress)):
-        entries.append(("square", tr("by hand, active")))
-    metrics, unit = QFontMetricsF(style.end_label), style.unit
-    lines: list[list[tuple[str, str]]] = [[]]
-    across = 36 * unit
-    for sign, words in entries:
-        width = 17 * unit + metrics.horizontalAdvance(words)
-        if lines[-1] and across + width > box.width():
-            lines.append([])
-            across = 36 * unit
-        lines[-1].append((sign, words))
-        across += width + 30 * unit
-    return lines
-
-
-def _paint_key(painter: QPainter, style: PlotStyle, progress: Progress, box: QRectF) -> None:
-    unit, metrics = style.unit, QFontMetricsF(style.end_label)
-    painter.setFont(style.end_label)
-    lines = _key_lines(style, box, progress)
-    for number, entries in enumerate(reversed(lines)):
-        across, baseline = box.left() + 36 * unit, box.bottom() - 6 * unit - number * metrics.height()
-        for sign, words in entries:
-            width = 1.4 if sign == "arrow" else 2.0
-            painter.setPen(QPen(style.color("text" if sign == "dot" else "text2"), width * unit))
-            painter.setBrush(style.color("text" if sign == "dot" else "surface"))
-            if sign == "arrow":
-                paint_at_least(painter, across + 5 * unit, baseline - 1 * unit, unit)
-            elif sign == "square":
-                painter.setPen(QPen(style.color("text"), 1.6 * unit))
-                paint_square(painter, QPointF(across + 5 * unit, baseline - metrics.ascent() * 0.36), unit)
-            else:
-                at = QPointF(across + 5 * unit, baseline - metrics.ascent() * 0.36)
-                painter.drawEllipse(at, 4.5 * unit, 4.5 * unit)
-            painter.setPen(style.color("text2"))
-            painter.drawText(QPointF(across + 17 * unit, baseline), words)
-            across += 17 * unit + metrics.horizontalAdvance(words) + 30 * unit
+        entries.append(("square", tr("by hand, active"), "text"))
+    return Key(entries)

@@ -87,22 +87,26 @@ def room_at(painter: QPainter, left: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Times:
-    """Words under the panel at times (s, text), ``below`` design pixels under it: the last ones first, and one that
-    would touch another is left out."""
+    """Words under the panel at times (s, text) it shows, ``below`` design pixels under it: the last ones first, and one
+    that would touch another is left out. Of ``days`` the first comes second, and both ends are strong."""
 
     labels: Sequence[tuple[float, str]]
     below: float = 6.0
+    days: bool = False
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        painter.setFont(style.label)
-        painter.setPen(style.color("text2"))
-        metrics, gap = QFontMetricsF(style.label), 6 * style.unit
+        face = style.end_label if self.days else style.label
+        painter.setFont(face)
+        metrics, gap = QFontMetricsF(face), 6 * style.unit
         baseline = panel.box.bottom() + self.below * style.unit + metrics.ascent()
         taken: list[tuple[float, float]] = []
-        for time_s, text in reversed(self.labels):
+        shown = [label for label in self.labels if panel.start_s <= label[0] <= panel.end_s]
+        ends = [shown[-1], shown[0]] if self.days and shown else []
+        for time_s, text in [*ends, *reversed(shown)]:
             width = metrics.horizontalAdvance(text)
             left = float(panel.x(time_s)) - width / 2
             if all(left > right + gap or left + width < other - gap for other, right in taken):
+                painter.setPen(style.color("text" if len(taken) < len(ends) else "text2"))
                 taken.append((left, left + width))
                 painter.drawText(QPointF(left, baseline), text)
 
@@ -346,14 +350,18 @@ class Across:
 
 @dataclass(frozen=True, slots=True)
 class Level:
-    """A dashed line at one value."""
+    """A line at one value, dashed unless ``dash`` is empty; none where it is unknown."""
 
     value: float
     token: str
+    dash: Sequence[float] = (8.0, 6.0)
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
+        if not math.isfinite(self.value):
+            return
         pen = QPen(style.color(self.token), 1.5 * style.unit)
-        pen.setDashPattern([8, 6])
+        if self.dash:
+            pen.setDashPattern(self.dash)
         painter.setPen(pen)
         y = float(panel.y(self.value))
         painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
