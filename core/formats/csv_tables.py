@@ -94,8 +94,8 @@ REPETITION_COLUMNS = {
     "movement_units": "peaks of speed of all its strokes",
     "pauses": "how often it stood still within a stroke",
     "pause_time_s": "for how long in all",
-    "at_least": "1 where the arc is a lower bound: the angle was hidden where it may have gone further, else 0",
-    "counted": "1 where it counts, else 0",
+    "at_least": "yes where the arc is a lower bound: the angle was hidden where it may have gone further, else no",
+    "counted": "yes where it counts, else no",
     "reason": "why it does not: hidden, not seen well enough; cut_by_start, cut_by_gap, cut_by_end, when the recording "
     "began or ended in it or the hand was gone; or what a person wrote",
 }
@@ -197,7 +197,7 @@ def repetition_table(session: Session, figures: SessionFigures) -> Table:
         if field.name in turned:
             out[turned[field.name]] = np.degrees(np.array(values, dtype=np.float64))
         elif field.name in ("at_least", "counted"):
-            out[field.name] = np.array(values, dtype=np.int64)
+            out[field.name] = np.array(values, dtype=np.bool_)
         else:
             name = "pause_time_s" if field.name == "pause_s" else field.name
             out[name] = np.array(values, dtype=np.str_ if field.name == "reason" else np.float64)
@@ -252,7 +252,7 @@ def _rows(table: Table) -> Iterator[tuple[str, ...]]:
         if values.dtype.kind == "f":
             digits = 6 if name in ("timestamp_s", "since_start_s") else 3
             return [number(value, digits) for value in values.tolist()]
-        return [str(value) for value in values.tolist()]
+        return [_cell(value) for value in values.tolist()]
 
     count = max((len(values) for values in table.values()), default=0)
     for begin in range(0, count, _AT_ONCE):

@@ -12645,6 +12645,13 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>Sheet</name>
+    <message>
+        <source>What you typed is not kept yet. Esc once more closes without it.</source>
+        <translation>Was Sie getippt haben, ist noch nicht behalten. Noch einmal Esc schließt ohne es.</translation>
+    </message>
+</context>
+<context>
     <name>SpotQuestion</name>
     <message>
         <source>Is this blue spot the {marker}?</source>

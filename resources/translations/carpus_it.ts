@@ -12645,6 +12645,13 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>Sheet</name>
+    <message>
+        <source>What you typed is not kept yet. Esc once more closes without it.</source>
+        <translation>Ciò che è stato scritto non è ancora salvato. Esc un’altra volta chiude senza.</translation>
+    </message>
+</context>
+<context>
     <name>SpotQuestion</name>
     <message>
         <source>Is this blue spot the {marker}?</source>

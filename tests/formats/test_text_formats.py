@@ -208,7 +208,12 @@ def test_repetitions_are_in_every_format_that_can_say_them(tmp_path: Path) -> No
     assert len(table) == len(content["repetitions"]) == len(figures.repetitions) == 3
     for row, told, shown in zip(table, content["repetitions"], figures.repetitions, strict=True):
         assert shown.row is not None
-        assert (row["angle"], row["positive"], row["estimate"], row["counted"]) == ("flexion", "flexed", "filter", "1")
+        assert (row["angle"], row["positive"], row["estimate"], row["counted"]) == (
+            "flexion",
+            "flexed",
+            "filter",
+            "yes",
+        )
         for name in ("start_s", "peak_s", "end_s", "movement_time_s", "sparc", "pauses", "movement_units"):
             assert float(row[name]) == pytest.approx(getattr(shown.row, name), abs=6e-4)
             assert told[name] == pytest.approx(getattr(shown.row, name))

@@ -16,7 +16,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QComboBox, QLineEdit, QPlainTextEdit, QPushButton, QSpinBox, QWidget
+from PySide6.QtWidgets import (
+    QAbstractSpinBox,
+    QApplication,
+    QComboBox,
+    QLineEdit,
+    QPlainTextEdit,
+    QPushButton,
+    QSpinBox,
+    QWidget,
+)
 from pytestqt.qtbot import QtBot
 
 import carpus.app
@@ -27,7 +36,9 @@ from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.default_answer import ENTER, takes_enter
+from carpus.ui.controls.field import SearchField
 from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import Text
 from carpus.ui.correct.results_sheet import ResultsSheet
 from carpus.ui.export.sheet import ExportSheet
 from carpus.ui.live.notes import NoteSheet, PainSheet
@@ -181,6 +192,35 @@ def test_enter_is_the_answer_that_says_so_and_loses_nothing(
     said = _pressed(sheet)
     qtbot.keyClick(focused, Qt.Key.Key_Return)
     assert said == [marked[0]]
+
+
+@pytest.mark.parametrize("kind", SHEETS, ids=lambda kind: kind.__name__)
+def test_esc_loses_nothing_typed_without_saying_so(
+    qtbot: QtBot, theme: Theme, host: QWidget, kind: type[Sheet]
+) -> None:
+    def esc(sheet: Sheet) -> None:
+        qtbot.keyClick(host.focusWidget() or sheet, Qt.Key.Key_Escape)
+
+    sheet, _ = SHEETS[kind](host, theme)
+    esc(sheet)
+    if sheet.isVisible():
+        return  # it must be answered
+    for field in (QLineEdit, QPlainTextEdit):
+        sheet, _ = SHEETS[kind](host, theme)
+        typed = [one for one in sheet.findChildren(field) if one.isVisible() and not isinstance(one, SearchField)]
+        typed = [one for one in typed if isinstance(one, QPlainTextEdit) or one.echoMode() == QLineEdit.EchoMode.Normal]
+        for one in [one for one in typed if not isinstance(one.parent(), QAbstractSpinBox)][:1]:
+            before = sheet.card.findChildren(Text)
+            qtbot.keyClick(one, Qt.Key.Key_7)
+            esc(sheet)
+            assert sheet.isVisible(), "one key throws nothing away"
+            assert len(sheet.card.findChildren(Text)) == len(before) + 1, "and it is said"
+            qtbot.keyClick(one, Qt.Key.Key_8)
+            esc(sheet)
+            assert sheet.isVisible(), "what was typed since is new"
+            esc(sheet)
+            assert not sheet.isVisible()
+        sheet.close_sheet()
 
 
 def test_another_button_with_the_keyboard_takes_enter_and_its_sign(qtbot: QtBot, theme: Theme, host: QWidget) -> None:

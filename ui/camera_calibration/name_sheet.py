@@ -43,7 +43,7 @@ class CameraNameSheet(Sheet):
         self.line.textChanged.connect(lambda text: self.take.setEnabled(bool(text.strip())))
         self.take.clicked.connect(self._take)
         self.set_default(self.take)
-        self.stop.clicked.connect(self.leave)
+        self.stop.clicked.connect(self.close_sheet)
         self.closed.connect(self._closed)
 
     def begin(self, known: str) -> None:

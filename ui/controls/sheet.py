@@ -4,13 +4,24 @@ from __future__ import annotations
 
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QKeySequence, QResizeEvent
-from PySide6.QtWidgets import QAbstractButton, QApplication, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPlainTextEdit,
+    QVBoxLayout,
+    QWidget,
+)
 from shiboken6 import isValid
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.default_answer import ENTER, is_enter, press
+from carpus.ui.controls.field import SearchField
 from carpus.ui.controls.host import host_of
+from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.theme import Theme
 
 _open: list[Sheet] = []
@@ -33,8 +44,8 @@ _HELD = frozenset((QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress, QEvent.Ty
 
 class Sheet(QWidget):
     """Covers ``host`` while open. Every key of the window is the topmost sheet's, whatever lies below or beside it; Tab
-    stays inside; Esc closes when ``may_close``, Enter presses the ``default`` button. Where it must be answered the
-    mouse is held to it too."""
+    stays inside; Esc closes when ``may_close``, and says so first where something was typed; Enter presses the
+    ``default`` button. Where it must be answered the mouse is held to it too."""
 
     closed = Signal()
 
@@ -49,6 +60,8 @@ class Sheet(QWidget):
         self._focus_before: QWidget | None = None
         self._first: QWidget | None = None
         self.default: Button | None = None
+        self._typed_before: list[str] = []
+        self._warning: Text | None = None
         self.card = Card(theme, 24)
         across = QHBoxLayout()
         across.addStretch(1)
@@ -89,6 +102,8 @@ class Sheet(QWidget):
         if now is None or not self.isAncestorOf(now):
             self._focus_before = now
         self._first = first
+        self._typed_before = self._typed()
+        self._take_warning_back()
         self.setGeometry(host_of(self).rect())
         self._take_room()
         self.show()
@@ -118,9 +133,33 @@ class Sheet(QWidget):
             self.closed.emit()
 
     def leave(self) -> None:
-        """What Esc does: close where this may be left without an answer."""
-        if self._may_close:
+        """What Esc does: close where this may be left without an answer; what was typed takes a second key."""
+        if not self._may_close:
+            return
+        typed = self._typed()
+        if typed == self._typed_before:
             self.close_sheet()
+            return
+        self._typed_before = typed
+        self._take_warning_back()
+        words = self.tr("What you typed is not kept yet. Esc once more closes without it.")
+        self._warning = Text(self._theme, words, 14, SEMIBOLD, "bad", wrap=True)
+        self.card.body.insertWidget(max(self.card.body.count() - 1, 0), self._warning)  # above the answers
+
+    def _take_warning_back(self) -> None:
+        if self._warning is not None:
+            self._warning.hide()
+            self._warning.deleteLater()
+            self._warning = None
+
+    def _typed(self) -> list[str]:
+        """What stands in the fields; nothing of a search, or of a secret, which is typed again."""
+        lines = [
+            one.text()
+            for one in self.card.findChildren(QLineEdit)
+            if not isinstance(one, SearchField) and one.echoMode() == QLineEdit.EchoMode.Normal
+        ]
+        return lines + [one.toPlainText() for one in self.card.findChildren(QPlainTextEdit)]
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if event.key() == Qt.Key.Key_Escape:

@@ -75,7 +75,7 @@ class HomeSheet(Sheet):
         self._days: dict[str, date] = {}
         for changed in (self.day.editTextChanged, self.at.textChanged, self.note.textChanged):
             changed.connect(lambda _: self._check())
-        self.close_button.clicked.connect(self.leave)
+        self.close_button.clicked.connect(self.close_sheet)
         self.take.clicked.connect(self._take)
         self.set_default(self.take)
 

@@ -67,7 +67,7 @@ class LetterSheet(Sheet):
         self.known.activated.connect(lambda place: self.recipient.setPlainText(self._addresses[place]))
         self.language.chosen.connect(self._take_language)
         self.names.toggled.connect(self.names_note.setVisible)
-        self.close_button.clicked.connect(self.leave)
+        self.close_button.clicked.connect(self.close_sheet)
         self.take.clicked.connect(self._take)
         self.set_default(self.take)
 
