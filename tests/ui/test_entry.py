@@ -49,6 +49,7 @@ def test_no_hand_is_chosen_by_itself(qtbot: QtBot, theme: Theme) -> None:
     form.begin(None, frozenset())
     qtbot.keyClick(form.name, Qt.Key.Key_Return)
     assert (given, form.save.isEnabled(), form.save.text()) == ([], False, "Which hand is affected?")
+    assert form.focusWidget() is form.side.buttons()[0], "Enter leads to what is asked"
     form.side.buttons()[1].click()
     assert form.save.text() == "Which hand writes?"
     form.dominance.buttons()[2].click()

@@ -485,6 +485,23 @@ def test_a_picture_without_discs_says_so(screen: MarkersScreen, monkeypatch: pyt
     assert "No blue disc" not in screen.title.text()
 
 
+def test_names_that_are_right_lead_straight_to_measuring_where_all_is_good(qtbot: QtBot, screen: MarkersScreen) -> None:
+    calibrator = FakeCalibrator()
+    calibrator.not_found = ()
+    screen.begin(calibrator)
+    qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed), timeout=60_000)
+    with qtbot.waitSignal(screen.started, timeout=60_000):
+        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+    calibrator.findings = (CalibrationFinding("tilt", (), 19.0, 15.0, "deg"),)
+    started: list[bool] = []
+    screen.started.connect(lambda: started.append(True))
+    screen.begin(calibrator)
+    qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed), timeout=60_000)
+    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+    wait_for_verdict(qtbot, screen)
+    assert not started, "what is doubtful is looked at first"
+
+
 def test_fingers_lie_straight_until_one_is_said_not_to(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = FakeCalibrator("fist", protocol="hand21")
     screen.begin(calibrator)

@@ -63,6 +63,7 @@ class MarkersScreen(QWidget):
         self.clicking: Clicking | None = None
         self._judged: Judged | None = None
         self._judging = 0
+        self._goes_on = False
         self._held = False
         self._by_hand = False
         self._proposing = 0
@@ -360,11 +361,11 @@ class MarkersScreen(QWidget):
             clicking.current = clicking.doubtful[0]
             self.picture.set_cursor(clicking.proposed[clicking.current].pixel)
 
-    def take_all(self) -> None:
-        """Confirm all names that are proposed."""
+    def take_all(self, *, goes_on: bool = False) -> None:
+        """Confirm all names that are proposed. ``goes_on``: with all checks good and nothing to ask it measures."""
         if self.clicking is not None and self.clicking.proposed:
             self.clicking.take_all()
-            self._changed()
+            self._changed(goes_on=goes_on)
 
     def _confirm_doubtful(self) -> None:
         """The doubtful name in the loupe is right; the next one comes into it."""
@@ -406,9 +407,9 @@ class MarkersScreen(QWidget):
             self._ask_for_names()
             self._changed()
 
-    def _changed(self) -> None:
+    def _changed(self, *, goes_on: bool = False) -> None:
         """Clicks are different: the old verdict no longer counts, a new one is asked for when all are there."""
-        self._judged = None
+        self._judged, self._goes_on = None, goes_on
         self.picture.show_wrong(())
         self.picture.show_spots(())
         self._judging += 1
@@ -433,6 +434,8 @@ class MarkersScreen(QWidget):
             self._judged = judged
             self._refresh()
             self.judged.emit(judged.verdict)
+            if self._goes_on and judged.verdict.is_good and self.straight.isHidden():  # nothing is left to decide
+                self._start()
 
     def _take_fault(self, number: int, fault: Exception) -> None:
         if number == self._judging:
@@ -453,7 +456,7 @@ class MarkersScreen(QWidget):
         elif self._judged is None and self.clicking is not None and self.clicking.doubtful:
             self._confirm_doubtful()
         elif self._judged is None:
-            self.take_all()
+            self.take_all(goes_on=True)
         elif self._judged.verdict.is_good:
             self._start()
         else:

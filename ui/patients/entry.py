@@ -6,7 +6,7 @@ from collections.abc import Callable
 from datetime import date
 
 from PySide6.QtCore import QStringListModel, Qt, Signal
-from PySide6.QtGui import QResizeEvent
+from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QCompleter, QHBoxLayout, QLineEdit, QPlainTextEdit, QVBoxLayout, QWidget
 
 from carpus.core.errors import NameUnsuited
@@ -15,6 +15,7 @@ from carpus.core.records.values import PatientEntry
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.column import scroll_area
+from carpus.ui.controls.default_answer import is_enter
 from carpus.ui.controls.field import Choices, Labelled
 from carpus.ui.controls.host import host_of
 from carpus.ui.controls.sheet import Sheet
@@ -130,6 +131,7 @@ class PatientForm(Sheet):
         self.set_default(self.save)
         cancel.clicked.connect(self.close_sheet)
         self._taken: frozenset[str] = frozenset()
+        self._asked: Choices | None = None
         self._words = ""
         theme.changed.connect(self._fit)
 
@@ -171,17 +173,27 @@ class PatientForm(Sheet):
         super().resizeEvent(event)
         self._fit()
 
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Enter leads to what is still asked."""
+        if is_enter(event) and not self.save.isEnabled() and self._asked is not None:
+            self._asked.buttons()[0].setFocus(Qt.FocusReason.TabFocusReason)
+            event.accept()
+        else:
+            super().keyPressEvent(event)
+
     def _judge(self) -> None:
         """What is still to be said stands on the button."""
+        self._asked = None
         day = self._day()
         self.since.setText(numbers.weeks_since(day, self._today()) if day is not None else "")
         asked = self._too_long() or self._wrong_day()
         if self.side.value() is None:
-            asked = self.tr("Which hand is affected?")
+            asked, self._asked = self.tr("Which hand is affected?"), self.side
         elif self.dominance.value() is None:
-            asked = self.tr("Which hand writes?")
+            asked, self._asked = self.tr("Which hand writes?"), self.dominance
         elif day is not None and self.onset.value() is None:
             asked = asked or self.tr("Operation or injury?")
+            self._asked = self.onset
         self.save.set_face(asked or self._words)
         self.save.setEnabled(not asked)
 
