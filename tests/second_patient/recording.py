@@ -25,6 +25,9 @@ from tests.second_patient.sensor import exposed, read_depth, sensor_of
 from tests.second_patient.truth import Truth, read_visible_share, truth_of, write_truth
 
 CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"
+# Read when this is imported: a file edited while its recording is drawn must not name what it did not draw.
+_SOURCE = b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("[!_]*.py")))
+
 EPOCH_S = 1_720_000_000.0
 FPS = 30.0
 _CLICK_SD, _CLICK_MOST = 0.25, 0.45
@@ -136,8 +139,7 @@ def _moment(posture: object, i: int) -> object:
 
 def kept_recording(row: Row, seed: int, seconds: float = SECONDS) -> tuple[Path, Truth]:
     """Folder and truth of a recording, rendered only when the user's cache does not hold it as it would be now."""
-    source = b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("[!_t]*.py")))
-    key = hashlib.sha256(source + repr((row, seed, seconds)).encode()).hexdigest()[:20]
+    key = hashlib.sha256(_SOURCE + repr((row, seed, seconds)).encode()).hexdigest()[:20]
     root = Path(platformdirs.user_cache_dir("carpus", appauthor=False)) / "second_patient"
     folder = root / key
     take = take_of(row, seed, seconds=seconds)
