@@ -1,4 +1,4 @@
-"""What can be measured by hand: one line each. A further one is a line here, and its name in ``ui/by_hand/names.py``.
+"""What can be measured by hand: one line each. A further one is a line here.
 
 Licensed questionnaires are entered as their totals only. ``real_change`` is what a change must exceed to be called one;
 it is of that way of measuring, and says nothing of ours. NaN where no figure was found: then nothing is judged.
@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from typing import Literal
+
+from carpus.core.phrase import phrase
 
 Kind = Literal["angle", "force", "size", "score"]
 Better = Literal["more", "less", ""]
@@ -26,8 +28,9 @@ class HandMeasure:
     """One thing that can be measured by hand.
 
     ``least`` and ``most`` can be entered at all; outside ``usual`` the person is asked to look again. ``tries`` are
-    averaged. ``of_hand``: it is of one hand, else of the person. ``figure`` is what Carpus measures of the same: joint
-    (empty for the wrist), movement, column of the wrist's angle. ``usual_form``: on the form without being asked for.
+    averaged. ``of_hand``: it is of one hand, else of the person. ``name`` is empty of angles: it follows from the id.
+    ``figure`` is what Carpus measures of the same: joint (empty for the wrist), movement, column of the wrist's
+    angle. ``usual_form``: on the form without being asked for.
     """
 
     id: str
@@ -45,6 +48,7 @@ class HandMeasure:
     figure: tuple[str, str, int] | None = None
     usual_form: bool = False
     decimals: int = 0
+    name: str = ""
 
 
 def _angle(name: str, most: float, figure: tuple[str, str, int] | None, *, usual_form: bool = False) -> HandMeasure:
@@ -54,19 +58,29 @@ def _angle(name: str, most: float, figure: tuple[str, str, int] | None, *, usual
     )  # fmt: skip
 
 
-def _force(name: str, most: float, real_change: float, source: str, *, usual_form: bool = False) -> HandMeasure:
+def _force(
+    id: str, name: str, most: float, real_change: float, source: str, *, usual_form: bool = False
+) -> HandMeasure:
     return HandMeasure(
-        name, "force", "kg", 0.0, 150.0, (0.0, most), "more", real_change, source, tries=3, usual_form=usual_form,
-        decimals=1,
+        id, "force", "kg", 0.0, 150.0, (0.0, most), "more", real_change, source, tries=3, usual_form=usual_form,
+        decimals=1, name=name,
+    )  # fmt: skip
+
+
+def _size(
+    id: str, name: str, least: float, most: float, usual: tuple[float, float], *, usual_form: bool = False
+) -> HandMeasure:
+    return HandMeasure(
+        id, "size", "cm", least, most, usual, "", math.nan, "", usual_form=usual_form, decimals=1, name=name
     )  # fmt: skip
 
 
 def _score(
-    name: str, most: float, better: Better, real_change: float, source: str, *, usual_form: bool = False
+    id: str, name: str, most: float, better: Better, real_change: float, source: str, *, usual_form: bool = False
 ) -> HandMeasure:
     return HandMeasure(
-        name, "score", "points", 0.0, most, (0.0, most), better, real_change, source, of_hand=False,
-        usual_form=usual_form, decimals=1,
+        id, "score", "points", 0.0, most, (0.0, most), better, real_change, source, of_hand=False,
+        usual_form=usual_form, decimals=1, name=name,
     )  # fmt: skip
 
 
@@ -93,20 +107,22 @@ _JOINTS = tuple(
 
 MEASURES: tuple[HandMeasure, ...] = (
     *_WRIST,
-    _force("GRIP", 80.0, 6.5, "Kim 2014, Bohannon 2019", usual_form=True),
-    _force("KEY_PINCH", 15.0, math.nan, "", usual_form=True),
-    _force("THREE_POINT_PINCH", 15.0, math.nan, ""),
-    _force("TIP_PINCH", 12.0, math.nan, ""),
-    HandMeasure("WRIST_ROUND", "size", "cm", 5.0, 40.0, (11.0, 25.0), "", math.nan, "", usual_form=True, decimals=1),
-    HandMeasure("PALM_ROUND", "size", "cm", 5.0, 50.0, (14.0, 30.0), "", math.nan, "", decimals=1),
-    HandMeasure("FIGURE_OF_EIGHT", "size", "cm", 10.0, 80.0, (30.0, 60.0), "", math.nan, "", decimals=1),
-    HandMeasure("VOLUME", "size", "ml", 50.0, 1500.0, (200.0, 800.0), "", math.nan, ""),
-    _score("PRWE", 100.0, "less", 14.0, SCORE_SOURCE, usual_form=True),
-    _score("QUICK_DASH", 100.0, "less", 14.0, SCORE_SOURCE),
-    _score("DASH", 100.0, "less", 10.0, SCORE_SOURCE),
-    _score("MHQ", 100.0, "more", math.nan, ""),
-    _score("PAIN_AT_REST", 10.0, "less", 2.0, "Farrar 2001", usual_form=True),
-    _score("PAIN_MOVING", 10.0, "less", 2.0, "Farrar 2001"),
+    _force("GRIP", phrase("Grip"), 80.0, 6.5, "Kim 2014, Bohannon 2019", usual_form=True),
+    _force("KEY_PINCH", phrase("Key pinch"), 15.0, math.nan, "", usual_form=True),
+    _force("THREE_POINT_PINCH", phrase("Three-point pinch"), 15.0, math.nan, ""),
+    _force("TIP_PINCH", phrase("Tip pinch"), 12.0, math.nan, ""),
+    _size("WRIST_ROUND", phrase("Round the wrist"), 5.0, 40.0, (11.0, 25.0), usual_form=True),
+    _size("PALM_ROUND", phrase("Round the palm"), 5.0, 50.0, (14.0, 30.0)),
+    _size("FIGURE_OF_EIGHT", phrase("Figure of eight"), 10.0, 80.0, (30.0, 60.0)),
+    HandMeasure(
+        "VOLUME", "size", "ml", 50.0, 1500.0, (200.0, 800.0), "", math.nan, "", name=phrase("Volume of the hand")
+    ),
+    _score("PRWE", "PRWE", 100.0, "less", 14.0, SCORE_SOURCE, usual_form=True),
+    _score("QUICK_DASH", "QuickDASH", 100.0, "less", 14.0, SCORE_SOURCE),
+    _score("DASH", "DASH", 100.0, "less", 10.0, SCORE_SOURCE),
+    _score("MHQ", "MHQ", 100.0, "more", math.nan, ""),
+    _score("PAIN_AT_REST", phrase("Pain at rest"), 10.0, "less", 2.0, "Farrar 2001", usual_form=True),
+    _score("PAIN_MOVING", phrase("Pain when moving"), 10.0, "less", 2.0, "Farrar 2001"),
     *_JOINTS,
 )
 

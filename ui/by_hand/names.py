@@ -9,21 +9,14 @@ from carpus.core.by_hand.measures import MEASURES, HandMeasure, measure_named
 from carpus.core.by_hand.values import HandChange, HandValue, Key, change_of, course_of
 from carpus.ui import numbers, terms
 from carpus.ui.marker_words import long_finger_name
-from carpus.ui.translate import tr
+from carpus.ui.translate import say, tr
 from carpus.ui.verdicts import no_change_words
 
 
 def measure_name(measure: HandMeasure) -> str:
     """``Flexion``, ``Grip``, ``Ring finger, PIP flexion``."""
-    names = {
-        "GRIP": tr("Grip"), "KEY_PINCH": tr("Key pinch"), "THREE_POINT_PINCH": tr("Three-point pinch"),
-        "TIP_PINCH": tr("Tip pinch"), "WRIST_ROUND": tr("Round the wrist"), "PALM_ROUND": tr("Round the palm"),
-        "FIGURE_OF_EIGHT": tr("Figure of eight"), "VOLUME": tr("Volume of the hand"), "PRWE": "PRWE",
-        "QUICK_DASH": "QuickDASH", "DASH": "DASH", "MHQ": "MHQ", "PAIN_AT_REST": tr("Pain at rest"),
-        "PAIN_MOVING": tr("Pain when moving"),
-    }  # fmt: skip
-    if measure.id in names:
-        return names[measure.id]
+    if measure.name:
+        return say(measure.name)
     joint, _, movement = measure.id.rpartition("_")
     if not joint:
         return terms.movement_long_name(movement.lower())
