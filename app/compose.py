@@ -58,7 +58,6 @@ from carpus.ui.check_card.standing_words import card_words
 from carpus.ui.fonts import load_fonts
 from carpus.ui.icons import program_icon
 from carpus.ui.keys import Keys
-from carpus.ui.ports import Words
 from carpus.ui.settings.camera_card import CameraCard
 from carpus.ui.shell import Shell
 from carpus.ui.style import apply_style
@@ -291,7 +290,7 @@ def compose(
         said = WordTable().fault(fault)
         journey.teller.strip(
             journey.patients.notice_place,
-            Words(said.what, said.safe, said.todo),
+            said,
             tr("I have read it"),
             lambda: None,
             icon="hard-drive",

@@ -18,20 +18,12 @@ Say = Callable[[str], str]
 
 
 @dataclass(frozen=True, slots=True)
-class FaultWords:
-    """The three answers of every message."""
+class Words:
+    """The three answers of every message; ``safe`` is empty where nothing is recorded yet."""
 
     happened: str
     safe: str
     do: str
-
-
-@dataclass(frozen=True, slots=True)
-class FindingWords:
-    """What is not as it should be at calibration, and how to mend it."""
-
-    headline: str
-    remedy: str
 
 
 _HAND = phrase("hand")
@@ -45,85 +37,85 @@ _ABOUT_MARKERS = (
     errors.CalibrationImpossible,
 )
 
-FINDINGS: dict[str, FindingWords] = {
-    "click_on_no_marker": FindingWords(
+FINDINGS: dict[str, tuple[Phrase, Phrase]] = {
+    "click_on_no_marker": (
         phrase("No blue marker at the {markers}."),
         phrase("Click nearer to the marker, or check the light."),
     ),
-    "two_clicks_on_one": FindingWords(
+    "two_clicks_on_one": (
         phrase("The clicks for the {markers} are on one marker."),
         phrase("Click each of the two on its own marker."),
     ),
-    "swapped": FindingWords(
+    "swapped": (
         phrase("{markers} look swapped."),
         phrase("Swap the two names, or click both markers again."),
     ),
-    "misnamed": FindingWords(
+    "misnamed": (
         phrase("The {markers} does not lie on the line of its finger."),
         phrase("Look at the lines on the picture, and give the marker its right name."),
     ),
-    "shifted": FindingWords(
+    "shifted": (
         phrase("The names look shifted: the marker clicked as {first} is the {second}."),
         phrase("Click all markers again, each under its own name."),
     ),
-    "wrong_side": FindingWords(
+    "wrong_side": (
         phrase("This looks like the other hand."),
         phrase("Choose the other side, or click the markers again."),
     ),
-    "no_depth": FindingWords(
+    "no_depth": (
         phrase("The camera measures no depth at the {markers}."),
         phrase("Move the hand a little, and keep sunlight and shine off the marker."),
     ),
-    "residual": FindingWords(
+    "residual": (
         phrase("The marker of the {markers} is {value} mm off its place (up to {limit} mm is good)."),
         phrase("Click it again in its middle, and keep the hand still."),
     ),
-    "hand_length": FindingWords(
+    "hand_length": (
         phrase("The hand measures {value} mm ({limit} mm is the limit)."),
         phrase("Check that every marker is clicked under its own name."),
     ),
-    "other_spot": FindingWords(
+    "other_spot": (
         phrase("Another blue spot fits the {markers} better."),
         phrase("Take the spot with the question mark, if it is the disc."),
     ),
-    "spare_spot": FindingWords(
+    "spare_spot": (
         phrase("There is one more blue spot on the hand than there are names."),
         phrase("Cover the spot with the question mark, or give it its name."),
     ),
-    "near_spot": FindingWords(
+    "near_spot": (
         phrase("Another blue spot lies close to the {markers}: it may be the disc."),
         phrase("Click the {markers} again in its middle, or cover the other spot."),
     ),
-    "no_palm": FindingWords(
+    "no_palm": (
         phrase("No hand has this shape: the {markers} does not lie where the other discs expect it."),
         phrase("Check that a disc was clicked there, and not another blue spot."),
     ),
-    "other_length": FindingWords(
+    "other_length": (
         phrase("The hand measures {value} mm, and {limit} mm last time."),
         phrase("Check the patient, the side, and that every marker is clicked under its own name."),
     ),
-    "tilt": FindingWords(
+    "tilt": (
         phrase("The hand is tilted {value}° to the camera (up to {limit}° is good)."),
         phrase("Turn the back of the hand to the camera."),
     ),
-    "distance": FindingWords(
+    "distance": (
         phrase("The hand is {value} m from the camera ({limit} m or more is good)."),
         phrase("Move the camera further from the hand."),
     ),
-    "moved": FindingWords(
+    "moved": (
         phrase("The hand moved in the first half second."),
         phrase("Keep the hand still and take the first picture again."),
     ),
-    "few_frames": FindingWords(
+    "few_frames": (
         phrase("The hand was still for {value} pictures only ({limit} or more are good)."),
         phrase("Keep the hand still for half a second."),
     ),
-    "depth_off": FindingWords(
+    "depth_off": (
         phrase("Depth and colour do not lie on each other at the {markers} ({value} {unit}, up to {limit} is good)."),
         phrase("Switch on registration in the camera, or track without depth."),
     ),
 }
-"""Words for every kind of :class:`core.calibration.result.Finding`."""
+"""What is not as it should be, and how to mend it, for every kind of finding of calibration."""
 
 _FINGERS = {
     "1": phrase("thumb"), "2": phrase("index finger"), "3": phrase("middle finger"), "4": phrase("ring finger"),
@@ -156,7 +148,7 @@ MARKERS: dict[str, Phrase] = {
 """Clinical name of every marker."""
 
 
-def words_of(fault: CarpusFault, *, marker_names: bool = False, say: Say = str) -> FaultWords:
+def words_of(fault: CarpusFault, *, marker_names: bool = False, say: Say = str) -> Words:
     """The three answers for this fault; ``marker_names`` adds the markers' names of the files to the clinical ones;
     ``say`` says a phrase in another language."""
     subject = fault.subject
@@ -167,7 +159,7 @@ def words_of(fault: CarpusFault, *, marker_names: bool = False, say: Say = str) 
     said = [_filled(say(text), subject, detail) for text in (fault.happened, fault.safe, fault.do)]
     if isinstance(fault, errors.ExtraMissing) and subject:
         said[2] = say(how_to_install(subject))
-    return FaultWords(*said)
+    return Words(*said)
 
 
 def one_sentence(fault: CarpusFault) -> str:
@@ -178,10 +170,9 @@ def one_sentence(fault: CarpusFault) -> str:
 
 def finding_words(
     finding: CalibrationFinding, say: Say = str, written: Callable[[float], str] = "{:.3g}".format
-) -> FindingWords:
-    """Headline and remedy of a finding; ``say`` says a phrase in another language, ``written`` writes its figures."""
-    template = FINDINGS[finding.kind]
-    headline = say(template.headline)
+) -> Words:
+    """What a finding says and how to mend it; ``say`` says a phrase in another language, ``written`` writes figures."""
+    headline, remedy = map(say, FINDINGS[finding.kind])
     if math.isnan(finding.value) and " (" in headline:
         headline = headline[: headline.index(" (")] + "."
     text = headline.format(
@@ -192,7 +183,7 @@ def finding_words(
         limit=written(finding.limit),
         unit=finding.unit,
     )
-    return FindingWords(text[0].upper() + text[1:], say(template.remedy))
+    return Words(text[0].upper() + text[1:], "", remedy)
 
 
 def _exchanged_in_words(finding: CalibrationFinding, say: Say) -> str:
@@ -204,9 +195,9 @@ def _exchanged_in_words(finding: CalibrationFinding, say: Say) -> str:
 
 
 def finding_sentence(finding: CalibrationFinding) -> str:
-    """Headline and remedy on one line."""
+    """What it says and how to mend it on one line."""
     words = finding_words(finding)
-    return _joined(words.headline, words.remedy)
+    return _joined(words.happened, words.do)
 
 
 def marker_in_words(marker: str, say: Say = str) -> str:

@@ -50,7 +50,7 @@ KINDS = sorted(kinds(), key=lambda kind: kind.__name__)
 
 def texts() -> list[str]:
     spoken = [text for kind in KINDS for text in (kind.happened, kind.safe, kind.do)]
-    return spoken + [text for words in FINDINGS.values() for text in (words.headline, words.remedy)]
+    return spoken + [text for words in FINDINGS.values() for text in words]
 
 
 def test_every_fault_says_for_itself_what_happened_and_what_to_do() -> None:
@@ -140,25 +140,25 @@ def test_a_fault_about_a_marker_names_it_for_the_clinic_and_for_the_file() -> No
 def test_findings_tell_place_and_number(kind: FindingKind) -> None:
     finding = CalibrationFinding(kind, ("MCP2", "MCP3"), 22.26, 15.0, "mm")
     words = finding_words(finding)
-    assert words.headline[0].isupper()
-    assert "{" not in words.headline
-    if "{value}" in FINDINGS[kind].headline:
-        assert "22.3" in words.headline
-        assert "15" in words.headline
-    if "{markers}" in FINDINGS[kind].headline:
-        assert "ndex and middle knuckle" in words.headline
+    assert words.happened[0].isupper()
+    assert "{" not in words.happened
+    if "{value}" in FINDINGS[kind][0]:
+        assert "22.3" in words.happened
+        assert "15" in words.happened
+    if "{markers}" in FINDINGS[kind][0]:
+        assert "ndex and middle knuckle" in words.happened
     line = finding_sentence(finding)
-    assert line.endswith(words.remedy[1:])
+    assert line.endswith(words.do[1:])
     assert "\n" not in line
 
 
 def test_swapped_knuckles_read_as_in_the_design() -> None:
     assert (
-        finding_words(CalibrationFinding("swapped", ("MCP2", "MCP3"))).headline
+        finding_words(CalibrationFinding("swapped", ("MCP2", "MCP3"))).happened
         == "Index and middle knuckle look swapped."
     )
 
 
 def test_shifted_names_say_which_marker_is_which() -> None:
     words = finding_words(CalibrationFinding("shifted", ("WRIST", "MCP5", "MCP4", "MCP3", "MCP2", "CMC1")))
-    assert words.headline == "The names look shifted: the marker clicked as wrist is the little knuckle."
+    assert words.happened == "The names look shifted: the marker clicked as wrist is the little knuckle."

@@ -22,6 +22,7 @@ from carpus.core.records.values import AffectedSide, Dominance, Onset, PatientEn
 from carpus.core.session.values import AngleOrder, Session
 from carpus.core.spot_answer import SpotAnswer
 from carpus.core.types import ByteImage, FloatArray, Frame, Side, TrackedFrame
+from carpus.core.words import Words
 
 
 # --- patients ---------------------------------------------------------------------------------------------
@@ -258,15 +259,6 @@ class Measuring(Protocol):
 
 
 # --- words for what goes wrong ----------------------------------------------------------------------------
-@dataclass(frozen=True, slots=True)
-class Words:
-    """The three answers of every message, and one word for lists."""
-
-    what: str
-    safe: str
-    todo: str
-
-
 class Phrasebook(Protocol):
     """The one table from fault to words (:mod:`core.words`), as the screens use it."""
 

@@ -31,10 +31,10 @@ from carpus.core.records.of_clinic import LastBackup, last_backup, note_backup
 from carpus.core.records.sealed import ENDING, open_sealed, seal_backup
 from carpus.core.records.staging import Staged
 from carpus.core.safekeeping.same_disk import on_same_disk
+from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.background import Background
 from carpus.ui.messages.stop_card import Answer
-from carpus.ui.ports import Words
 from carpus.ui.records.cards import BackupCard, BackupFacts
 from carpus.ui.records.passphrase_sheet import PassphraseSheet
 from carpus.ui.theme import Theme

@@ -104,7 +104,7 @@ class Bar(QObject):
         if place == "review" and figures is not None and figures.not_counted:
             lines.append(self.tr("This session does not count."))
         if findings:
-            said = " ".join(self._phrasebook.finding(finding).what for finding in findings)
+            said = " ".join(self._phrasebook.finding(finding).happened for finding in findings)
             lines.append(self.tr("Measured although doubtful: {findings}").format(findings=said))
         lines += self._sign_more()
         return lines

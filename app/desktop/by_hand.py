@@ -13,10 +13,10 @@ from carpus.app.desktop.ways import Tell, Way
 from carpus.core.by_hand.values import HandValue
 from carpus.core.library.library import Library
 from carpus.core.types import Side
+from carpus.core.words import Words
 from carpus.ui.background import Background
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.messages.stop_card import Answer
-from carpus.ui.ports import Words
 
 
 class ByHand(QObject):

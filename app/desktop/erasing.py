@@ -12,8 +12,8 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from carpus.core.library.records import Records
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.retention import kept_until
+from carpus.core.words import Words
 from carpus.ui import numbers
-from carpus.ui.ports import Words
 from carpus.ui.records.erase_sheet import EraseSheet
 from carpus.ui.records.ports import ErasureFacts
 from carpus.ui.theme import Theme

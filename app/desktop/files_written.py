@@ -8,8 +8,8 @@ from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
 
 from carpus.app.desktop.ways import Tell
+from carpus.core.words import Words
 from carpus.ui.messages.stop_card import Answer
-from carpus.ui.ports import Words
 from carpus.ui.translate import tr
 
 MOST_NAMES = 3

@@ -128,7 +128,7 @@ class Locking(QObject):
             tried = self.pin.try_it(typed)
         except CarpusFault as fault:
             words = self._phrasebook.fault(fault)
-            self.sheet.say(f"{words.what} {words.todo}")
+            self.sheet.say(f"{words.happened} {words.do}")
             if not isinstance(fault, PinUncheckable):
                 self.sheet.pause(WAIT_MS // 1000)  # what cannot be counted is not tried without end
             return

@@ -11,10 +11,10 @@ from carpus.app.desktop.ways import TellOfCamera, Way
 from carpus.core.errors import CameraLost
 from carpus.core.library.set_up import SetUp
 from carpus.core.pipeline.live_values import LiveEvent
+from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.messages.stop_card import Answer
-from carpus.ui.ports import Words
 
 log = logging.getLogger(__name__)
 

@@ -8,8 +8,8 @@ from PySide6.QtCore import QObject
 
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import CarpusFault
+from carpus.core.words import Words
 from carpus.ui.fault_words import fault_words, finding_words
-from carpus.ui.ports import Words
 
 MOST_LETTERS = 32
 
@@ -40,8 +40,7 @@ class WordTable(QObject):
     def fault(self, fault: Exception) -> Words:
         """The three answers."""
         if isinstance(fault, CarpusFault):
-            words = fault_words(type(fault)(_end_of_path(fault.subject), fault.detail))
-            return Words(words.happened, words.safe, words.do)
+            return fault_words(type(fault)(_end_of_path(fault.subject), fault.detail))
         return Words(
             self.tr("Something happened that Carpus does not know."),
             self.tr("Everything stored before is safe."),
@@ -49,6 +48,5 @@ class WordTable(QObject):
         )
 
     def finding(self, finding: CalibrationFinding) -> Words:
-        """Headline and remedy of a finding; nothing is recorded yet, so nothing can be lost."""
-        words = finding_words(finding)
-        return Words(words.headline, "", words.remedy)
+        """What a finding says and how to mend it; nothing is recorded yet, so nothing can be lost."""
+        return finding_words(finding)

@@ -17,10 +17,10 @@ from carpus.core.agreement.retest_table import write_study
 from carpus.core.durable import replace_file
 from carpus.core.library.library import Library
 from carpus.core.library.retest_people import RetestPeople
+from carpus.core.words import Words
 from carpus.ui import terms
 from carpus.ui.background import Background
 from carpus.ui.messages.stop_card import Answer
-from carpus.ui.ports import Words
 from carpus.ui.retest.people_sheet import PeopleSheet
 from carpus.ui.retest.screen import RetestScreen
 from carpus.ui.theme import Theme

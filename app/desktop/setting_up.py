@@ -23,11 +23,11 @@ from carpus.core.output.goals import Goals
 from carpus.core.output.report_content import SessionFigures
 from carpus.core.records.values import SessionEntry
 from carpus.core.types import ByteImage, Side
+from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.background import Background
 from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.messages.stop_card import Answer
-from carpus.ui.ports import Words
 from carpus.ui.setup.camera import CameraScreen
 from carpus.ui.setup.choice import SourceChoice
 from carpus.ui.setup.exercise import ExerciseScreen

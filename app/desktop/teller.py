@@ -12,10 +12,11 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.errors import CameraLost
 from carpus.core.library.library import Recovered
+from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.messages.stop_card import Answer, StopCard
 from carpus.ui.messages.strip import NoticeStrip
-from carpus.ui.ports import Phrasebook, Words
+from carpus.ui.ports import Phrasebook
 from carpus.ui.theme import Theme
 
 log = logging.getLogger(__name__)

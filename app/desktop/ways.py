@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from carpus.app.desktop.places import Place
+from carpus.core.words import Words
 from carpus.ui.messages.stop_card import Answer
-from carpus.ui.ports import PatientRow, Words
+from carpus.ui.ports import PatientRow
 
 
 class Way(Protocol):

@@ -13,14 +13,14 @@ def test_a_long_path_is_told_by_its_end(root: str) -> None:
     stroke = "\\" if "\\" in root else "/"
     name = "Blue-Hummingbird-Mountain-42_2026-11-21_154533_WRIST_FE_right.h5"
     words = WordTable().fault(DiskFull(stroke.join((root, "sessions", "Blue-Hummingbird-Mountain-42", name)), "full"))
-    assert max(len(part) for part in words.what.split("/")) < 48
-    assert "someone" not in words.what
-    assert "right.h5" in words.what
+    assert max(len(part) for part in words.happened.split("/")) < 48
+    assert "someone" not in words.happened
+    assert "right.h5" in words.happened
 
 
 def test_what_is_no_path_stays() -> None:
-    assert "take 7" in WordTable().fault(DiskFull("take 7", "1/2 full")).what
-    assert "1/2 full" in WordTable().fault(DiskFull("take 7", "1/2 full")).what
+    assert "take 7" in WordTable().fault(DiskFull("take 7", "1/2 full")).happened
+    assert "1/2 full" in WordTable().fault(DiskFull("take 7", "1/2 full")).happened
 
 
 @pytest.mark.parametrize("most", [8, 9, 30])

@@ -106,7 +106,7 @@ def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: 
         sheet.instead.click()
         qtbot.waitUntil(lambda: gone() and bool(told()))
         (strip,) = told()
-        assert ("in the archive" in strip.words.what, strip.button.text()) == (True, "&Undo")
+        assert ("in the archive" in strip.words.happened, strip.button.text()) == (True, "&Undo")
         return strip
 
     def names() -> list[str]:
@@ -265,7 +265,7 @@ def test_back_up_now_reminder_and_restore(
     desktop = opened(replace(Settings(), backup=BackupSettings(folder=str(disk))))
     backing, journey = desktop.safe.backing_up, desktop.journey
     strips = journey.patients.findChildren(NoticeStrip)
-    assert ["There is no back-up yet." in strip.words.what for strip in strips] == [True]
+    assert ["There is no back-up yet." in strip.words.happened for strip in strips] == [True]
     disk.mkdir()
     backing.back_up()
     qtbot.waitUntil(lambda: backing.last is not None and backing.card.now_button.isEnabled())

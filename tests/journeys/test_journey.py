@@ -540,7 +540,7 @@ def test_an_interrupted_session_is_told_at_the_next_start_and_can_be_reviewed(qt
     writer.abandon()
     second = open_desktop()
     (strip,) = second.journey.patients.findChildren(NoticeStrip)
-    assert make_header().subject_id in strip.words.what
+    assert make_header().subject_id in strip.words.happened
     assert "safe" in strip.words.safe
     click(qtbot, strip.button)
     assert reviewed(qtbot, second) == folder / "cut.h5"

@@ -16,7 +16,7 @@ from carpus.app.commands import desktop
 from carpus.app.desktop.alone import Alone
 from carpus.app.desktop.no_folder import NoFolder
 from carpus.app.settings import load_settings
-from carpus.ui.ports import Words
+from carpus.core.words import Words
 from carpus.ui.theme import Theme
 
 ROOT = Path(__file__).parents[2]

@@ -30,7 +30,7 @@ from carpus.core.output.report_content import RepetitionChoices, session_curves,
 from carpus.core.output.report_form import Letterhead, ReportForm
 from carpus.core.session.values import Session
 from carpus.core.types import Side
-from carpus.core.words import finding_words
+from carpus.core.words import Words, finding_words
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
@@ -53,7 +53,7 @@ from carpus.ui.messages.strip import NoticeStrip
 from carpus.ui.patient.guide import GuideScene
 from carpus.ui.patient.view import PatientView
 from carpus.ui.patients.screen import PatientsScreen
-from carpus.ui.ports import Preferences, ReferenceChoice, Words
+from carpus.ui.ports import Preferences, ReferenceChoice
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.records.cards import BackupCard, BackupFacts, LockCard, RecordsCard
 from carpus.ui.records.erase_sheet import EraseSheet
@@ -151,8 +151,7 @@ class Phrases(FakePhrasebook):
     """The real words for findings."""
 
     def finding(self, finding: CalibrationFinding) -> Words:
-        words = finding_words(finding)
-        return Words(words.headline, "", words.remedy)
+        return finding_words(finding)
 
 
 class Gallery:

@@ -127,7 +127,7 @@ class Told:
         self.place = "progress"
 
     def ask(self, question: object, answers: list[object], **_: object) -> None:
-        self.asked.append(question.what)  # type: ignore[attr-defined]
+        self.asked.append(question.happened)  # type: ignore[attr-defined]
         answers[0].action()  # type: ignore[attr-defined]
 
     def fault(self, fault: Exception) -> None:

@@ -32,6 +32,7 @@ import carpus.app
 import carpus.ui
 from carpus.core.agreement.reference import ReferenceOutline
 from carpus.core.library.exercise_sets import USUAL_SETS
+from carpus.core.words import Words
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 from carpus.ui.controls.button import Button
@@ -45,7 +46,7 @@ from carpus.ui.live.notes import NoteSheet, PainSheet
 from carpus.ui.markers.start_angle import StartAngleSheet
 from carpus.ui.messages.stop_card import Answer, StopCard
 from carpus.ui.patients.entry import PatientForm
-from carpus.ui.ports import ReferenceChoice, Words
+from carpus.ui.ports import ReferenceChoice
 from carpus.ui.records.erase_sheet import EraseSheet
 from carpus.ui.records.list_sheets import LogSheet, RecordsSheet
 from carpus.ui.records.lock_sheet import LockSheet

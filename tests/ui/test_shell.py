@@ -11,13 +11,14 @@ from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QApplication, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
+from carpus.core.words import Words
 from carpus.ui.background import Background
 from carpus.ui.controls.text import Text, heading
 from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
 from carpus.ui.icons import octagon
 from carpus.ui.keys import DEFAULT_KEYS, Keys, action_words
 from carpus.ui.messages.stop_card import Answer, StopCard
-from carpus.ui.ports import Preferences, Words
+from carpus.ui.ports import Preferences
 from carpus.ui.report.pdf import session_report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.settings.screen import SettingsScreen
@@ -130,7 +131,7 @@ def test_a_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, 
         WORDS,
         [Answer("Check", lambda: done.append("check"), "C"), Answer("Stop", lambda: done.append("stop"), "Space")],
     )
-    for part in (WORDS.safe, WORDS.todo):
+    for part in (WORDS.safe, WORDS.do):
         assert part in card.accessibleName()
     assert card.card.edge == "bad"
     assert card.answers[-1].hasFocus()

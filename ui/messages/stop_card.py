@@ -9,11 +9,11 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
+from carpus.core.words import Words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
-from carpus.ui.ports import Words
 from carpus.ui.theme import Theme
 
 WIDTH_PX = 720
@@ -79,14 +79,14 @@ class StopCard(Sheet):
     ) -> None:  # fmt: skip
         """Open with the three answers; details are what only the moment knows (times, counts). Without ``alarm``
         nothing went wrong: a question, or good news, and no red."""
-        self._set_row(self.what, self.detail, words.what.rstrip("."), detail)
+        self._set_row(self.what, self.detail, words.happened.rstrip("."), detail)
         self._set_row(self.safe, self.safe_detail, words.safe, safe_detail)
-        self._set_row(self.todo, self.todo_detail, words.todo, "")
+        self._set_row(self.todo, self.todo_detail, words.do, "")
         self._icon.show_sign(icon or ("bad" if alarm else "circle-help"), "bad" if alarm else "accent", 36)
         self._icon_safe.show_sign("good" if data_safe else "warn", size_px=26)
         self.waiting.setText("")
         self.card.set_colors("surface", *(("bad", 2.0) if alarm else ("line", 1.0)))
-        self.setAccessibleName(" ".join((words.what, detail, words.safe, safe_detail, words.todo)))
+        self.setAccessibleName(" ".join((words.happened, detail, words.safe, safe_detail, words.do)))
         if answers and answers[-1].risky:
             raise ValueError(f"what Enter answers loses nothing: {answers[-1].text}")
         while (item := self._buttons.takeAt(0)) is not None:

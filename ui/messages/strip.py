@@ -5,10 +5,10 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout
 
+from carpus.core.words import Words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
-from carpus.ui.ports import Words
 from carpus.ui.theme import Theme
 
 
@@ -23,8 +23,8 @@ class NoticeStrip(Card):
         self.words = words
         texts = QVBoxLayout()
         texts.setSpacing(4)
-        texts.addWidget(Text(theme, words.what, 20, SEMIBOLD, wrap=True))
-        for line in (words.safe, words.todo):
+        texts.addWidget(Text(theme, words.happened, 20, SEMIBOLD, wrap=True))
+        for line in (words.safe, words.do):
             if line:
                 texts.addWidget(Text(theme, line, 14, REGULAR, wrap=True))
         self.button = Button(theme, button, "plain", height_px=40)
@@ -42,6 +42,6 @@ class NoticeStrip(Card):
         row.addLayout(buttons)
         row.setAlignment(buttons, Qt.AlignmentFlag.AlignTop)  # a stretch here would pull it open on an empty list
         self.body.addLayout(row)
-        self.setAccessibleName(" ".join((words.what, words.safe, words.todo)))
+        self.setAccessibleName(" ".join((words.happened, words.safe, words.do)))
         self.button.clicked.connect(self.answered)
         self.later_button.clicked.connect(self.later)

@@ -124,7 +124,7 @@ def _day_of(point: ProgressPoint, progress: Progress) -> str:
 
 def doubt_words(point: ProgressPoint, progress: Progress) -> str:
     """What was doubtful about a session that is compared all the same; empty for nothing."""
-    said = " ".join(finding_words(finding).headline for finding in point.figures.findings)
+    said = " ".join(finding_words(finding).happened for finding in point.figures.findings)
     unsure = unsure_words(point.figures.camera)
     if not (said or unsure) or not point.fair:
         return ""

@@ -140,7 +140,7 @@ def warnings(figures: SessionFigures) -> list[str]:
     if figures.simulated:
         lines.append(tr("Simulated hand: nobody’s movement was measured."))
     if figures.findings:
-        said = " ".join(finding_words(finding).headline for finding in figures.findings)
+        said = " ".join(finding_words(finding).happened for finding in figures.findings)
         lines.append(tr("Measured although doubtful: {findings}").format(findings=said))
     if figures.not_counted:
         lines.append(tr("This session is marked as not counting."))
