@@ -244,3 +244,8 @@ def _data(path: Path, content: dict[str, Any], key: str) -> list[float]:
     if len(numbers) != len(data) or not all(math.isfinite(value) for value in numbers):
         raise CameraFileUnreadable(path, phrase("{key} holds something that is not a number", key=key))
     return numbers
+
+
+def sidecar_path(path: Path) -> Path:
+    """Where the camera of a recording is written: ``NAME.camera_info.yaml`` beside ``NAME.oni``."""
+    return path.with_name(path.stem + ".camera_info.yaml")

@@ -305,13 +305,6 @@ class RawRecording:
         """Nothing is held open between two walks."""
 
 
-def was_closed(path: Path) -> bool:
-    """Whether a plain recording ends as :meth:`RawWriter.close` ends one: nobody writes it any more. Raises OSError."""
-    with path.open("rb") as file:
-        file.seek(max(0, file.seek(0, os.SEEK_END) - _RECORD.size))
-        return file.read(4) == b"DONE"
-
-
 def is_raw_recording(path: Path) -> bool:
     """Whether a file begins like a raw recording."""
     try:

@@ -7,7 +7,6 @@ back of the hand, Y radial); a left hand is the mirror image diag(1, -1, 1), so 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -152,17 +151,3 @@ def palm_axes(palm_disc_m: FloatArray, side: Side) -> FloatArray:
     wrist, _, mcp2, mcp3, _, mcp5 = palm_disc_m
     dorsal = np.cross(mcp3 - wrist, mcp2 - mcp5)
     return wrist_axes(palm_disc_m, towards=dorsal if side == "right" else -dorsal)
-
-
-def joint_limits_rad(names: Sequence[str], angles_rad: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Lowest and highest value of each joint angle at these angles (..., J), each (..., J); radians.
-
-    Constant but for the abduction of the long fingers, 30 degrees times the cosine of MCP flexion (never below 0).
-    """
-    limits = np.array([HARD_LIMITS_RAD[name] for name in names])
-    low, high = (np.broadcast_to(bound, angles_rad.shape).copy() for bound in limits.T)
-    for k in (2, 3, 4, 5):
-        abduction, flexion = names.index(f"MCP{k}_abduction"), names.index(f"MCP{k}_flexion")
-        reach = ABDUCTION_LIMIT_RAD * np.maximum(np.cos(angles_rad[..., flexion]), 0.0)
-        low[..., abduction], high[..., abduction] = -reach, reach
-    return low, high

@@ -44,10 +44,3 @@ def wrist_axes_sensitivity(palm_m: FloatArray, towards: FloatArray) -> tuple[Flo
         )
     )
     return axes[0], vee / step_m
-
-
-def is_right_hand(palm_m: FloatArray, towards: FloatArray) -> bool:
-    """Whether the six palm discs (6, 3), seen from ``towards``, are a right hand's (reference 1.1)."""
-    across = palm_m[MCP2] - palm_m[MCP5]
-    along = palm_m[MCP3] - palm_m[WRIST]
-    return bool(np.cross(along, across) @ towards > 0.0)

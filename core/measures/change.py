@@ -52,11 +52,6 @@ class Change:
     limit_rad: float
     obstacles: tuple[Obstacle, ...]
 
-    @property
-    def comparable(self) -> bool:
-        """Whether anything may be said at all."""
-        return not self.obstacles
-
 
 def change_limit_rad(angle_name: str) -> float:
     """Difference of two sessions' means above which it exceeds measurement error, for an angle of the session file.

@@ -41,11 +41,6 @@ class RangeFigure:
         """Standard deviation between repetitions, NaN below three."""
         return float(self.values.std(ddof=1)) if len(self.values) >= FEWEST_FOR_SPREAD else math.nan
 
-    @property
-    def variation(self) -> float:
-        """Coefficient of variation, NaN below three repetitions or about a mean of zero."""
-        return abs(self.spread_sd / self.mean) if self.mean else math.nan
-
 
 @dataclass(frozen=True, slots=True)
 class MotionRange:

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.capture.camera_info import CAMERA_FILE
-from carpus.core.capture.oni_writer import ColorCodec, write_oni
 from carpus.core.capture.tum import TumFolder
 from carpus.core.errors import OutputExists
+from carpus.core.simulation.oni_writer import ColorCodec, write_oni
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import Frame

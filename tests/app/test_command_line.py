@@ -20,7 +20,6 @@ from carpus.app.__main__ import main
 from carpus.app.commands import progress
 from carpus.app.sources import open_recording
 from carpus.core.capture.camera_info import CAMERA_FILE
-from carpus.core.capture.oni_writer import write_oni
 from carpus.core.capture.tum import COLOR_LIST, TumFolder
 from carpus.core.errors import RecordingEmpty
 from carpus.core.hand.protocols import WRIST6
@@ -29,6 +28,7 @@ from carpus.core.session.recovery import interrupted_sessions
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.oni import in_millimetres
+from carpus.core.simulation.oni_writer import write_oni
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
 from tests.session.samples import CAMERA, make_calibration

@@ -116,7 +116,7 @@ from carpus.core.calibration.result import Clicks
 from carpus.core.calibration.clicks import write_clicks
 from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import write_camera_info
-from carpus.core.capture.oni_writer import _create
+from carpus.core.simulation.oni_writer import _create
 from carpus.core.capture.raw_tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.durable import replace_file

@@ -11,7 +11,7 @@ import numpy as np
 
 from carpus.core.camera import Camera
 from carpus.core.capture.oni_format import RecordType
-from carpus.core.capture.oni_writer import ColorCodec, DepthCodec, OniWriter
+from carpus.core.simulation.oni_writer import ColorCodec, DepthCodec, OniWriter
 from carpus.core.types import ByteImage, DepthImage
 
 WIDTH, HEIGHT = 64, 48

@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.capture.camera_info import write_camera_info
+from carpus.core.capture.camera_info import sidecar_path, write_camera_info
 from carpus.core.capture.oni_format import RecordType
 from carpus.core.capture.oni_source import OniSource
-from carpus.core.capture.oni_writer import sidecar_path
 from carpus.core.capture.paced import PacedSource
 from carpus.core.errors import (
     CameraFileUnreadable,

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 
 import numpy as np
 import pytest
 
-from carpus.core.hand.anatomy import HARD_LIMITS_RAD, anatomy_from_size, joint_limits_rad, palm_axes
+from carpus.core.hand.anatomy import anatomy_from_size, palm_axes
 from carpus.core.hand.hand21 import HAND21
-from carpus.core.hand.sites import PALM_MARKERS, joint_angle_names
+from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.hand.wrist_frame import wrist_axes
 
 
@@ -78,23 +77,3 @@ def test_arrays_are_checked_copied_and_read_only() -> None:
         hand.finger_length_m[0, 0] = 1.0
     with pytest.raises(ValueError, match="finger_length_m"):
         dataclasses.replace(hand, finger_length_m=np.zeros((3, 3)))
-
-
-@pytest.mark.parametrize("dip_free", [False, True])
-def test_every_joint_angle_has_limits_around_zero(dip_free: bool) -> None:
-    names = joint_angle_names(dip_free)
-    low, high = joint_limits_rad(names, np.zeros(len(names)))
-    assert np.all(low < 0.0)
-    assert np.all(high > 0.0)
-    assert np.allclose([HARD_LIMITS_RAD[name] for name in names], np.column_stack((low, high)))
-
-
-def test_abduction_fades_with_flexion_of_its_own_finger() -> None:
-    names = joint_angle_names()
-    angles = np.zeros((3, 17))
-    angles[:, names.index("MCP3_flexion")] = np.radians([0.0, 60.0, 100.0])
-    low, high = joint_limits_rad(names, angles)
-    third = names.index("MCP3_abduction")
-    assert high[:, third] == pytest.approx(np.radians([30.0, 15.0, 0.0]))
-    assert low[:, third] == pytest.approx(np.radians([-30.0, -15.0, 0.0]))
-    assert np.all(high[:, names.index("MCP2_abduction")] == pytest.approx(math.radians(30.0)))

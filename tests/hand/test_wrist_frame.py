@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from carpus.core import so3
-from carpus.core.hand.wrist_frame import is_right_hand, wrist_axes, wrist_axes_sensitivity
+from carpus.core.hand.wrist_frame import wrist_axes, wrist_axes_sensitivity
 from carpus.core.types import FloatArray, Side
 
 PALM_M = np.array(
@@ -90,11 +90,3 @@ def test_sensitivity_is_the_turn_of_the_axes_in_w() -> None:
         turn = so3.log(axes.T @ wrist_axes(PALM_M + shift_m, UP))
         assert np.allclose(sensitivity @ shift_m.ravel(), turn, rtol=0.0, atol=1e-6)
         assert np.linalg.norm(turn) > 1e-5
-
-
-@pytest.mark.parametrize("seed", range(5))
-def test_sides_are_told_apart(seed: int) -> None:
-    for side in ("right", "left"):
-        discs, back = placed(side, seed)
-        assert is_right_hand(discs, back) is (side == "right")
-        assert is_right_hand(discs, -back) is (side == "left"), "seen from below it looks like the other hand"

@@ -22,7 +22,7 @@ from pytestqt.qtbot import QtBot
 from carpus.app.compose import Desktop
 from carpus.app.desktop.sources import RECENT_FRAMES, Sources
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.capture.oni_writer import sidecar_path, write_oni
+from carpus.core.capture.camera_info import sidecar_path
 from carpus.core.capture.tum import TumFolder
 from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
 from carpus.core.library.set_up import PRACTICE_PATIENT
@@ -31,6 +31,7 @@ from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.oni import in_millimetres
+from carpus.core.simulation.oni_writer import write_oni
 from carpus.ui.messages.strip import NoticeStrip
 from carpus.ui.setup.choice import SourceChoice
 from tests.journeys.conftest import SPEED, Open

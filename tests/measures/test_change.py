@@ -34,7 +34,7 @@ def test_limits_of_the_reference() -> None:
 @pytest.mark.parametrize(("mean_deg", "beyond"), [(49.9, False), (50.1, True), (29.9, True), (30.1, False)])
 def test_only_above_the_limit(mean_deg: float, beyond: bool) -> None:
     change = change_between(BEFORE, after(mean_deg), "flexion")
-    assert change.comparable
+    assert not change.obstacles
     assert (abs(change.difference_rad) > change.limit_rad) == beyond
     assert math.degrees(change.difference_rad) == pytest.approx(mean_deg - 40.0)
 
@@ -52,7 +52,6 @@ def test_only_above_the_limit(mean_deg: float, beyond: bool) -> None:
 def test_what_does_not_compare_is_no_change(other: MeasuredMean, obstacle: str) -> None:
     change = change_between(BEFORE, other, "flexion")
     assert change.obstacles == (obstacle,)
-    assert not change.comparable
 
 
 def test_few_repetitions_before() -> None:

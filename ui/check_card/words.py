@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from datetime import datetime, timedelta
 
 from carpus.core.check_card.card import FIGURES
@@ -140,8 +139,3 @@ def hint(now: CardProgress | None) -> str:
             count=min(now.blue, 6)
         )
     return tr("All six discs are seen. Leave it lying.")
-
-
-def age_words(days: float) -> str:
-    """``Check 9 days old``."""
-    return tr("Check {days} days old").format(days=int(days)) if math.isfinite(days) else ""

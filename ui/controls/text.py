@@ -49,12 +49,6 @@ class Text(QLabel):
         theme.changed.connect(self._take_theme)
         self._take_theme()
 
-    def set_token(self, token: str) -> None:
-        """Change the colour, as a state does."""
-        if token != self._token:
-            self._token = token
-            self._take_theme()
-
     def setText(self, text: str) -> None:
         super().setText(text)
         self._leave_room()

@@ -49,11 +49,6 @@ class CorrectionPicture(PictureView):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(self.tr("Picture to put markers right on"))
 
-    @property
-    def dragged(self) -> str:
-        """The marker that is being dragged; empty for none."""
-        return self._dragged
-
     def show_moment(self, places: Places, row: int, spots: FloatArray, *, has_picture: bool) -> None:
         """Whose places to show; the picture itself is shown before."""
         self.places, self.row, self.spots, self.has_picture = places, row, spots, has_picture

@@ -24,7 +24,6 @@ from carpus.ui.ports import MOST_ROWS, PatientRow, PatientStore
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.welcome.panel import WelcomePanel
 
-LIST_WIDTH_PX = 824
 LOOK_AT_DAY_MS = 30_000
 ARCHIVED_NAMED = 3
 LIST_KEYS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown)

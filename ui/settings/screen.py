@@ -37,7 +37,6 @@ from carpus.ui.settings.limits import limits_card
 from carpus.ui.theme import GAP_PX, MARGIN_PX, TEXT_SCALES, Theme
 
 MOST_AGREEMENT_DEG = 45
-INDEX_PX = 200
 Part = Literal["camera", "measuring", "report", "safety", "looks", "keys", "research", "about"]
 
 

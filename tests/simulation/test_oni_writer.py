@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.capture.camera_info import read_camera_info
+from carpus.core.capture.camera_info import read_camera_info, sidecar_path
 from carpus.core.capture.oni_contents import read_contents
 from carpus.core.capture.oni_source import OniSource
-from carpus.core.capture.oni_writer import OniWriter, sidecar_path, write_oni
 from carpus.core.capture.source import is_simulated
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable, RecordingDamaged
+from carpus.core.simulation.oni_writer import OniWriter, write_oni
 from carpus.core.types import Frame
 from tests.capture.oni_samples import CAMERA, PERIOD_S, color_picture, depth_picture, write_sample
 

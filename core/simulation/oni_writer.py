@@ -14,7 +14,7 @@ import numpy as np
 
 from carpus.core.camera import Camera
 from carpus.core.capture import oni_format as oni
-from carpus.core.capture.camera_info import write_camera_info
+from carpus.core.capture.camera_info import sidecar_path, write_camera_info
 from carpus.core.capture.oni_depth_codec import encode_depth
 from carpus.core.capture.oni_format import Codec, NodeType, RecordType
 from carpus.core.capture.raw_pictures import encode_color
@@ -258,11 +258,6 @@ def write_oni(
     if written:
         write_camera_info(sidecar, camera, registered=registered, mirrored=mirrored, simulated=simulated)
     return written
-
-
-def sidecar_path(path: Path) -> Path:
-    """Where the camera of a recording is written: ``NAME.camera_info.yaml`` beside ``NAME.oni``."""
-    return path.with_name(path.stem + ".camera_info.yaml")
 
 
 def _create(path: Path) -> BinaryIO:
