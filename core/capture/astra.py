@@ -5,14 +5,12 @@ from __future__ import annotations
 import os
 import sys
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
-from carpus.core.camera import Camera
 from carpus.core.capture import openni2_driver
 from carpus.core.capture.camera_kind import CameraKind
-from carpus.core.capture.notice import Notice
-from carpus.core.capture.openni2_camera import OpenNI2Camera
-from carpus.core.depth_sensor import PRIMESENSE
+from carpus.core.capture.openni2_camera import open_openni2
 from carpus.core.finding import Finding
 from carpus.core.phrase import phrase
 
@@ -27,11 +25,6 @@ MODELS = {
 DRIVER_FILES = {"win32": "orbbec.dll", "darwin": "liborbbec.dylib"}
 DRIVER_FILE = "liborbbec.so"
 NAME = phrase("Astra driver")
-
-
-def open_astra(*, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> OpenNI2Camera:
-    """The first Astra, or the one at OpenNI2's ``uri``."""
-    return OpenNI2Camera(uri=uri, camera=camera, patience_s=patience_s, notice=notice, models=MODELS, sensor=PRIMESENSE)
 
 
 def driver_folders() -> list[Path]:
@@ -63,7 +56,7 @@ def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding | 
 KIND = CameraKind(
     title="Orbbec Astra",
     models=MODELS,
-    open=open_astra,
+    open=partial(open_openni2, models=MODELS),
     driver=driver_finding,
     needed_mbit=480,
     port=phrase("It needs a USB 2 port."),

@@ -111,6 +111,18 @@ class Outlet:
         if time.monotonic() - self._last_sent > ALIVE_EVERY_S:
             self.send(Alive())
 
+    def watch(self, sensors: Iterable[Sensor], gone: threading.Event, pass_on: Callable[[Heard], None]) -> None:
+        """The loop of every camera, until it is to stop: ``pass_on`` waits a moment for pictures, hands on what came
+        and notes which sensor was heard; ``gone`` is set by the driver's own threads when the camera was unplugged."""
+        heard = Heard(sensors)
+        while not self.stopping:
+            self.obey(block=False)
+            if gone.is_set():
+                raise GaveUp(CameraLost, "unplugged")
+            pass_on(heard)
+            heard.check()
+            self.stay_alive()
+
     def put(self, sensor: Sensor, number: int, timestamp_us: int, picture: memoryview) -> None:
         """Copy one picture (contiguous bytes) and announce it; dropped and counted when no slot is free."""
         if picture.nbytes > self._ring.slot_bytes:

@@ -1,9 +1,9 @@
-"""A maker's library as `carpus doctor` sees it: whether it is installed, and whether it can be loaded."""
+"""What `carpus doctor` sees of a maker's camera: its library, and once it is open its firmware and port."""
 
 from __future__ import annotations
 
 import multiprocessing
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from importlib.metadata import PackageNotFoundError, version
@@ -43,3 +43,27 @@ def _load_trouble(load: Callable[[], None]) -> str:
     except BrokenProcessPool:
         return "it ends its process"
     return ""
+
+
+USB_3 = phrase("Plug it into a USB 3 port, with a USB 3 cable and without a hub.")
+
+
+def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:
+    """Firmware and port of an opened camera."""
+    findings = []
+    firmware, wanted, usb = (settings.get(key, "") for key in ("firmware", "firmware_wanted", "usb"))
+    if firmware and wanted and _numbers(firmware) < _numbers(wanted):
+        found = phrase("{firmware}, the library asks for {wanted}", firmware=firmware, wanted=wanted)
+        remedy = phrase("Bring the firmware up to date with the maker's RealSense Viewer.")
+        findings.append(Finding(phrase("Firmware"), "warning", found, remedy))
+    elif firmware:
+        findings.append(Finding(phrase("Firmware"), "good", firmware))
+    if usb.startswith("2"):
+        findings.append(Finding("USB", "warning", f"USB {usb}", USB_3))
+    elif usb:
+        findings.append(Finding("USB", "good", f"USB {usb}"))
+    return findings
+
+
+def _numbers(version_text: str) -> list[int]:
+    return [int(part) if part.isdigit() else 0 for part in version_text.split(".")]

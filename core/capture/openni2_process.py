@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import threading
-from collections.abc import Mapping
 
 from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.capture_messages import Broken
@@ -12,14 +11,13 @@ from carpus.core.capture.capture_process import WAIT_MS, GaveUp, Heard, Outlet
 from carpus.core.capture.openni2 import (
     CallFailed,
     Context,
-    Device,
     Picture,
     Stream,
     StreamProperty,
 )
 from carpus.core.capture.openni2_opening import open_camera
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
-from carpus.core.errors import CameraLost, DriverFailed
+from carpus.core.errors import DriverFailed
 
 BYTES_PER_PIXEL: dict[int, int] = {PixelFormat.RGB888: 3, PixelFormat.DEPTH_1_MM: 2, PixelFormat.DEPTH_100_UM: 2}
 
@@ -37,9 +35,27 @@ def _serve(outlet: Outlet, plan: CameraPlan) -> None:
     outlet.hold(library, gone)
     library.watch(gone.hear)
     device, opened = open_camera(library, plan)
+    gone.uri = device.info().uri
+    streams = list(device.streams)
+
+    def pass_on(heard: Heard) -> None:
+        if library.wait(streams, WAIT_MS) is not None:
+            # the wait names the older stream; reading only that one would starve the other
+            for stream in streams:
+                if library.wait([stream], 0) is not None:
+                    _take(outlet, stream, opened.modes[stream.sensor])
+                    heard.picture_of(stream.sensor)
+
+    def set_automatic(on: bool) -> bool:
+        color = next(stream for stream in streams if stream.sensor == Sensor.COLOR)
+        keys = (StreamProperty.AUTO_EXPOSURE, StreamProperty.AUTO_WHITE_BALANCE)
+        done = [color.set_int(key, int(on)) for key in keys]
+        return all(done)
+
+    outlet.set_exposure = set_automatic
     outlet.send(opened)
     try:
-        _Loop(outlet, library, device, gone, opened.modes).watch()
+        outlet.watch(opened.modes, gone, pass_on)
     finally:
         device.close()
 
@@ -54,59 +70,17 @@ class _Gone(threading.Event):
             self.set()
 
 
-class _Loop:
-    """Hands pictures from the library to the outlet."""
-
-    def __init__(
-        self,
-        outlet: Outlet,
-        library: Context,
-        device: Device,
-        gone: _Gone,
-        modes: Mapping[Sensor, VideoMode],
-    ) -> None:
-        self._outlet = outlet
-        self._library = library
-        self._streams = list(device.streams)
-        self._gone = gone
-        gone.uri = device.info().uri
-        self._modes = modes
-        outlet.set_exposure = self._set_automatic
-
-    def watch(self) -> None:
-        """A camera: the newest picture of each stream, whenever there is one."""
-        heard = Heard(self._modes)
-        while not self._outlet.stopping:
-            self._outlet.obey(block=False)
-            if self._gone.is_set():
-                raise GaveUp(CameraLost, "unplugged")
-            if self._library.wait(self._streams, WAIT_MS) is not None:
-                # the wait names the older stream; reading only that one would starve the other
-                for stream in self._streams:
-                    if self._library.wait([stream], 0) is not None:
-                        self._take(stream)
-                        heard.picture_of(stream.sensor)
-            heard.check()
-            self._outlet.stay_alive()
-
-    def _take(self, stream: Stream) -> None:
-        """Pass one picture on, where there is one."""
-        sensor = stream.sensor
-        with stream.read() as picture:
-            if picture is None:
-                return
-            size = agreed_size(picture, self._modes[sensor])
-            if size is None:
-                self._outlet.send(Broken(sensor, picture.index))
-            else:
-                pixels = memoryview((ctypes.c_ubyte * size).from_address(picture.address)).cast("B")
-                self._outlet.put(sensor, picture.index, picture.timestamp_us, pixels)
-
-    def _set_automatic(self, on: bool) -> bool:
-        color = next(stream for stream in self._streams if stream.sensor == Sensor.COLOR)
-        keys = (StreamProperty.AUTO_EXPOSURE, StreamProperty.AUTO_WHITE_BALANCE)
-        done = [color.set_int(key, int(on)) for key in keys]
-        return all(done)
+def _take(outlet: Outlet, stream: Stream, mode: VideoMode) -> None:
+    """Pass one picture on, where there is one."""
+    with stream.read() as picture:
+        if picture is None:
+            return
+        size = agreed_size(picture, mode)
+        if size is None:
+            outlet.send(Broken(stream.sensor, picture.index))
+        else:
+            pixels = memoryview((ctypes.c_ubyte * size).from_address(picture.address)).cast("B")
+            outlet.put(stream.sensor, picture.index, picture.timestamp_us, pixels)
 
 
 def agreed_size(picture: Picture, mode: VideoMode) -> int | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from importlib.util import find_spec
 from typing import Any
@@ -12,7 +12,7 @@ from carpus.core.camera import Camera
 from carpus.core.capture.camera_kind import CameraKind
 from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.capture_messages import Opened
-from carpus.core.capture.maker_library import library_finding
+from carpus.core.capture.maker_library import USB_3, further_findings, library_finding
 from carpus.core.capture.notice import Notice, ignore
 from carpus.core.capture.orbbec_opening import MODULE, PACKAGE, load_library
 from carpus.core.capture.orbbec_process import serve
@@ -45,30 +45,27 @@ _WIDE = ("330L", "335L", "336L", "GEMINI 2")
 """Their eyes stand some 100 mm apart, those of the other Gemini cameras about 50 mm."""
 
 
-class OrbbecCamera(ProcessCamera):
+def open_orbbec(
+    *,
+    uri: str | None = None,
+    camera: Camera | None = None,
+    patience_s: float = math.inf,
+    notice: Notice = ignore,
+    context: Callable[[], Any] | None = None,
+) -> ProcessCamera:
     """The first camera, or the one whose serial number ``uri`` is; ``context`` as for :class:`CameraPlan`.
 
-    The rest as for :class:`ProcessCamera`. Raises :class:`DriverMissing` without the library.
+    Raises :class:`DriverMissing` without the library.
     """
+    if find_spec(MODULE) is None:
+        raise DriverMissing(PACKAGE, PACKAGE)
+    plan = CameraPlan(uri or "", SIZE_PX, models=MODELS, context=context)
+    return ProcessCamera(serve, plan, uri or "Orbbec", _sensor, camera=camera, patience_s=patience_s, notice=notice)
 
-    def __init__(
-        self,
-        *,
-        uri: str | None = None,
-        camera: Camera | None = None,
-        patience_s: float = math.inf,
-        notice: Notice = ignore,
-        context: Callable[[], Any] | None = None,
-    ) -> None:
-        if find_spec(MODULE) is None:
-            raise DriverMissing(PACKAGE, PACKAGE)
-        plan = CameraPlan(uri or "", SIZE_PX, models=MODELS, context=context)
-        sensor = AZURE_KINECT
-        super().__init__(serve, plan, uri or "Orbbec", sensor, camera=camera, patience_s=patience_s, notice=notice)
 
-    def depth_sensor(self, opened: Opened) -> DepthSensor:
-        """By the camera's name, and how its depth pictures see."""
-        return sensor_named(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
+def _sensor(opened: Opened) -> DepthSensor:
+    """By the camera's name, and how its depth pictures see."""
+    return sensor_named(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
 
 
 def sensor_named(settings: Mapping[str, str], color_focal_px: float = math.nan) -> DepthSensor:
@@ -82,27 +79,9 @@ def sensor_named(settings: Mapping[str, str], color_focal_px: float = math.nan) 
     return replace(pair.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else pair, origin=ASSUMED)
 
 
-def open_orbbec(*, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> OrbbecCamera:
-    """The first camera, or the one whose serial number ``uri`` is."""
-    return OrbbecCamera(uri=uri, camera=camera, patience_s=patience_s, notice=notice)
-
-
 def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding | None:
     """The maker's library, by its package; loaded, in a process of its own, only where a camera wants it."""
     return library_finding(phrase("Orbbec driver"), PACKAGE, load_library, asks=asks_version, wanted=wanted)
-
-
-def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:
-    """Firmware and port of an opened camera."""
-    findings = []
-    if settings.get("firmware"):
-        findings.append(Finding(phrase("Firmware"), "good", settings["firmware"]))
-    usb = settings.get("usb", "")
-    if usb.startswith("2"):
-        findings.append(Finding("USB", "warning", f"USB {usb}", KIND.port))
-    elif usb:
-        findings.append(Finding("USB", "good", f"USB {usb}"))
-    return findings
 
 
 KIND = CameraKind(
@@ -111,6 +90,6 @@ KIND = CameraKind(
     open=open_orbbec,
     driver=driver_finding,
     needed_mbit=5000,
-    port=phrase("Plug it into a USB 3 port, with a USB 3 cable and without a hub."),
+    port=USB_3,
     further=further_findings,
 )

@@ -10,7 +10,7 @@ import cv2
 
 from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.capture_messages import Opened
-from carpus.core.capture.capture_process import WAIT_MS, GaveUp, Heard, Outlet
+from carpus.core.capture.capture_process import WAIT_MS, Heard, Outlet
 from carpus.core.capture.color_hold import Step
 from carpus.core.capture.color_lock import ColorLock, Control
 from carpus.core.capture.frame_assembly import camera_of_lens
@@ -29,7 +29,6 @@ from carpus.core.capture.orbbec_opening import (
 from carpus.core.capture.unseen_camera import why_not_opened
 from carpus.core.capture.usb_devices import usb_cameras
 from carpus.core.capture.video_mode import Sensor
-from carpus.core.errors import CameraLost
 
 LIGHT_SHARE = 0.9
 """Of a picture's time the longest exposure: a longer one would slow the camera down."""
@@ -72,12 +71,10 @@ def _watch(ob: Any, outlet: Outlet, plan: CameraPlan) -> None:
     pictures = _Pictures(ob, outlet, streams)
     lock = ColorLock(outlet, _Controls(ob, device, streams))
     outlet.set_exposure = lock.set_automatic
-    heard = Heard(streams.modes)
     is_told = False
-    while not outlet.stopping:
-        outlet.obey(block=False)
-        if gone.is_set():
-            raise GaveUp(CameraLost, "unplugged")
+
+    def pass_on(heard: Heard) -> None:
+        nonlocal is_told
         both = pipeline.wait_for_frames(WAIT_MS)
         color, depth = (None, None) if both is None else (both.get_color_frame(), both.get_depth_frame())
         if depth is not None:
@@ -93,8 +90,8 @@ def _watch(ob: Any, outlet: Outlet, plan: CameraPlan) -> None:
             picture = pictures.pass_color(color)
             if picture is not None:
                 lock.look(picture)
-        heard.check()
-        outlet.stay_alive()
+
+    outlet.watch(streams.modes, gone, pass_on)
     pipeline.stop()
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from carpus.core.camera import Camera
@@ -52,11 +52,11 @@ class ProcessCamera:
     """Frames of a live camera: 640x480 RGB with depth laid on it, at 30 fps, in the device's own time.
 
     The camera runs from construction on, until :meth:`close`: ``serve`` carries out ``plan`` in the capture process.
-    ``subject`` names it in faults until it has told its name; ``sensor`` says what its depth is worth; ``camera`` are
-    measured intrinsics, otherwise the driver's lens, or its field of view, is taken. When the camera is lost,
-    ``notice`` hears :class:`CameraLost`, then :class:`CameraReturned`; it is raised when the camera stays away for
-    ``patience_s``. Meanwhile another one may be plugged in: that is told (:class:`OtherCamera`) and waited on. Frames
-    that were missed are counted in the next one.
+    ``subject`` names it in faults until it has told its name; ``sensor`` says what the depth of the opened one is
+    worth; ``camera`` are measured intrinsics, otherwise the driver's lens, or its field of view, is taken. When the
+    camera is lost, ``notice`` hears :class:`CameraLost`, then :class:`CameraReturned`; it is raised when the camera
+    stays away for ``patience_s``. Meanwhile another one may be plugged in: that is told (:class:`OtherCamera`) and
+    waited on. Frames that were missed are counted in the next one.
     """
 
     def __init__(
@@ -64,7 +64,7 @@ class ProcessCamera:
         serve: Serve,
         plan: CameraPlan,
         subject: str,
-        sensor: DepthSensor,
+        sensor: Callable[[Opened], DepthSensor],
         *,
         camera: Camera | None = None,
         patience_s: float = math.inf,
@@ -109,10 +109,6 @@ class ProcessCamera:
     def unlock_exposure(self) -> None:
         """Let exposure and white balance follow the light again."""
         self._set_exposure(locked=False)
-
-    def depth_sensor(self, opened: Opened) -> DepthSensor:
-        """What the depth of the camera that was opened is worth."""
-        return self._sensor
 
     def frames(self) -> Iterator[Frame]:
         """Frames from now on, until :meth:`close`; what waited since the opening is thrown away."""
@@ -247,7 +243,7 @@ class ProcessCamera:
             self._notice(PicturesEnlarged(name, layout.enlarged))
         turned = any(opened.mirrored.values())
         settings = {**opened.settings, "mirrored": "turned back" if turned else "no"}
-        seen = replace(found, sensor=self.depth_sensor(opened))
+        seen = replace(found, sensor=self._sensor(opened))
         return SourceInfo(name, seen, True, None, float(opened.modes[Sensor.COLOR].fps), settings)
 
 

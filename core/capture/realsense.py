@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from importlib.util import find_spec
 from typing import Any
@@ -12,7 +12,7 @@ from carpus.core.camera import Camera
 from carpus.core.capture.camera_kind import CameraKind
 from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.capture_messages import Opened
-from carpus.core.capture.maker_library import library_finding
+from carpus.core.capture.maker_library import USB_3, further_findings, library_finding
 from carpus.core.capture.notice import Notice, ignore
 from carpus.core.capture.process_camera import SIZE_PX, ProcessCamera
 from carpus.core.capture.realsense_opening import load_library
@@ -35,28 +35,26 @@ MODELS = {
 SENSORS = {"D415": D415, "D435": D435, "D455": D455, "D456": D455, "D457": D455}
 
 
-class RealSenseCamera(ProcessCamera):
-    """The first RealSense, or the one whose serial number ``uri`` is; ``context`` as for :class:`CameraPlan`.
+def open_realsense(
+    *,
+    uri: str | None = None,
+    camera: Camera | None = None,
+    patience_s: float = math.inf,
+    notice: Notice = ignore,
+    context: Callable[[], Any] | None = None,
+) -> ProcessCamera:
+    """The first camera, or the one whose serial number ``uri`` is; ``context`` as for :class:`CameraPlan`.
 
-    The rest as for :class:`ProcessCamera`. Raises :class:`ExtraMissing` without the library.
+    Raises :class:`ExtraMissing` without the library.
     """
+    require_library()
+    plan = CameraPlan(uri or "", SIZE_PX, models=MODELS, context=context)
+    return ProcessCamera(serve, plan, uri or "RealSense", _sensor, camera=camera, patience_s=patience_s, notice=notice)
 
-    def __init__(
-        self,
-        *,
-        uri: str | None = None,
-        camera: Camera | None = None,
-        patience_s: float = math.inf,
-        notice: Notice = ignore,
-        context: Callable[[], Any] | None = None,
-    ) -> None:
-        require_library()
-        plan = CameraPlan(uri or "", SIZE_PX, models=MODELS, context=context)
-        super().__init__(serve, plan, uri or "RealSense", D435, camera=camera, patience_s=patience_s, notice=notice)
 
-    def depth_sensor(self, opened: Opened) -> DepthSensor:
-        """By the camera's name, and how its depth pictures see."""
-        return sensor_named(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
+def _sensor(opened: Opened) -> DepthSensor:
+    """By the camera's name, and how its depth pictures see."""
+    return sensor_named(opened.settings, math.nan if opened.lens is None else opened.lens.fx_px)
 
 
 def require_library() -> None:
@@ -75,42 +73,9 @@ def sensor_named(settings: Mapping[str, str], color_focal_px: float = math.nan) 
     return sensor.with_focal(focal_px, color_focal_px) if focal_px > 0.0 else sensor
 
 
-def open_realsense(*, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> RealSenseCamera:
-    """The first RealSense, or the one whose serial number ``uri`` is."""
-    return RealSenseCamera(uri=uri, camera=camera, patience_s=patience_s, notice=notice)
-
-
 def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding | None:
     """The maker's library, by its package; loaded, in a process of its own, only where a camera wants it."""
     return library_finding(phrase("RealSense driver"), PACKAGE, load_library, asks=asks_version, wanted=wanted)
-
-
-def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:
-    """Firmware and port of an opened camera."""
-    findings = []
-    firmware, wanted = settings.get("firmware", ""), settings.get("firmware_wanted", "")
-    if firmware and wanted and _numbers(firmware) < _numbers(wanted):
-        remedy = phrase("Bring the firmware up to date with the maker's RealSense Viewer.")
-        findings.append(
-            Finding(
-                phrase("Firmware"),
-                "warning",
-                phrase("{firmware}, the library asks for {wanted}", firmware=firmware, wanted=wanted),
-                remedy,
-            )
-        )
-    elif firmware:
-        findings.append(Finding(phrase("Firmware"), "good", firmware))
-    usb = settings.get("usb", "")
-    if usb.startswith("2"):
-        findings.append(Finding("USB", "warning", f"USB {usb}", KIND.port))
-    elif usb:
-        findings.append(Finding("USB", "good", f"USB {usb}"))
-    return findings
-
-
-def _numbers(version_text: str) -> list[int]:
-    return [int(part) if part.isdigit() else 0 for part in version_text.split(".")]
 
 
 KIND = CameraKind(
@@ -119,6 +84,6 @@ KIND = CameraKind(
     open=open_realsense,
     driver=driver_finding,
     needed_mbit=5000,
-    port=phrase("Plug it into a USB 3 port, with a USB 3 cable and without a hub."),
+    port=USB_3,
     further=further_findings,
 )

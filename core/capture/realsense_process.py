@@ -32,7 +32,7 @@ from carpus.core.capture.realsense_opening import (
 from carpus.core.capture.unseen_camera import why_not_opened
 from carpus.core.capture.usb_devices import usb_cameras
 from carpus.core.capture.video_mode import Sensor
-from carpus.core.errors import CameraLost, DriverFailed, RecordingDamaged, RecordingUnsupported
+from carpus.core.errors import DriverFailed, RecordingDamaged, RecordingUnsupported
 
 WAITING_FRAMES = 8
 JOIN_MS = 1000
@@ -82,24 +82,23 @@ def _watch(rs: Any, outlet: Outlet, plan: CameraPlan) -> None:
     pictures = _Pictures(rs, outlet, streams)
     hold = ColorLock(outlet, _Controls(rs, streams))
     outlet.set_exposure = hold.set_automatic
-    heard = Heard(streams.modes)
     is_told = False
-    while not outlet.stopping:
-        outlet.obey(block=False)
-        if gone.is_set():
-            raise GaveUp(CameraLost, "unplugged")
+
+    def pass_on(heard: Heard) -> None:
+        nonlocal is_told
         frame = _next(waiting, WAIT_MS / 1000.0)
-        if frame is not None:
-            sensor = _sensor_of(rs, frame)
-            heard.picture_of(sensor)
-            if sensor == Sensor.COLOR and not is_told:
-                outlet.send(_opened(rs, streams, settings | {"clock": _clock(rs, frame)}))
-                is_told = True
-            pictures.pass_on(frame)
-            if sensor == Sensor.COLOR:
-                hold.look(memoryview(frame.get_data()).cast("B"))
-        heard.check()
-        outlet.stay_alive()
+        if frame is None:
+            return
+        sensor = _sensor_of(rs, frame)
+        heard.picture_of(sensor)
+        if sensor == Sensor.COLOR and not is_told:
+            outlet.send(_opened(rs, streams, settings | {"clock": _clock(rs, frame)}))
+            is_told = True
+        pictures.pass_on(frame)
+        if sensor == Sensor.COLOR:
+            hold.look(memoryview(frame.get_data()).cast("B"))
+
+    outlet.watch(streams.modes, gone, pass_on)
     _stop(streams)
 
 

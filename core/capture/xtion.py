@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from carpus.core.camera import Camera
+from functools import partial
+
 from carpus.core.capture.camera_kind import CameraKind
-from carpus.core.capture.notice import Notice
-from carpus.core.capture.openni2_camera import OpenNI2Camera
+from carpus.core.capture.openni2_camera import open_openni2
 from carpus.core.capture.openni2_driver import driver_finding
-from carpus.core.depth_sensor import PRIMESENSE
 from carpus.core.phrase import phrase
 
 MODELS = {
@@ -18,15 +17,10 @@ MODELS = {
 }
 
 
-def open_xtion(*, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> OpenNI2Camera:
-    """The first Xtion, or the one at OpenNI2's ``uri``."""
-    return OpenNI2Camera(uri=uri, camera=camera, patience_s=patience_s, notice=notice, models=MODELS, sensor=PRIMESENSE)
-
-
 KIND = CameraKind(
     title="Asus Xtion",
     models=MODELS,
-    open=open_xtion,
+    open=partial(open_openni2, models=MODELS),
     driver=driver_finding,
     needed_mbit=480,
     port=phrase("It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware."),

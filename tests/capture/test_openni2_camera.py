@@ -14,7 +14,8 @@ import pytest
 
 from carpus.core.camera import Camera
 from carpus.core.capture.camera_plan import CameraPlan
-from carpus.core.capture.openni2_camera import OpenNI2Camera
+from carpus.core.capture.openni2_camera import open_openni2
+from carpus.core.capture.process_camera import ProcessCamera
 from carpus.core.capture.xtion import MODELS
 from carpus.core.errors import (
     CameraFileUnreadable,
@@ -37,13 +38,13 @@ def told() -> list[CarpusFault]:
 
 
 @pytest.fixture
-def camera(told: list[CarpusFault]) -> Iterator[OpenNI2Camera]:
-    source = OpenNI2Camera(models=MODELS, uri="Dummy", notice=told.append)
+def camera(told: list[CarpusFault]) -> Iterator[ProcessCamera]:
+    source = open_openni2(models=MODELS, uri="Dummy", notice=told.append)
     yield source
     source.close()
 
 
-def blow(source: OpenNI2Camera, how: signal.Signals) -> None:
+def blow(source: ProcessCamera, how: signal.Signals) -> None:
     assert source._process.pid is not None
     os.kill(source._process.pid, how)
 
@@ -53,15 +54,16 @@ def assert_rising(frames: list[Frame]) -> None:
     assert all(later.timestamp_s > earlier.timestamp_s for earlier, later in pairwise(frames))
 
 
-def test_frames_of_a_running_camera(camera: OpenNI2Camera, told: list[CarpusFault]) -> None:
+def test_frames_of_a_running_camera(camera: ProcessCamera, told: list[CarpusFault]) -> None:
     frames = list(islice(camera.frames(), 20))
     assert_rising(frames)
     for frame in frames:
         assert frame.color_rgb.shape == (240, 320, 3)
-        assert frame.depth_raw is not None
-        assert frame.depth_raw.shape == (240, 320)
+        # a busy computer may miss a depth picture
+        assert frame.depth_raw is None or frame.depth_raw.shape == (240, 320)
         assert frame.depth_unit_m == 1e-3
         assert not frame.color_rgb.flags.writeable
+    assert any(frame.depth_raw is not None for frame in frames)
     for earlier, later in pairwise(frames):
         # in the device's own time, whatever the computer was busy with
         missing = later.dropped_before
@@ -69,7 +71,7 @@ def test_frames_of_a_running_camera(camera: OpenNI2Camera, told: list[CarpusFaul
     assert [type(fault) for fault in told] == [DepthNotRegistered]
 
 
-def test_facts_about_a_camera(camera: OpenNI2Camera) -> None:
+def test_facts_about_a_camera(camera: ProcessCamera) -> None:
     info = camera.info
     assert (info.name, info.frame_count, info.nominal_fps, info.has_depth) == ("Dummy", None, 30.0, True)
     assert info.camera.origin == "default"
@@ -82,20 +84,20 @@ def test_facts_about_a_camera(camera: OpenNI2Camera) -> None:
 
 def test_stop_and_start_again() -> None:
     for _ in range(4):
-        source = OpenNI2Camera(models=MODELS, uri="Dummy")
+        source = open_openni2(models=MODELS, uri="Dummy")
         assert_rising(list(islice(source.frames(), 3)))
         source.close()
         source.close()
         assert list(source.frames()) == []
 
 
-def test_frames_may_be_asked_for_again(camera: OpenNI2Camera) -> None:
+def test_frames_may_be_asked_for_again(camera: ProcessCamera) -> None:
     first = list(islice(camera.frames(), 3))
     second = list(islice(camera.frames(), 3))
     assert_rising(first + second)
 
 
-def test_closing_ends_the_frames_of_another_thread(camera: OpenNI2Camera) -> None:
+def test_closing_ends_the_frames_of_another_thread(camera: ProcessCamera) -> None:
     count = 0
     started = threading.Event()
 
@@ -114,7 +116,7 @@ def test_closing_ends_the_frames_of_another_thread(camera: OpenNI2Camera) -> Non
     assert count >= 1
 
 
-def test_what_a_slow_reader_misses_is_counted(camera: OpenNI2Camera) -> None:
+def test_what_a_slow_reader_misses_is_counted(camera: ProcessCamera) -> None:
     frames = []
     for frame in camera.frames():
         frames.append(frame)
@@ -131,7 +133,7 @@ def test_what_a_slow_reader_misses_is_counted(camera: OpenNI2Camera) -> None:
 
 @pytest.mark.parametrize("how", [signal.SIGSEGV, signal.SIGSTOP])
 def test_a_lost_camera_comes_back(
-    camera: OpenNI2Camera, told: list[CarpusFault], how: signal.Signals, monkeypatch: pytest.MonkeyPatch
+    camera: ProcessCamera, told: list[CarpusFault], how: signal.Signals, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("carpus.core.capture.process_camera.ANSWER_S", 2.0)
     frames = []
@@ -151,14 +153,14 @@ def test_a_lost_camera_comes_back(
     assert frames[away + 1].dropped_before == round(steps_s[away] / (1 / 30)) - 1
 
 
-def test_a_camera_lost_before_anyone_looked_comes_back_too(camera: OpenNI2Camera, told: list[CarpusFault]) -> None:
+def test_a_camera_lost_before_anyone_looked_comes_back_too(camera: ProcessCamera, told: list[CarpusFault]) -> None:
     blow(camera, signal.SIGKILL)
     assert_rising(list(islice(camera.frames(), 3)))
     assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost, CameraReturned]
 
 
 def test_a_camera_that_stays_away_is_a_fault(
-    camera: OpenNI2Camera, told: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
+    camera: ProcessCamera, told: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("carpus.core.capture.process_camera.RETRY_S", 0.05)
     camera._patience_s = 0.1
@@ -171,7 +173,7 @@ def test_a_camera_that_stays_away_is_a_fault(
     assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost]
 
 
-def test_a_camera_that_only_crashes_is_given_up(camera: OpenNI2Camera, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_camera_that_only_crashes_is_given_up(camera: ProcessCamera, monkeypatch: pytest.MonkeyPatch) -> None:
     def crash() -> Iterator[Frame]:
         raise DriverFailed("Dummy", "SIGSEGV")
         yield
@@ -182,7 +184,7 @@ def test_a_camera_that_only_crashes_is_given_up(camera: OpenNI2Camera, monkeypat
         list(camera.frames())
 
 
-def test_closing_ends_the_wait_for_a_lost_camera(camera: OpenNI2Camera) -> None:
+def test_closing_ends_the_wait_for_a_lost_camera(camera: ProcessCamera) -> None:
     frames = camera.frames()
     next(frames)
     camera._plan = CameraPlan(uri="1d27/0601@9/9")
@@ -196,12 +198,12 @@ def test_closing_ends_the_wait_for_a_lost_camera(camera: OpenNI2Camera) -> None:
 
 def test_no_camera_is_a_fault() -> None:
     with pytest.raises(CameraMissing):
-        OpenNI2Camera(models=MODELS, uri="1d27/0601@9/9")
+        open_openni2(models=MODELS, uri="1d27/0601@9/9")
     with pytest.raises(CameraMissing):
-        OpenNI2Camera(models=MODELS)
+        open_openni2(models=MODELS)
 
 
-def test_no_library_is_a_fault_and_not_waited_for(camera: OpenNI2Camera, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_library_is_a_fault_and_not_waited_for(camera: ProcessCamera, monkeypatch: pytest.MonkeyPatch) -> None:
     def without() -> Iterator[Frame]:
         raise DriverMissing("libOpenNI2.so.0")
         yield
@@ -211,7 +213,7 @@ def test_no_library_is_a_fault_and_not_waited_for(camera: OpenNI2Camera, monkeyp
         list(camera.frames())
 
 
-def test_exposure_that_cannot_be_held_is_told(camera: OpenNI2Camera) -> None:
+def test_exposure_that_cannot_be_held_is_told(camera: ProcessCamera) -> None:
     assert camera.exposure_locked is False
     frames = camera.frames()
     next(frames)
@@ -224,14 +226,14 @@ def test_exposure_that_cannot_be_held_is_told(camera: OpenNI2Camera) -> None:
 
 def test_measured_intrinsics_are_used(told: list[CarpusFault]) -> None:
     measured = Camera(530.0, 531.0, 318.0, 241.0, distortion=(0.1, 0.0, 0.0, 0.0, 0.0), origin="file")
-    source = OpenNI2Camera(models=MODELS, uri="Dummy", camera=measured)
+    source = open_openni2(models=MODELS, uri="Dummy", camera=measured)
     found = source.info.camera
     source.close()
     assert (found.fx_px, found.cx_px, found.cy_px) == (265.0, (318.5 / 2) - 0.5, (241.5 / 2) - 0.5)
     assert (found.distortion, found.origin) == (measured.distortion, "file")
     with pytest.raises(CameraFileUnreadable):
-        OpenNI2Camera(models=MODELS, uri="Dummy", camera=Camera(500.0, 500.0, 320.0, 256.0, 640, 512))
+        open_openni2(models=MODELS, uri="Dummy", camera=Camera(500.0, 500.0, 320.0, 256.0, 640, 512))
 
 
-def test_the_wait_has_no_end_by_default(camera: OpenNI2Camera) -> None:
+def test_the_wait_has_no_end_by_default(camera: ProcessCamera) -> None:
     assert camera._patience_s == math.inf

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from importlib.metadata import PackageNotFoundError
 from itertools import islice, pairwise
@@ -20,9 +21,10 @@ from carpus.core.capture.cameras import open_camera
 from carpus.core.capture.capture_process import GaveUp
 from carpus.core.capture.color_lock import ColorLock
 from carpus.core.capture.doctor import opened_findings, rules_finding
-from carpus.core.capture.orbbec import OrbbecCamera, driver_finding, sensor_named
+from carpus.core.capture.orbbec import driver_finding, open_orbbec, sensor_named
 from carpus.core.capture.orbbec_opening import choose_streams, find_camera, library
 from carpus.core.capture.orbbec_process import _Controls
+from carpus.core.capture.process_camera import ProcessCamera
 from carpus.core.depth_sensor import AZURE_KINECT
 from carpus.core.errors import (
     CameraBusy,
@@ -55,16 +57,16 @@ def told() -> list[CarpusFault]:
 @pytest.fixture
 def camera(
     tmp_path: Path, bag: Path, told: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
-) -> Iterator[OrbbecCamera]:
+) -> Iterator[ProcessCamera]:
     monkeypatch.chdir(tmp_path)
-    source = OrbbecCamera(notice=told.append, context=partial(orbbec_stand_in.plugged_in, tmp_path, bag))
+    source = open_orbbec(notice=told.append, context=partial(orbbec_stand_in.plugged_in, tmp_path, bag))
     yield source
     source.close()
     assert not (tmp_path / "Log").exists(), "the library keeps logs where the program was started"
 
 
 def test_a_camera_streams_is_lost_and_comes_back(
-    camera: OrbbecCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("carpus.core.capture.process_camera.RETRY_S", 0.05)
     info = camera.info
@@ -116,8 +118,8 @@ def test_a_camera_streams_is_lost_and_comes_back(
 def test_the_doctor_opens_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     bag = tmp_path / "small.bag"
     orbbec_stand_in.record(bag, small=True)
-    opened = partial(OrbbecCamera, context=partial(orbbec_stand_in.plugged_in, tmp_path, bag))
-    monkeypatch.setattr(orbbec, "OrbbecCamera", opened)
+    opened = partial(open_orbbec, context=partial(orbbec_stand_in.plugged_in, tmp_path, bag))
+    monkeypatch.setattr(orbbec, "KIND", replace(orbbec.KIND, open=opened))
     findings = {each.name: each for each in opened_findings("orbbec", 0.5)}
     assert list(findings) == ["Pictures", "Registration", "Mirror", "Clock", "Firmware", "USB"]
     assert findings["Registration"].found == "depth lies on colour, by the library"

@@ -6,6 +6,7 @@ import multiprocessing
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from functools import partial
 from importlib.metadata import PackageNotFoundError
 from itertools import islice, pairwise
@@ -20,7 +21,9 @@ from carpus.core.capture import maker_library, realsense
 from carpus.core.capture.cameras import open_camera
 from carpus.core.capture.color_hold import MOST_ROUNDS, ColorHold, SeenColors
 from carpus.core.capture.doctor import opened_findings
-from carpus.core.capture.realsense import RealSenseCamera, driver_finding, further_findings
+from carpus.core.capture.maker_library import further_findings
+from carpus.core.capture.process_camera import ProcessCamera
+from carpus.core.capture.realsense import driver_finding, open_realsense
 from carpus.core.capture.realsense_recording import RealSenseRecording
 from carpus.core.capture.tum import TumFolder
 from carpus.core.capture.unseen_camera import why_not_opened, why_unlisted
@@ -107,14 +110,14 @@ def told() -> list[CarpusFault]:
 
 
 @pytest.fixture
-def camera(tmp_path: Path, told: list[CarpusFault]) -> Iterator[RealSenseCamera]:
-    source = RealSenseCamera(notice=told.append, context=partial(realsense_stand_in.plugged_in, tmp_path))
+def camera(tmp_path: Path, told: list[CarpusFault]) -> Iterator[ProcessCamera]:
+    source = open_realsense(notice=told.append, context=partial(realsense_stand_in.plugged_in, tmp_path))
     yield source
     source.close()
 
 
 def test_a_camera_streams_is_lost_and_comes_back(
-    camera: RealSenseCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("carpus.core.capture.process_camera.RETRY_S", 0.05)
     info = camera.info
@@ -155,7 +158,7 @@ def test_a_camera_streams_is_lost_and_comes_back(
 
 
 def test_another_camera_of_the_kind_is_told_and_ours_waited_for(
-    camera: RealSenseCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("carpus.core.capture.process_camera.RETRY_S", 0.05)
     frames = camera.frames()
@@ -194,7 +197,7 @@ def test_why_a_camera_named_by_its_serial_number_is_not_opened() -> None:
     assert why_not_opened("hwmon command timed out", [seen("D435", is_claimed=True)]).fault is DriverFailed
 
 
-def test_exposure_and_white_balance_are_held_as_they_look(camera: RealSenseCamera) -> None:
+def test_exposure_and_white_balance_are_held_as_they_look(camera: ProcessCamera) -> None:
     frames = camera.frames()
     before = next(frames).color_rgb.mean(axis=(0, 1))
     camera.lock_exposure()
@@ -210,7 +213,7 @@ def test_exposure_and_white_balance_are_held_as_they_look(camera: RealSenseCamer
 def test_a_camera_that_is_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "unplugged").touch()
     with pytest.raises(CameraMissing):
-        RealSenseCamera(context=partial(realsense_stand_in.plugged_in, tmp_path))
+        open_realsense(context=partial(realsense_stand_in.plugged_in, tmp_path))
     monkeypatch.setattr(realsense, "find_spec", lambda _: None)
     with pytest.raises(ExtraMissing) as told:
         open_camera("realsense:815412070123")
@@ -235,8 +238,8 @@ def test_a_hold_finds_what_looks_the_same(true: tuple[float, float], slope: floa
 
 
 def test_the_doctor_opens_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    opened = partial(RealSenseCamera, context=partial(realsense_stand_in.plugged_in, tmp_path))
-    monkeypatch.setattr(realsense, "RealSenseCamera", opened)
+    opened = partial(open_realsense, context=partial(realsense_stand_in.plugged_in, tmp_path))
+    monkeypatch.setattr(realsense, "KIND", replace(realsense.KIND, open=opened))
     findings = {each.name: each for each in opened_findings("realsense", 0.5)}
     assert list(findings) == ["Pictures", "Registration", "Mirror", "Clock", "Firmware", "USB"]
     assert findings["Registration"].found == "depth lies on colour, by the library"

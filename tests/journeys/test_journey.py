@@ -22,6 +22,7 @@ from pytestqt.qtbot import QtBot
 from carpus.app.compose import Desktop
 from carpus.app.desktop.sources import RECENT_FRAMES, Sources
 from carpus.core.calibration.result import CalibrationFinding
+from carpus.core.capture import xtion
 from carpus.core.capture.camera_info import sidecar_path
 from carpus.core.capture.tum import TumFolder
 from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
@@ -558,7 +559,7 @@ def test_a_camera_that_is_not_there_is_told_with_what_to_do(
     def missing(**_: object) -> None:
         raise CameraMissing("", "no device")
 
-    monkeypatch.setattr("carpus.core.capture.xtion.OpenNI2Camera", missing)
+    monkeypatch.setattr(xtion, "KIND", replace(xtion.KIND, open=missing))
     journey.setting_up.start(PRACTICE_PATIENT)
     at(qtbot, desktop, "markers")
     journey.way.back()
