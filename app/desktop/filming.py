@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QWidget
 from carpus.app.desktop.files_written import tell_written
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.ways import Tell
-from carpus.core.formats.film import UNFINISHED, write_film
+from carpus.core.formats.film import UNFINISHED, write_film, write_picture
 from carpus.core.library.library import Library
 from carpus.ui.background import Background
 from carpus.ui.review.film import FilmWanted, film_pictures
@@ -37,14 +37,20 @@ class Filming(QObject):
         session_id = wanted.session_id
         head = wanted.session.header
         what = f"{head.exercise.lower().replace('_', '-')}_{head.hand}"
-        name = f"carpus_{head.when:%Y-%m-%d_%H-%M}_{what}_{wanted.number}.mp4"  # of whom it does not say
-        path = self._places.ask_where_to_save(self._window, "exports", name, self.tr("Save film"), "MP4 (*.mp4)")
+        suffix = ".mp4" if wanted.rate_hz else ".png"
+        name = f"carpus_{head.when:%Y-%m-%d_%H-%M}_{what}_{wanted.number}{suffix}"  # of whom it does not say
+        title, kinds = self.tr("Save film"), "MP4 (*.mp4)"
+        if not wanted.rate_hz:
+            title, kinds = self.tr("Save picture"), "PNG (*.png)"
+        path = self._places.ask_where_to_save(self._window, "exports", name, title, kinds)
         if path is None:
             return
-        target = path if path.suffix.lower() == ".mp4" else path.with_name(f"{path.name}.mp4")
+        target = path if path.suffix.lower() == suffix else path.with_name(f"{path.name}{suffix}")
 
         def write() -> Path:
             pictures = film_pictures(self._theme, wanted, lambda row: self._library.picture(session_id, row))
+            if not wanted.rate_hz:
+                return write_picture(target, next(pictures))
             return write_film(target, pictures, wanted.rate_hz, self._library.folder)
 
         def written(done: Path) -> None:

@@ -1,4 +1,4 @@
-"""A film as MP4, by OpenCV; without sound, and without anything that says whose it is."""
+"""A film as MP4 or a picture of it as PNG, by OpenCV; without sound, and without anything that says whose it is."""
 
 from __future__ import annotations
 
@@ -19,6 +19,13 @@ CODE = "mp4v"
 
 UNFINISHED = "film.part.mp4"
 """Name of what is being written: one at a time, removed when the window opens again after it was killed."""
+
+
+def write_picture(path: Path, picture: ByteImage) -> Path:
+    """Write one picture, RGB, as PNG; raises :class:`OutputNotWritable` or :class:`DiskFull`."""
+    data = cv2.imencode(".png", cv2.cvtColor(picture, cv2.COLOR_RGB2BGR))[1].tobytes()
+    replace_file(path, lambda place: place.write_bytes(data))
+    return path
 
 
 def write_film(path: Path, pictures: Iterable[ByteImage], rate_hz: float, within: Path) -> Path:

@@ -2069,11 +2069,11 @@
     </message>
     <message>
         <source>with the names</source>
-        <translation>mit Namen</translation>
+        <translation type="vanished">mit Namen</translation>
     </message>
     <message>
         <source>after marker {number}</source>
-        <translation>nach Marker {number}</translation>
+        <translation type="vanished">nach Marker {number}</translation>
     </message>
     <message>
         <source>{done} of {asked} found</source>
@@ -9409,6 +9409,10 @@
         <translation>Geschwindigkeit</translation>
     </message>
     <message>
+        <source>This picture only</source>
+        <translation>Nur dieses Bild</translation>
+    </message>
+    <message>
         <source>Whoever has the file can watch it: Carpus cannot protect it there. It is noted in the log.</source>
         <translation>Wer die Datei hat, kann sie ansehen: Dort kann Carpus sie nicht schützen. Es steht im Protokoll.</translation>
     </message>
@@ -9417,8 +9421,16 @@
         <translation>Ein Teil davon ist zweifelhaft: Eine andere Wiederholung ([ und ]) ergibt einen Film.</translation>
     </message>
     <message>
+        <source>The patient has agreed</source>
+        <translation>Der Patient hat zugestimmt</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Speichern…</translation>
+    </message>
+    <message>
         <source>The patient has agreed to this film</source>
-        <translation>Der Patient hat diesem Film zugestimmt</translation>
+        <translation type="vanished">Der Patient hat diesem Film zugestimmt</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -9430,7 +9442,7 @@
     </message>
     <message>
         <source>Save film…</source>
-        <translation>Film speichern…</translation>
+        <translation type="vanished">Film speichern…</translation>
     </message>
     <message>
         <source>Film of repetition {number}</source>
@@ -9442,6 +9454,10 @@
     <message>
         <source>Save film</source>
         <translation>Film speichern</translation>
+    </message>
+    <message>
+        <source>Save picture</source>
+        <translation>Bild speichern</translation>
     </message>
 </context>
 <context>
@@ -12076,8 +12092,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Film…</translation>
     </message>
     <message>
+        <source>This repetition as a film, or this picture, of the hand alone (F)</source>
+        <translation>Diese Wiederholung als Film, oder dieses Bild, nur mit der Hand (F)</translation>
+    </message>
+    <message>
         <source>This repetition as a film of the hand alone (F)</source>
-        <translation>Diese Wiederholung als Film der Hand allein (F)</translation>
+        <translation type="vanished">Diese Wiederholung als Film der Hand allein (F)</translation>
     </message>
     <message>
         <source>Reading the session…</source>

@@ -2069,11 +2069,11 @@
     </message>
     <message>
         <source>with the names</source>
-        <translation>con i nomi</translation>
+        <translation type="vanished">con i nomi</translation>
     </message>
     <message>
         <source>after marker {number}</source>
-        <translation>dopo il n. {number}</translation>
+        <translation type="vanished">dopo il n. {number}</translation>
     </message>
     <message>
         <source>{done} of {asked} found</source>
@@ -9409,6 +9409,10 @@
         <translation>Velocità</translation>
     </message>
     <message>
+        <source>This picture only</source>
+        <translation>Solo questa immagine</translation>
+    </message>
+    <message>
         <source>Whoever has the file can watch it: Carpus cannot protect it there. It is noted in the log.</source>
         <translation>Chi ha il file può vederlo: lì Carpus non può proteggerlo. È annotato nel registro.</translation>
     </message>
@@ -9417,8 +9421,16 @@
         <translation>Una parte è dubbia: un’altra ripetizione ([ e ]) dà un filmato.</translation>
     </message>
     <message>
+        <source>The patient has agreed</source>
+        <translation>Il paziente ha acconsentito</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Salva…</translation>
+    </message>
+    <message>
         <source>The patient has agreed to this film</source>
-        <translation>Il paziente ha acconsentito a questo filmato</translation>
+        <translation type="vanished">Il paziente ha acconsentito a questo filmato</translation>
     </message>
     <message>
         <source>Cancel</source>
@@ -9430,7 +9442,7 @@
     </message>
     <message>
         <source>Save film…</source>
-        <translation>Salva filmato…</translation>
+        <translation type="vanished">Salva filmato…</translation>
     </message>
     <message>
         <source>Film of repetition {number}</source>
@@ -9442,6 +9454,10 @@
     <message>
         <source>Save film</source>
         <translation>Salva filmato</translation>
+    </message>
+    <message>
+        <source>Save picture</source>
+        <translation>Salva immagine</translation>
     </message>
 </context>
 <context>
@@ -12076,8 +12092,12 @@ Maiusc+F8 di lato</translation>
         <translation>Filmato…</translation>
     </message>
     <message>
+        <source>This repetition as a film, or this picture, of the hand alone (F)</source>
+        <translation>Questa ripetizione come filmato, o questa immagine, con la sola mano (F)</translation>
+    </message>
+    <message>
         <source>This repetition as a film of the hand alone (F)</source>
-        <translation>Questa ripetizione come filmato della sola mano (F)</translation>
+        <translation type="vanished">Questa ripetizione come filmato della sola mano (F)</translation>
     </message>
     <message>
         <source>Reading the session…</source>

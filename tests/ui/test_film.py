@@ -24,7 +24,7 @@ from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
-from carpus.ui.review.film import FilmWanted, film_pictures
+from carpus.ui.review.film import STILL, FilmWanted, film_pictures
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeSessions, session
@@ -142,6 +142,11 @@ def test_without_agreement_or_pictures_there_is_no_film(qtbot: QtBot, theme: The
     assert film.rate_hz == pytest.approx(15.0, rel=0.05), "half as fast as it was"
     assert "°" in film.words(film.rows[len(film.rows) // 2])
     screen.ask_film()
+    sheet.speed.choose(STILL)
+    qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
+    qtbot.keyClick(sheet, Qt.Key.Key_Return)
+    assert (wanted[-1].rate_hz, len(wanted[-1].rows)) == (0.0, 1)
+    screen.ask_film()
     assert not sheet.agreed.isChecked(), "agreement is given anew each time"
     sheet.begin(4, doubtful=True)
     assert not sheet.agreed.isEnabled()
@@ -194,4 +199,10 @@ def test_a_saved_film_is_told_and_noted(
     assert made == [(str(tmp_path / "x.mp4"), ["s7"])]
     assert (tmp_path / "x.mp4").stat().st_mode & 0o077 == 0
     assert told
+    filming.save(FilmWanted(side, "s7", 4, ROWS[:1], 0.0, exercise_named("WRIST_RU"), lambda _: "24°"))
+    qtbot.waitUntil(lambda: len(made) == 2, timeout=60_000)
+    picture = cv2.imread(str(tmp_path / "x.png"))
+    assert picture is not None
+    assert (picture == FLAT).all(axis=2).mean() > 0.2, "room is cut away"
+    assert (tmp_path / "x.png").stat().st_mode & 0o077 == 0
     assert not list(Pictures.folder.iterdir())

@@ -151,6 +151,8 @@ class MarkersScreen(QWidget):
         keys = [("Space", self.tr("accept"))] if clicks else []
         if not clicks or (self.clicking is not None and self.clicking.proposed):
             keys.insert(0, ("Enter", self.tr("go on")))
+        if not self._held:
+            return keys  # nothing to undo, to move or to name
         return [
             *keys, ("Backspace", self.tr("undo")), ("← ↑ → ↓", self.tr("move 1 px")), ("+ −", self.tr("zoom")),
             ("Tab", self.tr("next marker")), ("M", self.tr("larger last picture")),

@@ -51,15 +51,14 @@ class Row:
 
 def rows_before(done: int, asked: int, limits: VerdictLimits, *, proposed: bool = False) -> list[Row]:
     """What can be said while markers are still being clicked, or their names are ``proposed`` only."""
-    later = tr("with the names") if proposed else tr("after marker {number}").format(number=asked)
     pattern = tr("{done} of {asked} found") if proposed else tr("{done} of {asked}")
     count = pattern.format(done=done, asked=asked)
     return [
         Row("good" if done and not proposed else "open", tr("Markers"), count, _within(limits)),
-        Row("open", tr("Distance"), later, _distance(limits)),
-        Row("open", tr("Camera tilt"), later, _tilt(limits)),
-        Row("open", tr("Hand"), later, tr("flat and still")),
-        Row("open", tr("Hand length"), later, _length(limits)),
+        Row("open", tr("Distance"), "", _distance(limits)),
+        Row("open", tr("Camera tilt"), "", _tilt(limits)),
+        Row("open", tr("Hand"), "", tr("flat and still")),
+        Row("open", tr("Hand length"), "", _length(limits)),
     ]
 
 

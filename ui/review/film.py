@@ -25,6 +25,8 @@ from carpus.ui.picture.photo import paint_label
 from carpus.ui.theme import DARK, ON_PICTURE_LINE, Theme
 
 SPEEDS = ((1.0, "1"), (0.5, "½"), (0.25, "¼"))
+STILL = 0.0
+"""In place of a speed: the picture at the cursor alone."""
 ARC_SHARE = 0.55
 """Where the arc runs, as a part of the lines."""
 LEAST_SIDE_PX = 640
@@ -33,7 +35,8 @@ LEAST_SIDE_PX = 640
 
 @dataclass(frozen=True, slots=True)
 class FilmWanted:
-    """One repetition to be written: rows of the session, pictures a second, and what is said on each row."""
+    """One repetition to be written: rows of the session, pictures a second, and what is said on each row; 0 a second is
+    one picture, not a film."""
 
     session: Session
     session_id: str
@@ -102,20 +105,20 @@ class FilmSheet(Sheet):
         )
         body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         body.addWidget(Text(theme, self.tr("Speed"), 14, REGULAR, "text2"))
-        self.speed = Choices(theme, list(SPEEDS), 0.5)
+        self.speed = Choices(theme, [*SPEEDS, (STILL, self.tr("This picture only"))], 0.5)
         body.addWidget(self.speed)
         words = self.tr("Whoever has the file can watch it: Carpus cannot protect it there. It is noted in the log.")
         body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         words = self.tr("Part of it is doubtful: another repetition ([ and ]) makes a film.")
         self._refused = Text(theme, words, 14, SEMIBOLD, "warn", wrap=True)
         body.addWidget(self._refused)
-        self.agreed = Tick(theme, self.tr("The patient has agreed to this film"))
+        self.agreed = Tick(theme, self.tr("The patient has agreed"))
         body.addWidget(self.agreed)
         row = QHBoxLayout()
         row.setSpacing(10)
         row.addStretch(1)
         self.close_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
-        self.take = Button(theme, self.tr("Save film…"), "primary", height_px=44)
+        self.take = Button(theme, self.tr("Save…"), "primary", height_px=44)
         row.addWidget(self.close_button)
         row.addWidget(self.take)
         body.addLayout(row)

@@ -58,7 +58,7 @@ from carpus.ui.report.hand_rows import column_heads, finger_rows, limits_words
 from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.tables import column_names, repetition_words, table_rows
 from carpus.ui.report.words import corrected_words
-from carpus.ui.review.film import FilmSheet, FilmWanted, paint_angle
+from carpus.ui.review.film import STILL, FilmSheet, FilmWanted, paint_angle
 from carpus.ui.review.further_table import FurtherTable
 from carpus.ui.review.hand_table import HandTable
 from carpus.ui.review.player import Player
@@ -167,7 +167,7 @@ class ReviewScreen(QWidget):
         self.angle_button.toggled.connect(lambda _: self.picture.update())
         self.angle_button.toggled.connect(lambda _: self._place_button())
         self.film_button = Button(theme, self.tr("Film…"), "plain", height_px=36)
-        self.film_button.setToolTip(self.tr("This repetition as a film of the hand alone (F)"))
+        self.film_button.setToolTip(self.tr("This repetition as a film, or this picture, of the hand alone (F)"))
         for button in (self.angle_button, self.film_button):
             button.setParent(self.picture)
             button.setProperty("floats", True)
@@ -652,6 +652,8 @@ class ReviewScreen(QWidget):
         rows, session, curves = self._rows(), self._session, self._curves
         if session is None or curves is None or self.figures is None or not rows:
             return
+        if factor == STILL:
+            rows = range(self._row, self._row + 1)
         rate_hz = factor * len(rows) / max(float(curves.time_s[rows.stop - 1] - curves.time_s[rows.start]), 1e-3)
         exercise, words = self.figures.exercise, {row: self._angle_words(row) for row in rows}
         self.film.emit(
