@@ -70,6 +70,16 @@ SWITCH_S = 0.001
 SESSION_PATH = re.compile(r"\S*(?:sessions[\\/]|_\d{4}-\d\d-\d\d_\d{6}_)\S*")
 """A path or a file's name with a pseudonym in it."""
 LOG_FILE, LOG_BYTES = "carpus.log", 1_000_000
+SETTLED_MS = 200
+"""After the first picture, which need not wait for it."""
+
+
+def settle() -> None:
+    """All that was built by now stays: the collector, which a start leaves aside, need not look through it again while
+    frames come."""
+    gc.enable()
+    gc.collect()
+    gc.freeze()
 
 
 @dataclass(eq=False)
@@ -110,9 +120,7 @@ class Desktop:
         self.safe.locking.lock_at_start()
         self.shell.show()
         self.welcome.begin()
-        # All that was built by now stays: the collector need not look through it again while frames come.
-        gc.collect()
-        gc.freeze()
+        QTimer.singleShot(SETTLED_MS, settle)
 
     def speak_anew(self) -> None:
         """The language was changed: everything is put together again, at the same place, and this becomes it."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import os
 import sys
 from datetime import datetime
@@ -34,6 +35,7 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
     if not has_display():
         print("carpus: there is no display here; “carpus demo” shows the whole way without one.", file=sys.stderr)
         return 1
+    gc.disable()  # what is built by a start stays: the collector would look through it again and again, for nothing
     from carpus.app import compose
     from carpus.app.desktop.alone import Alone
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -396,3 +397,14 @@ def test_everything_is_sealed_into_one_file_and_comes_back_from_it(
     sheet.first.setText("another one")
     sheet.go.click()
     qtbot.waitUntil(lambda: any("does not open" in word for word in visible_words(desktop.shell)), timeout=60_000)
+
+
+def test_a_start_leaves_the_collector_aside_until_the_first_picture_is_there(opened: Open, qtbot: QtBot) -> None:
+    gc.unfreeze()
+    gc.disable()
+    try:
+        opened()
+        qtbot.waitUntil(gc.isenabled, timeout=60_000)
+        assert gc.get_freeze_count() > 1000
+    finally:
+        gc.enable()

@@ -17,6 +17,8 @@ import resource, sys, time
 begun = time.perf_counter()
 sys.argv[0] = "carpus"
 from carpus.app.__main__ import main  # what the command loads first
+import gc
+gc.disable()  # as the command does
 from pathlib import Path
 from carpus.app import compose
 from carpus.app.desktop.alone import Alone
