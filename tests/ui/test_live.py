@@ -556,6 +556,8 @@ def test_a_stop_says_how_long_catching_up_takes(qtbot: QtBot, theme: Theme) -> N
         screen._show_values()
         assert screen.main.text() == "Catching up: 12 s left"
         assert screen.catching_up.isVisible()
+        assert not screen.note.isEnabled()
+        assert not screen.pause.isEnabled()
         feed.waiting = 300
         screen._show_values()
         assert screen.main.text() == "Catching up: 3 s left"

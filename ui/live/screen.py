@@ -414,6 +414,7 @@ class LiveScreen(QWidget):
         if self._measuring is None or self._stopping or not self._measuring.feed.recording:
             return
         self._stopping = True
+        self._show_buttons()
         self.main.setEnabled(False)
         self.main.set_face(self.tr("Storing…"), icon="", hint="")
 
@@ -434,7 +435,7 @@ class LiveScreen(QWidget):
 
     def toggle_pause(self) -> None:
         """Pause or go on."""
-        if self._measuring is not None and self._measuring.feed.recording and not self._camera_lost:
+        if self._measuring is not None and self._measuring.feed.recording and not (self._camera_lost or self.storing):
             feed = self._measuring.feed
             (feed.resume_recording if feed.paused else feed.pause_recording)()
             self._show_buttons()
@@ -780,7 +781,7 @@ class LiveScreen(QWidget):
 
     def _show_buttons(self) -> None:
         state = self.recording_state
-        recording = state != "off"
+        recording = state != "off" and not self.storing  # what is stopped takes no more notes
         self.note.setEnabled(recording)
         self.pain.setEnabled(recording)
         self.pause.setEnabled(recording)
