@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.app.desktop import practice
 from carpus.app.desktop.practice import practice_beginning, practice_spec
 from carpus.app.desktop.sources import NobodyWaitsError, Progress, TakesDrawn
 from carpus.core.capture.practice import PracticeSource
@@ -17,6 +16,7 @@ from carpus.core.capture.source import is_simulated
 from carpus.core.errors import CarpusFault, DiskFull
 from carpus.core.library.set_up import SetUp
 from carpus.core.output.exercises import exercise_named
+from carpus.core.simulation import recording
 from carpus.core.simulation.recording import SimulatedPictures
 from tests.capture.test_practice import Take
 from tests.ui.fakes import set_up
@@ -105,5 +105,5 @@ def test_the_beginning_is_what_the_whole_take_begins_with_and_a_dozen_pictures(m
         np.testing.assert_array_equal(frame.color_rgb, color)
         np.testing.assert_array_equal(frame.depth_raw, depth)
     assert frames[-1].timestamp_s - frames[0].timestamp_s == pytest.approx(still_s, abs=1.0 / 15.0)
-    monkeypatch.setattr(practice, "is_cached", lambda _: True)
+    monkeypatch.setattr(recording, "is_cached", lambda _: True)
     assert practice_beginning(FIRST) is None, "nothing to draw: the whole take is there"
