@@ -38,9 +38,9 @@ NO_CHOICE = {
     "when a search for a least sum of squares has settled": {
         "calibration/neutral_pose._ROUNDS",
         "calibration/neutral_pose._SETTLED",
-        "hand/ray_fitting._DIFFERENCE_STEP",
-        "hand/ray_fitting._MOST_STEPS",
-        "hand/ray_fitting._SETTLED",
+        "hand/digit_fitting._DIFFERENCE_STEP",
+        "hand/digit_fitting._MOST_STEPS",
+        "hand/digit_fitting._SETTLED",
     },
     "tables of the clinical reference; how far a hand may be from them lies in settings": {
         "calibration/calibrate._MCP3_OVER_HAND_LENGTH",
@@ -78,7 +78,7 @@ NO_CHOICE = {
     "axes and signs": {
         "calibration/calibrate._TOWARDS_CAMERA",
         "hand/anatomy_prior._DOWN",
-        "hand/ray_fitting._DOWN",
+        "hand/digit_fitting._DOWN",
         "tracking/finger_depth._DOWN",
         "tracking/digit_association.BENDS",
         "tracking/hand_geometry._DOWN",

@@ -85,8 +85,8 @@ def propose_names(
     rows = np.array(protocol.sites)
     place = _in_picture_plane(blobs, camera, settings.usual_depth_m)
     fits = _rough_fits(place, rows, side, fixed, settings)
-    rays = [np.array(chain[1:]) for chain in protocol.chains.values()]
-    refined = [_refined(place, fit, fixed, rays, settings) for fit in fits]
+    chains = [np.array(chain[1:]) for chain in protocol.chains.values()]
+    refined = [_refined(place, fit, fixed, chains, settings) for fit in fits]
     if not refined:
         return _only(fixed, rows.size)
     best = min(refined, key=lambda one: one.cost)
@@ -234,14 +234,14 @@ def _ends(a: int, b: int, first: IntArray, second: IntArray, fixed: Mapping[int,
 
 
 def _refined(
-    place: FloatArray, fit: _Fit, fixed: Mapping[int, int], rays: Sequence[IntArray], settings: NamingSettings
+    place: FloatArray, fit: _Fit, fixed: Mapping[int, int], chains: Sequence[IntArray], settings: NamingSettings
 ) -> _Named:
-    """Named by the nearest overall; the whole hand, then each of its rays, moved to what was named."""
+    """Named by the nearest overall; the whole hand, then each of its digits, moved to what was named."""
     laid = fit.place
     reach = 2.2 * settings.gate_m * fit.scale
     for step in range(6):
         blob = _assigned(place, laid, reach, fixed)
-        laid = _moved(laid, place, blob) if step < 3 else _rays_moved(laid, place, blob, rays)
+        laid = _moved(laid, place, blob) if step < 3 else _chains_moved(laid, place, blob, chains)
         reach = max(0.7 * reach, settings.close_m * fit.scale)
     blob = _assigned(place, laid, reach, fixed)
     distance = np.abs(laid[:, None] - place)
@@ -283,12 +283,12 @@ def _moved(laid: FloatArray, place: FloatArray, blob: IntArray) -> FloatArray:
     return np.asarray(middle + turn * (laid - centre))
 
 
-def _rays_moved(laid: FloatArray, place: FloatArray, blob: IntArray, rays: Sequence[IntArray]) -> FloatArray:
-    """Each ray turned and stretched about its first named disc, the rest of it following."""
+def _chains_moved(laid: FloatArray, place: FloatArray, blob: IntArray, chains: Sequence[IntArray]) -> FloatArray:
+    """Each digit turned and stretched about its first named disc, the rest of it following."""
     out = laid.copy()
-    if not rays:
+    if not chains:
         return _moved(laid, place, blob)
-    for chain in rays:
+    for chain in chains:
         named = chain[blob[chain] >= 0]
         if named.size >= 2:
             out[chain] = _moved(laid[chain], place, blob[chain])

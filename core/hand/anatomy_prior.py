@@ -1,7 +1,7 @@
 """What is known of a hand before it is measured: the average hand of its size and the scatter between people.
 
-Means from the anatomical table (clinical reference 2 and 3.3). Constants of a ray are those of
-:mod:`core.hand.ray_fitting`, thumb first, then fingers 2 to 5; axes of a right hand.
+Means from the anatomical table (clinical reference 2 and 3.3). Constants of a digit are those of
+:mod:`core.hand.digit_fitting`, thumb first, then fingers 2 to 5; axes of a right hand.
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
+from carpus.core.hand.digit_fitting import Gaussian
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.ray_fitting import Gaussian
 from carpus.core.hand.sites import PALM_SITES
 from carpus.core.types import FloatArray, Side
 
-RAY_DISCS = ((2, 3, 4), (6, 7, 8), (10, 11, 12), (14, 15, 16), (18, 19, 20))
+DIGIT_DISCS = ((2, 3, 4), (6, 7, 8), (10, 11, 12), (14, 15, 16), (18, 19, 20))
 """Places in ``hand21`` of the three moving discs of the thumb and of fingers 2 to 5."""
 
 _PALM = list(PALM_SITES)
@@ -31,7 +31,7 @@ class AnatomyPrior:
     """How far a hand may differ from the average one of its size; standard deviations.
 
     ``bone_share`` of a bone's length; ``last_bone_share`` of the last one, which ends under a disc whose place on the
-    nail varies; ``height_scale`` common to all offsets of a ray, besides the scatter of each in the table;
+    nail varies; ``height_scale`` common to all offsets of a digit, besides the scatter of each in the table;
     ``start_ahead_m`` and ``start_aside_m`` of the first joint centre (MCP, CMC1) from the place under its disc.
     ``depth_stays_m``: error of a disc's depth that stays over a recording. To the camera it is height, at the neutral
     pose and after, so it is part of what is not known of the heights.
@@ -45,9 +45,9 @@ class AnatomyPrior:
     ``straight_thumb_rad`` a thumb, which nobody aligns. ``bent_rad``: flexion of a finger that cannot, or whose discs
     lie ``evidently_sd`` standard deviations from where a straight one's would.
     ``dip_free_rad``: how far an end joint is from 2/3 of the middle one; ``dip_slack_rad`` one that should follow it.
-    A neutral ray that costs more than ``absurd_cost`` (sum of squares in standard deviations) may have an absurd depth:
-    one that lies farther than ``absurd_m`` from where the others say, and that costs ``absurd_gain``. Less than that is
-    flesh, or a disc stuck askew.
+    A neutral digit that costs more than ``absurd_cost`` (sum of squares in standard deviations) may have an absurd
+    depth: one that lies farther than ``absurd_m`` from where the others say, and that costs ``absurd_gain``. Less than
+    that is flesh, or a disc stuck askew.
     """
 
     bone_share: float = 0.06
@@ -84,7 +84,7 @@ def average_hand(disc_m: FloatArray, side: Side, skin_offsets: bool) -> HandAnat
     palm = disc_m[_PALM]
     flat = disc_m[..., :2]
     ratios = list(palm[2:, 0] / unit.palm_disc_m[2:, 0])
-    for own, bones in zip(RAY_DISCS[1:], unit.finger_length_m, strict=True):
+    for own, bones in zip(DIGIT_DISCS[1:], unit.finger_length_m, strict=True):
         places = flat[[own[0] - 1, *own[:2]]]
         ratios += list(np.linalg.norm(np.diff(places, axis=0), axis=-1) / bones[:2])
     length_m = float(np.nanmedian(ratios))
@@ -104,36 +104,36 @@ def average_hand(disc_m: FloatArray, side: Side, skin_offsets: bool) -> HandAnat
 def constants_prior(
     average: HandAnatomy, prior: AnatomyPrior, lateral_sd_m: FloatArray, depth_sd_m: FloatArray
 ) -> Gaussian:
-    """Constants of the five rays of the average hand, (5, 11), with the scatter between people.
+    """Constants of the five digits of the average hand, (5, 11), with the scatter between people.
 
-    ``lateral_sd_m`` and ``depth_sd_m`` (5,) tell how well the discs CMC1 and MCP2 to MCP5, from which the rays start,
+    ``lateral_sd_m`` and ``depth_sd_m`` (5,) tell how well the discs CMC1 and MCP2 to MCP5, from which the digits start,
     were measured: an error there stays in the joint centres below them.
     """
     mean, covariance = constants_of(average), np.zeros((5, 11, 11))
     shares = np.array([prior.bone_share, prior.bone_share, prior.last_bone_share])
     has_offsets = bool(np.any(average.skin_offset_m))
-    for ray in range(5):
+    for chain in range(5):
         sd = np.full(11, _FIXED)
-        sd[:3] = shares * mean[ray, :3]
-        sd[3] = prior.fan_rad if ray else prior.thumb_fan_rad
-        if not ray:
+        sd[:3] = shares * mean[chain, :3]
+        sd[3] = prior.fan_rad if chain else prior.thumb_fan_rad
+        if not chain:
             sd[4] = prior.thumb_roll_rad
         # A disc of the thumb is turned away from a camera above by the thumb's roll.
-        stays_m = prior.depth_stays_m * np.array([1.0, *(3 * [1.0 if ray else math.cos(mean[0, 4])])])
+        stays_m = prior.depth_stays_m * np.array([1.0, *(3 * [1.0 if chain else math.cos(mean[0, 4])])])
         sd[7:] = np.maximum(stays_m, _FIXED)
         heights = np.zeros(11)
         if has_offsets:
-            sd[5] = math.hypot(prior.start_ahead_m, lateral_sd_m[ray])
-            sd[6] = math.hypot(prior.start_aside_m, lateral_sd_m[ray])
-            sd[7:] = np.hypot(prior.finger_depth_m if ray else prior.thumb_depth_m, stays_m)
-            heights[7:] = mean[ray, 7:]
-        sd[7] = math.hypot(sd[7], depth_sd_m[ray])
-        covariance[ray] = np.diag(sd**2) + prior.height_scale**2 * np.outer(heights, heights)
+            sd[5] = math.hypot(prior.start_ahead_m, lateral_sd_m[chain])
+            sd[6] = math.hypot(prior.start_aside_m, lateral_sd_m[chain])
+            sd[7:] = np.hypot(prior.finger_depth_m if chain else prior.thumb_depth_m, stays_m)
+            heights[7:] = mean[chain, 7:]
+        sd[7] = math.hypot(sd[7], depth_sd_m[chain])
+        covariance[chain] = np.diag(sd**2) + prior.height_scale**2 * np.outer(heights, heights)
     return Gaussian(mean, covariance)
 
 
 def constants_of(hand: HandAnatomy) -> FloatArray:
-    """The constants (5, 11) of a hand's rays, in the order of ``RAY_CONSTANTS``."""
+    """The constants (5, 11) of a hand's digits, in the order of ``DIGIT_CONSTANTS``."""
     constants = np.zeros((5, 11))
     constants[:, :3] = np.vstack((hand.thumb_length_m, hand.finger_length_m))
     constants[:, 3] = hand.fan_rad
@@ -144,7 +144,7 @@ def constants_of(hand: HandAnatomy) -> FloatArray:
 
 
 def with_constants(hand: HandAnatomy, constants: FloatArray) -> HandAnatomy:
-    """The hand with these constants (5, 11) of its rays."""
+    """The hand with these constants (5, 11) of its digits."""
     joints = hand.palm_joint_m.copy()
     joints[1:] = hand.palm_disc_m[1:] + constants[:, 5:8] * _DOWN
     return replace(
@@ -163,11 +163,11 @@ FLEXIONS = ((2, 4), (1, 2))
 """Which angles of the thumb, and of a finger, are flexions that a straight finger has not; a finger's end follows."""
 
 
-def neutral_prior(ray: int, prior: AnatomyPrior, dip_free: bool, is_straight: bool | None = None) -> Gaussian:
-    """Angles of one ray at the neutral pose, (1, 4 or 5): a relaxed hand on average; where a person said whether the
+def neutral_prior(chain: int, prior: AnatomyPrior, dip_free: bool, is_straight: bool | None = None) -> Gaussian:
+    """Angles of one digit at the neutral pose, (1, 4 or 5): a relaxed hand on average; where a person said whether the
     finger lies straight, with that."""
     bent = prior.relaxed_flexion_rad
-    if ray == 0:
+    if chain == 0:
         sd = np.full(5, prior.neutral_thumb_rad)
         sd[3] = 0.5 * prior.neutral_thumb_rad
         mean = np.array([*prior.relaxed_thumb_rad, bent, 0.0, bent])
@@ -175,24 +175,24 @@ def neutral_prior(ray: int, prior: AnatomyPrior, dip_free: bool, is_straight: bo
         sd = np.full(4, prior.neutral_flexion_rad)
         sd[0] = prior.neutral_abduction_rad
         mean = np.array([0.0, bent, bent, 0.0])
-    flexions = list(FLEXIONS[min(ray, 1)])
+    flexions = list(FLEXIONS[min(chain, 1)])
     if is_straight is not None:
         if is_straight:
-            straight = prior.straight_rad if ray else prior.straight_thumb_rad
+            straight = prior.straight_rad if chain else prior.straight_thumb_rad
             share = sd[flexions] ** 2 / (sd[flexions] ** 2 + straight**2)
             mean[flexions] *= 1.0 - share
             sd[flexions] = np.sqrt(share) * straight
         else:
             sd[flexions] = np.hypot(sd[flexions], prior.bent_rad)
-    if ray:
+    if chain:
         mean[3] = DIP_PER_PIP * mean[2]
-    covariance = angles_covariance(sd, ray, prior.dip_free_rad if dip_free else prior.dip_slack_rad)
+    covariance = angles_covariance(sd, chain, prior.dip_free_rad if dip_free else prior.dip_slack_rad)
     return Gaussian(mean[None], covariance[None])
 
 
-def angles_covariance(sd_rad: FloatArray, ray: int, dip_sd_rad: float) -> FloatArray:
-    """Covariance of one ray's angles where DIP is 2/3 PIP give or take ``dip_sd_rad``."""
-    if ray == 0:
+def angles_covariance(sd_rad: FloatArray, chain: int, dip_sd_rad: float) -> FloatArray:
+    """Covariance of one digit's angles where DIP is 2/3 PIP give or take ``dip_sd_rad``."""
+    if chain == 0:
         return np.diag(sd_rad**2)
     follow = np.eye(4)
     follow[3, 2] = DIP_PER_PIP

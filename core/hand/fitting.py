@@ -2,7 +2,7 @@
 
 The anatomical table is the prior (clinical reference 2 and 3.3). The neutral chain is not taken as straight: the
 discs of one finger stand at different heights over the bones, and a patient may not be able to stretch a finger.
-Each ray is fitted on its own, the palm's discs being given.
+Each digit is fitted on its own, the palm's discs being given.
 """
 
 from __future__ import annotations
@@ -13,15 +13,15 @@ import numpy as np
 
 from carpus.core.hand.anatomy import HandAnatomy
 from carpus.core.hand.anatomy_prior import (
+    DIGIT_DISCS,
     FLEXIONS,
-    RAY_DISCS,
     AnatomyPrior,
     average_hand,
     constants_prior,
     neutral_prior,
     with_constants,
 )
-from carpus.core.hand.ray_fitting import Gaussian, RayModel, finger_model, fit_ray, thumb_model
+from carpus.core.hand.digit_fitting import DigitModel, Gaussian, finger_model, fit_digit, thumb_model
 from carpus.core.hand.sites import PALM_SITES, SITES
 from carpus.core.types import FloatArray, Side
 
@@ -53,18 +53,18 @@ class SeenDiscs:
 class AnatomyFit:
     """A subject's hand and how well it is known.
 
-    ``rays`` constants of the thumb and of fingers 2 to 5, mean (5, 11) and covariance (5, 11, 11), in the order of
-    ``RAY_CONSTANTS``; ``neutral_angles_rad`` and ``neutral_angles_sd_rad`` (J,) at the
-    neutral pose (zero is the straight chain); ``neutral_rays`` angles of each ray at the neutral pose (4 or 5) and
+    ``digits`` constants of the thumb and of fingers 2 to 5, mean (5, 11) and covariance (5, 11, 11), in the order of
+    ``DIGIT_CONSTANTS``; ``neutral_angles_rad`` and ``neutral_angles_sd_rad`` (J,) at the
+    neutral pose (zero is the straight chain); ``neutral_digits`` angles of each digit at the neutral pose (4 or 5) and
     ``neutral_cross`` (4 or 5, 11) how they err together with its constants; ``residual_m`` (21, 3) model minus
     measurement at the neutral pose; ``absurd_depth`` markers whose depth was left out.
     """
 
     anatomy: HandAnatomy
-    rays: Gaussian
+    digits: Gaussian
     neutral_angles_rad: FloatArray
     neutral_angles_sd_rad: FloatArray
-    neutral_rays: tuple[Gaussian, ...]
+    neutral_digits: tuple[Gaussian, ...]
     neutral_cross: tuple[FloatArray, ...]
     residual_m: FloatArray
     absurd_depth: tuple[str, ...]
@@ -88,7 +88,7 @@ def fit_anatomy(
     prior = prior or AnatomyPrior()
     lateral = seen.lateral_sd_m.copy()
     if skin_offsets:
-        moving = np.array(RAY_DISCS)
+        moving = np.array(DIGIT_DISCS)
         lateral[:, moving] = np.hypot(lateral[:, moving], prior.stuck_off_m)
     seen = replace(seen, lateral_sd_m=lateral)
     disc, information = _right_handed(seen, side)
@@ -96,38 +96,40 @@ def fit_anatomy(
     across = _right_handed(blind, side)[1]
     average = average_hand(disc[0], side, skin_offsets)
     starts = list(PALM_SITES[1:])
-    rays = constants_prior(average, prior, seen.lateral_sd_m[0, starts], seen.depth_sd_m[0, starts])
+    digits = constants_prior(average, prior, seen.lateral_sd_m[0, starts], seen.depth_sd_m[0, starts])
     absurd: list[str] = []
     neutral: list[Gaussian] = []
-    for ray, discs in enumerate(RAY_DISCS):
+    for chain, discs in enumerate(DIGIT_DISCS):
         own = list(discs)
-        known = Gaussian(rays.mean[ray], rays.covariance[ray])
-        model = _ray_model(average, ray)
-        is_straight = straight[ray] if straight else None
-        angles = _not_evidently_bent(model, known, ray, prior, dip_free, is_straight, disc[:, own], information[:, own])
+        known = Gaussian(digits.mean[chain], digits.covariance[chain])
+        model = _digit_model(average, chain)
+        is_straight = straight[chain] if straight else None
+        angles = _not_evidently_bent(
+            model, known, chain, prior, dip_free, is_straight, disc[:, own], information[:, own]
+        )
         neutral.append(angles)
         for i in _absurd_depths(model, known, angles, disc[:, own], information[:, own], across[:, own], prior):
             information[:, own[i]] = across[:, own[i]]
             absurd.append(SITES[own[i]])
-    return _fitted(average, rays, neutral, disc, information, tuple(absurd), dip_free)
+    return _fitted(average, digits, neutral, disc, information, tuple(absurd), dip_free)
 
 
 def _not_evidently_bent(
-    model: RayModel,
+    model: DigitModel,
     known: Gaussian,
-    ray: int,
+    chain: int,
     prior: AnatomyPrior,
     dip_free: bool,
     is_straight: bool | None,
     disc_m: FloatArray,
     information_m2: FloatArray,
 ) -> Gaussian:
-    """What is expected of a ray's angles at the neutral pose, unless its discs show a finger that is bent: then it is
+    """What is expected of a digit's angles at the neutral pose, unless its discs show a finger that is bent: then it is
     not drawn towards straight."""
-    expected = neutral_prior(ray, prior, dip_free, is_straight)
-    bent = neutral_prior(ray, prior, dip_free, is_straight=False)
-    shown = fit_ray(model, known, bent, disc_m, information_m2).angles
-    flexions = list(FLEXIONS[min(ray, 1)])
+    expected = neutral_prior(chain, prior, dip_free, is_straight)
+    bent = neutral_prior(chain, prior, dip_free, is_straight=False)
+    shown = fit_digit(model, known, bent, disc_m, information_m2).angles
+    flexions = list(FLEXIONS[min(chain, 1)])
     off = (shown.mean - expected.mean)[0, flexions]
     variance = np.diagonal((shown.covariance + expected.covariance)[0])[flexions]
     return bent if (np.abs(off) > prior.evidently_sd * np.sqrt(variance)).any() else expected
@@ -142,26 +144,26 @@ def _fitted(
     absurd_depth: tuple[str, ...],
     dip_free: bool,
 ) -> AnatomyFit:
-    """Fit each ray to the neutral pose, discs (1, 21, 3) in axes of a right hand; ``average`` constants (5, 11);
+    """Fit each digit to the neutral pose, discs (1, 21, 3) in axes of a right hand; ``average`` constants (5, 11);
     ``neutral`` angles expected of each."""
     fits = []
-    for ray, discs in enumerate(RAY_DISCS):
+    for chain, discs in enumerate(DIGIT_DISCS):
         own = list(discs)
-        known = Gaussian(average.mean[ray], average.covariance[ray])
-        fits.append(fit_ray(_ray_model(hand, ray), known, neutral[ray], disc_m[:, own], information_m2[:, own]))
-    rays = Gaussian(
+        known = Gaussian(average.mean[chain], average.covariance[chain])
+        fits.append(fit_digit(_digit_model(hand, chain), known, neutral[chain], disc_m[:, own], information_m2[:, own]))
+    digits = Gaussian(
         np.stack([fit.constants.mean for fit in fits]), np.stack([fit.constants.covariance for fit in fits])
     )
     residual = np.zeros((21, 3))
-    for discs, fit in zip(RAY_DISCS, fits, strict=True):
+    for discs, fit in zip(DIGIT_DISCS, fits, strict=True):
         residual[list(discs)] = fit.residual_m[0]
     residual[~np.isfinite(disc_m[0])] = np.nan
     return AnatomyFit(
-        anatomy=with_constants(hand, rays.mean),
-        rays=rays,
+        anatomy=with_constants(hand, digits.mean),
+        digits=digits,
         neutral_angles_rad=_all_angles([fit.angles.mean[0] for fit in fits], dip_free),
         neutral_angles_sd_rad=_all_angles([np.sqrt(np.diagonal(fit.angles.covariance[0])) for fit in fits], dip_free),
-        neutral_rays=tuple(Gaussian(fit.angles.mean[0], fit.angles.covariance[0]) for fit in fits),
+        neutral_digits=tuple(Gaussian(fit.angles.mean[0], fit.angles.covariance[0]) for fit in fits),
         neutral_cross=tuple(fit.cross[0] for fit in fits),
         residual_m=residual * _mirror(hand.side),
         absurd_depth=absurd_depth,
@@ -179,13 +181,13 @@ def _right_handed(seen: SeenDiscs, side: Side) -> tuple[FloatArray, FloatArray]:
     return seen.disc_m * mirror, seen.information_m2() * mirror[:, None] * mirror
 
 
-def _ray_model(hand: HandAnatomy, ray: int) -> RayModel:
-    disc = hand.palm_disc_m[1 + ray]
-    return finger_model(disc) if ray else thumb_model(disc)
+def _digit_model(hand: HandAnatomy, chain: int) -> DigitModel:
+    disc = hand.palm_disc_m[1 + chain]
+    return finger_model(disc) if chain else thumb_model(disc)
 
 
 def _absurd_depths(
-    model: RayModel,
+    model: DigitModel,
     constants: Gaussian,
     angles: Gaussian,
     disc_m: FloatArray,
@@ -193,15 +195,15 @@ def _absurd_depths(
     across_m2: FloatArray,
     prior: AnatomyPrior,
 ) -> list[int]:
-    """Which of the three depths of a neutral ray no likely hand explains."""
+    """Which of the three depths of a neutral digit no likely hand explains."""
     absurd: list[int] = []
-    cost = fit_ray(model, constants, angles, disc_m, information_m2).cost
+    cost = fit_digit(model, constants, angles, disc_m, information_m2).cost
     while cost > prior.absurd_cost and len(absurd) < 3:
         without = {}
         for i in set(range(3)) - set(absurd):
             lighter = information_m2.copy()
             lighter[:, [*absurd, i]] = across_m2[:, [*absurd, i]]
-            fit = fit_ray(model, constants, angles, disc_m, lighter)
+            fit = fit_digit(model, constants, angles, disc_m, lighter)
             if np.linalg.norm(fit.residual_m[0, i]) > prior.absurd_m:
                 without[i] = fit.cost
         if not without:
@@ -214,6 +216,6 @@ def _absurd_depths(
     return absurd
 
 
-def _all_angles(per_ray: list[FloatArray], dip_free: bool) -> FloatArray:
-    """The 17 (21) angles from those of the five rays."""
-    return np.concatenate([per_ray[0]] + [ray if dip_free else ray[:3] for ray in per_ray[1:]])
+def _all_angles(per_digit: list[FloatArray], dip_free: bool) -> FloatArray:
+    """The 17 (21) angles from those of the five digits."""
+    return np.concatenate([per_digit[0]] + [chain if dip_free else chain[:3] for chain in per_digit[1:]])

@@ -48,7 +48,7 @@ def joint_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
     thumb = _Thumb.at(anatomy.fan_rad[0], anatomy.thumb_roll_rad, anatomy.thumb_length_m, angles_rad[..., :5])
     out[..., 2:5, :] = anatomy.palm_joint_m[1] + thumb.joints @ thumb.metacarpal
     finger = _Finger.at(anatomy.fan_rad[1:], anatomy.finger_length_m, finger_angles(angles_rad))
-    _rays(out)[..., 1:, :] = finger.placed(anatomy.palm_joint_m[2:], finger.along, finger.up)
+    _digits(out)[..., 1:, :] = finger.placed(anatomy.palm_joint_m[2:], finger.along, finger.up)
     return _on_its_side(anatomy, out)
 
 
@@ -70,7 +70,7 @@ def disc_centres(anatomy: HandAnatomy, angles_rad: FloatArray) -> FloatArray:
         hand.thumb_offset_m,
         angles_rad[..., :5],
     )
-    _rays(out)[..., 1:, :] = finger_discs(
+    _digits(out)[..., 1:, :] = finger_discs(
         hand.palm_joint_m[2:], hand.fan_rad[1:], hand.finger_length_m, hand.finger_offset_m, finger_angles(angles_rad)
     )
     return _on_its_side(hand, out)
@@ -130,8 +130,8 @@ def segment_frames(anatomy: HandAnatomy, angles_rad: FloatArray) -> SegmentFrame
     wrist, mcp3 = SITES.index("WRIST"), SITES.index("MCP3")
     start[..., 0, :], end[..., 0, :] = joints[..., wrist, :], joints[..., mcp3, :]
     start[..., 1:4, :], end[..., 1:4, :] = joints[..., 1:4, :], joints[..., 2:5, :]
-    start[..., 4:, :] = _rays(joints)[..., :3, :].reshape(*shape, 12, 3)
-    end[..., 4:, :] = _rays(joints)[..., 1:, :].reshape(*shape, 12, 3)
+    start[..., 4:, :] = _digits(joints)[..., :3, :].reshape(*shape, 12, 3)
+    end[..., 4:, :] = _digits(joints)[..., 1:, :].reshape(*shape, 12, 3)
 
     normal = np.empty((*shape, 16, 3))
     normal[..., 0, :] = (0.0, 0.0, 1.0)
@@ -222,7 +222,7 @@ class _Thumb:
         return _Thumb(metacarpal, joints, normals)
 
 
-def _rays(points: FloatArray) -> FloatArray:
+def _digits(points: FloatArray) -> FloatArray:
     """The points of fingers 2 to 5 as a view (..., 4 fingers, 4 points, 3) into (..., 21, 3)."""
     return points[..., 5:, :].reshape(*points.shape[:-2], 4, 4, 3)
 

@@ -1,4 +1,4 @@
-"""Where the filter of the rays starts: the subject's anatomy from the neutral pose, and how well it is known."""
+"""Where the filter of the digits starts: the subject's anatomy from the neutral pose, and how well it is known."""
 
 from __future__ import annotations
 
@@ -51,17 +51,17 @@ def digit_start(
     mean = np.zeros((CHAINS, SLOTS + CONSTANTS))
     covariance = np.zeros((CHAINS, SLOTS + CONSTANTS, SLOTS + CONSTANTS))
     for chain in range(CHAINS):
-        count = fit.neutral_rays[chain].mean.size
+        count = fit.neutral_digits[chain].mean.size
         to_slots = np.eye(count)
         if chain:
             to_slots[3, 2] = -DIP_PER_PIP
         cross = to_slots @ fit.neutral_cross[chain]
-        mean[chain, :count] = to_slots @ fit.neutral_rays[chain].mean
-        mean[chain, SLOTS:] = fit.rays.mean[chain]
-        covariance[chain, :count, :count] = to_slots @ fit.neutral_rays[chain].covariance @ to_slots.T
+        mean[chain, :count] = to_slots @ fit.neutral_digits[chain].mean
+        mean[chain, SLOTS:] = fit.digits.mean[chain]
+        covariance[chain, :count, :count] = to_slots @ fit.neutral_digits[chain].covariance @ to_slots.T
         covariance[chain, :count, SLOTS:] = cross
         covariance[chain, SLOTS:, :count] = cross.T
-        covariance[chain, SLOTS:, SLOTS:] = fit.rays.covariance[chain]
+        covariance[chain, SLOTS:, SLOTS:] = fit.digits.covariance[chain]
     index = np.arange(SLOTS)
     covariance[:, index, index] += _NARROW_RAD**2
     return DigitStart(mean, covariance, fit)

@@ -124,7 +124,7 @@ class FingerModel:
         self._moves = sd > 0.0
         self._stationary2 = np.maximum(stationary2, 1e-12)
         self._range2 = np.where(self._moves, RANGE_SD_RAD**2, self._stationary2)
-        drift = own.drift_per_s * np.diagonal(self._start.fit.rays.covariance, axis1=1, axis2=2)
+        drift = own.drift_per_s * np.diagonal(self._start.fit.digits.covariance, axis1=1, axis2=2)
         self.motion = DigitMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, stationary2, own.settles_s)
 
     def at_neutral(self) -> ModeMixture:

@@ -3,7 +3,7 @@
 Every digit has five joint slots and eleven constants, so that all five are computed together. Slots of the thumb:
 its five angles; of a finger: MCP abduction, MCP flexion, PIP flexion, and by how much DIP flexion exceeds two
 thirds of PIP flexion (zero where the end joint is coupled, hand paper section 2); the fifth is not used.
-Constants as in :mod:`core.hand.ray_fitting`. Lengths in metres, axes of a right hand in W unless said otherwise.
+Constants as in :mod:`core.hand.digit_fitting`. Lengths in metres, axes of a right hand in W unless said otherwise.
 """
 
 from __future__ import annotations

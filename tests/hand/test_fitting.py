@@ -112,8 +112,8 @@ def test_stated_uncertainty_of_lengths_covers_the_truth() -> None:
     scores = []
     for seed in range(COUNT):
         fit = _calibrated(seed)
-        sd = np.sqrt(np.diagonal(fit.rays.covariance, axis1=1, axis2=2))
-        scores.append(((fit.rays.mean - constants_of(_person(seed))) / sd)[1:, :3])
+        sd = np.sqrt(np.diagonal(fit.digits.covariance, axis1=1, axis2=2))
+        scores.append(((fit.digits.mean - constants_of(_person(seed))) / sd)[1:, :3])
     assert 0.5 < np.sqrt(np.mean(np.square(scores))) < 1.4
     assert np.mean(np.abs(scores) < 2.0) > 0.9
 
@@ -160,7 +160,10 @@ def test_missing_depth_and_missing_disc_are_told_by_the_uncertainty() -> None:
         assert partial.neutral_angles_sd_rad[joint] > 0.99 * whole.neutral_angles_sd_rad[joint]
         assert abs(partial.neutral_angles_rad[joint] - whole.neutral_angles_rad[joint]) < math.radians(8.0)
     ring, last_bone = 3, 2
-    assert partial.rays.covariance[ring, last_bone, last_bone] > 4.0 * whole.rays.covariance[ring, last_bone, last_bone]
+    assert (
+        partial.digits.covariance[ring, last_bone, last_bone]
+        > 4.0 * whole.digits.covariance[ring, last_bone, last_bone]
+    )
 
 
 def _thick(seed: int) -> HandAnatomy:

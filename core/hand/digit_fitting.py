@@ -1,6 +1,6 @@
-"""Fit one ray (thumb or long finger) of the hand model to measured discs by regularised least squares.
+"""Fit one digit (thumb or long finger) of the hand model to measured discs by regularised least squares.
 
-A ray has 11 constants and 4 angles in each pose (thumb 5). Gauss-Newton over all of them at once, with a Gaussian
+A digit has 11 constants and 4 angles in each pose (thumb 5). Gauss-Newton over all of them at once, with a Gaussian
 prior on the constants and one on the angles of each pose; the angles are eliminated pose by pose (Schur complement).
 All in axes of a right hand.
 """
@@ -15,15 +15,15 @@ import numpy as np
 from carpus.core.hand.kinematics import finger_discs, thumb_discs
 from carpus.core.types import FloatArray
 
-RAY_CONSTANTS = (
+DIGIT_CONSTANTS = (
     "length_1", "length_2", "length_3", "fan", "roll", "start_ahead", "start_aside", "start_depth",
     "height_1", "height_2", "height_3",
 )  # fmt: skip
 """Bones (PP MP DP; thumb MC1 PP1 DP1), direction in the palm, roll (thumb only), the first joint centre from the disc
 over it (MCP or CMC1; along X, along Y, downwards), heights of the three discs over their joint centres. Metres, rad."""
 
-RayModel = Callable[[FloatArray, FloatArray], FloatArray]
-"""Constants (..., 11) and angles (..., 4 or 5) to the ray's three discs (..., 3, 3) in W."""
+DigitModel = Callable[[FloatArray, FloatArray], FloatArray]
+"""Constants (..., 11) and angles (..., 4 or 5) to the digit's three discs (..., 3, 3) in W."""
 
 _DOWN = np.array([1.0, 1.0, -1.0])
 _MOST_STEPS = 30
@@ -40,7 +40,7 @@ class Gaussian:
 
 
 @dataclass(frozen=True, slots=True)
-class RayFit:
+class DigitFit:
     """Result: ``constants`` (11) and ``angles`` (F, 4 or 5) a posteriori, ``cross`` (F, 4 or 5, 11) the covariance
     between the two; ``residual_m`` (F, 3, 3) model minus measurement in W; ``cost`` sum of squares in standard
     deviations, priors included."""
@@ -52,7 +52,7 @@ class RayFit:
     cost: float
 
 
-def finger_model(mcp_disc_m: FloatArray) -> RayModel:
+def finger_model(mcp_disc_m: FloatArray) -> DigitModel:
     """Model of a long finger whose MCP disc lies there (3,)."""
 
     def discs(constants: FloatArray, angles_rad: FloatArray) -> FloatArray:
@@ -62,7 +62,7 @@ def finger_model(mcp_disc_m: FloatArray) -> RayModel:
     return discs
 
 
-def thumb_model(cmc_disc_m: FloatArray) -> RayModel:
+def thumb_model(cmc_disc_m: FloatArray) -> DigitModel:
     """Model of a thumb whose CMC1 disc lies there (3,)."""
 
     def discs(constants: FloatArray, angles_rad: FloatArray) -> FloatArray:
@@ -74,9 +74,9 @@ def thumb_model(cmc_disc_m: FloatArray) -> RayModel:
     return discs
 
 
-def fit_ray(
-    model: RayModel, constants: Gaussian, angles: Gaussian, disc_m: FloatArray, information_m2: FloatArray
-) -> RayFit:
+def fit_digit(
+    model: DigitModel, constants: Gaussian, angles: Gaussian, disc_m: FloatArray, information_m2: FloatArray
+) -> DigitFit:
     """Fit the constants and the angles of F poses.
 
     ``constants`` and ``angles`` are the priors, (11) and (F, 4 or 5); the search starts at their means.
@@ -90,14 +90,14 @@ def fit_ray(
     c, q = _minimum(problem, constants.mean, angles.mean)
     c_covariance, q_covariance, cross = _NormalEquations.at(problem, c, q).covariances()
     residual_m = model(c, q) - problem.disc_m
-    return RayFit(Gaussian(c, c_covariance), Gaussian(q, q_covariance), cross, residual_m, problem.cost(c, q))
+    return DigitFit(Gaussian(c, c_covariance), Gaussian(q, q_covariance), cross, residual_m, problem.cost(c, q))
 
 
 @dataclass(frozen=True, slots=True)
 class _Problem:
-    """Least squares of one ray: priors as mean and information, discs with the root of their information."""
+    """Least squares of one digit: priors as mean and information, discs with the root of their information."""
 
-    model: RayModel
+    model: DigitModel
     constants: FloatArray
     constants_information: FloatArray
     angles: FloatArray
