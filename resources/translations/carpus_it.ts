@@ -10954,7 +10954,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>&amp;Clinic…</source>
-        <translation>&amp;Clinica…</translation>
+        <translation>C&amp;linica…</translation>
     </message>
     <message>
         <source>Sessions by day and therapist, and who is due for a re-test</source>
@@ -11571,7 +11571,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>What is d&amp;ue…</source>
-        <translation>&amp;Scadenze…</translation>
+        <translation>Scaden&amp;ze…</translation>
     </message>
     <message>
         <source>&amp;Archive…</source>

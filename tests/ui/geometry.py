@@ -99,6 +99,20 @@ def complaints(window: QWidget, *, may_elide: bool = False) -> list[str]:
     ]
 
 
+def lettered(window: QWidget) -> list[str]:
+    """The texts to be seen that have an underlined letter: of the topmost sheet, or of the whole window."""
+    top = _topmost(window)
+    widgets = [*window.findChildren(QAbstractButton), *(one for one in window.findChildren(QLabel) if one.buddy())]
+    texts = [one.text() for one in widgets if one.isVisible() and _belongs(one, top)]
+    return [text for text in texts if letter_of(text)]
+
+
+def letter_of(text: str) -> str:
+    """The underlined letter of a text; empty for none."""
+    found = re.search(r"(?<!&)&(\w)", text)
+    return found[1].lower() if found else ""
+
+
 def shown_texts(window: QWidget) -> list[str]:
     """Every text that is painted, or said by a tooltip or a name for those who do not see."""
     with painted_texts(window) as painted:

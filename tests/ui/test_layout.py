@@ -7,19 +7,21 @@ Found by geometry: of the widgets, and of every text as it is painted.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QLocale, QSize
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
-from carpus.ui import terms
+from carpus.ui import language, terms
 from carpus.ui.markers.screen import MarkersScreen
 from tests.ui import pseudo
 from tests.ui.fakes import WHY
 from tests.ui.gallery import Gallery
-from tests.ui.geometry import complaints, shown_texts
+from tests.ui.geometry import complaints, letter_of, lettered, shown_texts
 
 USUAL = ((1280, 800), 1.0)
 SIZES = (((1280, 800), 1.5), ((1024, 700), 1.0))
@@ -82,6 +84,12 @@ FAKED = (
 )
 """What the gallery's fakes say themselves."""
 
+TRANSLATED: list[dict[str, set[str]]] = []
+"""Of each language but English what stands for a text, on whichever screen."""
+for _file in sorted((Path(__file__).parents[2] / "resources" / "translations").glob("*.ts")):
+    TRANSLATED.append({})
+    for (_, _text), _said in language.texts_in(_file.read_bytes()).items():
+        TRANSLATED[-1].setdefault(_text, set()).add(_said)
 PICTURES: dict[tuple[tuple[int, int], float], QSize] = {}
 """Size of the picture on the markers screen."""
 
@@ -98,6 +106,11 @@ def gallery(qapp: QApplication) -> Iterator[Gallery]:
 def test_nothing_is_cut_and_nothing_overlaps(gallery: Gallery, state: str) -> None:
     gallery.states()[state]()
     found = {}
+    texts = lettered(gallery.shell)
+    for said in ({}, *TRANSLATED):
+        shown = [said.get(text, {text}) for text in texts]
+        letters = Counter(letter_of(*one) for one in shown if len(one) == 1)  # else it is said otherwise elsewhere
+        assert not [letter for letter, count in letters.items() if count > 1], texts
     signed = state.startswith(SIGNED)
     for size, scale in (*((USUAL,) if state in MAIN else ()), *SIZES, *((LOW,) if signed else ())):
         gallery.shell.sign.show_lines([SIGN] if (size, scale) == LOW else [])
