@@ -369,16 +369,17 @@ class Level:
 
 @dataclass(frozen=True, slots=True)
 class EndLabels:
-    """Words (value, text, token) at the right ends of their lines, pushed apart where they would touch."""
+    """Words (value, text, token) at the right ends of their lines, pushed apart where they would touch, and kept above
+    what stands under the panel."""
 
     labels: Sequence[tuple[float, str, str]]
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         painter.setFont(style.end_label)
         height = QFontMetricsF(style.end_label).height()
-        taken = -math.inf
+        taken, lowest = -math.inf, panel.box.bottom() + height / 2 - len(self.labels) * height
         for middle, text, token in sorted((float(panel.y(value)), text, token) for value, text, token in self.labels):
-            top = max(middle - height / 2, taken)
+            top, lowest = max(min(middle - height / 2, lowest), taken), lowest + height
             taken = top + height
             painter.setPen(style.color(token))
             box = QRectF(panel.box.right() + 12 * style.unit, top, 400 * style.unit, height)
