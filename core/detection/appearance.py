@@ -146,10 +146,14 @@ def _measured_by_discs(
 def paper_mask(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings) -> ByteImage:
     """1 where a pixel has the colour of the paper, speckle removed."""
     _, lit = cv2.threshold(cv2.extractChannel(hsv, 2), looks.darkest_value, 255.0, cv2.THRESH_BINARY)
-    likely = color_histogram.back_project(hsv, looks.paper_lookup)
-    _, blue = cv2.threshold(likely, 255.0 * settings.paper_share, 255.0, cv2.THRESH_BINARY)
-    mask = cv2.bitwise_and(blue, lit)
+    mask = cv2.bitwise_and(is_blue(hsv, looks, settings), lit)
     return np.asarray(cv2.morphologyEx(mask, cv2.MORPH_OPEN, _CROSS), dtype=np.uint8)
+
+
+def is_blue(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings) -> ByteImage:
+    """255 where hue and saturation are the paper's, else 0."""
+    likely = color_histogram.back_project(hsv, looks.paper_lookup)
+    return np.asarray(cv2.threshold(likely, 255.0 * settings.paper_share, 255.0, cv2.THRESH_BINARY)[1], dtype=np.uint8)
 
 
 _CROSS = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
 from carpus.core.detection import color_histogram
-from carpus.core.detection.appearance import MarkerAppearance, paper_mask
+from carpus.core.detection.appearance import MarkerAppearance, is_blue, paper_mask
 from carpus.core.detection.blobs import Outline, blob_depths, outlines, refined_centres
 from carpus.core.detection.components import Components, components
 from carpus.core.detection.settings import DetectionSettings
@@ -21,6 +21,8 @@ from carpus.core.kernels.choice import NOTHING, Kernels, in_c
 from carpus.core.types import ByteImage, Detections, FloatArray, Frame
 
 _SIMILARITY_BINS = 16
+_NEAREST_M = 0.2
+"""No hand is held nearer to a camera."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +51,7 @@ class Detector:
         self._settings = settings
         coarse = looks.paper_histogram.reshape(_SIMILARITY_BINS, 2, _SIMILARITY_BINS, 2).sum(axis=(1, 3))
         self._reference = np.sqrt(coarse.ravel())
-        self._cell, self._is_skin = _by_hue_and_saturation(looks, settings.skin_level)
+        self._cell, self._is_skin, self._is_paper = _by_hue_and_saturation(looks, settings)
         self._least_area = settings.least_area * looks.least_share
         self._most_area = settings.most_area * looks.most_share
         self._first_cell = self._reference.size * np.arange(settings.most_blobs)[:, None]
@@ -59,7 +61,7 @@ class Detector:
         disc_px_m, region_sd = self._camera.fx_px * self._settings.marker_radius_m, self._settings.region_sd
         variance = np.maximum(covariance_px2.diagonal(axis1=1, axis2=2), 0.0)
         reach = np.minimum(region_sd * np.sqrt(variance), self._settings.most_unsure_px)
-        reach += (2.2 * disc_px_m / np.maximum(depth_m, 0.2) + 3.0)[:, None]
+        reach += (2.2 * disc_px_m / np.maximum(depth_m, _NEAREST_M) + 3.0)[:, None]
         left, top = (pixel - reach).min(axis=0).tolist()
         right, bottom = (pixel + reach).max(axis=0).tolist()
         return Region(math.floor(left), math.floor(top), math.ceil(right) + 1, math.ceil(bottom) + 1).clipped(
@@ -72,6 +74,8 @@ class Detector:
         region = self._hand_region(frame.color_rgb) if region is None else region.clipped(width, height)
         if region is None or region.is_empty:
             return Detections.none()
+        if (kernels := in_c()) is not None:
+            return self._detected(kernels, frame, region)
         color = frame.color_rgb[region.top : region.bottom, region.left : region.right]
         hsv = color_histogram.to_hsv(color)
         mask = paper_mask(hsv, self._looks, self._settings)
@@ -82,7 +86,7 @@ class Detector:
         if fits.size == 0:
             return Detections.none()
         if fits.size > self._settings.most_blobs:
-            fits = fits[np.argsort(-area[fits])[: self._settings.most_blobs]]
+            fits = fits[np.argsort(-area[fits], kind="stable")[: self._settings.most_blobs]]
         return self._measure(frame, region, color, hsv, blobs, fits)
 
     def _radius_at(self, frame: Frame, region: Region, centre_px: FloatArray) -> FloatArray:
@@ -93,7 +97,7 @@ class Detector:
         radius = []
         for u, v in centre_px.tolist():
             depth_m = frame.depth_raw.item(round(v) + region.top, round(u) + region.left) * frame.depth_unit_m
-            radius.append(scale / (depth_m if depth_m > 0.2 else self._settings.usual_depth_m))
+            radius.append(scale / (depth_m if depth_m > _NEAREST_M else self._settings.usual_depth_m))
         return np.array(radius)
 
     def _measure(
@@ -109,8 +113,6 @@ class Detector:
         own, rough_px = blobs.label[fits], blobs.centre_px[fits]
         radius_px = median(blobs.radius_px[fits].tolist())
         stencil = stencil_for(radius_px, settings.stencil, self._camera.sensor.edge_px)
-        if (kernels := in_c()) is not None:
-            return self._measured(kernels, frame, region, hsv, labels, own, rough_px, stencil)
         pixels, inside, middle = window_pixels(stencil, rough_px, labels.shape)
         outline = outlines(labels.reshape(-1).take(pixels), own, inside, stencil)
         similarity, skin_share = self._likeness(packed(hsv).take(pixels), outline, stencil)
@@ -134,23 +136,27 @@ class Detector:
             (blobs.similarity >= self._looks.least_similarity) & (skin_share >= self._settings.skin_share)
         )
 
-    def _measured(
-        self,
-        kernels: Kernels,
-        frame: Frame,
-        region: Region,
-        hsv: ByteImage,
-        labels: NDArray[np.uint16],
-        own: NDArray[np.uint16],
-        rough_px: FloatArray,
-        stencil: Stencil,
-    ) -> Detections:
+    def _detected(self, kernels: Kernels, frame: Frame, region: Region) -> Detections:
         """All of it in C, where sums are of double precision."""
-        settings, sensor, count, raw = self._settings, self._camera.sensor, own.size, frame.depth_raw
+        settings, touching, sensor, raw = self._settings, self._settings.touching, self._camera.sensor, frame.depth_raw
+        left, top, most = region.left, region.top, settings.most_blobs
+        seen = *frame.color_rgb.shape[:2], frame.color_rgb, NOTHING if raw is None else raw, raw is not None
+        shape = region.bottom - top, region.right - left
+        labels, look = np.empty(shape, dtype=np.int32), np.empty(shape, dtype=np.uint16)
+        own, found = np.empty(most, dtype=np.int32), np.empty(1, dtype=np.int32)
+        rough_px, radius_px = np.empty((most, 2)), np.empty(most)
+        kernels.blobs_found(
+            *seen, frame.depth_unit_m, left, top, shape[1], shape[0], self._is_paper, int(self._looks.darkest_value),
+            self._camera.fx_px * self._looks.radius_m, settings.usual_depth_m, _NEAREST_M,
+            touching.long_side, touching.long_axis, touching.edge_px, touching.rounds, touching.most_parts,
+            self._least_area, self._most_area, most, labels, look, own, rough_px, radius_px, found,
+        )  # fmt: skip
+        if not (count := found.item()):
+            return Detections.none()
+        stencil = stencil_for(median(radius_px[:count].tolist()), settings.stencil, sensor.edge_px)
         centre, (area, similarity, skin_share, depth, depth_sd) = np.empty((count, 2)), np.empty((5, count))
         kernels.blobs_measured(
-            count, own, rough_px, region.left, region.top, *labels.shape, labels, hsv,
-            *frame.color_rgb.shape[:2], frame.color_rgb, NOTHING if raw is None else raw, raw is not None,
+            count, own[:count], rough_px[:count], left, top, *shape, labels, look, *seen,
             frame.depth_unit_m, stencil.row.size, stencil.row, stencil.column, stencil.reach,
             stencil.core.stop, stencil.near.stop, stencil.rim.start, stencil.rim.stop, stencil.wedge, stencil.pick,
             self._cell, self._is_skin, self._reference.size, self._reference,
@@ -198,14 +204,14 @@ class Detector:
         ).clipped(color_rgb.shape[1], color_rgb.shape[0])
 
 
-def _by_hue_and_saturation(looks: MarkerAppearance, skin_level: int) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
-    """For each pair of hue and saturation, read as one number of two bytes: its cell of the coarse histogram, and
-    whether it is likelier on skin than on paper."""
+def _by_hue_and_saturation(
+    looks: MarkerAppearance, settings: DetectionSettings
+) -> tuple[NDArray[np.uint8], NDArray[np.bool_], NDArray[np.uint8]]:
+    """For each pair of hue and saturation, read as one number of two bytes: its cell of the coarse histogram, whether
+    it is likelier on skin than on paper, and 1 where it is of the paper's colour."""
     bins = color_histogram.BINS
-    level = np.arange(256)
-    hue, saturation = np.minimum(level[:, None] * bins // 180, bins - 1), level * bins // 256
-    number = np.stack(np.broadcast_arrays(level[:, None], level), axis=-1).astype(np.uint8).view(np.uint16)[..., 0]
-    cell, is_skin = np.empty(1 << 16, dtype=np.uint8), np.empty(1 << 16, dtype=np.bool_)
-    cell[number] = (hue >> 1) * _SIMILARITY_BINS + (saturation >> 1)
-    is_skin[number] = looks.skin_lookup[hue, saturation] >= skin_level
-    return cell, is_skin
+    number = np.arange(1 << 16)
+    every = np.stack((number & 255, number >> 8, number & 0), axis=1).astype(np.uint8)[None]
+    hue, saturation = np.minimum((number & 255) * bins // 180, bins - 1), (number >> 8) * bins // 256
+    cell = ((hue >> 1) * _SIMILARITY_BINS + (saturation >> 1)).astype(np.uint8)
+    return cell, looks.skin_lookup[hue, saturation] >= settings.skin_level, is_blue(every, looks, settings)[0] >> 7

@@ -42,10 +42,7 @@ def split_touching(
         left, top, width, height, _ = stats[label].tolist()
         box = labels[top : top + height, left : left + width]
         row, column = np.nonzero(box == label)
-        points = np.empty((row.size, 2))
-        np.add(column, left, out=points[:, 0])
-        np.add(row, top, out=points[:, 1])
-        parts = _parts(points, float(radius_px[label]), settings)
+        parts = _parts(column, row, float(radius_px[label]), settings)
         if parts is None:
             continue
         area = np.bincount(parts)
@@ -54,56 +51,56 @@ def split_touching(
         box[row, column] = own[parts]
         facts = np.empty((area.size, 3))
         facts[:, 2] = area
-        for axis in (0, 1):
-            facts[:, axis] = np.bincount(parts, points[:, axis]) / area
+        facts[:, 0] = np.bincount(parts, column + left) / area
+        facts[:, 1] = np.bincount(parts, row + top) / area
         out.append((label, own, facts))
     return out
 
 
-def _parts(points: FloatArray, radius_px: float, settings: TouchingSettings) -> NDArray[np.int64] | None:
-    """Part of every pixel (P, 2), or None for a blob that is one disc or much more than a few of them."""
-    centre = points.sum(axis=0) / len(points)
-    centred = points - centre
-    (xx, xy), (_, yy) = (centred.T @ centred / len(points)).tolist()
+def _parts(
+    u: NDArray[np.int64], v: NDArray[np.int64], radius_px: float, settings: TouchingSettings
+) -> NDArray[np.int64] | None:
+    """Part of every pixel (P,), or None for a blob that is one disc or much more than a few of them.
+
+    Sums are of whole numbers, and all else is in the order of the kernel: a pixel just between two parts goes to the
+    same one.
+    """
+    count = u.size
+    mean_u, mean_v = int(u.sum()) / count, int(v.sum()) / count
+    xx, xy = int((u * u).sum()) / count - mean_u * mean_u, int((u * v).sum()) / count - mean_u * mean_v
+    yy = int((v * v).sum()) / count - mean_v * mean_v
     half_gap = math.hypot(0.5 * (xx - yy), xy)
     if math.sqrt(0.5 * (xx + yy) + half_gap) <= settings.long_axis * (radius_px + settings.edge_px):
         return None
     tilt = 0.5 * math.atan2(2.0 * xy, xx - yy)
-    axis = np.array([math.cos(tilt), math.sin(tilt)])
-    along = centred @ axis
-    length = float(along.max() - along.min())
-    count = max(2, round((length - 2.0 * radius_px) / (2.0 * radius_px)) + 1)
-    if count > settings.most_parts + 1:
-        return None
-    # Blurred edges make small discs larger than they are, so a row of them may hold one less than its length says.
-    tried = [
-        _taken_apart(points, along, centre, axis, n, radius_px, settings)
-        for n in range(max(2, count - 1), min(count, settings.most_parts) + 1)
-    ]
-    return min((part for part in tried if part is not None), key=lambda part: _elongation(points, part), default=None)
-
-
-def _taken_apart(
-    points: FloatArray,
-    along: FloatArray,
-    centre: FloatArray,
-    axis: FloatArray,
-    count: int,
-    radius_px: float,
-    settings: TouchingSettings,
-) -> NDArray[np.int64] | None:
-    """Part of every pixel (P, 2) of a row of ``count`` discs, or None where one of them would have no pixel."""
+    across, down = math.cos(tilt), math.sin(tilt)
+    along = u * across + v * down
     low, high = float(along.min()), float(along.max())
-    if count == 2:
-        # Two discs: the line between them crosses the main axis in the middle of the blob.
-        return np.asarray(along > 0.5 * (high + low), dtype=np.int64)
-    gap = (high - low - 2.0 * radius_px) / (count - 1)
-    middle = (centre + (low + radius_px + gap * np.arange(count))[:, None] * axis).T
-    u, v = points.T.copy()
+    longest = max(2, round((high - low - 2.0 * radius_px) / (2.0 * radius_px)) + 1)
+    if longest > settings.most_parts + 1:
+        return None
+    best: NDArray[np.int64] | None = None
+    least = math.inf
+    # Blurred edges make small discs larger than they are, so a row of them may hold one less than its length says.
+    for parts in range(max(2, longest - 1), min(longest, settings.most_parts) + 1):
+        if parts == 2:
+            # Two discs: the line between them crosses the main axis in the middle of the blob.
+            part: NDArray[np.int64] | None = np.asarray(along > 0.5 * (high + low), dtype=np.int64)
+        else:
+            gap = (high - low - 2.0 * radius_px) / (parts - 1)
+            place = low + radius_px - (mean_u * across + mean_v * down) + gap * np.arange(parts)
+            part = _about(u, v, np.array((mean_u + place * across, mean_v + place * down)), settings.rounds)
+        if part is not None and (elongation := _elongation(u, v, part)) < least:
+            best, least = part, elongation
+    return best
+
+
+def _about(u: NDArray[np.int64], v: NDArray[np.int64], middle: FloatArray, rounds: int) -> NDArray[np.int64] | None:
+    """Part of every pixel (P,), first about these middles (2, parts); None where one of them would have no pixel."""
     part: NDArray[np.int64] | None = None
-    for _ in range(settings.rounds):
+    for _ in range(rounds):
         before, part = part, _nearest(u, v, middle)
-        area = np.bincount(part, minlength=count)
+        area = np.bincount(part, minlength=middle.shape[1])
         if area.min() == 0:
             return None
         if before is not None and (part == before).all():
@@ -112,17 +109,16 @@ def _taken_apart(
     return part
 
 
-def _elongation(points: FloatArray, part: NDArray[np.int64]) -> float:
+def _elongation(u: NDArray[np.int64], v: NDArray[np.int64], part: NDArray[np.int64]) -> float:
     """Of the parts in the mean: 0 for discs, 1 for lines."""
     area = np.bincount(part)
-    mean = [np.bincount(part, points[:, axis]) / area for axis in (0, 1)]
-    u, v = (points[:, axis] - mean[axis][part] for axis in (0, 1))
-    uu, vv, uv = (np.bincount(part, product) for product in (u * u, v * v, u * v))
+    along, down, *squares = (np.bincount(part, each) for each in (u, v, u * u, v * v, u * v))
+    uu, vv, uv = squares[0] - along * along / area, squares[1] - down * down / area, squares[2] - along * down / area
     return float(np.mean(np.hypot(uu - vv, 2.0 * uv) / np.maximum(uu + vv, 1e-12)))
 
 
-def _nearest(u: FloatArray, v: FloatArray, middle: FloatArray) -> NDArray[np.int64]:
-    """Index of the middle (2, count) nearest to every point (P,)."""
+def _nearest(u: NDArray[np.int64], v: NDArray[np.int64], middle: FloatArray) -> NDArray[np.int64]:
+    """Index of the middle (2, parts) nearest to every point (P,)."""
     across, down = u - middle[0][:, None], v - middle[1][:, None]
     across *= across
     down *= down

@@ -35,6 +35,12 @@ _BUFFERS = {
         (np.int64, "int64_t"),
     )
 }
+_FAULTS = {
+    1: np.linalg.LinAlgError("Matrix is not positive definite"),
+    2: MemoryError("no memory for a kernel"),
+    3: ValueError("a kernel was asked for what lies outside"),
+}
+"""By what a kernel returns: ``kernels.h``."""
 _DECLARED = re.compile(r"^KERNEL int (\w+)\(([^;]*)\);", re.M)
 _SIZED = re.compile(r"(\w+)\[([^]]*)\]")
 """An argument that is an array, and how many numbers it has."""
@@ -42,8 +48,9 @@ _SIZED = re.compile(r"(\w+)\[([^]]*)\]")
 
 class Kernels:
     """One library. ``level`` says which; every function that its header declares is an attribute, which takes arrays
-    and numbers and raises ``numpy.linalg.LinAlgError`` where a matrix is not positive definite, ``TypeError`` and
-    ``ValueError`` where an array is not of the type or size declared."""
+    and numbers and raises ``numpy.linalg.LinAlgError`` where a matrix is not positive definite, ``MemoryError``,
+    ``TypeError`` and ``ValueError`` where an array is not of the type or size declared or too small for what is asked
+    of it."""
 
     def __init__(self, path: Path, level: str) -> None:
         """Raises ``OSError`` where the library cannot be loaded or is of another source."""
@@ -108,7 +115,7 @@ def _called(function: Any, are_whole: Callable[..., bool]) -> Callable[..., None
         except (TypeError, ValueError, KeyError, BufferError):  # one that is not there, or not stored row by row
             status = function(*[as_c(x) for x in arguments])
         if status:
-            raise np.linalg.LinAlgError("Matrix is not positive definite")
+            raise _FAULTS[status]
 
     return call
 

@@ -115,7 +115,7 @@ int digits_spread(
                 other[i * OTHER + j] = wide[BENT_AT[i] * DIGIT + OTHER_AT[j]];
         }
         if (root_and_inverse(root, inverse, BENT))
-            return 1;
+            return NOT_DEFINITE;
         product(goes, OTHER, inverse, BENT, 1, other, OTHER, BENT, BENT, OTHER, SET);
         double middle[DIGIT], moved[DIGIT], s[JOINED];
         memcpy(middle, mean + r * DIGIT, sizeof middle);
@@ -342,7 +342,7 @@ static int solved(double *a, double *b, int n, int m)
             if (fabs(a[i * n + k]) > fabs(a[best * n + k]))
                 best = i;
         if (a[best * n + k] == 0.0)
-            return 1;
+            return NOT_DEFINITE;
         for (int j = 0; j < n && best != k; j++) {
             const double own = a[k * n + j];
             a[k * n + j] = a[best * n + j], a[best * n + j] = own;
@@ -415,7 +415,7 @@ int digits_read(
             doubt[i * SLOTS + i] = share;
         }
         if (solved(joints, doubt, SLOTS, SLOTS))
-            return 1;
+            return NOT_DEFINITE;
         for (int i = 0; i < SLOTS; i++) {
             for (int j = 0; j < SLOTS; j++)
                 for (int a = 0; a < SEEN; a++)
@@ -424,7 +424,7 @@ int digits_read(
                 response[i * SEEN + a] = by[a * SLOTS + i];
         }
         if (solved(doubt, response, SLOTS, SEEN))
-            return 1;
+            return NOT_DEFINITE;
         double own[SLOTS * 3] = {0.0}, half[SLOTS * 3], by_disc[SLOTS * 3] = {0.0};
         for (int i = 0; i < SLOTS; i++)
             for (int a = 0; a < SEEN; a++) {
@@ -526,7 +526,7 @@ int digits_limited(
                     gain[i * n + a] = across[k][a * SLOTS + i];
             }
             if (solved(inner, gain, SLOTS, n))
-                return 1;
+                return NOT_DEFINITE;
             for (int j = 0; j < SLOTS; j++) {
                 add_scaled(at, pull[j], gain + j * n, n);
                 for (int a = 0; precision[j] != 0.0 && a < n; a++)

@@ -34,7 +34,7 @@ int corrected(
     const int n = size, m = count, nn = n * n;
     double *work = malloc(sizeof(double) * (size_t)(4 * m * n + 3 * m * m + 4 * m + n + modes * (m + 2)));
     if (!work)
-        return 1;
+        return NO_MEMORY;
     double *tall = work, *across = tall + m * n, *cross = across + m * n, *white = cross + m * n,
            *own = white + m * n, *root = own + m * m, *inverse = root + m * m, *unit = inverse + m * m, *off = unit + m,
            *innovation = off + m, *apart = innovation + m, *line = apart + m, *each = line + n,

@@ -1,6 +1,6 @@
 /* What the library does. Matrices are stored row by row; shapes stand in the Python function of the same name, which
-   is the oracle. Every kernel returns 0, or 1 where a matrix is not positive definite. Nothing is remembered. Where calls
-   differ in size, the sizes of the arrays are declared: another is refused before anything is read. */
+   is the oracle. Every kernel returns 0 or what is wrong. Nothing is remembered. Where calls differ in size, the sizes of
+   the arrays are declared: another is refused before anything is read. */
 #ifndef KERNELS_H
 #define KERNELS_H
 
@@ -11,6 +11,9 @@
 #else
 #define KERNEL __attribute__((visibility("default")))
 #endif
+
+/* What a kernel returns: choice.py raises by it. */
+enum { NOT_DEFINITE = 1, NO_MEMORY = 2, OUTSIDE = 3 };
 
 KERNEL const char *kernels_digest(void);
 KERNEL int kernels_run_wide(void);
@@ -84,9 +87,16 @@ KERNEL int surface_fit(
     double *used, double *out_value, double *out_covariance, double *out_slope);
 
 /* detection.c */
+KERNEL int blobs_found(
+    int whole_height, int whole_width, const uint8_t color[whole_height * whole_width * 3],
+    const uint16_t raw[whole_height * whole_width], int has_depth, double unit_m, int left, int top, int width, int height,
+    const uint8_t is_paper[65536], int darkest, double disc_px_m, double usual_m, double nearest_m, double long_side,
+    double long_axis, double edge_px, int rounds, int most_parts, double least_area, double most_area, int most,
+    int32_t labels[height * width], uint16_t look[height * width], int32_t own[most], double rough[most * 2],
+    double radius[most], int32_t found[1]);
 KERNEL int blobs_measured(
-    int blobs, const uint16_t own[blobs], const double rough[blobs * 2], int left, int top, int height, int width,
-    const uint16_t labels[height * width], const uint8_t hsv[height * width * 3], int whole_height, int whole_width,
+    int blobs, const int32_t own[blobs], const double rough[blobs * 2], int left, int top, int height, int width,
+    const int32_t labels[height * width], const uint16_t look[height * width], int whole_height, int whole_width,
     const uint8_t color[whole_height * whole_width * 3], const uint16_t raw[whole_height * whole_width],
     int has_depth, double unit_m, int pixels, const int64_t row[pixels], const int64_t column[pixels],
     const uint8_t reach[pixels], int core, int near, int rim_from, int rim_to,

@@ -37,7 +37,7 @@ int palm_linearised(
         for (int j = 0; j < POSE_SIZE; j++)
             root[6 * i + j] = covariance[POSE[i] * SIZE + POSE[j]] + (i == j ? floor : 0.0);
     if (root_and_inverse(root, inverse, POSE_SIZE))
-        return 1;
+        return NOT_DEFINITE;
     for (int k = 0; k < SEEN; k++)
         place[k] = palm[k] + value[SHAPE + k] + value[SKIN + k];
     observed(value + POSITION, rotation, place, image, shift, seen);

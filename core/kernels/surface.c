@@ -24,7 +24,7 @@ static int inverse33(const double *a, double *out)
     const double c0 = a[4] * a[8] - a[5] * a[7], c1 = a[5] * a[6] - a[3] * a[8], c2 = a[3] * a[7] - a[4] * a[6];
     const double det = a[0] * c0 + a[1] * c1 + a[2] * c2;
     if (det == 0.0)
-        return 1;
+        return NOT_DEFINITE;
     out[0] = c0 / det, out[1] = (a[2] * a[7] - a[1] * a[8]) / det, out[2] = (a[1] * a[5] - a[2] * a[4]) / det;
     out[3] = c1 / det, out[4] = (a[0] * a[8] - a[2] * a[6]) / det, out[5] = (a[2] * a[3] - a[0] * a[5]) / det;
     out[6] = c2 / det, out[7] = (a[1] * a[6] - a[0] * a[7]) / det, out[8] = (a[0] * a[4] - a[1] * a[3]) / det;
@@ -54,7 +54,7 @@ int surface_fit(
 {
     double *work = malloc(sizeof(double) * (size_t)(16 * count + 1));
     if (!work)
-        return 1;
+        return NO_MEMORY;
     double *x0 = work, *y0 = x0 + count, *z0 = y0 + count, *own = z0 + count, *over = own + 6 * count,
            *weight = over + count, *u = weight + count, *v = u + count, *weighed = v + count; /* 3 of these */
     for (int i = 0; i < count; i++) {

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from carpus.core.capture.doctor import kernels_finding
@@ -82,3 +83,10 @@ def test_a_compiler_that_fails_is_told_and_leaves_nothing(
     assert build.main() == 0
     assert "failed" in capsys.readouterr().out
     assert sorted(path.name for path in tmp_path.iterdir()) == ["broken.c", "kernels.h"]
+
+
+@pytest.mark.parametrize(("status", "fault"), [(1, np.linalg.LinAlgError), (2, MemoryError), (3, ValueError)])
+def test_what_a_kernel_returns_is_raised_as_what_it_is(status: int, fault: type[Exception]) -> None:
+    """No memory is no matter of the matrix."""
+    with pytest.raises(fault):
+        choice._called(lambda *_: status, lambda *_: True)(1.0)

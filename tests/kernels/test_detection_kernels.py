@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 import pytest
 
@@ -57,6 +58,73 @@ def test_a_reading_far_from_a_discs_others_is_no_part_of_its_depth() -> None:
     found = alike(Detector(looks, CAMERA, SETTINGS), seen)
     assert len(found) == len(PALM_PX)
     np.testing.assert_allclose(found.depth_m, DISTANCE_M, rtol=1e-9)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_every_colour_looks_as_to_opencv(level: str) -> None:
+    """Hue and saturation of all 16 777 216 colours, bit for bit, and which are as bright as asked for."""
+    lit = np.ones(1 << 16, dtype=np.uint8)
+    with choice.forced(level) as kernels:
+        assert kernels is not None
+        for first in range(0, 256, 16):
+            number = np.arange(first << 16, (first + 16) << 16).reshape(1024, 1024)
+            color = np.stack((number >> 16, number >> 8 & 255, number & 255), axis=-1).astype(np.uint8)
+            labels, look = np.empty(number.shape, dtype=np.int32), np.empty(number.shape, dtype=np.uint16)
+            kernels.blobs_found(
+                1024, 1024, color, choice.NOTHING, False, 1.0, 0, 0, 1024, 1024, lit, 99, 1.0, 1.0, 0.2, 1e9, 1.0, 0.5,
+                6, 4, 0.0, 0.0, 1, labels, look, np.empty(1, np.int32), np.empty((1, 2)), np.empty(1),
+                np.empty(1, np.int32),
+            )  # fmt: skip
+            hsv = cv2.cvtColor(color, cv2.COLOR_RGB2HSV)
+            np.testing.assert_array_equal(look, hsv[..., 0] | hsv[..., 1].astype(np.uint16) << 8)
+            bright = cv2.morphologyEx((hsv[..., 2] > 99).astype(np.uint8), cv2.MORPH_OPEN, CROSS)
+            np.testing.assert_array_equal(labels > 0, bright > 0)
+
+
+CROSS = cv2.getStructuringElement(cv2.MORPH_CROSS, (3, 3))
+
+
+@pytest.mark.parametrize("shapes", ["specks", "discs", "bars"])
+def test_blobs_of_any_shape_come_in_the_same_order_and_apart_alike(shapes: str) -> None:
+    """Everything is kept, however large or unlike a disc: spirals of specks that join late, discs on and beside each
+    other, mirrored to the pixel, so that some pixels lie just between two parts."""
+    rng, look = np.random.default_rng(8), Look(noise=0.0)
+    looks, _ = learnt(look, rng)
+    settings = replace(SETTINGS, least_area=0.0, most_area=1e9, skin_share=0.0, most_blobs=2000)
+    detector = Detector(replace(looks, least_similarity=0.0), CAMERA, settings)
+    seen = frame(np.full((240, 320, 3), look.skin, dtype=np.uint8), np.full((240, 320), 3500, dtype=np.uint16))
+    found = 0
+    for density in (0.05, 0.2, 0.35, 0.5):
+        mask = np.zeros((240, 320), dtype=np.uint8)
+        if shapes == "specks":
+            mask = (rng.uniform(size=mask.shape) < density).astype(np.uint8)
+            mask = cv2.dilate(mask, CROSS) if density < 0.3 else mask
+        for _ in range(0 if shapes == "specks" else int(160 * density)):
+            u, v, radius = rng.integers(0, 320), rng.integers(0, 240), rng.integers(3, 7)
+            for _ in range(rng.integers(1, 5)):
+                if shapes == "discs":
+                    cv2.circle(mask, (int(u), int(v)), int(radius), 1, -1)
+                else:
+                    cv2.rectangle(mask, (int(u), int(v)), (int(u + 2 * radius), int(v + radius)), 1, -1)
+                u, v = u + rng.integers(-8, 9), v + rng.integers(-8, 9)
+        seen.color_rgb[:] = np.where(mask[..., None] > 0, look.paper, look.skin)
+        for region in (Region(0, 0, 320, 240), Region(31, 17, 300, 222)):
+            found += len(alike(detector, seen, region))
+        few = Detector(replace(looks, least_similarity=0.0), CAMERA, replace(settings, most_blobs=5))
+        assert len(alike(few, seen, Region(0, 0, 320, 240))) == 5
+    assert found > 100
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_a_region_outside_the_picture_is_refused(level: str) -> None:
+    rng, look = np.random.default_rng(5), Look()
+    detector = Detector(learnt(look, rng)[0], CAMERA, SETTINGS)
+    seen = frame(picture(PALM_PX, look, rng), depth_picture(rng))
+    with choice.forced(level) as kernels:
+        assert kernels is not None
+        for region in (Region(-1, 0, 90, 90), Region(0, 200, 90, 241), Region(300, 0, 321, 90)):
+            with pytest.raises(ValueError, match="outside"):
+                detector._detected(kernels, seen, region)
 
 
 def test_nothing_in_the_picture() -> None:
