@@ -26,6 +26,7 @@ NO_CHOICE = {
         "tracking/reacquire._LOOSE_M2",
         "tracking/shape_learning._FLOOR_M",
         "tracking/hand_filter._NEAREST_M",
+        "detection/detector._NEAREST_M",
         "tracking/surface_fit._NO_NOISE",
     },
     "mathematics": {
