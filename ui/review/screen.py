@@ -59,13 +59,11 @@ from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.tables import column_names, repetition_words, table_rows
 from carpus.ui.report.words import corrected_words
 from carpus.ui.review.film import STILL, FilmSheet, FilmWanted, paint_angle
-from carpus.ui.review.further_table import FurtherTable
-from carpus.ui.review.hand_table import HandTable
 from carpus.ui.review.player import Player
 from carpus.ui.review.reason import ReasonSheet
 from carpus.ui.review.results import ResultChoice
 from carpus.ui.review.skeleton import modelled_px, paint_palm, paint_skeleton, paint_trails
-from carpus.ui.review.table import RangeTable
+from carpus.ui.review.tables import FurtherTable, HandTable, RangeTable
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
 from carpus.ui.translate import inside
