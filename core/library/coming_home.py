@@ -32,11 +32,20 @@ def bring_home(data_folder: Path, folder_of: Callable[[str, str], Path | None]) 
     place = fallback_place(data_folder)
     if not place.is_dir():
         return []
-    told = list(recover_folder(place).faults)
+    found = recover_folder(place)
+    told: list[CarpusFault] = []
+    erased = [one for one in sorted(place.iterdir()) if one.is_dir() and folder_of(one.name, "") is None]
+    for folder in erased if not found.busy else ():
+        try:
+            shutil.rmtree(folder)  # also what cannot be read, and pictures without a session
+            told.append(WaitingErased())
+        except OSError as cause:
+            told.append(OutputNotWritable(place, cause.strerror or ""))
+    told += [fault for fault in found.faults if not any(Path(fault.subject).is_relative_to(one) for one in erased)]
     for path in sorted(place.rglob("*.h5")):
         try:
-            folder = folder_of(path.parent.name, read_outline(path).header.subject_id)
-            told.append(WaitingErased() if folder is None else RecordingReturned(_home(path, folder)))
+            home = folder_of(path.parent.name, read_outline(path).header.subject_id)
+            told.append(WaitingErased() if home is None else RecordingReturned(_home(path, home)))
             for suffix in (".h5", RAW_SUFFIX, MARKERS_SUFFIX):
                 path.with_suffix(suffix).unlink(missing_ok=True)
             if path.parent != place:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -20,6 +20,8 @@ past them, of the whole hand's a hand's breadth."""
 LEAST_REACH_PX = 48.0
 STALE_S = 0.5
 """A hand that was seen longer ago may have left the area."""
+REMEMBERED = 2048
+"""Areas: a minute and more, longer than a picture waits for a slow disk."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,17 +58,19 @@ class HandArea:
 
     def __init__(self, camera: Camera, protocol: MarkerProtocol) -> None:
         self._camera, self._protocol = camera, protocol
-        self._known: tuple[float, Area | None] = (-math.inf, None)
+        self._known: deque[tuple[float, Area | None]] = deque(maxlen=REMEMBERED)
 
     def take(self, tracked: TrackedFrame) -> None:
         """The hand of a frame."""
-        self._known = tracked.timestamp_s, area_of(tracked, self._camera, self._protocol)
+        self._known.append((tracked.timestamp_s, area_of(tracked, self._camera, self._protocol)))
 
     def area(self, at_s: float) -> Area | None:
-        """Where the hand is in a picture of that time; None while it is lost, or not yet tracked nearly so far: then
-        whole pictures are kept."""
-        known_s, area = self._known
-        return area if at_s - known_s <= STALE_S else None
+        """Where the hand is in a picture of that time, which may have waited for the disk; None while it is lost, or
+        not yet tracked nearly so far: then whole pictures are kept."""
+        for known_s, area in reversed(self._known.copy()):
+            if known_s <= at_s:
+                return area if at_s - known_s <= STALE_S else None
+        return None
 
 
 def area_of(tracked: TrackedFrame, camera: Camera, protocol: MarkerProtocol) -> Area | None:

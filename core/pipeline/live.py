@@ -346,8 +346,9 @@ class LiveSession:
         """
         with self._lock:
             rows, self._catching_up = self._rows, True  # from now on no frame is recorded
+            last = self._handed  # a file hands over more meanwhile, which is waited for by nobody
         try:
-            while rows is not None and rows.fault is None and self._is_behind() and self._walk is not None:
+            while rows is not None and rows.fault is None and self._is_behind(last) and self._walk is not None:
                 time.sleep(_LOOK_S)
         finally:
             with self._lock:
@@ -459,9 +460,10 @@ class LiveSession:
         while self._source_waits and self._is_behind() and not self._stopping.wait(_LOOK_S):
             pass
 
-    def _is_behind(self) -> bool:
+    def _is_behind(self, last: int | None = None) -> bool:
+        """Whether a frame waits or is worked on, of the first ``last`` handed over."""
         with self._lock:
-            return self._worked < self._handed
+            return self._worked < (self._handed if last is None else min(last, self._handed))
 
     def _take(self, frame: Frame) -> None:
         at_s = time.monotonic()
@@ -508,7 +510,8 @@ class LiveSession:
     def _track(self) -> None:
         for captured in self._to_tracking:
             try:
-                if captured.walk is self._walk:  # else captured for a walk that has ended
+                # Else captured for a walk that has ended, or waiting for a recording that has failed.
+                if captured.walk is self._walk and not self._is_of_the_past(captured):
                     self._track_one(captured)
             except Exception as cause:  # the one catch at the top of this thread
                 with self._lock:
@@ -519,6 +522,13 @@ class LiveSession:
                 with self._lock:
                     self._worked += 1
                     self._worked_at.append(time.monotonic())
+
+    def _is_of_the_past(self, captured: _Captured) -> bool:
+        """Whether a frame waited for a recording that has failed: what is seen is to be of now, and the next recording
+        to find room."""
+        rows = captured.rows
+        failed = rows is not None and rows.fault is not None
+        return failed and not self._source_waits and len(self._to_tracking) >= PREVIEW_WAITING
 
     def _track_one(self, captured: _Captured) -> None:
         frame = captured.frame

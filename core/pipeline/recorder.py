@@ -131,6 +131,7 @@ class Recorder(Generic[SinkT, Item]):
         self._look()
         if self._room is not None:
             while not self._room.acquire(timeout=LOOK_EVERY_S):
+                self._look()
                 if self._fault is not None:
                     return False
         try:

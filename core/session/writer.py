@@ -455,6 +455,10 @@ class SessionWriter:
         except (OSError, RuntimeError, CarpusFault):
             part.unlink(missing_ok=True)
             return False
+        if not self._digests.rows(schema.SMOOTHED_FIELDS[0].path):  # begun, perhaps: it is begun anew in the copy
+            file.pop("/smoothed", None)
+            for field in schema.SMOOTHED_FIELDS:
+                self._growing.pop(field.path, None)
         growing = {path: file[path] for path in self._growing}
         ends = self._ends_of(growing, stored)
         if ends is None:

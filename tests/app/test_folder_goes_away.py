@@ -135,6 +135,8 @@ def test_what_waits_of_a_patient_who_was_erased_is_erased_and_brings_nobody_back
     with closing(Library(data, sessions=share)) as library:
         linden = library.patients.add(PatientEntry("Linden 42", "left"))
         path = record(library.new_path(set_up(linden, "Linden 42")), "Linden 42", CREATED, "left")
+        path.with_name("damaged.h5").write_bytes(b"of a kill")
+        path.with_name("pictures.carpusraw").write_bytes(b"without a session")
         heron = library.patients.add(PatientEntry("Heron 17", "left"))
         record(library.new_path(set_up(heron, "Heron 17")), "Heron 17", CREATED, "left")
         library.patients.change(heron, PatientEntry("Heron 18", "left"))
@@ -142,7 +144,7 @@ def test_what_waits_of_a_patient_who_was_erased_is_erased_and_brings_nobody_back
         share.mkdir()
         told = [type(fault) for fault in library.recover()[1]]
         assert (told.count(WaitingErased), told.count(RecordingReturned)) == (1, 1)
-        assert not path.exists()
+        assert not path.parent.exists(), "also what cannot be read"
         assert [one.entry.pseudonym for one in library.patients.listed()] == ["Heron 18"], "by identity, not by name"
         assert len(library.sessions(heron)) == 1
 

@@ -75,6 +75,16 @@ def test_a_hand_that_was_tracked_a_while_ago_keeps_the_whole_picture() -> None:
     assert hand.area(1.0) is None
 
 
+def test_a_picture_that_waited_for_the_disk_keeps_the_hand_of_its_own_time() -> None:
+    hand, now = HandArea(CAMERA, WRIST6), tracked()
+    hand.take(now)
+    then = hand.area(0.0)
+    hand.take(replace(now, timestamp_s=10.0, marker_position_cam_m=now.marker_position_cam_m + [0.1, 0.0, 0.0]))
+    assert hand.area(10.0) != then
+    assert hand.area(0.1) == then
+    assert hand.area(-0.1) is None
+
+
 def test_depth_comes_back_as_it_was_and_it_costs_a_part(tmp_path: Path) -> None:
     frame, area = noisy(np.random.default_rng(2)), area_of(tracked(), CAMERA, WRIST6)
     writer = AroundHand(

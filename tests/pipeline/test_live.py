@@ -12,7 +12,7 @@ import pytest
 
 from carpus.core.errors import CameraLost, CameraReturned, DiskTooSlow, OutputExists, PictureDamaged
 from carpus.core.pipeline import live as live_module
-from carpus.core.pipeline.live import LiveSession, LiveSettings
+from carpus.core.pipeline.live import PREVIEW_WAITING, LiveSession, LiveSettings
 from carpus.core.pipeline.live_values import LiveEvent
 from carpus.core.types import Frame, TrackedFrame
 from tests.pipeline.live_fakes import FakeSession, Gate, HeldSource, frame, tracked, wait_until
@@ -646,3 +646,43 @@ def test_a_file_that_waits_can_be_stopped() -> None:
     threading.Timer(0.1, held.set).start()
     live.stop()
     assert not live.running
+
+
+def test_a_file_that_is_stopped_on_its_way_does_not_play_to_its_end() -> None:
+    source, sink = HeldSource(), FakeSession(OUT)
+
+    def slow(picture: Frame) -> TrackedFrame:
+        time.sleep(0.001)
+        return tracked(picture)
+
+    live = LiveSession(source, source_waits=True)
+    live.begin_tracking(slow)
+    live.start_recording(lambda: sink)
+    with live:
+        source.let(1_000_000)  # a quarter of an hour and more
+        wait_until(lambda: live.counters().rows_written > 20)
+        live.stop_recording()
+        stored = [row.index for row in sink.rows]
+        assert stored == list(range(len(stored)))
+        assert live.running
+
+
+def test_what_waited_for_a_recording_that_failed_keeps_nobody_waiting() -> None:
+    """The disk is full while the tracker is behind: it is at what is seen now again, and the next one has its room."""
+    source, gate = HeldSource(), Gate()
+
+    def slow(picture: Frame) -> TrackedFrame:
+        if picture.index > 0:
+            gate.pass_through()
+        return tracked(picture)
+
+    with LiveSession(source) as live:
+        live.begin_tracking(slow)
+        live.start_recording(lambda: FakeSession(OUT, fault_at=0))
+        deliver(live, source, 200)
+        wait_until(lambda: "recording_failed" in kinds(live.drain_events()))
+        gate.open()
+        with pytest.raises(OSError, match="No space"):
+            live.stop_recording()
+        wait_until(lambda: live.newest() is not None and live.newest().frame.index == 199)
+        assert live.counters().tracked == 2 + PREVIEW_WAITING

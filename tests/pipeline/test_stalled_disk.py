@@ -21,7 +21,7 @@ from carpus.core.session.reader import read_session
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.writer import Fallback, SessionWriter
 from carpus.core.types import Frame, TrackedFrame
-from tests.pipeline.live_fakes import HeldSource, frame, tracked, wait_until
+from tests.pipeline.live_fakes import FakeSession, HeldSource, frame, tracked, wait_until
 from tests.session.samples import CAMERA, make_calibration, make_header
 
 SETTINGS = LiveSettings(told_stall_s=0.3, moved_stall_s=0.8)
@@ -204,3 +204,29 @@ def test_pictures_go_on_elsewhere_with_the_one_that_hung(tmp_path: Path) -> None
     shown = [int(one.color_rgb[0, 0, 0]) for one in RawRecording(new).frames()]
     assert shown == list(range(3, 60))
     assert [type(one) for one in told] == [DiskStalled]
+
+
+def test_a_file_goes_on_elsewhere_too_when_the_disk_hangs() -> None:
+    """Who waits for room looks whether the disk answers."""
+    hung, moved = threading.Event(), FakeSession(Path("moved.h5"))
+
+    def write(sink: FakeSession, row: TrackedFrame) -> None:
+        if sink is not moved:
+            hung.wait()
+        sink.append(row)
+
+    def elsewhere(_: FakeSession, row: TrackedFrame | None) -> FakeSession:
+        assert row is not None
+        moved.append(row)
+        return moved
+
+    patience = Patience(lambda _: None, elsewhere, told_after_s=0.1, moved_after_s=0.2)
+    recorder = Recorder(
+        "writing", lambda: FakeSession(Path("s.h5")), write, 2, lambda _: None, waits=True, patience=patience
+    )
+    recorder.start()
+    for index in range(6):
+        assert recorder.put(tracked(frame(index)))
+    assert recorder.finish() == moved.path
+    hung.set()
+    assert [row.index for row in moved.rows] == list(range(6))

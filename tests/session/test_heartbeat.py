@@ -13,15 +13,17 @@ import uuid
 from collections.abc import Callable
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 
 from carpus.core.errors import CarpusFault, DiskFull, FolderGone, OutputNotWritable, RecordingMoved
-from carpus.core.session import heartbeat, recovery, writer
+from carpus.core.session import heartbeat, new_file, recovery, schema, writer
 from carpus.core.session.heartbeat import alive_path, still_beating
 from carpus.core.session.reader import read_raw, read_session, verify
 from carpus.core.session.recovery import recover_folder
-from carpus.core.session.values import RawPictures
+from carpus.core.session.schema import TableLayout
+from carpus.core.session.values import RawPictures, motion_of
 from carpus.core.session.writer import Fallback, SessionWriter
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
 
@@ -172,6 +174,44 @@ def test_a_recording_goes_on_when_its_folder_goes_away(tmp_path: Path, gone: Cal
     if raw:
         assert list(read_raw(session.path)) == [pictures(number) for number in range(row + 10)]
     assert [path.name for path in other.iterdir()] == ["s.h5"]
+
+
+@pytest.mark.parametrize("reached", [False, True])
+def test_a_disk_that_fails_as_the_first_smoothed_rows_come_is_left(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, reached: bool
+) -> None:
+    """What is read back of it has none of the new tables, or the first of them."""
+    told: list[CarpusFault] = []
+    (tmp_path / "other").mkdir()
+    session = begun(tmp_path / "s.h5", Fallback(lambda: tmp_path / "other", told.append))
+    for row in range(6):
+        session.append(make_frame(row))
+    session.flush()
+    on_disk, create = session.part_path.read_bytes(), writer.create_smoothed
+
+    def read_only(file: h5py.File, layout: TableLayout) -> dict[str, h5py.Dataset]:
+        monkeypatch.setattr(writer, "create_smoothed", create)
+        new_file._create_growing(file, schema.SMOOTHED_FIELDS[0], layout)
+        raise OSError(30, "Read-only file system")
+
+    def not_reached() -> None:
+        monkeypatch.undo()
+        monkeypatch.setattr(writer, "copy_open_file", lambda _, part: part.write_bytes(on_disk))
+        raise OSError(30, "Read-only file system")
+
+    if reached:
+        monkeypatch.setattr(writer, "create_smoothed", read_only)
+    else:
+        monkeypatch.setattr(session, "_synchronise", not_reached)
+    session.add_smoothed(motion_of([make_frame(row) for row in range(3)]))
+    session.flush()
+    session.add_smoothed(motion_of([make_frame(row) for row in range(3, 6)]))
+    session.close()
+    assert [type(fault) for fault in told] == [RecordingMoved]
+    result = read_session(session.path)
+    assert result.smoothed is not None
+    np.testing.assert_array_equal(result.smoothed.angles_rad, result.motion.angles_rad)
+    assert verify(session.path).sealed
 
 
 def test_what_cannot_be_read_any_more_stays_behind_and_is_named(
