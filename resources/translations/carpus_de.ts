@@ -12136,6 +12136,10 @@ Umschalt+F8 von der Seite</translation>
         <translation>Wege der Gelenke: {finger}</translation>
     </message>
     <message>
+        <source>{angle}, passive</source>
+        <translation>{angle}, passiv</translation>
+    </message>
+    <message>
         <source>Not measured here</source>
         <translation>Hier nicht gemessen</translation>
     </message>

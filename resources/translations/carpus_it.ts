@@ -11290,7 +11290,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Passive</source>
-        <translation>Passivo</translation>
+        <translation>Passiva</translation>
     </message>
     <message>
         <source>Passive, and all after it</source>
@@ -11298,7 +11298,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Left out: it stays in the recording and on the curves, and counts no longer. The report says so.</source>
-        <translation>Esclusa: resta nella registrazione e nelle curve e non conta più. Il referto lo dice.</translation>
+        <translation>Esclusa: resta nella registrazione e nelle curve e non conta più. La relazione lo dice.</translation>
     </message>
     <message>
         <source>other movement</source>
@@ -12136,6 +12136,10 @@ Maiusc+F8 di lato</translation>
         <translation>Percorsi delle articolazioni: {finger}</translation>
     </message>
     <message>
+        <source>{angle}, passive</source>
+        <translation>{angle}, passiva</translation>
+    </message>
+    <message>
         <source>Not measured here</source>
         <translation>Qui non misurato</translation>
     </message>
@@ -12629,7 +12633,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Report and clinic</source>
-        <translation>Referto e studio</translation>
+        <translation>Relazione e clinica</translation>
     </message>
     <message>
         <source>Safety</source>

@@ -11,6 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.names import MOST_CHARACTERS
 from carpus.core.records.values import PatientEntry
+from carpus.ui.language import LANGUAGES, speaking
 from carpus.ui.patients.entry import PatientForm
 from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeStore
@@ -157,3 +158,20 @@ def test_the_letter_of_a_field_leads_to_it(qtbot: QtBot, theme: Theme) -> None:
     for letter, field in ((Qt.Key.Key_D, form.diagnosis), (Qt.Key.Key_S, form.onset_day), (Qt.Key.Key_N, form.name)):
         qtbot.keyClick(host.focusWidget(), letter, Qt.KeyboardModifier.AltModifier)
         assert host.focusWidget() is field
+
+
+@pytest.mark.parametrize("scale", [1.0, 1.5])
+@pytest.mark.parametrize("code", LANGUAGES)
+def test_no_field_is_cut_at_its_right(qtbot: QtBot, code: str, scale: float) -> None:
+    host = QWidget()
+    qtbot.addWidget(host)
+    host.resize(1280, 800)
+    host.show()
+    with speaking(code):
+        form = PatientForm(host, Theme("dark", scale), FakeStore(), lambda: TODAY)
+        form.begin(
+            PatientEntry("Fir 12", "both", "left", diagnosis="Radius", onset="injury", onset_day=TODAY), frozenset()
+        )
+        qtbot.waitUntil(lambda: form._fields.width() > 0, timeout=60_000)
+        assert form._fields.minimumSizeHint().width() <= form._scroll.viewport().width()
+        form.close_sheet()

@@ -20,6 +20,7 @@ from carpus.core.errors import OutputNotWritable
 from carpus.core.formats.film import UNFINISHED, write_film
 from carpus.core.output.exercises import exercise_named
 from carpus.core.output.hand_cutout import FLAT, box_of, cut_out, drawn_angle
+from carpus.core.output.repetition_rows import PASSIVE
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, TrackStatus
 from carpus.ui.background import Background
@@ -146,6 +147,14 @@ def test_without_agreement_or_pictures_there_is_no_film(qtbot: QtBot, theme: The
     qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
     qtbot.keyClick(sheet, Qt.Key.Key_Return)
     assert (wanted[-1].rate_hz, len(wanted[-1].rows)) == (0.0, 1)
+    assert "passive" not in wanted[-1].words(wanted[-1].rows[0])
+    screen._leave_out(PASSIVE)
+    qtbot.waitUntil(lambda: screen.figures.repetitions[3].helped, timeout=60_000)  # type: ignore[union-attr]
+    screen.ask_film()
+    sheet.speed.choose(STILL)
+    qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
+    qtbot.keyClick(sheet, Qt.Key.Key_Return)
+    assert wanted[-1].words(wanted[-1].rows[0]).endswith("°, passive"), "no figure passes for the patient's own"
     screen.ask_film()
     assert not sheet.agreed.isChecked(), "agreement is given anew each time"
     sheet.begin(4, doubtful=True)

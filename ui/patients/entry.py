@@ -36,7 +36,7 @@ class PatientForm(Sheet):
     removal_wanted = Signal()
 
     def __init__(self, host: QWidget, theme: Theme, store: PatientStore, today: Callable[[], date]) -> None:
-        super().__init__(host, theme, 560)
+        super().__init__(host, theme, 740)
         self._store, self._today = store, today
         self._fault = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self._title = Text(theme, "", 20, SEMIBOLD)

@@ -654,6 +654,8 @@ class ReviewScreen(QWidget):
             rows = range(self._row, self._row + 1)
         rate_hz = factor * len(rows) / max(float(curves.time_s[rows.stop - 1] - curves.time_s[rows.start]), 1e-3)
         exercise, words = self.figures.exercise, {row: self._angle_words(row) for row in rows}
+        if self.figures.repetitions[self._current].helped:  # it would pass for what the patient can do
+            words = {row: said and self.tr("{angle}, passive").format(angle=said) for row, said in words.items()}
         self.film.emit(
             FilmWanted(session, self._session_id, self._current + 1, rows, rate_hz, exercise, lambda row: words[row])
         )
