@@ -12672,7 +12672,7 @@ Umschalt+F8 von der Seite</translation>
     <name>Sheet</name>
     <message>
         <source>What you typed is not kept yet. Esc once more closes without it.</source>
-        <translation>Was Sie getippt haben, ist noch nicht behalten. Noch einmal Esc schließt ohne es.</translation>
+        <translation>Was Sie getippt haben, ist noch nicht gespeichert. Noch einmal Esc verwirft es.</translation>
     </message>
 </context>
 <context>

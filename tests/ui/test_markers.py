@@ -6,13 +6,14 @@ import math
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.hand.protocols import HAND21, WRIST6
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
+from carpus.ui.language import speaking
 from carpus.ui.markers.clicking import Clicking
 from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.ports import ProposedMarker
@@ -366,6 +367,25 @@ def test_no_name_covers_a_disc_that_is_to_be_clicked(
     for one in plates:
         assert not any(one.plate.adjusted(-8, -8, 8, 8).contains(at) for at in discs), one.name
         assert not any(one.plate.intersects(other.plate) for other in plates if other is not one)
+
+
+def test_where_the_names_are_long_a_knuckle_has_its_fingers_name(
+    qtbot: QtBot, screen: MarkersScreen, theme: Theme
+) -> None:
+    theme.choose(text_scale=1.5)
+    calibrator = FakeCalibrator()
+    screen.begin(calibrator)
+    picture = screen.picture
+    qtbot.waitUntil(lambda: picture.width() > 400, timeout=60_000)
+    picture.resize(560, 452)
+    picture.discs_px = np.empty((0, 2))
+    # the hand as the simulated camera shows it enlarged, from wrist and thumb to the little finger
+    at = [(280, 361), (242, 335), (225, 189), (271, 185), (311, 193), (341, 211)]
+    rings = [(name, QPointF(*one), 17.0) for name, one in zip(calibrator.protocol.markers, at, strict=True)]
+    with speaking("de"):
+        plates = picture.name_plates(rings, "")
+    assert [one.name for one in plates] == list(calibrator.protocol.markers), "every name has its place"
+    assert plates[-1].words == "Kleinfinger"
 
 
 def test_all_markers_can_still_be_clicked_by_hand(qtbot: QtBot, screen: MarkersScreen) -> None:

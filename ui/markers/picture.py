@@ -285,17 +285,24 @@ class MarkerPicture(PictureView):
             if name == proposed:
                 words = self.tr("{marker}?").format(marker=words)
             wrong = name in self.wrong
-            width = metrics.horizontalAdvance(words) + (30 if wrong else 12)
             others = [other for one, other, _ in rings if one != name] + bare
             lines = [one.line for one in out if one.line is not None]
-            size = QSizeF(width, metrics.height() + 5)
             inside = QRectF(self.rect()).adjusted(4, 4, -4, -4)
-            found = place_for(size, at, radius, taken, others, inside, lines)
-            if found is None:
-                continue  # a name over another, or at another's disc, says something wrong
-            taken.append(found[0])
-            out.append(NamePlate(name, words, *found))
+            for said in (words, self._short(name, words)):
+                size = QSizeF(metrics.horizontalAdvance(said) + (30 if wrong else 12), metrics.height() + 5)
+                found = place_for(size, at, radius, taken, others, inside, lines)
+                if found is not None:  # a name over another, or at another's disc, says something wrong
+                    taken.append(found[0])
+                    out.append(NamePlate(name, said, *found))
+                    break
         return out
+
+    def _short(self, name: str, words: str) -> str:
+        """The finger alone for a knuckle, where no more has room: of few discs each finger has one."""
+        assert self.clicking is not None
+        if len(self.clicking.order) > FEW or not name.startswith("MCP"):
+            return words
+        return words.replace(marker_name(name), finger_name(name[-1]))
 
     def _paint_names(self, painter: QPainter, rings: list[tuple[str, QPointF, float]], proposed: str) -> None:
         painter.setFont(font(12 * self._theme.text_scale, SEMIBOLD))
