@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-
-from tqdm import tqdm
+from typing import Protocol
 
 from carpus.app.commands.patient_progress import EXAMPLE, add_arguments, run
 from carpus.core.errors import CarpusFault
@@ -16,8 +15,8 @@ from carpus.core.words import one_sentence
 __all__ = ["EXAMPLE", "add_arguments", "bar", "run", "tell"]
 """The module has the name of a command: `carpus progress` finds its own here."""
 
-SPEAK_EVERY_S = 10.0
-"""Where stderr is no terminal a line as often says that the work goes on."""
+SPEAK_AFTER_S = 10.0
+"""What took as long is told at its end in one line, with how fast it went."""
 
 
 def tell(fault: CarpusFault) -> None:
@@ -25,21 +24,34 @@ def tell(fault: CarpusFault) -> None:
     print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
 
 
-@contextmanager
-def bar(what: str, unit: str = "frame") -> Iterator[Callable[[int, int | None], None]]:
-    """A function (done, total) that draws; the bar goes when the work is over. A line now and then for no terminal."""
-    is_terminal = sys.stderr.isatty()
-    spoken_s = time.monotonic()
-    with tqdm(desc=what, unit=unit, leave=False, disable=not is_terminal) as drawn:
+class Shown(Protocol):
+    """Draws that ``done`` of ``total`` are done (None where nobody knows), with a ``note`` behind it."""
 
-        def show(done: int, total: int | None) -> None:
-            nonlocal spoken_s
-            if not is_terminal:
-                if time.monotonic() - spoken_s >= SPEAK_EVERY_S:
-                    spoken_s = time.monotonic()
-                    print(f"carpus: {what}, {done}{f' of {total}' if total else ''}", file=sys.stderr, flush=True)
-                return
-            drawn.total = total
+    def __call__(self, done: int, total: int | None, note: str = "") -> None: ...
+
+
+@contextmanager
+def bar(what: str, unit: str = "frame") -> Iterator[Shown]:
+    """A bar with how fast it goes and the time left, which goes when the work is over; nothing where stderr is no
+    terminal. Of work that took long one line stays, of any."""
+    from tqdm import tqdm  # as long to load as a tenth of the tracker
+
+    begin_s = time.monotonic()
+    last, note_now = 0, ""
+    with tqdm(desc=what, unit=unit, leave=False, disable=not sys.stderr.isatty()) as drawn:
+
+        def show(done: int, total: int | None, note: str = "") -> None:
+            nonlocal last, note_now
+            drawn.total, last = total, done
+            if note != note_now:
+                note_now = note
+                drawn.set_postfix_str(note, refresh=False)
             drawn.update(done - drawn.n)
 
         yield show
+    seconds = time.monotonic() - begin_s
+    if last and seconds >= SPEAK_AFTER_S:
+        behind = f", {note_now}" if note_now else ""
+        print(
+            f"carpus: {what}, {last} {unit}s in {seconds:.0f} s, {last / seconds:.3g} a second{behind}", file=sys.stderr
+        )

@@ -74,10 +74,16 @@ def run_many(
             for take in takers:
                 take(outcome.measures)
             done.append(replace(outcome, measures=()))  # of thousands of sessions they would fill the memory
-            progress(len(done), len(found))
+            progress(len(done), len(found), _pace(done, begin_s))
     order = {place.session: number for number, place in enumerate(found)}
     done.sort(key=lambda each: order[each.place.session])
     return _told(done, [write_outcomes(done, output), *tables], time.monotonic() - begin_s)
+
+
+def _pace(done: Sequence[Outcome], begin_s: float) -> str:
+    """Frames tracked a second, of all processes together; nothing before the first."""
+    frames = sum(each.frames for each in done if each.result == "tracked")
+    return f"{frames / max(time.monotonic() - begin_s, 1e-3):.0f} frames a second" if frames else ""
 
 
 def _coming(tasks: Sequence[Task], arguments: argparse.Namespace) -> Iterator[Outcome]:

@@ -29,17 +29,39 @@ static inline double dot(const double *a, const double *b, int n)
     return sum;
 }
 
+/* Whether no number of B (count, cols), its rows `wide` apart, is NaN or without end. */
+static inline int all_finite(const double *b, int wide, int count, int cols)
+{
+    lanes sum[4] = {{0}}; /* of zero times each: four, since one would wait for itself */
+    double whole = 0.0;
+    for (int k = 0; k < count; k++) {
+        const double *row = b + (size_t)k * wide;
+        int j = 0;
+        for (; j + 4 * LANES <= cols; j += 4 * LANES)
+            for (int q = 0; q < 4; q++)
+                sum[q] += 0.0 * *(const lanes *)(row + j + q * LANES);
+        for (; j < cols; j++)
+            whole += 0.0 * row[j];
+    }
+    sum[0] += sum[1] + sum[2] + sum[3];
+    for (int q = 0; q < LANES; q++)
+        whole += sum[0][q];
+    return whole == 0.0;
+}
+
 /* What `product` does with what is there, and how much of it: all columns, or those up to the diagonal's block of four. */
 enum { SET = 0, ADD = 1, LOWER = 2 };
 
 /* out = A B, or out += A B: A (rows, count) has its numbers `row` and `step` apart, B (count, cols) its rows `wide` apart,
-   out `out_wide`. Four rows at a time; of these the columns of A that are zero are skipped. */
+   out `out_wide`. Four rows at a time; of these the columns of A that are zero are skipped, but where B
+   is not finite: zero times NaN is NaN. */
 static inline void product(
     double *out, int out_wide, const double *a, int row, int step, const double *b, int wide, int rows, int count,
     int cols, int how)
 {
     double own[4 * (count > 0 ? count : 1)];
     const double *of[count > 0 ? count : 1];
+    int skips = -1; /* whether zeros may be skipped: looked at with the first of them */
     for (int i = 0; i < rows; i += 4) {
         const int here = rows - i < 4 ? rows - i : 4;
         int z = 0, j = 0;
@@ -52,7 +74,9 @@ static inline void product(
                 any = x != 0.0 ? 1.0 : any;
             }
             of[z] = b + (size_t)k * wide;
-            z += any != 0.0;
+            if (any == 0.0 && skips < 0)
+                skips = all_finite(b, wide, count, cols);
+            z += any != 0.0 || !skips;
         }
         for (; j + 2 * LANES <= last; j += 2 * LANES) {
             lanes s[4] = {{0}}, t[4] = {{0}};

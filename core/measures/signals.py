@@ -92,8 +92,6 @@ def low_pass(signal: Signal, cutoff_hz: float = SPEED_CUTOFF_HZ) -> Signal:
     """
     if len(signal.time_s) == 0 or cutoff_hz >= 0.45 * signal.rate_hz:
         return signal
-    from scipy import signal as sps  # half a second to load, and not needed before something has been recorded
-
     # Each pass has -1.5 dB at the cut-off, so its own lies higher (Winter 2009), in the bilinear transform's scale;
     # there the filter of second order is these five numbers. To have SciPy design it cost more than to filter.
     turn = math.tan(math.pi * cutoff_hz / signal.rate_hz) / _PASSES_APART
@@ -104,6 +102,8 @@ def low_pass(signal: Signal, cutoff_hz: float = SPEED_CUTOFF_HZ) -> Signal:
     for part in stretches(signal.finite):
         length = part.stop - part.start
         if length >= _SHORTEST_FILTERED:
+            from scipy import signal as sps  # half a second to load, and not needed before something has been recorded
+
             out[part] = sps.filtfilt(b, a, signal.value[part], axis=0, padlen=min(9, length - 1))
     return replace(signal, value=out)
 

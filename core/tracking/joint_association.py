@@ -13,7 +13,6 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import gammaincinv
 
 from carpus.core.tracking.association import AssociationSettings
 from carpus.core.types import FloatArray
@@ -22,6 +21,10 @@ from carpus.core.types import FloatArray
 @lru_cache(maxsize=4)
 def _most_nis(chance: float) -> tuple[float, ...]:
     """Quantiles of chi squared by degrees of freedom."""
+    from scipy.special import (
+        gammaincinv,
+    )  # as long to load as all of NumPy, and asked for only where names are in doubt
+
     return (np.inf, *(2.0 * gammaincinv(0.5 * np.arange(1, 200), chance)).tolist())
 
 

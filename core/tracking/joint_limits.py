@@ -12,7 +12,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import erfcx
 
 from carpus.core.hand.anatomy import ABDUCTION_LIMIT_RAD, HARD_LIMITS_RAD
 from carpus.core.hand.kinematics import DIP_PER_PIP
@@ -70,6 +69,8 @@ def _softened(
     mean: FloatArray, variance: FloatArray, edge: FloatArray, soft_rad: float
 ) -> tuple[FloatArray, FloatArray]:
     """Mean and variance after multiplication by a soft step up at ``edge``."""
+    from scipy.special import erfcx  # as long to load as all of NumPy, and of fingers alone
+
     total = variance + soft_rad**2
     z = (mean - edge) / np.sqrt(total)
     # phi(z) / Phi(z) without underflow: Phi(z) = exp(-z^2/2) erfcx(-z/sqrt 2) / 2.

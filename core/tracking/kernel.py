@@ -14,7 +14,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dpotrf, dtrtri
 
 from carpus.core.kernels.choice import NOTHING, in_c
 from carpus.core.types import FloatArray
@@ -253,6 +252,8 @@ def _turned(matrix: FloatArray) -> FloatArray:
 def _inverse_roots(matrix: FloatArray) -> FloatArray:
     """L^-1 (..., m, m), lower triangular, of positive definite matrices L L'; as ``numpy.linalg`` would, which takes
     four times as long for a few small ones."""
+    from scipy.linalg.lapack import dpotrf, dtrtri  # a fifth of a second to load, and the kernels in C do without
+
     size = matrix.shape[-1]
     out = matrix.reshape(-1, size, size).copy()
     for one in out:

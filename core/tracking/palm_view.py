@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.linalg.lapack import dtrtrs
 
 from carpus.core import so3
 from carpus.core.camera import Camera
@@ -114,6 +113,8 @@ def palm_linearised(estimate: PalmEstimate, view: View, spread: Spread) -> Linea
     middle = flat[0] - value
     error += (weights.covariance[0] * middle)[:, None] * middle
     slope = np.zeros((_COMPONENTS, SIZE))
+    from scipy.linalg.lapack import dtrtrs  # a fifth of a second to load, and the kernels in C do without
+
     slope[:, POSE] = dtrtrs(root.T, half)[0].T
     slope[_OF_DISC, _BY_SHAPE] = slope[_OF_DISC, _BY_SKIN] = _by_camera_place(view.camera, centre) @ (
         view.rotation_w0_cam @ estimate.rotation_w2_w0

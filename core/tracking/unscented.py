@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.linalg.lapack import dpotrf
 
 from carpus.core.types import FloatArray
 
@@ -67,6 +66,8 @@ def make_roots(matrix: FloatArray) -> None:
 
     In place, as in the filter's step a root by ``numpy.linalg`` costs twice as much; fails as that does.
     """
+    from scipy.linalg.lapack import dpotrf  # a fifth of a second to load, and the kernels in C do without
+
     if not matrix.flags.c_contiguous:
         raise ValueError("not stored row by row: LAPACK would change a copy")
     for one in matrix:

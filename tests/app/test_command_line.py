@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 from subprocess import PIPE
 
@@ -390,13 +393,31 @@ def test_recovering_a_folder_that_is_not_there_speaks_of_a_folder(
     assert "no folder" in capsys.readouterr().err
 
 
-def test_long_work_without_a_terminal_says_a_line_now_and_then(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize(("step_s", "said"), [(1.0, ["carpus: tracking, 30 frames in 30 s, 1 a second"]), (0.1, [])])
+def test_long_work_without_a_terminal_says_one_line_at_its_end(
+    step_s: float, said: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     clock_s = [0.0]
     monkeypatch.setattr(progress.time, "monotonic", lambda: clock_s[0])
     with progress.bar("tracking") as show:
         for done in range(1, 31):
-            clock_s[0] += 1.0
+            clock_s[0] += step_s
             show(done, 40)
-    assert capsys.readouterr().err.splitlines() == [f"carpus: tracking, {n} of 40" for n in (10, 20, 30)]
+        assert capsys.readouterr().err == ""
+    assert capsys.readouterr().err.splitlines() == said
+
+
+class ATerminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_a_terminal_sees_how_far_how_fast_and_how_long_yet(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bar's own thread would outlive the test
+    monkeypatch.setattr("tqdm.tqdm", partial(tqdm, mininterval=0.0))
+    monkeypatch.setattr(sys, "stderr", ATerminal())
+    with progress.bar("tracking") as show:
+        for done in (1, 2, 3):
+            show(done, 4, "7 frames a second")
+        drawn = sys.stderr.getvalue().rpartition("\r")[2]
+    assert re.fullmatch(r"tracking: +75%.* 3/4 \[\d\d:\d\d<\d\d:\d\d, .*frame.*, 7 frames a second\] *", drawn), drawn

@@ -49,6 +49,27 @@ def test_correction(chains: int, modes: int, n: int, m: int, unseen: float, extr
 
 
 @pytest.mark.parametrize(("chains", "modes", "n", "m"), SIZES)
+@pytest.mark.parametrize("unknown", [np.nan, np.inf])
+def test_a_number_unknown_is_not_passed_over_where_nothing_depends_on_it(
+    chains: int, modes: int, n: int, m: int, unknown: float
+) -> None:
+    rng = np.random.default_rng(9)
+    mixture, linearised = mixture_of(rng, chains, modes, n), line_of(rng, chains, n, m)
+    linearised.slope[:] = 0.0
+    mixture.covariance[..., -1, :-1] = mixture.covariance[..., :-1, -1] = unknown
+    measured, variance = rng.normal(size=(chains, m)), rng.uniform(1e-6, 2.0, size=(chains, m))
+
+    def known() -> np.ndarray:
+        try:
+            return np.isfinite(kernel.corrected(mixture, linearised, measured, variance).mixture.mean)
+        except np.linalg.LinAlgError:
+            return np.zeros_like(mixture.mean, dtype=bool)
+
+    with np.errstate(invalid="ignore"):
+        assert not both(known).any()
+
+
+@pytest.mark.parametrize(("chains", "modes", "n", "m"), SIZES)
 @pytest.mark.parametrize("switches", [False, True])
 def test_prediction_and_merging(chains: int, modes: int, n: int, m: int, switches: bool) -> None:
     rng = np.random.default_rng(8)
