@@ -24,14 +24,14 @@ def tell(fault: CarpusFault) -> None:
     print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
 
 
-class Shown(Protocol):
+class ShowProgress(Protocol):
     """Draws that ``done`` of ``total`` are done (None where nobody knows), with a ``note`` behind it."""
 
     def __call__(self, done: int, total: int | None, note: str = "") -> None: ...
 
 
 @contextmanager
-def bar(what: str, unit: str = "frame") -> Iterator[Shown]:
+def bar(what: str, unit: str = "frame") -> Iterator[ShowProgress]:
     """A bar with how fast it goes and the time left, which goes when the work is over; nothing where stderr is no
     terminal. Of work that took long one line stays, of any."""
     from tqdm import tqdm  # as long to load as a tenth of the tracker
