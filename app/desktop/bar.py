@@ -168,7 +168,7 @@ class Bar(QObject):
         else:
             self._shell.bar.camera.show_state("warn" if few else "good", words)
         minutes = counters.disk_minutes_left
-        if minutes == minutes:
+        if minutes < 30.0 or (counters.recording and minutes == minutes):  # before, pictures are not in it
             state = "bad" if minutes < 10.0 else "warn" if minutes < 30.0 else "none"
             words = self.tr("{time} of disk left").format(time=numbers.room_left(minutes))
             self._shell.bar.disk.show_state(state, words, icon="hard-drive")  # type: ignore[arg-type]
