@@ -12140,6 +12140,10 @@ Umschalt+F8 von der Seite</translation>
         <translation>{angle}, passiv</translation>
     </message>
     <message>
+        <source>Simulated hand</source>
+        <translation>Simulierte Hand</translation>
+    </message>
+    <message>
         <source>Not measured here</source>
         <translation>Hier nicht gemessen</translation>
     </message>

@@ -12140,6 +12140,10 @@ Maiusc+F8 di lato</translation>
         <translation>{angle}, passiva</translation>
     </message>
     <message>
+        <source>Simulated hand</source>
+        <translation>Mano simulata</translation>
+    </message>
+    <message>
         <source>Not measured here</source>
         <translation>Qui non misurato</translation>
     </message>

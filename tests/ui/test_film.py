@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections.abc import Iterator
@@ -22,7 +23,7 @@ from carpus.core.output.exercises import exercise_named
 from carpus.core.output.hand_cutout import FLAT, box_of, cut_out, drawn_angle
 from carpus.core.output.repetition_rows import PASSIVE
 from carpus.core.session.values import Session
-from carpus.core.types import ByteImage, TrackStatus
+from carpus.core.types import SIMULATED, ByteImage, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.review.film import STILL, FilmWanted, film_pictures
@@ -155,6 +156,14 @@ def test_without_agreement_or_pictures_there_is_no_film(qtbot: QtBot, theme: The
     qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
     qtbot.keyClick(sheet, Qt.Key.Key_Return)
     assert wanted[-1].words(wanted[-1].rows[0]).endswith("°, passive"), "no figure passes for the patient's own"
+    session = screen._session
+    assert session is not None
+    screen._session = replace(
+        session, header=replace(session.header, parameters=json.dumps({"source": {SIMULATED: "yes"}}))
+    )
+    screen._film(STILL)
+    assert wanted[-1].words(wanted[-1].rows[0]).endswith("°, passive · Simulated hand"), "nor a drawing for a patient"
+    screen._session = session
     screen.ask_film()
     assert not sheet.agreed.isChecked(), "agreement is given anew each time"
     sheet.begin(4, doubtful=True)

@@ -656,6 +656,9 @@ class ReviewScreen(QWidget):
         exercise, words = self.figures.exercise, {row: self._angle_words(row) for row in rows}
         if self.figures.repetitions[self._current].helped:  # it would pass for what the patient can do
             words = {row: said and self.tr("{angle}, passive").format(angle=said) for row, said in words.items()}
+        if session.header.simulated:
+            nobodys = self.tr("Simulated hand")
+            words = {row: f"{said} · {nobodys}" if said else nobodys for row, said in words.items()}
         self.film.emit(
             FilmWanted(session, self._session_id, self._current + 1, rows, rate_hz, exercise, lambda row: words[row])
         )
