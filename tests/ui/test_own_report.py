@@ -245,7 +245,7 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(qtbot: QtBot, theme
     assert not sheet.ticks["FIST_HOOK"].isEnabled(), "there is room for three"
     qtbot.keyClick(sheet, Qt.Key.Key_Return)
     assert [task.exercise.id for task in asked[0].tasks] == ["WRIST_FE", "FIST_COMPOSITE", "THUMB_OPP"]
-    assert asked[0].again == date(2026, 11, 27)
+    assert asked[0].again is None, "nobody chose a day"
     sheet.times.setValue(42)
     sheet.begin(report(), date(2026, 11, 20))
     assert sheet.times.value() == 10, "what the last patient was told is nobody else's"

@@ -86,8 +86,8 @@ class HomeSheet(Sheet):
         return field
 
     def begin(self, report: SessionReport, today: date, last: HomePlan | None = None) -> None:
-        """Ask; ``last`` what the patient was given before, without which what was trained today is ticked, and the
-        appointment is in a week."""
+        """Ask; ``last`` what the patient was given before, without which what was trained today is ticked.
+        No appointment is guessed."""
         self._report, self._today = report, today
         trained = last.exercises if last is not None else (report.figures.exercise.id,)
         for name, tick in self.ticks.items():
@@ -102,7 +102,7 @@ class HomeSheet(Sheet):
         self.day.addItems([self.tr("No appointment yet"), *self._days])
         self.day.setCompleter(None)  # type: ignore[arg-type]  # it would put a day in place of one that is typed
         holds = last is not None and (last.made == today if last.again is None else last.again > today)
-        again = last.again if holds and last is not None else today + timedelta(days=7)
+        again = last.again if holds and last is not None else None
         self.day.setCurrentIndex(0)
         if again is not None:
             words = numbers.short_date(again)
