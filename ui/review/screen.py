@@ -200,7 +200,7 @@ class ReviewScreen(QWidget):
         right.addWidget(self.curves, 1)
         right.addWidget(self.ways, 1)
         top.addLayout(right, 736)
-        card = Card(self._theme, 20)
+        card = self._card = Card(self._theme, 20)
         said = self._said = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         said.setSpacing(12)
         said.addWidget(self.title)
@@ -461,6 +461,7 @@ class ReviewScreen(QWidget):
         """What is left for the tables when all else keeps its least height; the card must not be pushed together."""
         whole, width = self.layout(), self.width()
         assert whole is not None
+        self._card.body.activate()  # its line may just have become two, and its widget keeps the height it had before
         whole.invalidate()  # the text may just have become larger
         least = whole.minimumHeightForWidth(width) if whole.hasHeightForWidth() else whole.minimumSize().height()
         return self.height() - (least - self._scroll.minimumHeight())
