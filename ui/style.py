@@ -50,6 +50,12 @@ LockSheet {{ background: {canvas}; }}
 QLineEdit QLabel {{ color: {text2}; }}
 Surface#bar {{ border-radius: 2px; }}
 Surface#badge {{ border-radius: {badge}px; }}
+Surface#dot {{ border-radius: 6px; }}
+RecordingPill {{ border-radius: {pill}px; }}
+KeyCaps Surface {{ border-radius: 4px; }}
+MarkerRow {{ border: 0; border-left: 3px solid transparent; border-bottom: 1px solid {line}; }}
+MarkerRow:checked {{ background: {soft}; border-left-color: {accent}; }}
+MarkerRow QLabel#value {{ color: {text2}; }}
 FocusRing {{ border: 2px solid {accent}; border-radius: {ring}px; }}
 """
 _OF_TOKEN = """
@@ -58,7 +64,7 @@ Surface[edge="{name}"] {{ border: 1px solid {value}; }}
 Surface[under="{name}"] {{ border-bottom: 1px solid {value}; }}
 """
 
-_SHEET_TOKENS = ("surface", "text", "text2", "border", "accent", "on_accent", "soft", "canvas")
+_SHEET_TOKENS = ("surface", "text", "text2", "border", "accent", "on_accent", "soft", "canvas", "line")
 
 
 def apply_style(application: QApplication, theme: Theme) -> None:
@@ -80,7 +86,8 @@ def apply_style(application: QApplication, theme: Theme) -> None:
     colors = {name: getattr(tokens, name) for name in _SHEET_TOKENS}
     sizes = {
         "pad": 12, "pad_focus": 11, "field": theme.px(38), "row": theme.px(36), "card": CARD_RADIUS_PX,
-        "ring": CONTROL_RADIUS_PX + FOCUS_OUTSIDE_PX, "badge": theme.px(34), "dim": DIM_ALPHA[theme.name],
+        "ring": CONTROL_RADIUS_PX + FOCUS_OUTSIDE_PX, "badge": theme.px(34),
+        "pill": theme.px(40) // 2, "dim": DIM_ALPHA[theme.name],
     }  # fmt: skip
     surfaces = "".join(_OF_TOKEN.format(name=one.name, value=getattr(tokens, one.name)) for one in fields(tokens))
     with as_file(files("carpus.resources").joinpath("icons", f"chevron-down-{theme.name}.svg")) as chevron:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QWidget
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy
 
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.plot.beside import BesidePlot
+from carpus.ui.plot.still import StillPlot
 from carpus.ui.plot.style import screen_style
 from carpus.ui.theme import Theme
 
@@ -41,34 +42,27 @@ class MeanCard(Card):
         self.curves.sought.connect(self.sought)
 
 
-class MeanCurves(QWidget):
+class MeanCurves(StillPlot):
     """Paints one plot, or nothing."""
 
     sought = Signal(float)
 
     def __init__(self, theme: Theme) -> None:
-        super().__init__()
-        self._theme = theme
-        self._plot: BesidePlot | None = None
+        super().__init__(theme)
+        self.plot: BesidePlot | None = None
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAccessibleName(self.tr("Mean repetition of both sessions"))
         theme.changed.connect(self.update)
 
-    @property
-    def plot(self) -> BesidePlot | None:
-        """What is shown."""
-        return self._plot
-
     def show_plot(self, plot: BesidePlot | None) -> None:
         """Draw another one."""
-        self._plot = plot
-        self.update()
+        self.plot = plot
+        self.show_painted(None if plot is None else plot.paint)
 
     def show_shares(self, shares: tuple[float, float]) -> None:
         """Where the player is in the repetition of each."""
-        if self._plot is not None and shares != self._plot.shares:
-            self._plot = replace(self._plot, shares=shares)
-            self.update()
+        if self.plot is not None and shares != self.plot.shares:
+            self.show_plot(replace(self.plot, shares=shares))
 
     def sizeHint(self) -> QSize:
         return QSize(540, 200)
@@ -77,12 +71,8 @@ class MeanCurves(QWidget):
         return QSize(self._theme.px(300), self._theme.px(104))
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        if self._plot is not None and event.button() == Qt.MouseButton.LeftButton:
-            panel = self._plot.panel(screen_style(self._theme), QRectF(self.rect()))
+        if self.plot is not None and event.button() == Qt.MouseButton.LeftButton:
+            panel = self.plot.panel(screen_style(self._theme), QRectF(self.rect()))
             share = (event.position().x() - panel.box.left()) / max(panel.box.width(), 1.0)
             if -0.02 <= share <= 1.02:
                 self.sought.emit(min(max(share, 0.0), 1.0))
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        if self._plot is not None:
-            self._plot.paint(QPainter(self), screen_style(self._theme), QRectF(self.rect()))

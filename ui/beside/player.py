@@ -11,7 +11,8 @@ from carpus.core.output.report_content import ShownRepetition
 from carpus.ui import numbers
 from carpus.ui.beside.words import step_words
 from carpus.ui.controls.button import Button, icon_button
-from carpus.ui.controls.card import Card, KeyCaps
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.key_caps import KeyCaps
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text
 from carpus.ui.review.player import SPEEDS, Scrubber
 from carpus.ui.theme import Theme

@@ -53,6 +53,12 @@ class Text(QLabel):
         super().setText(text)
         self._leave_room()
 
+    def set_look(self, token: str, weight: int) -> None:
+        """Another colour and weight."""
+        if (token, weight) != (self._token, self._weight):
+            self._token, self._weight = token, weight
+            self._take_theme()
+
     def showEvent(self, event: QShowEvent) -> None:
         # A label that was not on a screen yet when the colours changed is given its old ones back by the style sheet.
         self._take_theme()

@@ -16,8 +16,8 @@ from carpus.core.words import marker_in_words
 from carpus.ui import terms
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import KeyCaps
 from carpus.ui.controls.default_answer import ENTER
+from carpus.ui.controls.key_caps import KeyCaps
 from carpus.ui.controls.text import MEDIUM, REGULAR, StateText, Text, heading
 from carpus.ui.hand_drawing import HandDrawing, MarkerState
 from carpus.ui.keys import Keys, bind

@@ -83,15 +83,20 @@ class Photo(QWidget):
     def sizeHint(self) -> QSize:
         return QSize(280, self._height_px)
 
+    def place(self) -> tuple[QRectF, QPointF]:
+        """Room of the picture, and where its label is."""
+        return QRectF(self.rect()), QPointF(10, 10)
+
     def paintEvent(self, event: QPaintEvent) -> None:
         if self._image is None:
             return
+        room, label = self.place()
         painter = QPainter(self)
         painter.setRenderHints(QPainter.RenderHint.Antialiasing | QPainter.RenderHint.SmoothPixmapTransform)
         frame = QPainterPath()
         frame.addRoundedRect(QRectF(self.rect()), CARD_RADIUS_PX, CARD_RADIUS_PX)
         painter.setClipPath(frame)
         painter.fillRect(self.rect(), QColor(ON_PICTURE_LABEL))
-        painter.drawImage(fitted(self._image.size(), QRectF(self.rect())), self._image)
+        painter.drawImage(fitted(self._image.size(), room), self._image)
         if self._label:
-            paint_label(painter, self._theme, self._label, 10, 10)
+            paint_label(painter, self._theme, self._label, label.x(), label.y())

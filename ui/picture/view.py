@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath, QPaintEvent
+from PySide6.QtGui import QColor, QImage, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.core.types import ByteImage, FloatArray
@@ -149,18 +149,27 @@ class PictureView(QWidget):
         if self._image is None:
             painter.setPen(QColor("#A9B6B9"))
             painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, self.empty_words)
-            return
+        else:
+            self._paint_picture(painter, self._image)
+        if self.hasFocus() and self.property("shows_own_focus"):
+            painter.setPen(QPen(self._theme.color("accent"), 2))
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), CARD_RADIUS_PX, CARD_RADIUS_PX)
+
+    def _paint_picture(self, painter: QPainter, image: QImage) -> None:
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
-        size = self._image.size()
+        size = image.size()
         target = QRectF(self._offset.x(), self._offset.y(), size.width() * self._scale, size.height() * self._scale)
         visible = target.intersected(QRectF(self.rect()))
         source = QRectF(
             (visible.left() - target.left()) / self._scale, (visible.top() - target.top()) / self._scale,
             visible.width() / self._scale, visible.height() / self._scale,
         )  # fmt: skip
-        painter.drawImage(visible, self._image, source)
+        painter.drawImage(visible, image, source)
         if self.overlay is not None:
+            painter.save()
             self.overlay(painter, self)
+            painter.restore()
 
     def paint_area_label(self, painter: QPainter) -> None:
         """``Hand area ×2.2`` or ``Whole picture`` in the corner."""

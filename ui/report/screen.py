@@ -6,12 +6,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, QUrl, Signal
-from PySide6.QtGui import QColor, QDesktopServices, QPainter, QPaintEvent, QPixmap
+from PySide6.QtGui import QColor, QDesktopServices, QPainter, QPixmap
 from PySide6.QtPrintSupport import QPrintDialog
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
 from carpus.core.durable import replace_file
-from carpus.core.output.report_form import PAPER_PT
+from carpus.core.output.report_form import PAPER_PT, ReportForm
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
@@ -267,32 +267,28 @@ class PagePreview(QWidget):
         super().__init__()
         self._theme = theme
         self._report: Report | None = None
-        self._still: list[QPixmap] = []
+        self._sheets: list[QLabel] = []
         policy = QSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
-        theme.changed.connect(self._forget)
+        theme.changed.connect(self._lay_out)
 
     def show_report(self, report: Report) -> None:
         """Show another page."""
         self._report = report
-        self._forget()
+        self._lay_out()
 
-    def _forget(self) -> None:
-        self._still = []
-        self.updateGeometry()
-        self.update()
-
-    def _page_width(self, width: int) -> int:
-        return min(width - 16, round(WIDEST_PX * self._theme.text_scale))
+    def _page_size(self, width: int) -> QSize:
+        paper = PAPER_PT["a4" if self._report is None else self._report.form.paper]
+        wide = min(width - 16, round(WIDEST_PX * self._theme.text_scale))
+        return QSize(wide, round(wide * paper[1] / paper[0]))
 
     def hasHeightForWidth(self) -> bool:
         return True
 
     def heightForWidth(self, width: int) -> int:
         count = 1 if self._report is None else len(pages_of(self._report))
-        paper = PAPER_PT["a4" if self._report is None else self._report.form.paper]
-        return count * (round(self._page_width(width) * paper[1] / paper[0]) + GAP_PX)
+        return count * (self._page_size(width).height() + GAP_PX)
 
     def sizeHint(self) -> QSize:
         return QSize(800, self.heightForWidth(max(self.width(), 400)))
@@ -301,32 +297,34 @@ class PagePreview(QWidget):
         return QSize(360, self.heightForWidth(max(self.width(), 360)))
 
     def resizeEvent(self, event) -> None:  # type: ignore[no-untyped-def]
-        self._forget()
+        self._lay_out()
 
-    def paintEvent(self, event: QPaintEvent) -> None:
-        if self._report is None:
+    def showEvent(self, event) -> None:  # type: ignore[no-untyped-def]
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        """Paint each page anew, where anybody sees it."""
+        self.updateGeometry()
+        if self._report is None or not self.isVisible():
             return
-        if not self._still:
-            paper = PAPER_PT[self._report.form.paper]
-            self._still = [self._paint_still(paint, paper) for paint in pages_of(self._report)]
-        painter = QPainter(self)
-        top = 0
-        for still in self._still:
-            page = still.deviceIndependentSize()
-            left = round((self.width() - page.width()) / 2)
-            painter.drawPixmap(left, top, still)
-            painter.setPen(self._theme.color("line"))
-            painter.drawRect(left, top, round(page.width()) - 1, round(page.height()) - 1)
-            top += round(page.height()) + GAP_PX
+        size, paints = self._page_size(self.width()), pages_of(self._report)
+        while len(self._sheets) < len(paints):
+            self._sheets.append(QLabel(self))
+        for number, sheet in enumerate(self._sheets):
+            sheet.setVisible(number < len(paints))
+            left, top = (self.width() - size.width()) // 2, number * (size.height() + GAP_PX)
+            sheet.setGeometry(left, top, size.width(), size.height())
+            if number < len(paints):
+                sheet.setPixmap(self._painted(paints[number], size, self._report.form))
 
-    def _paint_still(self, paint: Callable[[Page], None], paper: tuple[float, float]) -> QPixmap:
+    def _painted(self, paint: Callable[[Page], None], size: QSize, form: ReportForm) -> QPixmap:
         ratio = self.devicePixelRatioF()
-        width = self._page_width(self.width())
-        height = width * paper[1] / paper[0]
-        picture = QPixmap(round(width * ratio), round(height * ratio))
+        picture = QPixmap(size * ratio)
         picture.setDevicePixelRatio(ratio)
         picture.fill(QColor("#FFFFFF"))
         painter = QPainter(picture)
-        paint(Page(painter, width / paper[0]))
+        paint(Page(painter, size.width() / PAPER_PT[form.paper][0]))
+        painter.setPen(self._theme.color("line"))
+        painter.drawRect(0, 0, size.width() - 1, size.height() - 1)
         painter.end()
         return picture

@@ -11,7 +11,8 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QWidget
 from carpus.core.output.report_content import ShownRepetition
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button, icon_button
-from carpus.ui.controls.card import Card, KeyCaps
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.key_caps import KeyCaps
 from carpus.ui.controls.text import MEDIUM, Text
 from carpus.ui.theme import Theme
 
