@@ -6,7 +6,7 @@ from pathlib import Path
 
 from carpus.app.settings import load_sound_settings, sessions_folder
 from carpus.core.library.set_up import PRACTICE_PATIENT
-from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
 
 STORE_FILE = "records.sqlite3"

@@ -37,13 +37,13 @@ from carpus.core.formats.csv_tables import repetition_table, tables
 from carpus.core.formats.export import Exported, Wanted, export_sessions
 from carpus.core.formats.formats import FORMATS
 from carpus.core.formats.provenance import provenance
+from carpus.core.hand.exercises import EXERCISES
 from carpus.core.hand.protocols import protocol_named
 from carpus.core.hand.sites import SITES
-from carpus.core.output.exercises import EXERCISES
-from carpus.core.output.measures_table import measure_rows
-from carpus.core.output.report_content import SessionFigures, session_figures
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, track_recording, walk_of
+from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.measures_table import measure_rows
 from carpus.core.session import reader
 from carpus.core.session.values import Session
 from carpus.core.simulation import recording
@@ -148,7 +148,7 @@ class OpenedSession(Session):
         return {name: _framed(pandas, columns, self) for name, columns in found.items()}
 
     def measures(self) -> Sequence[Any]:
-        """Every figure with its unit, as :class:`core.output.measures_table.MeasureRow`, of the repetitions that count:
+        """Every figure with its unit, as :class:`core.results.measures_table.SessionFigure`, of repetitions that count:
         what a person left out or moved in the review is kept beside the file."""
         return measure_rows(self._figures(), self.path.stem)
 

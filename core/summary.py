@@ -16,10 +16,11 @@ from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.capture.tum import TumFolder
 from carpus.core.check_card.trust import camera_of
 from carpus.core.depth_sensor import ASSUMED, DepthSensor
+from carpus.core.hand.exercises import SIDES
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.output.exercises import SIDES
-from carpus.core.output.range_rows import is_total
-from carpus.core.output.report_content import RepetitionChoices, session_figures
+from carpus.core.results.figures import session_figures
+from carpus.core.results.ranges import is_total
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import has_raw
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray, TrackStatus

@@ -29,6 +29,12 @@ NO_CHOICE = {
         "detection/detector._NEAREST_M",
         "tracking/surface_fit._NO_NOISE",
     },
+    "what is asked of a hand and how it is drawn; no angle is made of it": {
+        "hand/exercises.AXIS_LIMIT_DEG",
+        "hand/exercises.AXIS_TICK_DEG",
+        "hand/exercises.EXERCISES",
+        "hand/exercises.STILL_RADIUS_MM",
+    },
     "mathematics": {
         "tracking/digit_association._LOG_2_PI",
         "tracking/joint_limits._ROOT_2_OVER_PI",

@@ -10,7 +10,7 @@ import pytest
 
 from carpus.core.capture.tum import TumFolder
 from carpus.core.hand.protocols import HAND21
-from carpus.core.output.report_content import session_figures
+from carpus.core.results.figures import session_figures
 from carpus.core.session.reader import read_session
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import motion_of

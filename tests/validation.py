@@ -30,9 +30,9 @@ from carpus.app.batch.processes import outcomes
 from carpus.app.batch.work import Task
 from carpus.core.agreement.retest import StudyFigures, studies
 from carpus.core.agreement.study import AgreementStudy, read_table, study_lines, study_of
-from carpus.core.output.report_content import session_figures
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.provenance import revision
+from carpus.core.results.figures import session_figures
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec

@@ -15,10 +15,11 @@ from carpus.core.calibration.result import Calibration, CalibrationFinding, Clic
 from carpus.core.camera import Camera
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.library.set_up import SetUp
-from carpus.core.output.camera_said import CameraSaid
-from carpus.core.output.report_content import RepetitionChoices, SessionFigures
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, StartMode, TrackedView
 from carpus.core.records.values import AffectedSide, Dominance, Onset, PatientEntry
+from carpus.core.results.camera_said import CameraSaid
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import AngleOrder, Session
 from carpus.core.spot_answer import SpotAnswer
 from carpus.core.types import ByteImage, FloatArray, Frame, Side, TrackedFrame
@@ -49,7 +50,7 @@ class PatientRow:
 
 @dataclass(frozen=True, slots=True)
 class ResultLine:
-    """The last result of one movement; ``verdict`` as of :mod:`core.output.report_content`."""
+    """The last result of one movement; ``verdict`` as of :mod:`core.results.progress`."""
 
     movement: str
     mean_deg: float

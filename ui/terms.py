@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from datetime import date
 
+from carpus.core.hand.exercises import SIDES, known_exercise
 from carpus.core.hand.marker_protocol import MarkerProtocol
-from carpus.core.output.exercises import SIDES, known_exercise
 from carpus.core.types import FloatArray
 from carpus.ui import numbers
 from carpus.ui.translate import say, tr

@@ -21,10 +21,10 @@ from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Verdict
 from carpus.core.capture.identity import Recorded
 from carpus.core.errors import CarpusFault, IntrinsicsAssumed, OutputBusy, OutputNotWritable
-from carpus.core.output.measures_table import SessionFigure, measure_rows
-from carpus.core.output.report_content import session_figures
 from carpus.core.pipeline.told_settings import differences, settings_told
 from carpus.core.pipeline.track import TrackSettings, retrack_session, track_recording
+from carpus.core.results.figures import session_figures
+from carpus.core.results.measures_table import SessionFigure, measure_rows
 from carpus.core.session import heartbeat
 from carpus.core.session.disk import is_being_written, target_of_part
 from carpus.core.session.reader import read_session

@@ -41,8 +41,8 @@ def run(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.core.agreement.limits_file import read_limits
     from carpus.core.formats.measures_files import HEAD, csv_rows, write_measures
-    from carpus.core.output.measures_table import measure_rows
-    from carpus.core.output.report_content import newest_results
+    from carpus.core.results.measures_table import measure_rows
+    from carpus.core.results.progress import newest_results
 
     for path in arguments.output:
         if path.exists():
@@ -82,7 +82,7 @@ def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type:
     :class:`SessionsMissing` for none."""
     from carpus.app.of_file import read_choices
     from carpus.core.check_card.trust import folder_with_checks, with_trust
-    from carpus.core.output.report_content import session_figures
+    from carpus.core.results.figures import session_figures
     from carpus.core.session.reader import read_outline, read_session
 
     out = []

@@ -11,8 +11,8 @@ from carpus import __version__
 from carpus.app.commands.kept import made
 from carpus.app.settings import ANGLE_ORDERS, load_settings
 from carpus.core.errors import OutputExists
-from carpus.core.output.angle_order import in_order
-from carpus.core.output.report_form import PAPERS
+from carpus.core.results.angle_order import in_order
+from carpus.core.results.report_form import PAPERS
 from carpus.core.session.reader import read_session
 
 EXAMPLE = "carpus report session.h5 --output report.pdf --language de"
@@ -47,7 +47,8 @@ def run(arguments: argparse.Namespace) -> int:
     from carpus.app.of_file import read_choices, read_comment
     from carpus.core.agreement.limits_file import read_limits
     from carpus.core.check_card.trust import camera_of, folder_with_checks
-    from carpus.core.output.report_content import newest_results, session_figures
+    from carpus.core.results.figures import session_figures
+    from carpus.core.results.progress import newest_results
     from carpus.ui.report.pdf import ensure_application, write_progress_report, write_session_report
 
     choices = [read_choices(path) for path in arguments.sessions]

@@ -95,7 +95,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _read(places: list[Path], named: dict[str, str]) -> tuple[list, dict[str, str]]:  # type: ignore[type-arg]
     """Figures of all sessions that can be read, and their raters by session id."""
     from carpus.app.of_file import read_choices
-    from carpus.core.output.report_content import session_figures
+    from carpus.core.results.figures import session_figures
     from carpus.core.session.reader import read_session
 
     figures, raters, met = [], {}, set()

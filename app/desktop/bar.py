@@ -13,8 +13,8 @@ from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.phrases import shortened
 from carpus.app.desktop.places import STEPS, TABS, UNDER_TABS, Place
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.output.report_content import SessionFigures
 from carpus.core.pipeline.live_values import LiveCounters
+from carpus.core.results.figures import SessionFigures
 from carpus.ui import numbers, terms
 from carpus.ui.icons import State
 from carpus.ui.ports import Phrasebook

@@ -25,10 +25,10 @@ from carpus.core.agreement.reference import (
     outline_of,
 )
 from carpus.core.agreement.watch import Stopped, WorkWatch
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.sites import PALM_MARKERS, WRIST_ANGLES
-from carpus.core.output.exercises import exercise_named
-from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records.values import SessionEntry
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.ui import numbers, terms
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet, missing
 from carpus.ui.agreement.screen import AgreementScreen

@@ -13,10 +13,10 @@ from PySide6.QtCore import QObject, Signal
 from carpus import __version__
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.library.corrections import Corrections, Difference, Waiting, difference
-from carpus.core.output.joint_content import joint_curves
-from carpus.core.output.report_content import session_curves, session_figures
 from carpus.core.pipeline.correcting import correct_beside
 from carpus.core.pipeline.correction import not_held, task_of
+from carpus.core.results.figures import session_figures
+from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.corrected import corrections_in
 from carpus.core.session.marker_places import Correction
 from carpus.core.session.values import Session, SessionHeader

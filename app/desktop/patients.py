@@ -9,9 +9,10 @@ from carpus.core.errors import SessionUnreadable
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.library.set_up import PRACTICE_PATIENT
-from carpus.core.output.report_content import SessionFigures, compare, compare_rows, unfair_reasons
 from carpus.core.records import of_clinic
 from carpus.core.records.values import PatientEntry, PatientRecord
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.progress import compare, compare_rows, unfair_reasons
 from carpus.ui.ports import MOST_ROWS, PatientCard, PatientRow, ResultLine, SessionRow
 from carpus.ui.report.further_rows import main_words
 from carpus.ui.report.hand_rows import compared_figures

@@ -23,12 +23,14 @@ from carpus.core.by_hand.table import COLUMNS, rows_of
 from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.formats.new_output import plain_cell
-from carpus.core.output.camera_said import CameraSaid
-from carpus.core.output.goals import Goals
-from carpus.core.output.report_content import Progress, RepetitionChoices, SessionFigures
-from carpus.core.output.report_form import ReportForm
 from carpus.core.private import private
 from carpus.core.records.values import HomePlan
+from carpus.core.results.camera_said import CameraSaid
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.goals import Goals
+from carpus.core.results.progress import Progress
+from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.report_form import ReportForm
 from carpus.core.session.values import Session
 from carpus.ui.background import Background
 from carpus.ui.export.sheet import ExportSheet

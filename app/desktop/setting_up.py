@@ -17,11 +17,11 @@ from carpus.app.desktop.sources import OpenSource
 from carpus.app.desktop.ways import FindPatient, Tell, Way
 from carpus.core.calibration.result import Verdict
 from carpus.core.capture.raw import MB_PER_MINUTE
+from carpus.core.hand.exercises import EXERCISES
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
-from carpus.core.output.exercises import EXERCISES
-from carpus.core.output.goals import Goals
-from carpus.core.output.report_content import SessionFigures
 from carpus.core.records.values import SessionEntry
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.goals import Goals
 from carpus.core.types import ByteImage, Side
 from carpus.core.words import Words
 from carpus.ui import numbers

@@ -14,7 +14,7 @@ from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.places import TABS
 from carpus.app.desktop.ways import FindPatient, Tell, Way
 from carpus.core.errors import SessionUnreadable
-from carpus.core.output.exercises import exercise_named
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.records.values import SessionEntry
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.review.screen import ReviewScreen

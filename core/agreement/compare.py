@@ -17,9 +17,9 @@ from carpus.core.errors import ReferenceUnsuited
 from carpus.core.hand.clinical_angles import angles_from_rotation, rotation_from_angles
 from carpus.core.hand.sites import PALM_MARKERS, WRIST_ANGLES
 from carpus.core.measures.signals import Signal, low_pass
-from carpus.core.output.range_rows import best_motion
-from carpus.core.output.report_content import SessionFigures
 from carpus.core.phrase import phrase
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.seen import best_motion
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray, TrackStatus
 

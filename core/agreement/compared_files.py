@@ -12,8 +12,9 @@ from carpus.core.agreement.reference import read_reference
 from carpus.core.agreement.tables import write_tables
 from carpus.core.agreement.watch import UNWATCHED, WorkWatch
 from carpus.core.formats.provenance import provenance
-from carpus.core.output.report_content import RepetitionChoices, session_figures
 from carpus.core.provenance import sha256_of_file
+from carpus.core.results.figures import session_figures
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
 

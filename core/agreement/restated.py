@@ -8,8 +8,9 @@ from datetime import datetime
 
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.error_limits import FEWEST_PEOPLE, ErrorLimits, RetestStudy
-from carpus.core.output.range_rows import RowKey
-from carpus.core.output.report_content import Comparison, SessionFigures, Verdict, progress
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.progress import Comparison, Verdict, progress
+from carpus.core.results.ranges import RowKey
 
 
 @dataclass(frozen=True, slots=True)

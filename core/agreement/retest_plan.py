@@ -9,7 +9,7 @@ from typing import Literal
 
 from carpus.core.agreement.retest import MOST_DAYS, StudyFigures, studies
 from carpus.core.measures.error_limits import FEWEST_PEOPLE
-from carpus.core.output.report_content import SessionFigures
+from carpus.core.results.figures import SessionFigures
 from carpus.core.types import Side
 
 State = Literal["complete", "due", "too_late", "missing"]

@@ -22,9 +22,9 @@ from carpus.core.agreement.statistics import Agreement, Between, agreement_of_pe
 from carpus.core.agreement.tables import HEAD, cell, figure_lines, row_of
 from carpus.core.errors import CarpusFault, ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.formats.new_output import new_json, new_table
-from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.phrase import phrase
 from carpus.core.provenance import sha256_of_file
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.words import one_sentence
 
 NEEDED = ("person", "session", "reference")

@@ -11,13 +11,7 @@ from carpus.core.capture.openni2 import CallFailed, Context, Device, DevicePrope
 from carpus.core.capture.unseen_camera import why_unlisted
 from carpus.core.capture.usb_devices import UsbCamera, usb_cameras
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
-from carpus.core.errors import (
-    CameraBusy,
-    CameraMissing,
-    CameraPermission,
-    CameraUnsuited,
-    DriverFailed,
-)
+from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CameraUnsuited, DriverFailed
 
 
 def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:

@@ -8,13 +8,7 @@ import threading
 from carpus.core.capture.camera_plan import CameraPlan
 from carpus.core.capture.capture_messages import Broken
 from carpus.core.capture.capture_process import WAIT_MS, GaveUp, Heard, Outlet
-from carpus.core.capture.openni2 import (
-    CallFailed,
-    Context,
-    Picture,
-    Stream,
-    StreamProperty,
-)
+from carpus.core.capture.openni2 import CallFailed, Context, Picture, Stream, StreamProperty
 from carpus.core.capture.openni2_opening import open_camera
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
 from carpus.core.errors import DriverFailed

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from carpus.core.cameras_folder import CAMERAS
 from carpus.core.check_card.chart import CardCheck, chart_path, read_checks
-from carpus.core.output.camera_said import CameraSaid, camera_said
-from carpus.core.output.report_content import SessionFigures
+from carpus.core.results.camera_said import CameraSaid, camera_said
+from carpus.core.results.figures import SessionFigures
 from carpus.core.session.values import Session
 
 CHECKED_AGAIN = timedelta(hours=1)

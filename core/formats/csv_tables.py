@@ -20,10 +20,10 @@ from carpus.core.by_hand.table import COLUMNS, rows_of
 from carpus.core.formats.new_output import new_json, new_table
 from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.output.measures_table import MEASURE_COLUMNS, SessionFigure, measure_rows, positive_of
-from carpus.core.output.motion_table import motion_columns
-from carpus.core.output.repetition_rows import trained_name
-from carpus.core.output.report_content import SessionFigures
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.measures_table import MEASURE_COLUMNS, SessionFigure, measure_rows, positive_of
+from carpus.core.results.motion_curves import motion_columns
+from carpus.core.results.repetition_rows import trained_name
 from carpus.core.session.values import Motion, RepetitionRow, Session
 from carpus.core.types import TrackStatus
 

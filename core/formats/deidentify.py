@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 from typing import Any
 
 from carpus.core.formats.provenance import OF_NO_ONE
-from carpus.core.output.exercises import EXERCISES
+from carpus.core.hand.exercises import EXERCISES
 from carpus.core.session.values import SET_UP, Event, Session, SessionHeader, SessionOutline
 
 DAY_NOUGHT = datetime(1900, 1, 1, tzinfo=UTC)

@@ -16,8 +16,8 @@ from carpus.core.formats.formats import FORMATS, Writer
 from carpus.core.formats.new_output import new_text
 from carpus.core.formats.provenance import LEGAL, provenance
 from carpus.core.formats.take import Take, about
-from carpus.core.output.repetition_rows import PASSIVE
-from carpus.core.output.report_content import RepetitionChoices, session_figures
+from carpus.core.results.figures import session_figures
+from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.session.values import Session
 

@@ -10,10 +10,10 @@ from carpus.core.by_hand.table import COLUMNS, rows_of
 from carpus.core.formats.csv_tables import repetition_table
 from carpus.core.formats.new_output import new_json
 from carpus.core.formats.take import ANGLES_MEAN, Take
-from carpus.core.output.exercises import SIDES, Movement
-from carpus.core.output.measures_table import measure_rows
-from carpus.core.output.norms import Norm, total_norm, wrist_norm
-from carpus.core.output.report_content import SessionFigures
+from carpus.core.hand.exercises import SIDES, Movement
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.measures_table import measure_rows
+from carpus.core.results.norms import Norm, total_norm, wrist_norm
 
 _OF_THE_SESSION = (
     "session", "session_id", "recording_id", "subject_id", "recorded", "simulated", "hand", "protocol", "exercise",

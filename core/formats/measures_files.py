@@ -13,7 +13,7 @@ from typing import Any
 
 from carpus.core.errors import ExtraMissing, OutputExists
 from carpus.core.formats.new_output import new_bytes, plain_cell
-from carpus.core.output.measures_table import SessionFigure
+from carpus.core.results.measures_table import SessionFigure
 
 PARQUET = ".parquet"
 ROWS_AT_ONCE = 10_000

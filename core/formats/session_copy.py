@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.formats.take import Take
-from carpus.core.output.repetition_rows import repetitions_of
+from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session.reader import read_detections
 from carpus.core.session.values import Session, moments_of
 from carpus.core.session.writer import SessionWriter

@@ -11,8 +11,8 @@ import numpy as np
 
 from carpus.core.by_hand.values import HandValue
 from carpus.core.formats.even import EvenTimes, even_times, rate_of
-from carpus.core.output.repetition_rows import on_clock
-from carpus.core.output.report_content import SessionFigures
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.repetition_rows import on_clock
 from carpus.core.session.values import Event, Session
 from carpus.core.types import FloatArray
 

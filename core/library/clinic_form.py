@@ -10,10 +10,10 @@ from typing import Any
 from sqlalchemy import Row, select
 
 from carpus.core.errors import ChangedMeanwhile
-from carpus.core.output.report_form import Letterhead, Paper, ReportForm
 from carpus.core.records.changes import changed, new
 from carpus.core.records.schema import REPORT_FORM
 from carpus.core.records.store import Store, is_kept_in
+from carpus.core.results.report_form import Letterhead, Paper, ReportForm
 
 _ID = "clinic"
 

@@ -13,11 +13,11 @@ import numpy as np
 from carpus.core.errors import OutputNotWritable, SessionUnreadable
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import MARKERS_SUFFIX
-from carpus.core.output.range_rows import best_motion
-from carpus.core.output.repetition_rows import PASSIVE, repetitions_of
 from carpus.core.private import make_private
 from carpus.core.records.session_list import TRIALS_FOLDER
 from carpus.core.records.values import SessionEntry
+from carpus.core.results.repetition_rows import PASSIVE, repetitions_of
+from carpus.core.results.seen import best_motion
 from carpus.core.session.disk import free_name
 from carpus.core.session.reader import read_detections, read_outline, read_session
 from carpus.core.session.values import DetectionTable, Session

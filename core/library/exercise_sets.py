@@ -8,10 +8,10 @@ from __future__ import annotations
 import uuid
 from dataclasses import dataclass, replace
 
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.library.set_up import Course, CoursePart, SetUp
-from carpus.core.output.exercises import exercise_named
-from carpus.core.output.goals import Goals
 from carpus.core.phrase import phrase
+from carpus.core.results.goals import Goals
 
 MOST_PARTS = 8
 MOST_NAME = 40

@@ -9,10 +9,10 @@ from typing import Any
 from sqlalchemy import Row, select
 
 from carpus.core.errors import ChangedMeanwhile
+from carpus.core.hand.exercises import EXERCISES, exercise_named
 from carpus.core.hand.protocols import protocol_names
 from carpus.core.library.exercise_sets import USUAL_SETS, ExerciseSet
 from carpus.core.library.set_up import CoursePart
-from carpus.core.output.exercises import EXERCISES, exercise_named
 from carpus.core.records.changes import changed, kept, new
 from carpus.core.records.schema import EXERCISE_SET
 from carpus.core.records.store import Store

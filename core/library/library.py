@@ -29,15 +29,11 @@ from carpus.core.errors import (
     SessionUnreadable,
 )
 from carpus.core.formats.export import Wanted, export_sessions
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.library.coming_home import bring_home, fallback_place
 from carpus.core.library.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
 from carpus.core.library.set_ups import keep_set_up, last_set_up
 from carpus.core.measures.error_limits import DEFAULT_LIMITS
-from carpus.core.output.angle_order import in_order
-from carpus.core.output.camera_said import CameraSaid
-from carpus.core.output.exercises import exercise_named
-from carpus.core.output.goals import Goals
-from carpus.core.output.report_content import NAMES_DOUBTED, RepetitionChoices, SessionFigures, session_figures
 from carpus.core.phrase import phrase
 from carpus.core.private import make_private
 from carpus.core.records import of_clinic, of_patients, of_sessions
@@ -50,6 +46,12 @@ from carpus.core.records.schema import PATIENT
 from carpus.core.records.session_list import FilesOfSessions, ListedSessions, free_path, look_for_share
 from carpus.core.records.store import Store
 from carpus.core.records.values import HomePlan, SessionEntry, entry_of, newest_results
+from carpus.core.results.angle_order import in_order
+from carpus.core.results.camera_said import CameraSaid
+from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.goals import Goals
+from carpus.core.results.progress import NAMES_DOUBTED
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import has_raw, read_outline, read_raw_color, read_session
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import AngleOrder, Session

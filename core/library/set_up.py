@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from carpus.core.hand.exercises import Exercise
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.protocols import protocol_named, protocol_names
-from carpus.core.output.exercises import Exercise
 from carpus.core.types import Side
 
 MARKERS_SUFFIX = ".markers.jpg"

@@ -7,10 +7,10 @@ from contextlib import suppress
 from sqlalchemy import select
 
 from carpus.core.errors import CarpusFault
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.library.exercise_sets import begun
 from carpus.core.library.kept_sets import read_sets
 from carpus.core.library.set_up import SetUp
-from carpus.core.output.exercises import exercise_named
 from carpus.core.records.changes import kept
 from carpus.core.records.of_patients import goal, goals, known, storable
 from carpus.core.records.patients import Patients

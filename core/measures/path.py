@@ -7,13 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from carpus.core.measures.noise import (
-    DIP_IN_SDS,
-    HIGHEST_CUTOFF_HZ,
-    LOWEST_OF_JERKS_HZ,
-    Noise,
-    cutoff_for_smoothness,
-)
+from carpus.core.measures.noise import DIP_IN_SDS, HIGHEST_CUTOFF_HZ, LOWEST_OF_JERKS_HZ, Noise, cutoff_for_smoothness
 from carpus.core.measures.signals import Signal, low_pass, rate_of_change
 from carpus.core.measures.smoothness import LEAST_PEAK_M_S, sparc, speed_peaks
 from carpus.core.types import FloatArray

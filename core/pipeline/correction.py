@@ -16,11 +16,11 @@ import numpy as np
 
 from carpus.core.calibration.calibrate import StillNoise
 from carpus.core.errors import NotCorrectable, OutputExists
-from carpus.core.output.repetition_rows import repetitions_of
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.said_again import answers_in, notes_in
 from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import Progress, TrackSettings, from_neutral, learnt_from, learnt_in, parameters_json
+from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session.corrected import CORRECTED, said_of
 from carpus.core.session.marker_places import SAME_SPOT_PX, Correction
 from carpus.core.session.reader import read_detections, read_session

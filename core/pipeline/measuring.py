@@ -25,7 +25,6 @@ from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.dates import iso
 from carpus.core.errors import DiskFull, EndStalled, ExtraMissing, NotLookedBack, RecordingEmpty
 from carpus.core.library.set_up import MARKERS_SUFFIX, SetUp
-from carpus.core.output.repetition_rows import repetitions_of
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.around_hand import AroundHand, HandArea
 from carpus.core.pipeline.channels import ChannelFull, NeverDrop
@@ -35,6 +34,7 @@ from carpus.core.pipeline.looking_back import LookingBack
 from carpus.core.pipeline.pieces import TrackedHand
 from carpus.core.pipeline.said_again import NOT_LOOKED_BACK
 from carpus.core.pipeline.track import Learnt, TrackSettings, build_walk, learnt_from, parameters_json, source_facts
+from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import Fallback, SessionWriter
 from carpus.core.spot_answer import SPOT_SAID, SpotAnswer

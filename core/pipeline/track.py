@@ -23,7 +23,6 @@ from carpus.core.depth_sensor import ASSUMED
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import DiskFull, OutputExists, RecordingEmpty
-from carpus.core.output.repetition_rows import repetitions_of
 from carpus.core.papers.neutral import as_written, by_the_discs
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.papers.tracker import PaperTracker
@@ -32,6 +31,7 @@ from carpus.core.pipeline.live import Listener
 from carpus.core.pipeline.said_again import answers_in, notes_in
 from carpus.core.pipeline.session_source import SessionPictures
 from carpus.core.provenance import revision, sha256_of_file, sha256_of_recording, sha256_of_settings
+from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session.plausible import check_calibration
 from carpus.core.session.reader import has_raw, read_detections, read_session
 from carpus.core.session.values import SET_UP, Event, Session, motion_of, new_header

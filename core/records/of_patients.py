@@ -14,11 +14,11 @@ from sqlalchemy import Row, select
 from carpus.core.by_hand.measures import MEASURES
 from carpus.core.by_hand.values import HandValue
 from carpus.core.dates import day_of
-from carpus.core.output.goals import Goals
 from carpus.core.records.changes import RowChange, kept, new
 from carpus.core.records.schema import GOAL, HOME_PLAN, MEASURED
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, moment
+from carpus.core.results.goals import Goals
 from carpus.core.types import Side
 
 

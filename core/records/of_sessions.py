@@ -13,11 +13,11 @@ from typing import Any, Literal
 
 from sqlalchemy import Row, select
 
-from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records.changes import changed, new
 from carpus.core.records.schema import COMMENT, CORRECTION, MADE
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import moment
+from carpus.core.results.repetition_rows import RepetitionChoices
 
 MOST_CHARACTERS = 20_000
 MadeKind = Literal["report", "export"]

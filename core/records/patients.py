@@ -15,16 +15,7 @@ from carpus.core.records.changes import PRACTICE, changed, new
 from carpus.core.records.pseudonyms import suggest_pseudonym
 from carpus.core.records.schema import PATIENT
 from carpus.core.records.store import Store, new_id
-from carpus.core.records.values import (
-    AGE_BANDS,
-    DOMINANCES,
-    ONSETS,
-    SIDES,
-    PatientEntry,
-    PatientRecord,
-    moment,
-    one_of,
-)
+from carpus.core.records.values import AGE_BANDS, DOMINANCES, ONSETS, SIDES, PatientEntry, PatientRecord, moment, one_of
 
 
 class Patients:

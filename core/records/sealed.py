@@ -19,17 +19,7 @@ from typing import BinaryIO
 from carpus.core.errors import BackupIncomplete, BackupUnreadable, SealRefused, TooLargeToSeal
 from carpus.core.formats.new_output import new_bytes
 from carpus.core.names import is_passphrase
-from carpus.core.records.backup import (
-    Backup,
-    Content,
-    Kept,
-    Progress,
-    backup_of,
-    check_place,
-    gather,
-    parsed,
-    told,
-)
+from carpus.core.records.backup import Backup, Content, Kept, Progress, backup_of, check_place, gather, parsed, told
 from carpus.core.records.database import STORE_FILE
 
 ENDING = ".tar.age"

@@ -17,12 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.hand.marker_protocol import MarkerProtocol
-from carpus.core.session.marker_places import (
-    FEWEST_FOR_PALM,
-    SAME_SPOT_PX,
-    expected_px,
-    laid_on_misfit_m,
-)
+from carpus.core.session.marker_places import FEWEST_FOR_PALM, SAME_SPOT_PX, expected_px, laid_on_misfit_m
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
 

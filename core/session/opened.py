@@ -16,13 +16,7 @@ from carpus.core.calibration.result import Calibration, CalibrationFinding, Clic
 from carpus.core.camera import COEFFICIENTS, Camera
 from carpus.core.dates import iso, time_of_day
 from carpus.core.depth_sensor import ASSUMED_SENSOR, DepthSensor, sensor_of
-from carpus.core.errors import (
-    CarpusFault,
-    ProtocolUnknown,
-    SessionChanged,
-    SessionUnfinished,
-    SessionUnreadable,
-)
+from carpus.core.errors import CarpusFault, ProtocolUnknown, SessionChanged, SessionUnfinished, SessionUnreadable
 from carpus.core.hand.back_surface import BackSurface
 from carpus.core.hand.protocols import protocol_named
 from carpus.core.phrase import phrase

@@ -22,8 +22,8 @@ from carpus.core.types import FloatArray
 def _most_nis(chance: float) -> tuple[float, ...]:
     """Quantiles of chi squared by degrees of freedom."""
     from scipy.special import (
-        gammaincinv,
-    )  # as long to load as all of NumPy, and asked for only where names are in doubt
+        gammaincinv,  # as long to load as all of NumPy, and asked for only where names are in doubt
+    )
 
     return (np.inf, *(2.0 * gammaincinv(0.5 * np.arange(1, 200), chance)).tolist())
 

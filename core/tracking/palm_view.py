@@ -15,15 +15,7 @@ from carpus.core import so3
 from carpus.core.camera import Camera
 from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.kernel import Linearisation, ModeMixture
-from carpus.core.tracking.palm_state import (
-    PALM_DISCS,
-    POSE,
-    SHAPE,
-    SIZE,
-    SKIN,
-    TURN,
-    PalmEstimate,
-)
+from carpus.core.tracking.palm_state import PALM_DISCS, POSE, SHAPE, SIZE, SKIN, TURN, PalmEstimate
 from carpus.core.tracking.unscented import Spread, make_roots, weights_for
 from carpus.core.types import FloatArray
 

@@ -21,7 +21,7 @@ from carpus.core.errors import ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.formats import c3d_write, mot, trc
 from carpus.core.formats.c3d_read import read_c3d
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.output.report_content import session_figures
+from carpus.core.results.figures import session_figures
 from carpus.core.session.values import Session
 from tests.formats.takes import take_of
 from tests.ui.fakes import session as flexing

@@ -28,8 +28,9 @@ from carpus.core.agreement.retest_plan import plan_of
 from carpus.core.errors import SettingsInvalid
 from carpus.core.library.library import Library
 from carpus.core.measures.error_limits import ErrorLimits, MeasuredLimit, RetestStudy
-from carpus.core.output.report_content import SessionFigures, compare, session_figures
 from carpus.core.records.values import PatientEntry
+from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.progress import compare
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter

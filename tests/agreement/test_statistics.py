@@ -10,14 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from carpus.core.agreement.statistics import (
-    agreement,
-    agreement_of_people,
-    cmc,
-    icc_2_1,
-    icc_3_1,
-    independent_count,
-)
+from carpus.core.agreement.statistics import agreement, agreement_of_people, cmc, icc_2_1, icc_3_1, independent_count
 
 
 def test_known_differences_give_known_figures() -> None:

@@ -19,7 +19,7 @@ from carpus.core.agreement.compare import Pairs
 from carpus.core.agreement.compared_files import compare_files
 from carpus.core.agreement.statistics import NOTHING, Between
 from carpus.core.agreement.study import OfPeople, _few
-from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from tests.formats.takes import stored
 

@@ -21,10 +21,10 @@ from carpus.core.library.corrections import Corrections, Waiting, difference
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.library.set_up import MARKERS_SUFFIX
-from carpus.core.output.repetition_rows import PASSIVE
-from carpus.core.output.report_content import RepetitionChoices, session_figures
 from carpus.core.pipeline.correction import CorrectionTask, correct, task_of
 from carpus.core.records.values import PatientEntry
+from carpus.core.results.figures import session_figures
+from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.ui.background import Background
 from carpus.ui.correct.results_sheet import ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen

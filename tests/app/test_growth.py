@@ -15,9 +15,9 @@ import pytest
 
 from carpus.core.capture.cameras import CAMERAS, camera_kind, kind_of
 from carpus.core.formats.formats import FORMATS
+from carpus.core.hand.exercises import EXERCISES, exercises_of
 from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_names
 from carpus.core.hand.sites import PALM_MARKERS
-from carpus.core.output.exercises import EXERCISES, exercises_of
 
 ROOT = Path(__file__).parents[2]
 
@@ -39,7 +39,7 @@ import carpus
 import numpy as np
 from carpus.app.__main__ import main
 from carpus.core.hand.protocols import protocol_named
-from carpus.core.output.exercises import exercises_of
+from carpus.core.hand.exercises import exercises_of
 from carpus.ui.terms import protocol_name
 
 

@@ -21,10 +21,10 @@ from carpus.core.errors import OutputNotWritable
 from carpus.core.library.library import Library
 from carpus.core.library.records import Records
 from carpus.core.library.set_up import PRACTICE_PATIENT
-from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records.log import read_log
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
+from carpus.core.results.repetition_rows import RepetitionChoices
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces
 

@@ -14,8 +14,8 @@ from carpus.app.desktop.sources import NobodyWaitsError, Progress, TakesDrawn
 from carpus.core.capture.practice import PracticeSource
 from carpus.core.capture.source import is_simulated
 from carpus.core.errors import CarpusFault, DiskFull
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.library.set_up import SetUp
-from carpus.core.output.exercises import exercise_named
 from carpus.core.simulation import recording
 from carpus.core.simulation.recording import SimulatedPictures
 from tests.capture.test_practice import Take

@@ -17,8 +17,8 @@ import pytest
 
 from carpus.app import python_face
 from carpus.app.__main__ import main
-from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records.of_sessions import add_comment, keep_choices
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter

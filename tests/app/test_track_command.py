@@ -17,8 +17,8 @@ from carpus.app.__main__ import main
 from carpus.app.commands import track
 from carpus.app.settings import load_settings, settings_folder
 from carpus.core.detection.settings import DetectionSettings
+from carpus.core.hand.exercises import EXERCISES
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from carpus.core.output.exercises import EXERCISES
 from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header

@@ -17,8 +17,8 @@ from tqdm import tqdm
 from carpus.app.__main__ import main
 from carpus.app.batch.tables import MEASURES_FILE, OUTCOMES_FILE
 from carpus.core.formats import measures_files
-from carpus.core.output.measures_table import SessionFigure
-from carpus.core.output.report_content import session_figures
+from carpus.core.results.figures import session_figures
+from carpus.core.results.measures_table import SessionFigure
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec

@@ -25,8 +25,8 @@ from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.source import FrameSource
 from carpus.core.capture.tum import TumFolder
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
-from carpus.core.output.exercises import exercise_named
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.recording import CLICKS_FILE, cached_recording

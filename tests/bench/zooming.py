@@ -12,9 +12,8 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 
 from carpus.app import compose
-from carpus.core.output.exercises import exercise_named
-from carpus.core.output.joint_content import JointCurves
-from carpus.core.output.report_content import ReportCurves
+from carpus.core.hand.exercises import exercise_named
+from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.ui.figures import FIGURES
 from carpus.ui.plot.session import HandPlot, SessionPlot
 from carpus.ui.plot.session_view import CurveView

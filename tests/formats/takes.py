@@ -10,8 +10,8 @@ import numpy as np
 from carpus.core.formats.provenance import provenance
 from carpus.core.formats.take import Take
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from carpus.core.output.repetition_rows import repetitions_of
-from carpus.core.output.report_content import session_figures
+from carpus.core.results.figures import session_figures
+from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
 from carpus.core.session.writer import SessionWriter

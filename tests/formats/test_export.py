@@ -15,7 +15,7 @@ from carpus.core.formats import export
 from carpus.core.formats.export import Wanted
 from carpus.core.formats.formats import FORMATS
 from carpus.core.hand.protocols import HAND21
-from carpus.core.output.report_content import session_figures
+from carpus.core.results.figures import session_figures
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.writer import SessionWriter
 from tests.formats.takes import stored

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.sites import joint_angle_names
 from carpus.core.measures.fingers import (
@@ -18,8 +19,7 @@ from carpus.core.measures.fingers import (
     valid_joints,
 )
 from carpus.core.measures.repetitions import Repetition
-from carpus.core.output.exercises import exercise_named
-from carpus.core.output.joint_content import bending_joints, joint_rows
+from carpus.core.results.ranges import bending_joints, joint_rows
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import truth_of

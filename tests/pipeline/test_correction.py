@@ -14,13 +14,7 @@ import pytest
 from carpus.core.errors import CarpusFault, NotCorrectable, OutputExists
 from carpus.core.pipeline import correcting
 from carpus.core.pipeline.correcting import correct_beside
-from carpus.core.pipeline.correction import (
-    CorrectionTask,
-    correct,
-    not_held,
-    task_of,
-    with_places,
-)
+from carpus.core.pipeline.correction import CorrectionTask, correct, not_held, task_of, with_places
 from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json
 from carpus.core.session.corrected import CORRECTED, corrected_from, corrections_in
 from carpus.core.session.marker_doubts import name_doubt

@@ -25,13 +25,13 @@ from carpus.core.errors import (
     RegisterUnreadable,
     ServerGone,
 )
-from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records import changes, erasure, of_clinic, of_sessions, server
 from carpus.core.records.changes import PRACTICE, Change, RowChange, dropped, new
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import COMMENT, DEED, OUTBOX, OWN, PATIENT, SESSION
 from carpus.core.records.server import Server
 from carpus.core.records.values import PatientEntry, Rebuilt
+from carpus.core.results.repetition_rows import RepetitionChoices
 from tests.records.postgres import Cluster, binaries
 from tests.records.samples import HERON, LINDEN, LONG_S, T0, measure, opened, record, settled, traces, until, waiting
 from tests.torture.wire import Wire

@@ -35,7 +35,6 @@ from carpus.core.errors import (
 )
 from carpus.core.library.kept_sets import read_sets
 from carpus.core.names import name_of
-from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records import of_clinic, of_patients, of_sessions, schema
 from carpus.core.records.changes import PRACTICE, new
 from carpus.core.records.database import STORE_FILE, set_aside
@@ -46,6 +45,7 @@ from carpus.core.records.pseudonyms import WORDS, suggest_pseudonym
 from carpus.core.records.retention import due
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, PatientEntry
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
 from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record
 

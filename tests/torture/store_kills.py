@@ -26,7 +26,7 @@ NAMES = ("Linden", "Erika Mustermann")
 CHILD = """
 import itertools, sys
 from pathlib import Path
-from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.records import erasure, of_sessions
 from tests.records.samples import opened
 kind, folder, session_id, url = sys.argv[1:]

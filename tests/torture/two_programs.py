@@ -23,11 +23,11 @@ from sqlalchemy.pool import NullPool
 
 from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, ChangeRefused, PseudonymTaken
-from carpus.core.output.report_content import RepetitionChoices
 from carpus.core.records import of_patients, of_sessions
 from carpus.core.records.changes import PRACTICE
 from carpus.core.records.schema import COMMENT, COPIED, CORRECTION, MEASURED, OUTBOX, PATIENT, SESSION
 from carpus.core.records.values import PatientEntry
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import verify
 from tests.records.postgres import Cluster
 from tests.records.samples import T0, House, measure, opened, waiting

@@ -13,13 +13,7 @@ from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_transition
 from carpus.core.tracking.palm_state import MOVING, PALM_DISCS, SIZE
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import SoftTissue, TissueModes, moved_by_joints, resting_or_moving
-from carpus.core.tracking.state_model import (
-    DIGIT_MEASUREMENTS,
-    DIGIT_STATE,
-    PALM_MEASUREMENTS,
-    PALM_STATE,
-    StatePart,
-)
+from carpus.core.tracking.state_model import DIGIT_MEASUREMENTS, DIGIT_STATE, PALM_MEASUREMENTS, PALM_STATE, StatePart
 from carpus.core.types import FloatArray
 from tests.test_document_names import is_there
 

@@ -21,18 +21,15 @@ from carpus.core.agreement.statistics import agreement
 from carpus.core.by_hand.values import HandValue
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import Camera
+from carpus.core.hand.exercises import Movement, exercise_named
 from carpus.core.hand.sites import WRIST_ANGLES, joint_angle_names
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
-from carpus.core.output.camera_said import CameraSaid, camera_said
-from carpus.core.output.exercises import Movement, exercise_named
-from carpus.core.output.report_content import (
-    Comparison,
-    RepetitionChoices,
-    SessionFigures,
-    session_figures,
-)
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.records.values import ClinicWeek, Counted, DueTest, PatientEntry
+from carpus.core.results.camera_said import CameraSaid, camera_said
+from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.progress import Comparison
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec

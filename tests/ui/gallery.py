@@ -24,10 +24,10 @@ from carpus.core.errors import DiskFull
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.library.exercise_sets import USUAL_SETS
 from carpus.core.measures.error_limits import DEFAULT_LIMITS
-from carpus.core.output.joint_content import joint_curves
-from carpus.core.output.repetition_rows import PASSIVE
-from carpus.core.output.report_content import RepetitionChoices, session_curves, session_figures
-from carpus.core.output.report_form import Letterhead, ReportForm
+from carpus.core.results.figures import session_figures
+from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
+from carpus.core.results.report_form import Letterhead, ReportForm
+from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session
 from carpus.core.types import Side
 from carpus.core.words import Words, finding_words

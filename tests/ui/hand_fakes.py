@@ -13,7 +13,7 @@ import numpy as np
 
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.sites import joint_angle_names
-from carpus.core.output.report_content import RepetitionChoices
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec

@@ -9,15 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.output.measures_table import measure_rows
-from carpus.core.output.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
-from carpus.core.output.report_content import (
-    SessionFigures,
-    previous_of,
-    progress,
-    session_figures,
-    unfair_reasons,
-)
+from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.measures_table import measure_rows
+from carpus.core.results.progress import previous_of, progress, unfair_reasons
+from carpus.core.results.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
 from carpus.core.session.values import Event, Session
 from carpus.ui.progress.words import unfair_words
 from carpus.ui.report.active_passive import BY_HAND, active_passive

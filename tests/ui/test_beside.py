@@ -8,8 +8,9 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.output.report_content import RepetitionChoices, SessionFigures, session_figures
-from carpus.core.output.side_by_side import side_by_side
+from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.side_by_side import side_by_side
 from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.beside.shown import Watched, kinds, shown

@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 CORE = ("capture", "detection", "tracking", "simulation", "pipeline.live", "pipeline.recorder", "session.reader",
         "session.writer", "records.store", "calibration.calibrate")  # fmt: skip
 FORBIDDEN = ("h5py", "sqlite3", "sqlalchemy", "numba", *(f"carpus.core.{name}" for name in CORE))
-PRINTING = ("carpus.ui.report.pdf", "carpus.core.output.report_content")
+PRINTING = ("carpus.ui.report.pdf", "carpus.core.results.figures")
 """What ``carpus report`` needs must not bring widgets with it."""
 
 

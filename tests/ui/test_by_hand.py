@@ -16,9 +16,9 @@ from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.printing import write_tables
 from carpus.core.by_hand.values import HandValue, counted
 from carpus.core.library.library import Library
-from carpus.core.output.report_content import progress
 from carpus.core.records.log import read_log
 from carpus.core.records.values import PatientEntry
+from carpus.core.results.progress import progress
 from carpus.ui.background import Background
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.ports import PatientRow

@@ -9,10 +9,10 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from carpus.core.hand.exercises import FLEXION, exercise_named
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import even_signal
-from carpus.core.output.exercises import FLEXION, exercise_named
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.live.counting import RunningCount
 from tests.moments import with_moment

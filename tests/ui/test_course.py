@@ -11,7 +11,7 @@ from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.by_hand.values import HandValue
-from carpus.core.output.report_content import progress
+from carpus.core.results.progress import progress
 from carpus.ui.plot import course
 from carpus.ui.plot.course_view import ProgressChart
 from carpus.ui.theme import Theme

@@ -14,22 +14,18 @@ from sqlalchemy import update
 from carpus.app.desktop.courses import LINGER_S, CourseRun
 from carpus.app.desktop.patient_view import PatientViewing
 from carpus.core.errors import ChangedMeanwhile
-from carpus.core.library.exercise_sets import (
-    USUAL_SETS,
-    ExerciseSet,
-    begun,
-    next_part,
-)
+from carpus.core.hand.exercises import exercise_named
+from carpus.core.library.exercise_sets import USUAL_SETS, ExerciseSet, begun, next_part
 from carpus.core.library.kept_sets import keep_sets, read_sets
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import CoursePart
 from carpus.core.library.set_ups import keep_set_up
-from carpus.core.output.exercises import exercise_named
-from carpus.core.output.report_content import progress, session_figures
 from carpus.core.records.changes import dropped
 from carpus.core.records.schema import EXERCISE_SET, PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
+from carpus.core.results.figures import session_figures
+from carpus.core.results.progress import progress
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.live.glance import Glance

@@ -19,9 +19,9 @@ from pytestqt.qtbot import QtBot
 from carpus.app.desktop.filming import Filming
 from carpus.core.errors import OutputNotWritable
 from carpus.core.formats.film import UNFINISHED, write_film
-from carpus.core.output.exercises import exercise_named
-from carpus.core.output.hand_cutout import FLAT, box_of, cut_out, drawn_angle
-from carpus.core.output.repetition_rows import PASSIVE
+from carpus.core.hand.exercises import exercise_named
+from carpus.core.results.hand_cutout import FLAT, box_of, cut_out, drawn_angle
+from carpus.core.results.repetition_rows import PASSIVE
 from carpus.core.session.values import Session
 from carpus.core.types import SIMULATED, ByteImage, TrackStatus
 from carpus.ui.background import Background

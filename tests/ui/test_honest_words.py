@@ -20,9 +20,11 @@ from carpus.core.check_card.chart import CardCheck, add_check, chart_path
 from carpus.core.check_card.trust import camera_of, with_trust
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.repetitions import Uncounted
-from carpus.core.output.joint_content import joint_curves
-from carpus.core.output.measures_table import measure_rows
-from carpus.core.output.report_content import SessionFigures, StrokeSpread, progress, session_curves, session_figures
+from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.measures_table import measure_rows
+from carpus.core.results.progress import progress
+from carpus.core.results.seen import joint_curves, session_curves
+from carpus.core.results.speed_figures import StrokeSpread
 from carpus.core.types import TrackedFrame
 from carpus.ui.background import Background
 from carpus.ui.check_card.standing_words import unsure_name
@@ -257,9 +259,8 @@ def test_what_was_not_seen_is_said_beside_the_count() -> None:
 
 def test_a_speed_lost_in_noise_is_too_slow_to_judge() -> None:
     made = session_figures(session())
-    assert made.speed is not None
     unknown = StrokeSpread(math.nan, math.nan, math.nan, 0)
-    slow = replace(made, peak_speed=unknown, speed=replace(made.speed, too_slow=made.speed.count))
+    slow = replace(made, speed=replace(made.speed, peak_speed=unknown, too_slow=made.speed.count))
     assert next(row for row in table_rows(slow, None, None) if row.movement == "Peak speed").today == (
         "too slow to judge"
     )

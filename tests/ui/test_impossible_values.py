@@ -12,8 +12,9 @@ from PySide6.QtWidgets import QApplication
 
 from carpus.core.hand.protocols import HAND21
 from carpus.core.hand.sites import joint_angle_names
-from carpus.core.output.joint_content import joint_curves
-from carpus.core.output.report_content import RepetitionChoices, session_figures
+from carpus.core.results.figures import session_figures
+from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.seen import joint_curves
 from carpus.ui.figures import FIGURES, Figure
 from carpus.ui.joint_figures import figures_of
 from carpus.ui.plot.axes import Panel, Scale

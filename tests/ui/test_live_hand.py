@@ -11,10 +11,11 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.sites import joint_angle_names
-from carpus.core.output.exercises import exercise_named
-from carpus.core.output.report_content import RepetitionChoices, session_figures
+from carpus.core.results.figures import session_figures
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Session
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.background import Background

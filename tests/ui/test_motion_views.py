@@ -15,8 +15,9 @@ from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter
 from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.shelf import main_figure
-from carpus.core.output.motion_curves import motion_curves
-from carpus.core.output.report_content import session_curves, session_figures
+from carpus.core.results.figures import session_figures
+from carpus.core.results.motion_curves import motion_curves
+from carpus.core.results.seen import session_curves
 from carpus.ui.background import Background
 from carpus.ui.controls.text import Text
 from carpus.ui.keys import Keys

@@ -12,7 +12,7 @@ from carpus.core.agreement.limits_file import LIMITS_FILE, store_limits
 from carpus.core.errors import SettingsInvalid
 from carpus.core.library.library import Library
 from carpus.core.measures.error_limits import ErrorLimits, MeasuredLimit, RetestStudy
-from carpus.core.output.report_content import session_figures
+from carpus.core.results.figures import session_figures
 from carpus.ui.controls.text import Text
 from carpus.ui.ports import Preferences
 from carpus.ui.report.words import method

@@ -10,7 +10,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.output.exercises import EXERCISES, exercise_named
+from carpus.core.hand.exercises import EXERCISES, exercise_named
 from carpus.ui.live.glance import Glance
 from carpus.ui.patient.figure import arc_of, figure_at
 from carpus.ui.patient.guide import LOST_AFTER_S, Guide, GuideScene

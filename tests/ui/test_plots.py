@@ -17,9 +17,10 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import OutputNotWritable
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.protocols import WRIST6
-from carpus.core.output.exercises import exercise_named
-from carpus.core.output.report_content import ReportCurves, session_curves, session_figures
+from carpus.core.results.figures import session_figures
+from carpus.core.results.seen import ReportCurves, session_curves
 from carpus.core.types import ByteImage, FloatArray
 from carpus.ui.numbers import with_spread
 from carpus.ui.plot.axes import Panel, Scale

@@ -13,8 +13,9 @@ from PySide6.QtGui import QPainter, QPicture
 from PySide6.QtWidgets import QApplication
 
 from carpus.app.desktop.printing import write_table
-from carpus.core.output.joint_content import finger_keys
-from carpus.core.output.report_content import compare_rows, progress, session_figures
+from carpus.core.results.figures import session_figures
+from carpus.core.results.progress import compare_rows, progress
+from carpus.core.results.ranges import finger_keys
 from carpus.ui import numbers
 from carpus.ui.figures import Figure, with_side
 from carpus.ui.language import speaking

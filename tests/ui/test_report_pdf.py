@@ -16,8 +16,9 @@ import pytest
 import carpus
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, OutputNotWritable
-from carpus.core.output.report_content import RepetitionChoices, session_figures
 from carpus.core.provenance import revision
+from carpus.core.results.figures import session_figures
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.ui.report.pdf import progress_report, write_progress_report, write_session_report
 from carpus.ui.report.progress_page import made_of
 from carpus.ui.report.words import other_lines

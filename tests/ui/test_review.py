@@ -13,7 +13,7 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.output.report_content import Progress
+from carpus.core.results.progress import Progress
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.numbers import day_beside, day_month

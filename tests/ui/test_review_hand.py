@@ -15,8 +15,8 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.hand.sites import SITE_CHAINS, SITES, joint_angle_names
-from carpus.core.output.joint_content import joint_curves
-from carpus.core.output.report_content import session_curves, session_figures
+from carpus.core.results.figures import session_figures
+from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session
 from carpus.ui.background import Background
 from carpus.ui.figures import Figure

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from carpus.app.desktop.shelf import main_figure
-from carpus.core.output.exercises import exercise_named
-from carpus.core.output.report_content import session_figures
+from carpus.core.hand.exercises import exercise_named
+from carpus.core.results.figures import session_figures
 from carpus.ui import numbers
 from carpus.ui.figures import figure_of
 from carpus.ui.live.number_card import speed_words

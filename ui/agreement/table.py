@@ -7,16 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QWidget
 
-from carpus.ui.agreement.words import (
-    angle_name,
-    angle_token,
-    interval,
-    judgement_words,
-    limits,
-    share,
-    signed,
-    tenths,
-)
+from carpus.ui.agreement.words import angle_name, angle_token, interval, judgement_words, limits, share, signed, tenths
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text, caption, named_by_color
 from carpus.ui.icons import State

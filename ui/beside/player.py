@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QWidget
 
-from carpus.core.output.report_content import ShownRepetition
+from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.ui import numbers
 from carpus.ui.beside.words import step_words
 from carpus.ui.controls.button import Button, icon_button

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from carpus.core.output.mean_repetition import MeanRepetition, Quantity, SeenAngles, mean_repetition, seen_angles
-from carpus.core.output.range_rows import RowKey, best_motion
-from carpus.core.output.report_content import FREE_ORDER, SessionFigures
-from carpus.core.output.side_by_side import SideBySide, side_by_side
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.mean_repetition import MeanRepetition, Quantity, SeenAngles, mean_repetition, seen_angles
+from carpus.core.results.ranges import FREE_ORDER, RowKey
+from carpus.core.results.seen import best_motion
+from carpus.core.results.side_by_side import SideBySide, side_by_side
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
 from carpus.ui.beside.rows import BesideRow

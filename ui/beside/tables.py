@@ -9,10 +9,10 @@ from pathlib import Path
 
 from carpus.core.errors import OutputNotWritable
 from carpus.core.formats.new_output import plain_cell
-from carpus.core.output.range_rows import RangeRow
-from carpus.core.output.report_content import SessionFigures
-from carpus.core.output.side_by_side import ComparedRange, SideBySide
 from carpus.core.private import private
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.ranges import RangeRow
+from carpus.core.results.side_by_side import ComparedRange, SideBySide
 from carpus.ui.beside.shown import Shown
 from carpus.ui.beside.words import column_of
 

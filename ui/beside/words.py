@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from carpus.core.hand.exercises import SIDES
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.output.exercises import SIDES
-from carpus.core.output.mean_repetition import Quantity
-from carpus.core.output.range_rows import RangeRow, is_total
-from carpus.core.output.report_content import Progress, ProgressPoint, SessionFigures
-from carpus.core.output.side_by_side import ComparedRange, SideBySide
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.mean_repetition import Quantity
+from carpus.core.results.progress import Progress, ProgressPoint
+from carpus.core.results.ranges import RangeRow, is_total
+from carpus.core.results.side_by_side import ComparedRange, SideBySide
 from carpus.ui import numbers, terms
 from carpus.ui.beside.rows import BesideRow
 from carpus.ui.figures import figure_of
@@ -207,7 +208,12 @@ def table_rows(both: SideBySide, *, whole_hand: bool) -> list[BesideRow]:
     rows += [_alone_row(row, both, is_first=is_first) for row, is_first in both.alone if row.count]
     if not whole_hand:
         rows += [row for angle in (0, 1, 2) if (row := _largest_row(angle, both)) is not None]
-    if both.first.peak_speed.count or both.second.peak_speed.count or too_slow(both.first) or too_slow(both.second):
+    if (
+        both.first.speed.peak_speed.count
+        or both.second.speed.peak_speed.count
+        or too_slow(both.first)
+        or too_slow(both.second)
+    ):
         rows.append(_speed_row(both))
     return rows
 
@@ -308,11 +314,11 @@ def _largest_row(angle: int, both: SideBySide) -> BesideRow | None:
 def _speed_row(both: SideBySide) -> BesideRow:
     cells: list[str] = []
     for figures in (both.first, both.second):
-        speed = figures.peak_speed
+        speed = figures.speed.peak_speed
         spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{speed.sd:.0f}" if math.isfinite(speed.sd) else ""
         known = f"{speed.mean:.0f}{spread}°/s" if speed.count else numbers.UNKNOWN
         cells.append(tr("too slow to judge") if too_slow(figures) else known)
-    off = both.first.peak_speed.mean - both.second.peak_speed.mean
+    off = both.first.speed.peak_speed.mean - both.second.speed.peak_speed.mean
     words = numbers.UNKNOWN
     if math.isfinite(off):
         size = numbers.speed(off)

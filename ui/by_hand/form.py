@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QGridLayout, QLineEdit, QWidget
 
 from carpus.core.by_hand.measures import MEASURES, HandMeasure, Way
 from carpus.core.by_hand.values import MOST_WHERE, HandValue, Key, before, newest, on_day, replaced
-from carpus.core.output.range_rows import RangeRow
+from carpus.core.results.ranges import RangeRow
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.field import ValueField

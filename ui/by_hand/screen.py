@@ -12,8 +12,8 @@ from PySide6.QtWidgets import QBoxLayout, QComboBox, QDateEdit, QHBoxLayout, QVB
 
 from carpus.core.by_hand.measures import MEASURES, HandMeasure, measure_named
 from carpus.core.by_hand.values import HandValue, Key, counted
-from carpus.core.output.range_rows import RangeRow
-from carpus.core.output.report_content import SessionFigures
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.ranges import RangeRow
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.change_rows import add_changes

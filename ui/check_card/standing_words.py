@@ -11,7 +11,7 @@ from carpus.ui.translate import inside, tr
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.check_card.standing import Standing
-    from carpus.core.output.camera_said import CameraSaid
+    from carpus.core.results.camera_said import CameraSaid
 
 
 def bar_words(now: Standing) -> tuple[State, str] | None:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QWidget
 
-from carpus.core.output.joint_content import JointCurves
-from carpus.core.output.report_content import ReportCurves, SessionFigures
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Surface
 from carpus.ui.controls.field import Choices

@@ -9,7 +9,8 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from carpus.core.output.report_content import SessionFigures, session_curves, session_figures
+from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.seen import session_curves
 from carpus.core.session.marker_doubts import NameDoubt
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray, TrackStatus

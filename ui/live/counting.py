@@ -8,12 +8,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from carpus.core.hand.exercises import FLEXION, Exercise
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.measures.fingers import FURTHER_RAD
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import LONGEST_GAP_S, even_signal
 from carpus.core.measures.validity import LARGEST_SD_RAD, SETTLING_S
-from carpus.core.output.exercises import FLEXION, Exercise
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.figures import FIGURES, figure_of
 from carpus.ui.joint_figures import figures_of

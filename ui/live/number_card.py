@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from carpus.core.output.exercises import AXIS_TICK_DEG, SIDES
+from carpus.core.hand.exercises import AXIS_TICK_DEG, SIDES
 from carpus.ui import numbers, terms
 from carpus.ui.controls.card import paint_card
 from carpus.ui.figures import Figure, side_word

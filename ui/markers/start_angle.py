@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QSpinBox, QWidget
 
-from carpus.core.output.exercises import SIDES
+from carpus.core.hand.exercises import SIDES
 from carpus.core.types import FloatArray
 from carpus.ui import terms
 from carpus.ui.controls.button import Button

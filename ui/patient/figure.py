@@ -15,7 +15,7 @@ from functools import cache, lru_cache
 from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QPainterPath, QPolygonF, QTransform
 
-from carpus.core.output.exercises import DEVIATION, FLEXION, PRONOSUPINATION, Exercise
+from carpus.core.hand.exercises import DEVIATION, FLEXION, PRONOSUPINATION, Exercise
 
 LENGTH = 340.0
 FOREARM = 1400.0

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from carpus.core.output.exercises import FLEXION, PRONOSUPINATION, Exercise
+from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
 from carpus.ui.live.glance import Glance
 
 Phase = Literal["out", "there", "back", "free", "hidden", "lost", "paused", "done", "rest", "away"]

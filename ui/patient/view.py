@@ -11,8 +11,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPen, QTransform
 from PySide6.QtWidgets import QWidget
 
+from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
 from carpus.core.library.set_up import SetUp
-from carpus.core.output.exercises import FLEXION, PRONOSUPINATION, Exercise
 from carpus.ui import numbers
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.icons import paint_icon, paint_state

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from carpus.core.output.exercises import exercise_named, known_exercise
+from carpus.core.hand.exercises import exercise_named, known_exercise
 from carpus.ui.patient.guide import GuideScene
 from carpus.ui.translate import inside, say, tr
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carpus.core.output.joint_content import JointCurves
-from carpus.core.output.report_content import ReportCurves
+from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.ui import numbers
 from carpus.ui.figures import figure_of
 from carpus.ui.plot.marks import Curve

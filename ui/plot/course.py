@@ -12,11 +12,11 @@ from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
 from carpus.core.by_hand.measures import measure_named
 from carpus.core.by_hand.values import HandValue
-from carpus.core.output.exercises import EXERCISES, Movement
-from carpus.core.output.goals import row_aimed_at
-from carpus.core.output.norms import total_norm, wrist_norm
-from carpus.core.output.range_rows import RangeRow, RowKey, is_total
-from carpus.core.output.report_content import Progress
+from carpus.core.hand.exercises import EXERCISES, Movement
+from carpus.core.results.goals import row_aimed_at
+from carpus.core.results.norms import total_norm, wrist_norm
+from carpus.core.results.progress import Progress
+from carpus.core.results.ranges import RangeRow, RowKey, is_total
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
 from carpus.ui.fonts import SEMIBOLD, font

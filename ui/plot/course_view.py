@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter
 
-from carpus.core.output.range_rows import RowKey
-from carpus.core.output.report_content import Progress
+from carpus.core.results.progress import Progress
+from carpus.core.results.ranges import RowKey
 from carpus.ui import numbers, terms
 from carpus.ui.plot import axes, course
 from carpus.ui.plot.axes import Panel

@@ -9,9 +9,9 @@ from typing import Literal
 
 import numpy as np
 
+from carpus.core.hand.exercises import STILL_RADIUS_MM
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.measures.forearm import USUAL_CENTRE_M, rotation_in_place, wrist_centre
-from carpus.core.output.exercises import STILL_RADIUS_MM
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.ui.figures import FIGURES
 from carpus.ui.joint_figures import BoolArray, figures_of, joints_of, measured_figures, mix

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QPointF, QRectF, QSize
 from PySide6.QtGui import QFontMetricsF, QPainter
 
-from carpus.core.output.exercises import (
+from carpus.core.hand.exercises import (
     AXIS_LIMIT_DEG,
     AXIS_TICK_DEG,
     FLEXION,

@@ -14,7 +14,7 @@ from typing import Protocol
 from PySide6.QtCore import QObject, QPointF, QRectF, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPaintDevice, QPainter, QPen
 
-from carpus.core.output.report_content import ShownRepetition
+from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.series import Drawn, Series, paint_series

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from PySide6.QtCore import QRectF
 
-from carpus.core.output.motion_curves import MotionCurves
+from carpus.core.results.motion_curves import MotionCurves
 from carpus.core.types import FloatArray
 from carpus.ui import numbers
 from carpus.ui.plot.axes import Panel, Scale

@@ -10,7 +10,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
-from carpus.core.output.exercises import STILL_RADIUS_MM
+from carpus.core.hand.exercises import STILL_RADIUS_MM
 from carpus.core.types import FloatArray, Side
 from carpus.ui import numbers
 from carpus.ui.controls.text import paint_status

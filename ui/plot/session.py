@@ -10,11 +10,11 @@ import numpy as np
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QPainter
 
+from carpus.core.hand.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, FLEXION, PRONOSUPINATION, SIDES, Exercise
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.output.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, FLEXION, PRONOSUPINATION, SIDES, Exercise
-from carpus.core.output.joint_content import JointCurves
-from carpus.core.output.report_content import ReportCurves, ShownRepetition
+from carpus.core.results.repetition_rows import ShownRepetition
+from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.core.types import TrackStatus
 from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure, Row, spread_labels

@@ -10,7 +10,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
-from carpus.core.output.motion_curves import MotionCurves
+from carpus.core.results.motion_curves import MotionCurves
 from carpus.core.types import FloatArray, Side
 from carpus.ui import numbers
 from carpus.ui.figures import FINGERS

@@ -10,7 +10,8 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.by_hand.values import HandValue, counted
-from carpus.core.output.report_content import Comparison, Progress, SessionFigures, other_hand_of, progress
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.progress import Comparison, Progress, other_hand_of, progress
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background
 from carpus.ui.by_hand.change_rows import add_changes
@@ -231,7 +232,7 @@ class ProgressScreen(QWidget):
             body.addWidget(self._speed_row(first, last))
 
     def _speed_row(self, first: SessionFigures, last: SessionFigures) -> QWidget:
-        before, after = numbers.speed(first.peak_speed.mean), numbers.speed(last.peak_speed.mean)
+        before, after = numbers.speed(first.speed.peak_speed.mean), numbers.speed(last.speed.peak_speed.mean)
         return _Row(
             self._theme, self.tr("Peak speed"), f"{before} → {after}", "not_judged", self.tr("error not yet known")
         )

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
-from carpus.core.output.range_rows import is_total
-from carpus.core.output.report_content import Comparison, Progress, ProgressPoint
+from carpus.core.results.progress import Comparison, Progress, ProgressPoint
+from carpus.core.results.ranges import is_total
 from carpus.ui import numbers, terms
 from carpus.ui.check_card.standing_words import unsure_words
 from carpus.ui.fault_words import finding_words

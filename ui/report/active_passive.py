@@ -8,8 +8,9 @@ from itertools import compress
 
 from carpus.core.by_hand.measures import MEASURES
 from carpus.core.by_hand.values import HandValue
-from carpus.core.output.range_rows import RangeRow, RowKey, is_total
-from carpus.core.output.report_content import Comparison, SessionFigures, compare_rows
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.progress import Comparison, compare_rows
+from carpus.core.results.ranges import RangeRow, RowKey, is_total
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.names import value_words
 from carpus.ui.figures import FINGERS, Figure, Row, figure_of

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from carpus.core.output.mean_repetition import Quantity
-from carpus.core.output.report_content import SessionFigures
-from carpus.core.output.report_form import USUAL_FORM, ReportForm
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.mean_repetition import Quantity
+from carpus.core.results.report_form import USUAL_FORM, ReportForm
 from carpus.ui import numbers, terms
 from carpus.ui.beside.rows import BesideRow
 from carpus.ui.beside.shown import Shown

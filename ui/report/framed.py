@@ -7,7 +7,7 @@ from collections.abc import Callable
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QImage
 
-from carpus.core.output.report_form import PAPER_PT, Letterhead, ReportForm
+from carpus.core.results.report_form import PAPER_PT, Letterhead, ReportForm
 from carpus.ui.fonts import REGULAR, SEMIBOLD
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
 from carpus.ui.report.session_page import painted_on_nothing

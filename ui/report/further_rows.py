@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from carpus.core.output.further_measures import FurtherMeasure
-from carpus.core.output.report_content import SessionFigures
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.further_measures import FurtherMeasure
 from carpus.ui import numbers
 from carpus.ui.translate import say, tr
 

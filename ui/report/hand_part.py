@@ -9,8 +9,8 @@ from itertools import accumulate
 from PySide6.QtCore import QPointF
 from PySide6.QtGui import QColor, QPen
 
-from carpus.core.output.joint_content import JointCurves
-from carpus.core.output.report_content import ReportCurves, SessionFigures
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.ui.figures import TOKENS, row_name
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.plot.session import BENDING, HandPlot, paint_session

@@ -7,11 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from carpus.core.measures.grade import Grade
-from carpus.core.output.further_measures import GradedTotal, graded_totals
-from carpus.core.output.joint_content import finger_keys, spread_keys, thumb_keys
-from carpus.core.output.norms import total_norm
-from carpus.core.output.range_rows import RangeRow, RowKey
-from carpus.core.output.report_content import SessionFigures, compare_rows
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.norms import GradedTotal, graded_totals, total_norm
+from carpus.core.results.progress import compare_rows
+from carpus.core.results.ranges import RangeRow, RowKey, finger_keys, spread_keys, thumb_keys
 from carpus.ui import numbers
 from carpus.ui.figures import FINGERS, Figure, Row, figure_of, with_side
 from carpus.ui.marker_words import finger_name

@@ -10,11 +10,12 @@ from datetime import date, timedelta
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainterPath, QPen, QPolygonF, QTransform
 
-from carpus.core.output.exercises import EXERCISES, PRONOSUPINATION, Exercise
-from carpus.core.output.goals import Goals, row_aimed_at
-from carpus.core.output.report_content import SessionFigures, compare_rows, progress
-from carpus.core.output.report_form import ReportForm
+from carpus.core.hand.exercises import EXERCISES, PRONOSUPINATION, Exercise
 from carpus.core.records.values import HomePlan
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.goals import Goals, row_aimed_at
+from carpus.core.results.progress import compare_rows, progress
+from carpus.core.results.report_form import ReportForm
 from carpus.core.types import Side
 from carpus.ui import language, numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD

@@ -7,7 +7,7 @@ from datetime import date, timedelta
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLineEdit, QSpinBox, QWidget
 
-from carpus.core.output.exercises import Exercise
+from carpus.core.hand.exercises import Exercise
 from carpus.core.records.values import HomePlan
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button

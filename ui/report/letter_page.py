@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from datetime import date
 from functools import partial
 
-from carpus.core.output.report_content import compare
-from carpus.core.output.report_form import ReportForm
+from carpus.core.results.progress import compare
+from carpus.core.results.report_form import ReportForm
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from carpus.core.output.report_content import SessionFigures
+from carpus.core.results.figures import SessionFigures
 from carpus.ui import terms
 from carpus.ui.figures import figure_of
 from carpus.ui.report.further_rows import short_words

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from carpus.core.output.motion_curves import MotionCurves
-from carpus.core.output.report_content import SessionFigures
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.motion_curves import MotionCurves
 from carpus.ui import numbers
 from carpus.ui.fonts import MEDIUM, REGULAR
 from carpus.ui.plot.motion import MotionKind, MotionPlot, zyz_words

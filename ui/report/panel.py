@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QFocusEvent
 from PySide6.QtWidgets import QComboBox, QCompleter, QHBoxLayout, QPlainTextEdit, QVBoxLayout, QWidget
 
-from carpus.core.output.report_form import MOST_SENTENCES, SECTIONS, ReportForm
+from carpus.core.results.report_form import MOST_SENTENCES, SECTIONS, ReportForm
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.controls.tick import Tick

@@ -6,7 +6,7 @@ from PySide6.QtCore import QMarginsF
 from PySide6.QtGui import QPageLayout, QPageSize, QPainter
 from PySide6.QtPrintSupport import QPrinter
 
-from carpus.core.output.report_form import PAPER_PT
+from carpus.core.results.report_form import PAPER_PT
 from carpus.ui.report.page import Page
 from carpus.ui.report.pages import Report, pages_of
 

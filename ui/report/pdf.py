@@ -14,23 +14,15 @@ from PySide6.QtGui import QGuiApplication, QPageLayout, QPageSize, QPainter, QPd
 from carpus.core.by_hand.values import HandValue, of_session
 from carpus.core.camera_calibration.sheet import PrintedSheet
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
-from carpus.core.output.camera_said import CameraSaid
-from carpus.core.output.joint_content import joint_curves
-from carpus.core.output.motion_curves import motion_curves
-from carpus.core.output.report_content import (
-    RepetitionChoices,
-    SessionFigures,
-    data_digest,
-    limits_of,
-    other_hand_of,
-    previous_of,
-    progress,
-    session_curves,
-    session_figures,
-)
-from carpus.core.output.report_form import PAPER_PT, ReportForm
 from carpus.core.private import private
 from carpus.core.provenance import said_in, with_revision
+from carpus.core.results.camera_said import CameraSaid
+from carpus.core.results.figures import SessionFigures, data_digest, session_figures
+from carpus.core.results.motion_curves import motion_curves
+from carpus.core.results.progress import limits_of, other_hand_of, previous_of, progress
+from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.report_form import PAPER_PT, ReportForm
+from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session
 from carpus.ui.fonts import load_fonts
 from carpus.ui.report.beside_page import BesideReport

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from carpus.core.output.report_content import Progress
-from carpus.core.output.report_form import USUAL_FORM, ReportForm
+from carpus.core.results.progress import Progress
+from carpus.core.results.report_form import USUAL_FORM, ReportForm
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.names import change_words, changes, day_words, full_name, verdict_words
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD

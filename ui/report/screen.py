@@ -11,7 +11,7 @@ from PySide6.QtPrintSupport import QPrintDialog
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
 
 from carpus.core.durable import replace_file
-from carpus.core.output.report_form import PAPER_PT, ReportForm
+from carpus.core.results.report_form import PAPER_PT, ReportForm
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card

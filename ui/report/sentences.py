@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from carpus.core.output.report_content import SessionFigures, compare
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.progress import compare
 from carpus.ui import numbers, terms
 from carpus.ui.report.hand_rows import hand_since_words, range_words
 from carpus.ui.report.session_page import SessionReport

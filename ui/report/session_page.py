@@ -11,12 +11,13 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPicture
 
 from carpus.core.by_hand.values import HandValue
-from carpus.core.output.exercises import AXIS_TICK_DEG, SIDES
-from carpus.core.output.joint_content import JointCurves
-from carpus.core.output.motion_curves import MotionCurves
-from carpus.core.output.norms import wrist_norm
-from carpus.core.output.report_content import ReportCurves, SessionFigures, compare_rows
-from carpus.core.output.report_form import USUAL_FORM, ReportForm
+from carpus.core.hand.exercises import AXIS_TICK_DEG, SIDES
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.motion_curves import MotionCurves
+from carpus.core.results.norms import wrist_norm
+from carpus.core.results.progress import compare_rows
+from carpus.core.results.report_form import USUAL_FORM, ReportForm
+from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.names import day_words
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from carpus.core.output.norms import wrist_norm
-from carpus.core.output.range_rows import RangeRow
-from carpus.core.output.repetition_rows import PASSIVE
-from carpus.core.output.report_content import Comparison, SessionFigures, compare
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.norms import wrist_norm
+from carpus.core.results.progress import Comparison, compare
+from carpus.core.results.ranges import RangeRow
+from carpus.core.results.repetition_rows import PASSIVE
 from carpus.ui import numbers, terms
 from carpus.ui.plot.style import CURVE_TOKENS
 from carpus.ui.translate import say, tr
@@ -54,7 +55,7 @@ def table_rows(
     for angle in (0, 1, 2):
         if math.isfinite(figures.trick_deg[angle]):
             out.append(_trick_row(angle, figures, previous))
-    if figures.peak_speed.count or too_slow(figures):
+    if figures.speed.peak_speed.count or too_slow(figures):
         out.append(_speed_row(figures, previous, other))
     return out
 
@@ -67,7 +68,7 @@ def norm_words(figures: SessionFigures) -> str:
 
 def too_slow(figures: SessionFigures) -> bool:
     """Whether there are strokes, and of all of them the speed is lost in the tracker's noise."""
-    return figures.speed is not None and figures.speed.too_slow > 0 and not figures.peak_speed.count
+    return figures.speed.too_slow > 0 and not figures.speed.peak_speed.count
 
 
 def repetition_words(figures: SessionFigures) -> str:
@@ -201,15 +202,15 @@ def _trick_row(angle: int, figures: SessionFigures, previous: SessionFigures | N
 
 
 def _speed_row(figures: SessionFigures, previous: SessionFigures | None, other: SessionFigures | None) -> TableRow:
-    speed = figures.peak_speed
+    speed = figures.speed.peak_speed
     spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{speed.sd:.0f}" if math.isfinite(speed.sd) else ""
     return TableRow(
         movement=tr("Peak speed"),
         today=tr("too slow to judge") if too_slow(figures) else f"{speed.mean:.0f}{spread}°/s",
         best="" if too_slow(figures) else numbers.speed(speed.best),
-        other_hand=numbers.speed(other.peak_speed.mean) if other else "",
+        other_hand=numbers.speed(other.speed.peak_speed.mean) if other else "",
         usual=numbers.UNKNOWN,
-        last=numbers.speed(previous.peak_speed.mean) if previous else "",
+        last=numbers.speed(previous.speed.peak_speed.mean) if previous else "",
         change=tr("not judged: no error limit is known") if previous else "",
         short_change=tr("not judged") if previous else "",
     )

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from datetime import datetime
 
-from carpus.core.output.exercises import SIDES, STILL_RADIUS_MM
-from carpus.core.output.report_content import Comparison, SessionFigures, compare
+from carpus.core.hand.exercises import SIDES, STILL_RADIUS_MM
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.progress import Comparison, compare
 from carpus.ui import numbers, terms
 from carpus.ui.check_card.standing_words import unsure_words
 from carpus.ui.fault_words import finding_words
@@ -223,14 +224,14 @@ def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
 
 def other_lines(figures: SessionFigures) -> list[tuple[str, str]]:
     """Speed, smoothness, pain."""
-    speed, smooth = figures.peak_speed, figures.smoothness
+    speed, smooth = figures.speed.peak_speed, figures.speed.smoothness
     lines = []
     if speed.count:
         spread = f"{numbers.NARROW_GAP}±{numbers.NARROW_GAP}{speed.sd:.0f}" if math.isfinite(speed.sd) else ""
         lines.append((tr("Peak speed, mean ± sd"), f"{speed.mean:.0f}{spread}°/s"))
     elif too_slow(figures):
         lines.append((tr("Peak speed, mean ± sd"), tr("too slow to judge")))
-    if figures.speed is not None and figures.speed.too_slow_to_be_smooth and not smooth.count:
+    if figures.speed.too_slow_to_be_smooth and not smooth.count:
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), tr("too slow to judge")))
     if smooth.count:
         spread = (
@@ -240,7 +241,7 @@ def other_lines(figures: SessionFigures) -> list[tuple[str, str]]:
         )
         value = numbers.fixed(smooth.mean, 1).replace("-", "\N{MINUS SIGN}")
         lines.append((tr("Smoothness (SPARC; 0 is smoothest)"), f"{value}{spread}"))
-    if figures.speed is not None and figures.speed.pauses.count:
+    if figures.speed.pauses.count:
         pauses, pause_s = figures.speed.pauses.mean, figures.speed.pause_time.mean
         words = tr("{count} per stroke, {seconds} s in all") if pauses else tr("none")
         count, seconds = numbers.fixed(pauses, 1), numbers.fixed(pause_s, 1)

@@ -10,8 +10,8 @@ from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QImage, QPainter
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
-from carpus.core.output.exercises import Exercise
-from carpus.core.output.hand_cutout import DrawnAngle, box_of, cut_out, drawn_angle
+from carpus.core.hand.exercises import Exercise
+from carpus.core.results.hand_cutout import DrawnAngle, box_of, cut_out, drawn_angle
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage
 from carpus.ui.controls.button import Button

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
-from carpus.core.output.repetition_rows import PASSIVE
+from carpus.core.results.repetition_rows import PASSIVE
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text

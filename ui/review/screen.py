@@ -13,23 +13,15 @@ from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 
 from carpus.core.by_hand.values import HandValue, of_session
-from carpus.core.output.camera_said import UNKNOWN_CAMERA, CameraSaid
-from carpus.core.output.exercises import FLEXION, SIDES
-from carpus.core.output.hand_cutout import drawn_angle
-from carpus.core.output.joint_content import JointCurves, joint_curves
-from carpus.core.output.motion_curves import MotionCurves, motion_curves
-from carpus.core.output.repetition_rows import PASSIVE
-from carpus.core.output.report_content import (
-    RepetitionChoices,
-    ReportCurves,
-    SessionFigures,
-    limits_of,
-    other_hand_of,
-    previous_of,
-    session_curves,
-    session_figures,
-)
-from carpus.core.output.side_by_side import partner_of
+from carpus.core.hand.exercises import FLEXION, SIDES
+from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid
+from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.hand_cutout import drawn_angle
+from carpus.core.results.motion_curves import MotionCurves, motion_curves
+from carpus.core.results.progress import limits_of, other_hand_of, previous_of
+from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
+from carpus.core.results.seen import JointCurves, ReportCurves, joint_curves, session_curves
+from carpus.core.results.side_by_side import partner_of
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, FloatArray, TrackStatus
 from carpus.ui import numbers, terms

@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPixmap
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QLineEdit, QPlainTextEdit
 
-from carpus.core.output.report_form import MOST_ADDRESS, MOST_ADDRESS_LINES, MOST_NAME, ReportForm
+from carpus.core.results.report_form import MOST_ADDRESS, MOST_ADDRESS_LINES, MOST_NAME, ReportForm
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import Choices, Labelled

@@ -9,13 +9,13 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
+from carpus.core.hand.exercises import SIDES, Exercise, exercise_named, exercises_of
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.protocols import PROTOCOLS, protocol_named
 from carpus.core.library.exercise_sets import ExerciseSet, begun
 from carpus.core.library.set_up import SetUp
-from carpus.core.output.exercises import SIDES, Exercise, exercise_named, exercises_of
-from carpus.core.output.goals import GoalProposal, Goals, proposals
-from carpus.core.output.report_content import SessionFigures
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.goals import GoalProposal, Goals, proposals
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from carpus.core.output.exercises import SIDES, Exercise
-from carpus.core.output.goals import GoalProposal
+from carpus.core.hand.exercises import SIDES, Exercise
+from carpus.core.results.goals import GoalProposal
 from carpus.ui import numbers, terms
 from carpus.ui.translate import inside, tr
 

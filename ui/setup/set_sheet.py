@@ -9,6 +9,7 @@ from itertools import pairwise
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
 
+from carpus.core.hand.exercises import exercise_named, exercises_of
 from carpus.core.hand.protocols import protocol_named
 from carpus.core.library.exercise_sets import (
     MOST_NAME,
@@ -20,7 +21,6 @@ from carpus.core.library.exercise_sets import (
     new_set_id,
 )
 from carpus.core.library.set_up import CoursePart
-from carpus.core.output.exercises import exercise_named, exercises_of
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.column import scrolled

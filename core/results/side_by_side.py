@@ -10,16 +10,16 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from carpus.core.measures.change import Obstacle
-from carpus.core.output.range_rows import RangeRow, RowKey
-from carpus.core.output.report_content import (
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.progress import (
     Comparison,
-    SessionFigures,
     Unfairness,
     compare_rows,
     newest_results,
     other_hand_of,
     unfair_reasons,
 )
+from carpus.core.results.ranges import RangeRow, RowKey
 from carpus.core.types import Side
 
 Relation = Literal["hands", "dates"]

@@ -14,8 +14,8 @@ import cv2
 import numpy as np
 
 from carpus.core import so3
-from carpus.core.output.exercises import DEVIATION, FLEXION, Exercise
-from carpus.core.output.range_rows import best_motion
+from carpus.core.hand.exercises import DEVIATION, FLEXION, Exercise
+from carpus.core.results.seen import best_motion
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, FloatArray, TrackStatus
 

@@ -16,7 +16,8 @@ from numpy.lib.recfunctions import repack_fields
 from carpus.core.measures.motion_range import motion_range
 from carpus.core.measures.repetitions import FoundRepetitions, Repetition, Stroke, find_repetitions
 from carpus.core.measures.signals import even_signal
-from carpus.core.output.repetition_rows import (
+from carpus.core.results.figures import session_figures
+from carpus.core.results.repetition_rows import (
     HIDDEN,
     RepetitionChoices,
     Trained,
@@ -24,7 +25,6 @@ from carpus.core.output.repetition_rows import (
     on_clock,
     repetitions_of,
 )
-from carpus.core.output.report_content import session_figures
 from carpus.core.session import schema
 from carpus.core.session.reader import read_session, verify
 from carpus.core.session.values import RepetitionRow, Session

@@ -6,8 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from carpus.core.output.motion_curves import motion_curves
-from carpus.core.output.motion_table import motion_columns
+from carpus.core.results.motion_curves import motion_columns, motion_curves
 from tests.ui.fakes import session
 from tests.ui.hand_fakes import hand_session
 

@@ -8,9 +8,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.output.further_measures import FurtherMeasure, graded_totals, session_reaches
-from carpus.core.output.measures_table import measure_rows
-from carpus.core.output.report_content import SessionFigures, session_figures
+from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.further_measures import FurtherMeasure, session_reaches
+from carpus.core.results.measures_table import measure_rows
+from carpus.core.results.norms import graded_totals
 from carpus.ui.report.further_rows import further_rows, main_words, short_words
 from carpus.ui.report.tables import table_rows
 from carpus.ui.report.words import method

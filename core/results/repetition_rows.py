@@ -10,8 +10,9 @@ from typing import Literal
 
 import numpy as np
 
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.measures.fingers import JointTrack, joint_range
+from carpus.core.measures.fingers import joint_range
 from carpus.core.measures.motion_range import LEAST_VALID_SHARE, MotionRange, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
 from carpus.core.measures.repetitions import (
@@ -22,21 +23,17 @@ from carpus.core.measures.repetitions import (
     Stroke,
     find_repetitions,
 )
-from carpus.core.measures.signals import BoolArray, Signal, even_signal, low_pass, stretches
+from carpus.core.measures.signals import Signal, low_pass, stretches
 from carpus.core.measures.speed import PLACE_SHARE, StrokeMeasures, measure_stroke
-from carpus.core.measures.validity import settled, valid_view, valid_wrist_angles
-from carpus.core.output.exercises import Exercise, exercise_named
-from carpus.core.output.joint_content import joint_tracks
-from carpus.core.output.range_rows import best_motion
+from carpus.core.results.seen import SeenSession
 from carpus.core.session.values import RepetitionRow, Repetitions, Session
+from carpus.core.types import TrackStatus
 
 HELD_SHARE = 0.98
 """Of the way out: who stays beyond it holds the peak, and which moment of a hold is the highest only noise says."""
 Unmeasured = Literal["", "hidden"] | Cut
 HIDDEN: Unmeasured = "hidden"
 """Why a repetition does not count that was not seen well enough to be measured."""
-
-
 PASSIVE = "passive"
 """Why a repetition counts apart: somebody else moved the hand. Also the event since which that was so."""
 ACTIVE = "active"
@@ -86,15 +83,58 @@ class Measured:
     left_out: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class ShownRepetition:
+    """One repetition, seconds after the first frame. ``reason`` says why it is left out, empty when it counts.
+
+    From where it left one turning place to where it reached the last, as its ``row`` with all its measures says.
+    ``unmeasured`` why it cannot count, whoever wants it: too little of it was seen, or a piece alone.
+    """
+
+    start_s: float
+    end_s: float
+    reason: str
+    unmeasured: Unmeasured = ""
+    row: RepetitionRow | None = None
+
+    @property
+    def helped(self) -> bool:
+        """Whether it counts among those in which somebody else moved the hand."""
+        return self.reason == PASSIVE and not self.unmeasured
+
+    @property
+    def counts(self) -> bool:
+        """Whether the figures include it."""
+        return not self.reason and not self.unmeasured
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether the recording has all of it, seen or not."""
+        return self.unmeasured in ("", HIDDEN)
+
+
 def repetitions_of(session: Session) -> Repetitions:
     """What ``/repetitions`` of a session holds, on the clock of its frames."""
-    exercise = exercise_named(session.header.exercise)
-    trained = trained_angle(exercise, wrist_signals(session, seen_well(session)), joint_tracks(session), session)
+    trained = trained_angle(SeenSession.of(session))
     if trained is None:
         return Repetitions("", ())
     start_s = float(session.timestamp_s[0])
     rows = (one.row for one in measured_repetitions(trained, RepetitionChoices()))
     return Repetitions(trained.name, tuple(on_clock(row, start_s) for row in rows))
+
+
+def shown_repetitions(measured: Sequence[Measured]) -> tuple[ShownRepetition, ...]:
+    """As review and report show them."""
+    return tuple(
+        ShownRepetition(
+            one.row.start_s if math.isfinite(one.row.start_s) else one.window.start_s,
+            one.row.end_s if math.isfinite(one.row.end_s) else one.window.end_s,
+            one.left_out,
+            one.unmeasured,
+            one.row,
+        )
+        for one in measured
+    )
 
 
 def trained_name(session: Session) -> str:
@@ -110,40 +150,18 @@ def on_clock(row: RepetitionRow, start_s: float) -> RepetitionRow:
     return replace(row, start_s=row.start_s + start_s, peak_s=row.peak_s + start_s, end_s=row.end_s + start_s)
 
 
-def seen_well(session: Session) -> BoolArray:
-    """Frames (N,) that the camera saw well enough to measure the wrist."""
-    motion, palm = best_motion(session), list(session.header.protocol.palm)
-    view = valid_view(
-        session.status, session.markers.measured_px[:, palm], motion.rotation_w2_w0, session.calibration.rotation_w0_cam
-    )
-    return settled(view, session.timestamp_s - session.timestamp_s[:1])
-
-
-def wrist_signals(session: Session, view: BoolArray) -> list[Signal]:
-    """The wrist's three angles, each with its sd as a second column, with gaps where it was not seen well."""
-    motion = best_motion(session)
-    valid = valid_wrist_angles(view, motion.angles_rad, motion.angles_sd_rad)
-    time_s = session.timestamp_s - session.timestamp_s[:1]
-    return [
-        even_signal(time_s, np.column_stack((motion.angles_rad[:, k], motion.angles_sd_rad[:, k])), valid[:, k])
-        for k in range(3)
-    ]
-
-
-def trained_angle(
-    exercise: Exercise, signals: Sequence[Signal], tracks: Mapping[str, JointTrack], session: Session
-) -> Trained | None:
+def trained_angle(seen: SeenSession) -> Trained | None:
     """None where no angle is trained, or nothing was seen of it."""
-    looked_back, passive_s = session.smoothed is not None, passive_stretches(session)
-    track = tracks.get(exercise.joint)
+    exercise, looked_back, passive_s = seen.exercise, seen.session.smoothed is not None, passive_stretches(seen.session)
+    track = seen.tracks.get(exercise.joint)
     if track is not None and track.known:
         return Trained(
             exercise.joint, find_repetitions(track.tracked), track.seen, track.seen_sd, track.tracked, looked_back,
             lambda some: joint_range(track, some), passive_s,
         )  # fmt: skip
-    if exercise.angle is None or not len(signals[exercise.angle].time_s):
+    if exercise.angle is None or not len(seen.signals[exercise.angle].time_s):
         return None
-    signal = signals[exercise.angle]
+    signal = seen.signals[exercise.angle]
     angle, smooth = signal.column(0), low_pass(signal, HIGHEST_CUTOFF_HZ).column(0)
     return Trained(
         WRIST_ANGLES[exercise.angle], find_repetitions(angle), angle, signal.column(1), angle, looked_back,
@@ -158,6 +176,25 @@ def passive_stretches(session: Session) -> tuple[tuple[float, float], ...]:
     said = [(one.time_s - start_s, one.kind) for one in session.events if one.kind in (PASSIVE, ACTIVE)]
     ends = [*(time_s for time_s, _ in said[1:]), math.inf]
     return tuple((time_s, end_s) for (time_s, kind), end_s in zip(said, ends, strict=False) if kind == PASSIVE)
+
+
+def without_passive(session: Session, measured: Sequence[Measured]) -> Session:
+    """A session in which nothing was seen while somebody else moved the hand: what is measured over all of it."""
+    time_s = session.timestamp_s - session.timestamp_s[:1]
+    helped = np.zeros(len(time_s), dtype=bool)
+    for start_s, end_s in passive_stretches(session):
+        helped |= (start_s <= time_s) & (time_s < end_s)
+    for one in sorted(measured, key=lambda one: one.row.counted):  # what counts has the last word
+        if one.row.counted or one.left_out == PASSIVE:
+            helped[(one.window.start_s <= time_s) & (time_s <= one.window.end_s)] = not one.row.counted
+    if not helped.any():
+        return session
+    motion, smoothed = (
+        one if one is None else replace(one, joint_angles_rad=np.where(helped[:, None], math.nan, one.joint_angles_rad))
+        for one in (session.motion, session.smoothed)
+    )
+    status = np.where(helped, TrackStatus.LOST, session.status)
+    return replace(session, status=status, motion=motion or session.motion, smoothed=smoothed)
 
 
 def measured_repetitions(trained: Trained, choices: RepetitionChoices) -> tuple[Measured, ...]:

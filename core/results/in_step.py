@@ -11,7 +11,7 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.output.report_content import ShownRepetition
+from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.core.types import FloatArray
 
 Step = Literal["part", "start", "time"]

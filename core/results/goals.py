@@ -9,11 +9,12 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from carpus.core.hand.exercises import SIDES, Exercise
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.change import change_limit_rad
-from carpus.core.output.exercises import SIDES, Exercise
-from carpus.core.output.range_rows import RangeRow
-from carpus.core.output.report_content import SessionFigures, unfair_reasons
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.progress import unfair_reasons
+from carpus.core.results.ranges import RangeRow
 from carpus.core.types import Side
 
 Goals = Mapping[tuple[str, Side], tuple[float, float]]

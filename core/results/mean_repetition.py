@@ -14,10 +14,9 @@ from carpus.core.measures.fingers import bending_weights
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
 from carpus.core.measures.signals import LONGEST_GAP_S
 from carpus.core.measures.validity import valid_wrist_angles
-from carpus.core.output.joint_content import JointCurves, bending_joints, joint_curves
-from carpus.core.output.range_rows import best_motion, is_total
-from carpus.core.output.repetition_rows import seen_well
-from carpus.core.output.report_content import ShownRepetition
+from carpus.core.results.ranges import bending_joints, is_total
+from carpus.core.results.repetition_rows import ShownRepetition
+from carpus.core.results.seen import JointCurves, best_motion, joint_curves, seen_well
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
 

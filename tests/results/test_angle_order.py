@@ -9,9 +9,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from carpus.core.hand.clinical_angles import isb_from_rotation, rotation_from_angles
-from carpus.core.output.angle_order import in_order, isb_sd_rad
-from carpus.core.output.motion_table import motion_columns
-from carpus.core.output.report_content import compare, session_figures
+from carpus.core.results.angle_order import in_order, isb_sd_rad
+from carpus.core.results.figures import session_figures
+from carpus.core.results.motion_curves import motion_columns
+from carpus.core.results.progress import compare
 from carpus.ui.report.words import method
 from tests.ui.fakes import NOW, session
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from carpus.core.formats import csv_tables
-from carpus.core.output.motion_table import hand_axes, motion_columns
+from carpus.core.results.motion_curves import hand_axes, motion_columns
 from tests.formats.takes import take_of
 from tests.ui.fakes import session
 from tests.ui.hand_fakes import hand_session

@@ -6,12 +6,14 @@ beside no other; a total beside a fist. Pro/supination has none: its zero here i
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from carpus.core.measures.grade import USUAL_TOTAL_DEG
-from carpus.core.output.exercises import SIDES, Exercise, Movement
+from carpus.core.hand.exercises import SIDES, Exercise, Movement
+from carpus.core.measures.grade import USUAL_TOTAL_DEG, Grade, total_grade, total_share
 from carpus.core.phrase import phrase
+from carpus.core.results.ranges import RangeRow, is_total
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +46,7 @@ _WRIST_DEG: Mapping[Movement, tuple[float, float]] = {
 def wrist_norm(movement: Movement, angle: int, exercise: Exercise) -> Norm | None:
     """Of one direction, or the sum of both for an arc, where the exercise trains this angle.
 
-    >>> from carpus.core.output.exercises import exercise_named
+    >>> from carpus.core.hand.exercises import exercise_named
     >>> found = wrist_norm("arc", 1, exercise_named("WRIST_FE"))
     >>> (found.low_deg, found.high_deg), wrist_norm("flexion", 1, exercise_named("WRIST_RU"))
     ((120.0, 150.0), None)
@@ -62,3 +64,31 @@ def total_norm(finger: int, exercise: Exercise) -> Norm | None:
         return None
     total = USUAL_TOTAL_DEG[finger]
     return Norm(total, total, _TOTAL_SOURCE, _ADULTS, _BOTH)
+
+
+@dataclass(frozen=True, slots=True)
+class GradedTotal:
+    """Share of the usual TAM of one finger, or of the other hand's, and its grade."""
+
+    finger: int
+    share: float
+    grade: Grade | None
+    of_other_hand: bool = False
+
+
+def graded_totals(
+    rows: Sequence[RangeRow], exercise: Exercise, other_hand: Sequence[RangeRow] = ()
+) -> tuple[GradedTotal, ...]:
+    """Share and grade of every finger's TAM, of the other hand's where that was seen whole, else of the usual one in
+    the exercise that its source speaks of. A lower bound is not graded."""
+    out = []
+    beside = {row.joint: row.mean_deg for row in other_hand if row.movement == "arc" and row.count and not row.limited}
+    for row in rows:
+        if is_total(row.joint) and row.movement == "arc" and row.count:
+            finger, own = int(row.joint[3:]), beside.get(row.joint, math.nan)
+            if not own > 0.0 and total_norm(finger, exercise) is None:
+                continue
+            share = total_share(row.mean_deg, finger, own)
+            grade = None if row.limited else total_grade(share)
+            out.append(GradedTotal(finger, share, grade, of_other_hand=own > 0.0))
+    return tuple(out)

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.output.range_rows import RangeRow, is_total
-from carpus.core.output.report_content import SessionFigures, StrokeSpread
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.ranges import RangeRow, is_total
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,16 +131,12 @@ def _rows(figures: SessionFigures, session: str) -> Iterator[SessionFigure]:
             *common, _measure(row), f"{row.joint or WRIST_ANGLES[row.angle]}, passive", "deg", row.mean_deg,
             row.sd_deg, row.best_deg, row.measurement_sd_deg, row.count, row.limited, row.seen_share, row.inferred,
         )  # fmt: skip
-    trained: tuple[tuple[str, str, StrokeSpread], ...] = (
-        ("peak speed", "deg/s", figures.peak_speed), ("smoothness", "SPARC", figures.smoothness),
-        *(
-            () if figures.speed is None else (
-                ("mean speed", "deg/s", figures.speed.mean_speed), ("movement time", "s", figures.speed.movement_time),
-                ("time to peak", "share", figures.speed.time_to_peak), ("movement units", "1", figures.speed.peaks),
-                ("jerk", "LDLJ", figures.speed.ldlj), ("pauses", "1", figures.speed.pauses),
-                ("pause time", "s", figures.speed.pause_time),
-            )
-        ),
+    speed = figures.speed
+    trained = (
+        ("peak speed", "deg/s", speed.peak_speed), ("smoothness", "SPARC", speed.smoothness),
+        ("mean speed", "deg/s", speed.mean_speed), ("movement time", "s", speed.movement_time),
+        ("time to peak", "share", speed.time_to_peak), ("movement units", "1", speed.peaks),
+        ("jerk", "LDLJ", speed.ldlj), ("pauses", "1", speed.pauses), ("pause time", "s", speed.pause_time),
     )  # fmt: skip
     for item in figures.further:
         yield SessionFigure(

@@ -9,10 +9,10 @@ from functools import cache
 
 import pytest
 
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.measures.error_limits import ErrorLimits, MeasuredLimit, RetestStudy
-from carpus.core.output.exercises import exercise_named
-from carpus.core.output.goals import proposals
-from carpus.core.output.report_content import SessionFigures, session_figures
+from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.goals import proposals
 from tests.ui.fakes import NOW, session
 
 FLEXION = exercise_named("WRIST_FE")

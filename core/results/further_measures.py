@@ -15,14 +15,11 @@ from carpus.core.hand.sites import DIGITS
 from carpus.core.measures.coherence import digit_coherence
 from carpus.core.measures.fingers import JointTrack
 from carpus.core.measures.forearm import rotation_in_place
-from carpus.core.measures.grade import Grade, total_grade, total_share
 from carpus.core.measures.path import TIP_NOISE, WRIST_NOISE
 from carpus.core.measures.reach import Reach, distance_m, find_reaches
 from carpus.core.measures.signals import BoolArray, even_signal, stretches
 from carpus.core.measures.together import co_flexion, enslaving_share, synergy_share, tremor
-from carpus.core.output.exercises import Exercise
-from carpus.core.output.norms import total_norm
-from carpus.core.output.range_rows import RangeRow, best_motion, is_total
+from carpus.core.results.seen import SeenSession, best_motion
 from carpus.core.session.values import Motion, Session
 from carpus.core.types import FloatArray
 
@@ -67,39 +64,33 @@ class FurtherMeasure:
         return float(np.std(known, ddof=1)) if len(known) >= 3 else math.nan
 
 
-@dataclass(frozen=True, slots=True)
-class GradedTotal:
-    """Share of the usual TAM of one finger, or of the other hand's, and its grade."""
-
-    finger: int
-    share: float
-    grade: Grade | None
-    of_other_hand: bool = False
+def further_measures(seen: SeenSession) -> tuple[FurtherMeasure, ...]:
+    """What an exercise has beside its ranges, a held angle's tremor last; nothing that its discs do not show."""
+    angle = 1 if seen.exercise.angle is None else seen.exercise.angle
+    shaken = held_tremor(seen.session, angle, TREMOR_NOISE_RAD)
+    return (*_of_exercise(seen), *([] if shaken is None else [shaken]))
 
 
-def further_measures(
-    session: Session, exercise: Exercise, tracks: Mapping[str, JointTrack], view: BoolArray
-) -> tuple[FurtherMeasure, ...]:
-    """What an exercise has beside its ranges; nothing that its discs do not show."""
-    out: list[FurtherMeasure] = []
-    reaches = session_reaches(session, view) if "reaches" in exercise.further else ()
-    out += reach_measures(reaches)
-    if not tracks:
-        return tuple(out)
+def _of_exercise(seen: SeenSession) -> list[FurtherMeasure]:
+    session, wanted = seen.session, seen.exercise.further
+    reaches = session_reaches(session, seen.view) if "reaches" in wanted else ()
+    out = reach_measures(reaches)
+    if not seen.tracks:
+        return out
     tips = _tips_m(session, best_motion(session))
     has_tip = [digit in session.header.protocol.digits for digit in DIGITS]
     if has_tip[0] and has_tip[1]:
         out += _aperture_measures(session, distance_m(tips[:, 0], tips[:, 1]), reaches)
-    if "spans" in exercise.further:
+    if "spans" in wanted:
         spans = [("hand span", 0, 4), *(("tip span", k - 1, k) for k in range(1, 5))]
         out += [_span(session, name, a, b, tips) for name, a, b in spans if has_tip[a] and has_tip[b]]
-    if "touches" in exercise.further and all(has_tip):
+    if "touches" in wanted and all(has_tip):
         out += opposition_measures(session, tips)
-    if "thumb beside" in exercise.further and has_tip[0]:
+    if "thumb beside" in wanted and has_tip[0]:
         out += thumb_coherence(session)
-    if "together" in exercise.further:
-        out += _together(tracks)
-    return tuple(out)
+    if "together" in wanted:
+        out += _together(seen.tracks)
+    return out
 
 
 def session_reaches(session: Session, view: BoolArray) -> tuple[Reach, ...]:
@@ -251,24 +242,6 @@ def _in_the_hand(motion: Motion, joint: int) -> FloatArray:
     return np.asarray(np.einsum("nji,nj->ni", turned, motion.joint_position_m[:, joint] - motion.position_m))
 
 
-def graded_totals(
-    rows: Sequence[RangeRow], exercise: Exercise, other_hand: Sequence[RangeRow] = ()
-) -> tuple[GradedTotal, ...]:
-    """Share and grade of every finger's TAM, of the other hand's where that was seen whole, else of the usual one in
-    the exercise that its source speaks of. A lower bound is not graded."""
-    out = []
-    beside = {row.joint: row.mean_deg for row in other_hand if row.movement == "arc" and row.count and not row.limited}
-    for row in rows:
-        if is_total(row.joint) and row.movement == "arc" and row.count:
-            finger, own = int(row.joint[3:]), beside.get(row.joint, math.nan)
-            if not own > 0.0 and total_norm(finger, exercise) is None:
-                continue
-            share = total_share(row.mean_deg, finger, own)
-            grade = None if row.limited else total_grade(share)
-            out.append(GradedTotal(finger, share, grade, of_other_hand=own > 0.0))
-    return tuple(out)
-
-
 def held_tremor(session: Session, angle: int, noise_rms_rad: float) -> FurtherMeasure | None:
     """Tremor of a wrist angle that was held; None where nothing was held for six seconds."""
     time_s = session.timestamp_s - session.timestamp_s[:1]
@@ -329,3 +302,7 @@ def _together(tracks: Mapping[str, JointTrack]) -> list[FurtherMeasure]:
     if bending and len({len(values) for values in bending}) == 1 and len(bending[0]):
         out.append(FurtherMeasure("synergy", "fingers", "share", (synergy_share(np.column_stack(bending)),)))
     return out
+
+
+TREMOR_NOISE_RAD = math.radians(0.25)
+"""What the tracker shows between 3 and 12 Hz of a hand that lies still: the sd that moves from frame to frame."""

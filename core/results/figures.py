@@ -1,0 +1,215 @@
+"""What review, progress and report say of a session, as figures; the words and the page are the screen's.
+
+Here they are put together. Each is made in the file of its topic, on a session as :mod:`core.results.seen` has it, by
+the bare mathematics of :mod:`core.measures`, which knows no session: ``ranges``, ``repetition_rows``,
+``speed_figures``, ``quality``, ``further_measures``, ``norms``; what changed between sessions in ``progress`` and
+``side_by_side``. Degrees, degrees per second, millimetres and seconds, since people read them. NaN is unknown.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
+
+import numpy as np
+
+from carpus.core.calibration.result import CalibrationFinding
+from carpus.core.hand.exercises import Exercise, Movement
+from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
+from carpus.core.measures.repetitions import Uncounted, what_was_not_counted
+from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said
+from carpus.core.results.further_measures import FurtherMeasure, further_measures
+from carpus.core.results.norms import GradedTotal, graded_totals
+from carpus.core.results.quality import Quality, quality_of
+from carpus.core.results.ranges import RangeRow, joint_rows, trick_deg, wrist_rows
+from carpus.core.results.repetition_rows import (
+    ACTIVE,
+    PASSIVE,
+    Measured,
+    RepetitionChoices,
+    ShownRepetition,
+    Trained,
+    measured_repetitions,
+    shown_repetitions,
+    trained_angle,
+    without_passive,
+)
+from carpus.core.results.seen import SeenSession, best_motion
+from carpus.core.results.speed_figures import SpeedFigures
+from carpus.core.session.corrected import CorrectedFrom, corrected_from
+from carpus.core.session.values import AngleOrder, Session
+from carpus.core.types import FloatArray, Side
+
+
+@dataclass(frozen=True, slots=True)
+class SessionFigures:
+    """One session in figures. ``trick_deg`` (3,) largest other angles, NaN for the trained one and without a limit."""
+
+    session_id: str
+    subject_id: str
+    when: datetime
+    side: Side
+    protocol: str
+    exercise: Exercise
+    duration_s: float
+    complete: bool
+    recovered: bool
+    smoothed: bool
+    software_version: str
+    start_angles_deg: FloatArray
+    repetitions: tuple[ShownRepetition, ...]
+    rows: tuple[RangeRow, ...]
+    trick_deg: FloatArray
+    speed: SpeedFigures
+    quality: Quality
+    pain: tuple[int, ...]
+    notes: tuple[tuple[float, str], ...]
+    joint_rows: tuple[RangeRow, ...] = ()
+    """Of the whole hand: arc, most bent and least bent of every joint, and the TAM of every finger."""
+    findings: tuple[CalibrationFinding, ...] = ()
+    """What was doubtful at the calibration, and measured all the same."""
+    simulated: bool = False
+    """Whether a simulated hand was measured: nobody's movement."""
+    not_counted: bool = False
+    """Whether a person decided that the session shall not count."""
+    targets_deg: tuple[float, float] = (math.nan, math.nan)
+    """Targets of the trained angle, of its positive and its negative direction, signed; NaN for none."""
+    pain_s: tuple[float, ...] = ()
+    """When each of ``pain`` was said, after the first frame."""
+    further: tuple[FurtherMeasure, ...] = ()
+    """Reaches, finger tips, moving together, tremor: what the exercise has beside its ranges."""
+    grades: tuple[GradedTotal, ...] = ()
+    uncounted: Uncounted | None = None
+    """Why there is no repetition, None where there are some or none are counted."""
+    unseen_s: float = 0.0
+    """How long nothing was seen, each time for longer than can be counted across."""
+    recording_id: str = ""
+    created: datetime | None = None
+    """Which recording it is a result of, and when that result was made."""
+    angle_order: AngleOrder = "zyx"
+    earlier_results: int = 0
+    """Results of the same recording that were made before this one: they do not count."""
+    error_limits: ErrorLimits = DEFAULT_LIMITS
+    """Against which its changes are judged."""
+    camera: CameraSaid = UNKNOWN_CAMERA
+    """Which camera it was measured with, and its calibration."""
+    corrected: CorrectedFrom | None = None
+    """Since when it stands with markers that a person put right; None as measured."""
+    passive: SessionFigures | None = None
+    """The same of the repetitions in which somebody else moved the hand; None without any. Never in the others."""
+    without_passive: bool = False
+    """Whether ranges over the whole recording leave out stretches in which somebody else moved the hand."""
+
+    @property
+    def study(self) -> RetestStudy | None:
+        """The clinic's own test and retest of such sessions, None where the default limits hold."""
+        return self.error_limits.study(self.protocol, self.exercise.id, self.angle_order)
+
+    @property
+    def counted(self) -> int:
+        """Repetitions that count."""
+        return sum(repetition.counts for repetition in self.repetitions)
+
+    def row(self, movement: Movement, angle: int, joint: str = "") -> RangeRow | None:
+        """The row of one movement of one angle of the wrist, or of a joint (``angle`` is -1 then)."""
+        rows = self.joint_rows if joint else self.rows
+        return next((row for row in rows if row.key == (joint, movement, angle)), None)
+
+
+def session_figures(
+    session: Session, choices: RepetitionChoices | None = None, error_limits: ErrorLimits = DEFAULT_LIMITS
+) -> SessionFigures:
+    """All figures of one session, with a person's corrections to its repetitions."""
+    choices, header = choices or RepetitionChoices(), session.header
+    seen = SeenSession.of(session)
+    trained = trained_angle(seen)
+    measured = measured_repetitions(trained, choices) if trained is not None else ()
+    repetitions = shown_repetitions(measured)
+    counted = tuple(one.window for one in measured if one.row.counted)
+    active = without_passive(session, measured)
+    own = seen if active is session else SeenSession.of(active)
+    over = seen if counted else own
+    rows, joints = wrist_rows(over, counted), joint_rows(over.tracks, counted, over.exercise)
+    if not counted and any(one.is_whole for one in repetitions):
+        rows, joints = (), ()  # all were left out: nothing is measured, least of all the whole recording
+    strokes = [stroke for one in measured if one.row.counted for stroke in one.strokes if not stroke.stroke.half]
+    pains = [(time_s, int(text)) for time_s, text in _told(session, "pain") if text.isdigit()]
+    return SessionFigures(
+        session_id=header.session_id,
+        subject_id=header.subject_id,
+        when=header.when,
+        side=header.hand,
+        protocol=header.protocol.name,
+        exercise=seen.exercise,
+        duration_s=float(session.timestamp_s[-1] - session.timestamp_s[0]) if len(session) else 0.0,
+        complete=session.complete,
+        recovered=bool(session.recovered),
+        smoothed=session.smoothed is not None,
+        software_version=header.software_version,
+        start_angles_deg=np.degrees(session.calibration.start_angles_rad),
+        repetitions=repetitions,
+        rows=rows,
+        joint_rows=joints,
+        trick_deg=trick_deg(own),
+        speed=SpeedFigures.of(strokes),
+        quality=quality_of(seen, repetitions),
+        further=further_measures(own),
+        grades=graded_totals(joints, seen.exercise),
+        uncounted=_why_none(seen, trained),
+        unseen_s=sum(end - start for start, end in trained.found.unseen_s) if trained is not None else 0.0,
+        pain=tuple(score for _, score in pains),
+        pain_s=tuple(time_s for time_s, _ in pains),
+        notes=tuple(said for said in _told(session, "note") if said[1] and len(session)),
+        findings=session.calibration.verdict.findings,
+        simulated=header.simulated,
+        not_counted=choices.not_counted,
+        targets_deg=header.targets_deg,
+        recording_id=header.recording_id,
+        created=datetime.fromisoformat(header.created),
+        angle_order=session.angle_order,
+        error_limits=error_limits,
+        camera=camera_said(header.parameters),
+        corrected=corrected_from(session),
+        passive=_of_passive(session, choices, measured, error_limits),
+        without_passive=not counted and own is not seen,
+    )
+
+
+def _of_passive(
+    session: Session, choices: RepetitionChoices, measured: Sequence[Measured], error_limits: ErrorLimits
+) -> SessionFigures | None:
+    """The figures of what was helped alone: all else is left out of them."""
+    if not any(one.left_out == PASSIVE and not one.unmeasured for one in measured):
+        return None
+    others = {n: "" if one.left_out == PASSIVE else one.left_out or ACTIVE for n, one in enumerate(measured)}
+    return session_figures(session, replace(choices, left_out=others), error_limits)
+
+
+def data_digest(session: Session) -> str:
+    """SHA-256 over times, status and angles as stored: two reports with the same digest show the same measurement."""
+    digest = hashlib.sha256()
+    motion = best_motion(session)
+    for array in (
+        session.timestamp_s,
+        np.asarray(session.status, dtype=np.int64),
+        motion.angles_rad,
+        motion.angles_sd_rad,
+    ):
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
+
+
+def _told(session: Session, kind: str) -> list[tuple[float, str]]:
+    """When after the first frame something of a kind was told, and what."""
+    start_s = float(session.timestamp_s[0]) if len(session) else math.nan
+    return [(event.time_s - start_s, event.text) for event in session.events if event.kind == kind]
+
+
+def _why_none(seen: SeenSession, trained: Trained | None) -> Uncounted | None:
+    """Why there is no repetition of an angle that is one of this session's."""
+    if trained is not None:
+        return what_was_not_counted(trained.seen, trained.found)
+    return "nothing_seen" if seen.exercise.angle is not None or seen.exercise.joint in seen.tracks else None

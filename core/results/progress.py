@@ -1,0 +1,266 @@
+"""Whether sessions compare, what changed from one to the other, and the way of many over time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from carpus.core.by_hand.values import HandValue
+from carpus.core.hand.exercises import Movement
+from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.measures.change import ARC_LIMIT_FACTOR, TOTAL_ACTIVE_MOTION, MeasuredMean, Obstacle, change_between
+from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
+from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.ranges import RangeRow, RowKey, is_total
+
+Verdict = Literal["improved", "worse", "no_change", "not_judged"]
+Unfairness = Literal[
+    Obstacle,
+    "simulated",
+    "not_counted",
+    "doubtful",
+    "distance",
+    "start_angle",
+    "forearm_moved",
+    "incomplete",
+    "hidden",
+    "angle_order",
+    "only_passive",
+]
+NAMES_DOUBTED = ("swapped", "shifted", "misnamed", "wrong_side", "other_length", "depth_off", "other_spot", "no_palm")
+"""Findings at the calibration after which the angles may be something else: such a session never compares."""
+LARGEST_DISTANCE_STEP_M = 0.10
+LARGEST_START_ANGLE_STEP_DEG = 5.0
+"""Beyond these two sessions were not set up alike."""
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """One movement in two sessions; ``difference_deg`` after - before of the means, against ``limit_deg``."""
+
+    movement: Movement
+    angle: int
+    before_deg: float
+    after_deg: float
+    difference_deg: float
+    limit_deg: float
+    verdict: Verdict
+    joint: str = ""
+    limited: tuple[bool, bool] = (False, False)
+    """Whether the figure before and the one after are lower bounds, since the joint was hidden in part."""
+    reasons: tuple[Unfairness, ...] = ()
+    """Why the two are not judged; empty when they are."""
+
+    @property
+    def at_least(self) -> bool:
+        """Whether the gain is a lower bound."""
+        return self.limited == (False, True)
+
+    @property
+    def shown_difference_deg(self) -> float:
+        """Difference of the rounded means, so that the figures on a page agree with each other."""
+        if not math.isfinite(self.difference_deg):
+            return math.nan
+        return float(math.floor(self.after_deg + 0.5) - math.floor(self.before_deg + 0.5))
+
+
+@dataclass(frozen=True, slots=True)
+class ProgressPoint:
+    """One session on the way; not ``fair`` means that it is shown but not compared, for ``reasons``."""
+
+    figures: SessionFigures
+    reasons: tuple[Unfairness, ...]
+
+    @property
+    def fair(self) -> bool:
+        """Whether it compares with the first session."""
+        return not self.reasons
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """Sessions of one hand and exercise in order of time; first and last fair ones compared, arc first.
+
+    ``keys`` what of the whole hand is followed, of any session; empty for the wrist. ``replaced`` earlier results of
+    recordings that were tracked again: a recording counts once, by its newest result.
+    """
+
+    points: tuple[ProgressPoint, ...]
+    comparisons: tuple[Comparison, ...]
+    other_hand: SessionFigures | None
+    keys: tuple[RowKey, ...] = ()
+    replaced: tuple[SessionFigures, ...] = ()
+    by_hand: tuple[HandValue, ...] = ()
+    """What counts of what was measured by hand, of this hand and of the person, by day; beside ours, never in it."""
+
+    @property
+    def earlier_results(self) -> int:
+        """How many earlier results of the same recordings there are, read or not."""
+        return max(len(self.replaced), sum(point.figures.earlier_results for point in self.points))
+
+    @property
+    def first(self) -> SessionFigures | None:
+        """The session compared with: the first that is fair in itself, else the first of all."""
+        chosen = next((point for point in self.points if point.fair), self.points[0] if self.points else None)
+        return chosen.figures if chosen is not None else None
+
+    @property
+    def last(self) -> SessionFigures | None:
+        """The last one that compares."""
+        fair = [point.figures for point in self.points if point.fair]
+        return fair[-1] if fair else None
+
+    @property
+    def study(self) -> RetestStudy | None:
+        """The clinic's own test and retest by which changes are judged, None for the default limits."""
+        return self.last.study if self.last is not None else None
+
+    @property
+    def headline(self) -> Comparison | None:
+        """The comparison that answers the question: of the trained arc, or the largest change beyond error."""
+        beyond = [item for item in self.comparisons if item.verdict in ("improved", "worse")]
+        arcs = [item for item in self.comparisons if item.movement == "arc"]
+        best: list[Comparison | None] = [*(item for item in arcs if item in beyond), *beyond, *arcs, None]
+        return best[0]
+
+
+def compare(before: SessionFigures, after: SessionFigures) -> tuple[Comparison, ...]:
+    """Means of the movements that both sessions have, arc first; nothing is a change within measurement error."""
+    return compare_rows(before, after, after.rows)
+
+
+def compare_rows(before: SessionFigures, after: SessionFigures, rows: Sequence[RangeRow]) -> tuple[Comparison, ...]:
+    """As :func:`compare`, of some rows of the later session. A hidden joint is not judged, but for a sure gain.
+
+    Sessions that the progress leaves out are not judged here either: there is one judgement, wherever it is shown.
+    """
+    unfair = tuple(dict.fromkeys((*unfair_reasons(before, before), *unfair_reasons(before, after))))
+    study = after.study
+    out = []
+    for row in rows:
+        other = before.row(row.movement, row.angle, row.joint)
+        if other is None:
+            continue
+        name = TOTAL_ACTIVE_MOTION if is_total(row.joint) else row.joint or WRIST_ANGLES[row.angle]
+        change = change_between(_mean(before, other), _mean(after, row), name)
+        factor = ARC_LIMIT_FACTOR if row.movement == "arc" and not is_total(row.joint) else 1.0
+        own = study.limit_deg(row.joint or name, row.movement) if study is not None else None
+        limit = math.degrees(change.limit_rad) * factor if own is None else own
+        difference = row.mean_deg - other.mean_deg
+        verdict: Verdict = "not_judged"
+        limited = (other.limited, row.limited) if row.joint else (False, False)
+        # A lower bound that lies beyond the error above a figure fully seen is a gain; nothing else is known of it.
+        sure_gain = row.movement == "arc" and limited == (False, True) and difference > limit
+        reasons: tuple[Unfairness, ...] = tuple(dict.fromkeys((*unfair, *change.obstacles)))
+        if not reasons and any(limited) and not sure_gain:
+            reasons = ("hidden",)
+        if not reasons:
+            beyond = abs(difference) > limit
+            better = difference > 0 if row.joint == "" or row.movement != "extension" else difference < 0
+            verdict = "no_change" if not beyond else "improved" if better else "worse"
+        out.append(
+            Comparison(
+                row.movement,
+                row.angle,
+                other.mean_deg,
+                row.mean_deg,
+                difference,
+                limit,
+                verdict,
+                row.joint,
+                limited,
+                reasons,
+            )
+        )
+    return tuple(out)
+
+
+def unfair_reasons(first: SessionFigures, other: SessionFigures) -> tuple[Unfairness, ...]:
+    """Why a session does not compare with the first one; with itself: why it compares with none."""
+    reasons: list[Unfairness] = []
+    if other.simulated != first.simulated:
+        reasons.append("simulated")
+    if other.angle_order != first.angle_order:
+        reasons.append("angle_order")
+    if any(finding.kind in NAMES_DOUBTED for finding in other.findings):
+        reasons.append("doubtful")
+    if other.not_counted:
+        reasons.append("not_counted")
+    if abs(first.quality.distance_m - other.quality.distance_m) > LARGEST_DISTANCE_STEP_M:
+        reasons.append("distance")
+    if float(np.abs(first.start_angles_deg - other.start_angles_deg).max()) > LARGEST_START_ANGLE_STEP_DEG:
+        reasons.append("start_angle")
+    if other.exercise.pure_wrist and other.quality.forearm_moved:
+        reasons.append("forearm_moved")
+    if not other.complete and not other.recovered:
+        reasons.append("incomplete")
+    if other.passive is not None and not other.counted:
+        reasons.append("only_passive")
+    elif 0 < other.counted < FEWEST_FOR_SPREAD or (other.exercise.counts and not other.counted):
+        reasons.append("few_repetitions_after")
+    return tuple(reasons)
+
+
+def progress(
+    sessions: Sequence[SessionFigures], other_hand: SessionFigures | None = None, keys: Sequence[RowKey] = ()
+) -> Progress:
+    """Sessions of one hand, protocol and exercise over time, compared with the first one that is fair in itself.
+
+    ``keys`` choose what of the whole hand is followed; without them it is the wrist.
+    """
+    ordered = newest_results(sessions)
+    real = [figures for figures in ordered if not figures.simulated]
+    first = next((figures for figures in real or ordered if not unfair_reasons(figures, figures)), None)
+    points = tuple(ProgressPoint(figures, unfair_reasons(first or figures, figures)) for figures in ordered)
+    fair = [point.figures for point in points if point.fair]
+    comparisons: tuple[Comparison, ...] = ()
+    if len(fair) > 1:
+        wanted = [row for key in keys for row in fair[-1].joint_rows if row.key == key]
+        comparisons = compare_rows(fair[0], fair[-1], wanted if keys else fair[-1].rows)
+    replaced = tuple(figures for figures in sessions if all(figures is not kept for kept in ordered))
+    return Progress(points, comparisons, other_hand, tuple(keys), replaced)
+
+
+def newest_results(sessions: Sequence[SessionFigures]) -> list[SessionFigures]:
+    """Of every recording its newest result, in order of when the hand moved."""
+    newest: dict[str, SessionFigures] = {}
+    for figures in sorted(sessions, key=lambda figures: figures.created or figures.when):
+        newest[figures.recording_id or figures.session_id] = figures
+    return sorted(newest.values(), key=lambda figures: figures.when)
+
+
+def previous_of(history: Sequence[SessionFigures], figures: SessionFigures) -> SessionFigures | None:
+    """The last earlier session of the same hand, protocol and exercise that counts."""
+    alike = [other for other in newest_results(history) if _alike(other, figures) and other.side == figures.side]
+    return max((other for other in alike if other.when < figures.when), key=lambda other: other.when, default=None)
+
+
+def limits_of(history: Sequence[SessionFigures]) -> ErrorLimits:
+    """Against which the figures of a patient are judged; of nobody the default ones."""
+    return history[0].error_limits if history else DEFAULT_LIMITS
+
+
+def other_hand_of(history: Sequence[SessionFigures], figures: SessionFigures) -> SessionFigures | None:
+    """The last session of the other hand in the same protocol and exercise."""
+    alike = [other for other in newest_results(history) if _alike(other, figures) and other.side != figures.side]
+    return max(alike, key=lambda other: other.when, default=None)
+
+
+def _alike(one: SessionFigures, other: SessionFigures) -> bool:
+    same_kind = (one.exercise.id, one.protocol, one.simulated) == (other.exercise.id, other.protocol, other.simulated)
+    return same_kind and bool(one.rows or one.joint_rows) and not one.not_counted and not _same_recording(one, other)
+
+
+def _same_recording(one: SessionFigures, other: SessionFigures) -> bool:
+    return bool(one.recording_id) and one.recording_id == other.recording_id
+
+
+def _mean(figures: SessionFigures, row: RangeRow) -> MeasuredMean:
+    """A session without repetitions (free movement) has one range; it is never judged."""
+    count = row.count if figures.counted else 0
+    return MeasuredMean(math.radians(row.mean_deg), count, figures.side, figures.protocol, figures.exercise.id)
