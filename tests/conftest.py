@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import settings
+from tqdm import tqdm
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QApplication
@@ -42,6 +43,7 @@ def pytest_configure() -> None:
     """A busy computer is no fault of the program: five seconds, as the plug-in has it, are too few there."""
     from pytestqt.qtbot import QtBot
 
+    tqdm.monitor_interval = 0  # the bars' own thread would outlive the test
     QtBot.waitUntil.__kwdefaults__["timeout"] = _PATIENCE_MS
     QtBot.waitSignal.__kwdefaults__["timeout"] = _PATIENCE_MS
 
@@ -95,6 +97,29 @@ def own_folders(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Mo
         folder.mkdir(mode=0o700)
         monkeypatch.setenv(name, str(folder))
     return home
+
+
+@pytest.fixture
+def quick_age(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A passphrase stands for a key made here, without the second that the library spends on each so that guessing
+    takes long; another passphrase does not open it."""
+    import pyrage
+
+    keys: dict[str, pyrage.x25519.Identity] = {}
+
+    def key(passphrase: str) -> pyrage.x25519.Identity:
+        return keys.setdefault(passphrase, pyrage.x25519.Identity.generate())
+
+    class Passphrases:
+        @staticmethod
+        def encrypt(content: bytes, passphrase: str) -> bytes:
+            return bytes(pyrage.encrypt(content, [key(passphrase).to_public()]))
+
+        @staticmethod
+        def decrypt(sealed: bytes, passphrase: str) -> bytes:
+            return bytes(pyrage.decrypt(sealed, [key(passphrase)]))
+
+    monkeypatch.setattr(pyrage, "passphrase", Passphrases)
 
 
 @pytest.fixture(autouse=True)

@@ -8,7 +8,6 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from tqdm import tqdm
 
 from carpus.app.__main__ import main
 from carpus.core.provenance import revision, sha256_of_recording, sha256_of_settings
@@ -41,10 +40,7 @@ def test_a_recordings_hash_is_of_its_lists_and_pictures_alone(tmp_path: Path) ->
     assert sha256_of_recording(tmp_path / "rgb" / "1.png") == hashlib.sha256(b"one").hexdigest()
 
 
-def test_a_session_says_what_it_is_of(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
+def test_a_session_says_what_it_is_of(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder, output = tmp_path / "recording", tmp_path / "s.h5"
     assert main(["simulate", "--output", str(folder), "--seconds", "0.4", "--seed", "3"]) == 0
     track = ["track", str(folder), "--calibration", str(folder / "calibration.json"), "--output", str(output)]

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tqdm import tqdm
 
 from carpus.app.__main__ import main
 from carpus.core.agreement.compare import Pairs
@@ -22,12 +21,6 @@ from carpus.core.agreement.study import OfPeople, _few
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from tests.formats.takes import stored
-
-
-@pytest.fixture(autouse=True)
-def _quiet_bars(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
-
 
 OFFSETS = {"anna": (2.0, 2.4), "bert": (-1.0, -0.6), "cleo": (0.5, 0.7), "dora": (3.0,)}
 """How far each person's references lie off, degrees."""

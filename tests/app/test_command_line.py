@@ -40,11 +40,6 @@ ROOT = Path(__file__).parents[2]
 COMMAND = (sys.executable, "-m", "carpus")
 
 
-@pytest.fixture(autouse=True)
-def _quiet_bars(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
-
-
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("recording") / "wrist"
@@ -413,7 +408,6 @@ class ATerminal(io.StringIO):
 
 
 def test_a_terminal_sees_how_far_how_fast_and_how_long_yet(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bar's own thread would outlive the test
     monkeypatch.setattr("tqdm.tqdm", partial(tqdm, mininterval=0.0))
     monkeypatch.setattr(sys, "stderr", ATerminal())
     with progress.bar("tracking") as show:

@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tqdm import tqdm
 
 import carpus
 from carpus.app.__main__ import main
@@ -81,9 +80,8 @@ def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path
 
 
 def test_commands_are_logged_where_the_session_is_kept(
-    library: Library, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    library: Library, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # its thread outlives the bar
     linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
     session = store(library, set_up(linden, "Linden 42"))
     practice = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
@@ -155,7 +153,6 @@ def test_a_log_that_cannot_be_written_is_told_and_stops_nothing_else(
 def test_a_back_up_by_command_comes_back_elsewhere(
     library: Library, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)
     monkeypatch.setattr("os.nice", lambda _: 0)
     linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
     store(library, set_up(linden, "Linden 42"))
@@ -196,7 +193,6 @@ def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(
     assert path.is_relative_to(share)
     assert read_comment(path) == "Less swelling."
     assert read_choices(path).left_out == {0: "pain"}
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)
     monkeypatch.setattr("os.nice", lambda _: 0)
     assert main(["backup", str(tmp_path / "disk")]) == 0
     assert main(["erase", str(path), "--for-good", "Linden 42"]) == 0

@@ -374,6 +374,7 @@ def test_what_is_looked_at_is_logged(qtbot: QtBot, opened: Open) -> None:
     assert (last.did, last.kind, last.subject) == ("opened", "session", fingerprint(chosen.session_id))
 
 
+@pytest.mark.usefixtures("quick_age")
 def test_everything_is_sealed_into_one_file_and_comes_back_from_it(
     qtbot: QtBot, opened: Open, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import h5py
 import pytest
-from tqdm import tqdm
 
 from carpus import __version__
 from carpus.app.__main__ import main
@@ -52,9 +51,7 @@ def test_fingers_by_colour_alone_are_called_an_experiment(
     warned: bool,
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bar's own thread would outlive the test
     session, output = tmp_path / "session.h5", tmp_path / "again.h5"
     header = new_header(hand="right", protocol=protocol, software_version="0")
     SessionWriter.create(session, header, CAMERA, make_calibration(protocol)).close()
@@ -67,9 +64,8 @@ def test_fingers_by_colour_alone_are_called_an_experiment(
     [((), "free", False), (("--dip", "coupled"), "coupled", False), (("--discs", "on-skin"), "free", True)],
 )
 def test_a_session_tracked_again_keeps_its_end_joints_and_its_discs_unless_told(
-    options: tuple[str, ...], dip: str, on_skin: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    options: tuple[str, ...], dip: str, on_skin: bool, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bar's own thread would outlive the test
     session, output = tmp_path / "session.h5", tmp_path / "again.h5"
     tracker = TrackerSettings(dip="free", fingers=FingerSettings(skin_offsets=False))
     parameters = parameters_json(TrackSettings(tracker=tracker), {}, Learnt(0.1, 1.0, 0.0))
@@ -90,9 +86,8 @@ def a_session(path: Path, settings: TrackSettings, version: str = __version__) -
 
 
 def test_a_session_is_tracked_again_as_it_was_and_what_differs_is_said(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)
     detection = DetectionSettings(least_area=0.2)
     tracker = TrackerSettings(profile="slow", mode_scales=(1.0,), use_depth=False)
     before = TrackSettings(tracker=tracker, detection=detection, smooth=False)
@@ -113,9 +108,8 @@ def test_a_session_is_tracked_again_as_it_was_and_what_differs_is_said(
 
 
 def test_another_version_and_a_setting_that_is_gone_are_said(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)
     session = a_session(tmp_path / "session.h5", TrackSettings(), version="0.0.9")
     with h5py.File(session, "r+") as file:
         parameters = json.loads(str(file.attrs["parameters"]))
@@ -163,10 +157,8 @@ def test_when_the_hand_moved_is_asked_or_taken_from_the_file_and_said(
     day: datetime | None,
     doubted: bool,
     tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)
     folder = tmp_path / "r"
     simulate(RecordingSpec(seed=2, motion="rest", seconds=0.8), folder)
     times = [line.split()[0] for line in (folder / "rgb.txt").read_text("utf-8").splitlines() if line[0] != "#"]

@@ -14,7 +14,6 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
-from tqdm import tqdm
 
 from carpus.app.__main__ import main, parser
 from carpus.app.command_line import CommandParser
@@ -144,11 +143,6 @@ METAVAR = re.compile(
     r"METRES|MM|DEGREES|PIXELS|HZ|SHARE|KIND\[:WHICH\]|DEVIATION|FLEXION|SUPINATION|"
     r"(CLICKS|REPORT|TABLE|BOARD|CARD|RESULT|CAMERA)\.[a-z]+|[A-Z]+(=[A-Z]+)?(,|\+)\.\.\.)"
 )
-
-
-@pytest.fixture(autouse=True)
-def _quiet_bars(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
 
 
 @pytest.fixture(scope="module")

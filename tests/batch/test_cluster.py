@@ -17,7 +17,6 @@ import numpy as np
 import pytest
 from distributed import Client
 from pyarrow import parquet
-from tqdm import tqdm
 
 from carpus.app.__main__ import main
 from carpus.app.batch.cluster import outcomes_on
@@ -39,11 +38,6 @@ if __name__ == "__main__":
         print(cluster.scheduler_address, flush=True)
         __import__('sys').stdin.read()
 """
-
-
-@pytest.fixture(autouse=True)
-def _quiet_bars(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
 
 
 @pytest.fixture(scope="module")

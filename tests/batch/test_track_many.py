@@ -12,7 +12,6 @@ import numpy as np
 import pyarrow
 import pytest
 from pyarrow import parquet
-from tqdm import tqdm
 
 from carpus.app.__main__ import main
 from carpus.app.batch.tables import MEASURES_FILE, OUTCOMES_FILE
@@ -22,11 +21,6 @@ from carpus.core.results.measures_table import SessionFigure
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
-
-
-@pytest.fixture(autouse=True)
-def _quiet_bars(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from tqdm import tqdm
 
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.camera_calibration.board import CHESSBOARD, board_sheet
@@ -11,11 +10,6 @@ from carpus.core.camera_calibration.gather import Gathering
 from carpus.core.simulation.printed_sheets import Studio, poses, texture_of
 from carpus.core.types import Frame
 from tests.camera_calibration.printed import ShownSheets
-
-
-@pytest.fixture(autouse=True)
-def no_bar_thread(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
 
 
 @pytest.fixture(scope="package")

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tqdm import tqdm
 
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
@@ -42,11 +41,6 @@ from carpus.core.simulation.printed_sheets import LENS, Studio
 from carpus.core.types import Frame
 
 NOW = datetime(2026, 11, 20, 9, tzinfo=UTC)
-
-
-@pytest.fixture(autouse=True)
-def no_bar_thread(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
 
 
 @pytest.fixture(scope="module")

@@ -8,18 +8,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from tqdm import tqdm
 
 from carpus.app.__main__ import main
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import FloatArray, TrackStatus
-
-
-@pytest.fixture(autouse=True)
-def _quiet_bars(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tqdm, "monitor_interval", 0)  # the bars' own thread would outlive the test
 
 
 @pytest.fixture(scope="module")

@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
+import io
 import os
 import pty
 import shutil
-import subprocess
 import sys
 import tarfile
 import time
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
+import pyrage
 import pytest
 
+from carpus.app.__main__ import main
 from carpus.core.errors import BackupUnreadable, OutputExists, PassphraseUnfit, SealRefused, TooLargeToSeal
 from carpus.core.records import sealed as module
 from carpus.core.records.backup import restore
 from carpus.core.records.sealed import is_sealed, open_sealed, seal_backup, seal_files
 from tests.records.samples import LINDEN, T0, measure, opened
 
-ROOT = Path(__file__).parents[2]
 NOW = datetime(2026, 11, 20, 18, 0, tzinfo=UTC)
 WORDS = "four words über all"
 
@@ -35,9 +36,12 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.fixture(scope="module")
-def file(data: Path) -> Path:
-    path = data.parent / "out.tar.age"
+@pytest.fixture
+def file(quick_age: None, data: Path, tmp_path: Path) -> Path:
+    return sealed(data, tmp_path / "out.tar.age")
+
+
+def sealed(data: Path, path: Path) -> Path:
     assert seal_backup(data, path, WORDS, software_version="1", now=NOW).sessions == 2
     return path
 
@@ -62,7 +66,8 @@ def by_age(path: Path, passphrase: str, into: Path) -> int:
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
-def test_the_standard_tool_opens_it(file: Path, data: Path, tmp_path: Path) -> None:
+def test_the_standard_tool_opens_it(data: Path, tmp_path: Path) -> None:
+    file = sealed(data, tmp_path / "out.tar.age")
     assert by_age(file, WORDS, tmp_path / "out.tar") == 0
     with tarfile.open(tmp_path / "out.tar") as tar:
         tar.extractall(tmp_path / "out", filter="data")
@@ -96,6 +101,7 @@ def test_another_passphrase_and_damage_are_refused(file: Path, tmp_path: Path, d
         open_sealed(path, WORDS + "x" if damage == "passphrase" else WORDS)
 
 
+@pytest.mark.usefixtures("quick_age")
 def test_what_is_no_back_up_what_is_too_large_and_what_is_there_are_refused(
     data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -111,36 +117,33 @@ def test_what_is_no_back_up_what_is_too_large_and_what_is_there_are_refused(
     assert not (tmp_path / "large.tar.age").exists()
 
 
-def carpus(*words: str, typed: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "carpus", *words], cwd=ROOT, input=typed, capture_output=True, text=True, check=False
-    )
-
-
-def test_the_commands_ask_for_the_passphrase_and_bring_everything_back(data: Path, tmp_path: Path) -> None:
+@pytest.mark.usefixtures("quick_age")
+def test_the_commands_ask_for_the_passphrase_and_bring_everything_back(
+    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     path, new = str(tmp_path / "b.tar.age"), tmp_path / "new"
-    done = carpus("backup", path, "--sealed", "--data-folder", str(data), typed="short\n")
-    assert (done.returncode, Path(path).exists()) == (1, False)
-    assert "signs or more" in done.stderr
-    done = carpus("backup", path, "--sealed", "--data-folder", str(data), typed=f"{WORDS}\n")
-    assert done.returncode == 0, done.stderr
-    assert WORDS not in done.stdout + done.stderr
-    assert carpus("restore", path, "--into", str(new), typed="not this one\n").returncode == 1
+
+    def carpus(*words: str, typed: str) -> int:
+        monkeypatch.setattr(sys, "stdin", io.StringIO(f"{typed}\n"))
+        return main(words)
+
+    assert carpus("backup", path, "--sealed", "--data-folder", str(data), typed="short") == 1
+    assert not Path(path).exists()
+    assert "signs or more" in capsys.readouterr().err
+    assert carpus("backup", path, "--sealed", "--data-folder", str(data), typed=WORDS) == 0
+    said = capsys.readouterr()
+    assert WORDS not in said.out + said.err
+    assert carpus("restore", path, "--into", str(new), typed="not this one") == 1
     assert not new.exists()
-    done = carpus("restore", path, "--into", str(new), typed=f"{WORDS}\n")
-    assert done.returncode == 0, done.stderr
+    assert carpus("restore", path, "--into", str(new), typed=WORDS) == 0
     assert len(list(new.rglob("*.h5"))) == 2
     session, out = next(iter(new.rglob("*.h5"))), tmp_path / "e.tar.age"
-    done = carpus("export", str(session), "--sealed", "--output", str(out), typed=f"{WORDS}\n")
-    assert done.returncode == 0, done.stderr
-    assert by_age(out, WORDS, tmp_path / "e.tar") == 0
-    with tarfile.open(tmp_path / "e.tar") as tar:
+    assert carpus("export", str(session), "--sealed", "--output", str(out), typed=WORDS) == 0
+    with tarfile.open(fileobj=io.BytesIO(pyrage.passphrase.decrypt(out.read_bytes(), WORDS))) as tar:
         assert any(name.endswith(".wrist.csv") for name in tar.getnames())
 
 
 def test_a_passphrase_of_few_signs_is_told_in_words(monkeypatch: pytest.MonkeyPatch) -> None:
-    import io
-
     from carpus.app.asking import ask_passphrase
 
     monkeypatch.setattr(sys, "stdin", io.StringIO("short\n"))
