@@ -266,13 +266,13 @@ class HandFilter:
         unseen, self._unseen = self._unseen, None
         kept = float(np.exp(-scan.dt_s / self._settings.rate_memory_s))
         estimate, mixture = posterior.estimate, posterior.mixture
+        if not posterior.levelled:
+            self._unseen = unseen_turns(self.view.palm_m[posterior.palm.assigned >= 0], self._settings.holding.narrow_m)
         if not is_seen:
             # An unseen hand is not taken to go on for ever: its velocity fades, its uncertainty grows.
             estimate, mixture = _slowed(estimate, mixture, np.diag(slowing(kept)))
-        elif not posterior.levelled:
-            self._unseen = unseen_turns(self.view.palm_m[posterior.palm.assigned >= 0], self._settings.holding.narrow_m)
-            if self._unseen is not None:
-                estimate, mixture = _slowed(estimate, mixture, slowing_unseen(kept, self._unseen))
+        elif self._unseen is not None:
+            estimate, mixture = _slowed(estimate, mixture, slowing_unseen(kept, self._unseen))
         self._known = estimate, mixture
         fingers = None
         if self.fingers is not None and posterior.fingers is not None:

@@ -210,6 +210,8 @@ def unseen_turns(places_m: FloatArray, narrow_m: float) -> FloatArray | None:
 
     Discs near one line say nothing of turning about it: what moves then is their heights over it, a few millimetres.
     """
+    if len(places_m) < 2:
+        return np.eye(3)
     apart = places_m[:, :2] - places_m[:, :2].mean(axis=0)
     _, spread, axes = np.linalg.svd(apart, full_matrices=False)
     if spread[1] >= narrow_m * math.sqrt(len(places_m)):

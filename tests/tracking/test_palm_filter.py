@@ -394,6 +394,17 @@ def test_knuckles_alone_do_not_show_the_turn_about_their_line_and_a_wrist_beside
     assert np.trace(unseen) == pytest.approx(1.0)
 
 
+def test_two_discs_do_not_show_the_turn_about_their_line_and_fewer_show_none() -> None:
+    line = (PALM_M[1] - PALM_M[0]) * [1.0, 1.0, 0.0]
+    unseen = unseen_turns(PALM_M[:2], 0.008)
+    assert unseen is not None
+    np.testing.assert_allclose(unseen, np.outer(line, line) / (line @ line), atol=1e-12)
+    for few in (PALM_M[:1], PALM_M[:0]):
+        found = unseen_turns(few, 0.008)
+        assert found is not None
+        np.testing.assert_array_equal(found, np.eye(3))
+
+
 def test_an_unseen_turn_is_pushed_as_a_hand_may_move_in_every_mode_and_no_other_is() -> None:
     unseen = np.diag([1.0, 0.0, 0.0])
     usual = palm_transition(np.zeros(3), MOTION, 1.0 / 30.0).driven

@@ -14,6 +14,7 @@ from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
 from tests.tracking.hands import (
     CAMERA,
+    CMC1,
     DT_S,
     MCP3,
     RIGID,
@@ -257,6 +258,25 @@ def test_a_lone_blob_is_no_disc_of_a_hand_long_unseen() -> None:
             assert np.isnan(frame.marker_measured_px).all()
     assert frame.status is TrackStatus.TRACKED
     assert np.abs(np.degrees(frame.moment.angles_rad) - moving(59 * DT_S).angles_deg).max() < 2.0
+
+
+@pytest.mark.parametrize("shown", [(), (WRIST,), (WRIST, CMC1)])
+def test_a_calm_hand_that_moves_while_its_discs_are_hidden_is_stated_so_unsurely_and_found_again(
+    shown: tuple[int, ...],
+) -> None:
+    rng = np.random.default_rng(8)
+    tracker = Tracker(calibration(), CAMERA, TrackerSettings())
+    hidden = [disc for disc in range(6) if disc not in shown]
+    for i in range(60):
+        at_s = i * DT_S
+        # At rest for a second, then off while hidden: 30 degrees in half a second.
+        flexed_deg = float(np.interp(i, [31, 46], [0.0, 30.0]))
+        pose = Pose(np.array([0.0, flexed_deg, 0.0]))
+        frame = tracker.step(i, at_s, blobs(pose, rng, hidden=hidden if 30 <= i < 50 else ()))
+        off = np.abs(frame.moment.angles_rad - np.radians(pose.angles_deg)) / frame.moment.angles_sd_rad
+        assert off.max() < 3.0, i
+    assert frame.status is TrackStatus.TRACKED
+    assert named_rightly(frame, pose)
 
 
 def test_a_jump_in_plain_sight_is_followed_within_three_frames() -> None:
