@@ -13,8 +13,7 @@ from PySide6.QtCore import QObject, Signal
 from carpus import __version__
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.library.corrections import Corrections, Difference, Waiting, difference
-from carpus.core.pipeline.correcting import correct_beside
-from carpus.core.pipeline.correction import not_held, task_of
+from carpus.core.pipeline.correction import correct_in_process, not_held, task_of
 from carpus.core.results.figures import session_figures
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.corrected import corrections_in
@@ -123,7 +122,7 @@ class Correcting(QObject):
             trial.append(self._stored.trial_path(session_id))
             origin = self._stored.origin_of(session_id)
             task = task_of(origin, trial[0], corrections, __version__, self._initials())
-            return correct_beside(task, self._tell_progress, self._stopping)
+            return correct_in_process(task, self._tell_progress, self._stopping)
 
         def done(finished: bool) -> None:
             if finished:

@@ -31,8 +31,8 @@ from carpus.core.errors import (
 from carpus.core.formats.export import Wanted, export_sessions
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.library.coming_home import bring_home, fallback_place
+from carpus.core.library.kept_sets import keep_set_up, last_set_up
 from carpus.core.library.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
-from carpus.core.library.set_ups import keep_set_up, last_set_up
 from carpus.core.measures.error_limits import DEFAULT_LIMITS
 from carpus.core.phrase import phrase
 from carpus.core.private import make_private

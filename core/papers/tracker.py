@@ -3,6 +3,10 @@
 What the papers leave open is done in the plainest way. They say when a hand is found, neutral and all in sight, not
 when it is lost nor how it is found again: here it is lost when too little of the palm was seen for too long, or when
 the covariance is none any more, and it is found again as at the start, at the neutral pose.
+
+Rotations are the papers' Euler angles, R = Rz(psi) Ry(theta) Rx(phi), the order ZYX of the hand paper (section 2). The
+wrist paper's own order, ZYZ, has no value at the neutral pose, where its filter starts: of alpha and gamma only the sum
+is defined there. Both papers' filters are therefore run in the order of the second.
 """
 
 from __future__ import annotations
@@ -30,9 +34,27 @@ from carpus.core.papers.augmented_filter import (
     seen_from,
 )
 from carpus.core.papers.chain import hand_measured
-from carpus.core.papers.euler import body_turn_by_euler, euler_near, rotation_of
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
+
+
+def rotation_of(euler_rad: FloatArray) -> FloatArray:
+    """R (..., 3, 3) of psi, theta, phi (..., 3)."""
+    return clinical_angles.rotation_from_angles(euler_rad, "right")
+
+
+def euler_near(rotation: FloatArray, near_rad: FloatArray) -> FloatArray:
+    """psi, theta, phi (..., 3) of rotations (..., 3, 3), whole turns chosen to lie nearest to ``near_rad`` (..., 3)."""
+    raw = clinical_angles.angles_from_rotation(rotation, "right")
+    return np.asarray(raw + 2.0 * np.pi * np.round((near_rad - raw) / (2.0 * np.pi)))
+
+
+def body_turn_by_euler(euler_rad: FloatArray) -> FloatArray:
+    """(3, 3): the turn d of R Exp(d), in W2, that a small change of psi, theta, phi (3,) makes."""
+    _, theta, phi = euler_rad
+    s, c = np.sin((theta, phi)), np.cos((theta, phi))
+    return np.array([[-s[0], 0.0, 1.0], [c[0] * s[1], c[1], 0.0], [c[0] * c[1], -s[1], 0.0]])
+
 
 # The papers' state and how it moves: x = (T, v, psi, theta, phi, theta_1..J) and (1) of both papers.
 POSITION, VELOCITY, EULER, JOINTS = slice(0, 3), slice(3, 6), slice(6, 9), slice(9, None)

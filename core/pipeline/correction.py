@@ -8,15 +8,19 @@ named ones. What comes before the first correction is tracked as it was. The old
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+import multiprocessing
+import threading
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
+from carpus.core import errors
 from carpus.core.calibration.calibrate import StillNoise
-from carpus.core.errors import NotCorrectable, OutputExists
+from carpus.core.errors import CarpusFault, NotCorrectable, NotCorrected, OutputExists
 from carpus.core.phrase import phrase
+from carpus.core.pipeline.processes import track_again
 from carpus.core.pipeline.said_again import answers_in, notes_in
 from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import Progress, TrackSettings, from_neutral, learnt_from, learnt_in, parameters_json
@@ -260,3 +264,53 @@ def _nearest(blobs: Detections, places: FloatArray) -> BoolArray:
     between = np.linalg.norm(blobs.pixel[:, None] - places[None], axis=-1)
     kept: BoolArray = between.min(axis=1) <= SAME_SPOT_PX
     return kept
+
+
+LOOK_EVERY_S = 0.2
+KILLED_S = 2.0
+
+
+def correct_in_process(task: CorrectionTask, progress: Callable[[int, int], None], stopping: threading.Event) -> bool:
+    """Carry a task out in a process of its own and wait for it: whether it was done; False if ``stopping`` came first.
+
+    Raises what went wrong there; :class:`NotCorrected` where the process died.
+    """
+    context = multiprocessing.get_context("spawn")
+    link, theirs = context.Pipe()
+    process = context.Process(target=track_again, args=(theirs,), name="carpus-correcting", daemon=True)
+    try:
+        process.start()
+        theirs.close()
+        link.send(task)
+        while not stopping.is_set():
+            if not link.poll(LOOK_EVERY_S):
+                continue
+            said, *rest = link.recv()
+            if said == "at":
+                progress(rest[0], rest[1])
+            elif said == "done":
+                return True
+            else:
+                raise _fault(*rest)
+        return False
+    except (EOFError, BrokenPipeError, ConnectionResetError):
+        raise NotCorrected(task.output.name, phrase("its process ended")) from None
+    finally:
+        link.close()
+        process.kill()
+        process.join(KILLED_S)
+        _clear(task)
+
+
+def _fault(kind: str, subject: str, detail: str) -> CarpusFault:
+    known = getattr(errors, kind, None)
+    if isinstance(known, type) and issubclass(known, CarpusFault):
+        return known(subject, detail)
+    return NotCorrected(subject, f"{kind}: {detail}")
+
+
+def _clear(task: CorrectionTask) -> None:
+    """A process that was killed leaves a part behind: the session it was made from is still there."""
+    for path in task.output.parent.glob(f"{task.output.stem}.*"):
+        if path != task.output:
+            path.unlink(missing_ok=True)

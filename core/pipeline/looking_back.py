@@ -15,8 +15,8 @@ import numpy as np
 
 from carpus.core.errors import NotLookedBack
 from carpus.core.phrase import phrase
-from carpus.core.pipeline.looking_back_process import run
 from carpus.core.pipeline.pieces import LAG_S, PIECE_S, Piece, TrackedHand
+from carpus.core.pipeline.processes import look_back
 from carpus.core.session.values import Motion
 from carpus.core.tracking.smoother_record import KeptSteps
 
@@ -49,7 +49,7 @@ class LookingBack:
         self._ending = threading.Event()
         context = multiprocessing.get_context("spawn")
         self._link, theirs = context.Pipe()
-        self._process = context.Process(target=run, args=(theirs,), name="carpus-looking-back", daemon=True)
+        self._process = context.Process(target=look_back, args=(theirs,), name="carpus-looking-back", daemon=True)
         self._thread = threading.Thread(target=self._run, args=(theirs,), name="looking-back", daemon=True)
         self._thread.start()
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from datetime import UTC, datetime
 from typing import Any
 
@@ -12,10 +12,38 @@ from sqlalchemy import ColumnElement, Row, func, select
 from carpus.core.dates import day_of
 from carpus.core.names import folded
 from carpus.core.records.changes import PRACTICE, changed, new
-from carpus.core.records.pseudonyms import suggest_pseudonym
 from carpus.core.records.schema import PATIENT
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import AGE_BANDS, DOMINANCES, ONSETS, SIDES, PatientEntry, PatientRecord, moment, one_of
+
+WORDS = (
+    "Acorn", "Alder", "Amber", "Apple", "Aspen", "Badger", "Barley", "Beaver", "Beech", "Birch", "Bramble", "Brook",
+    "Cedar", "Cherry", "Clover", "Coral", "Cricket", "Daisy", "Dolphin", "Dune", "Elder", "Falcon", "Fern", "Finch",
+    "Fir", "Garnet", "Ginger", "Harbour", "Hazel", "Heather", "Heron", "Hickory", "Island", "Ivy", "Jasper", "Juniper",
+    "Kestrel", "Lantern", "Lark", "Laurel", "Lilac", "Linden", "Lupin", "Magpie", "Maple", "Marble", "Meadow",
+    "Mistral", "Myrtle", "Nutmeg", "Oak", "Olive", "Orchid", "Otter", "Pebble", "Pepper", "Plover", "Poppy", "Quartz",
+    "Raven", "Robin", "Rowan", "Saffron", "Sparrow", "Spruce", "Swallow", "Thistle", "Topaz", "Tulip", "Walnut",
+    "Willow", "Wren",
+)  # fmt: skip
+"""Of names that are nobody's: easy to say and to hear across a room."""
+_NUMBERS = range(10, 100)
+
+
+def suggest_pseudonym(taken: Collection[str], chance: random.Random | None = None) -> str:
+    """A free pseudonym such as ``Linden 42``; never made from anything known of the patient.
+
+    >>> suggest_pseudonym((), random.Random(7)).split()[0] in WORDS
+    True
+    """
+    chance = chance or random.SystemRandom()
+    used = {name.casefold() for name in taken}
+    free = [name for word in WORDS for number in _NUMBERS if (name := f"{word} {number}").casefold() not in used]
+    if free:
+        return chance.choice(free)
+    number = max(_NUMBERS) + 1
+    while (name := f"{WORDS[0]} {number}").casefold() in used:
+        number += 1
+    return name
 
 
 class Patients:

@@ -110,7 +110,7 @@ def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
         return True
 
     again: list[str] = []
-    monkeypatch.setattr(correcting, "correct_beside", beside)
+    monkeypatch.setattr(correcting, "correct_in_process", beside)
     theme, stage, ways = Theme("light"), QWidget(), _Ways()
     qtbot.addWidget(stage)
     stage.resize(1280, 744)

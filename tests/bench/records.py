@@ -24,8 +24,7 @@ from sqlalchemy import insert, select
 from carpus.core.names import folded
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.of_sessions import comments
-from carpus.core.records.patients import Patients
-from carpus.core.records.pseudonyms import WORDS
+from carpus.core.records.patients import WORDS, Patients
 from carpus.core.records.schema import COMMENT, OUTBOX, PATIENT, SESSION
 from carpus.core.records.session_list import ListedSessions
 from carpus.core.records.store import Store

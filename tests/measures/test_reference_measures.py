@@ -9,10 +9,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from carpus.core.hand.clinical_angles import isb_from_rotation, rotation_from_angles, zyz_with_sd
-from carpus.core.measures.grade import total_grade, total_share
 from carpus.core.measures.reach import find_reaches
 from carpus.core.measures.signals import even_signal, low_pass
 from carpus.core.measures.together import co_flexion, enslaving_share, synergy_share, tremor
+from carpus.core.results.norms import total_grade, total_share
 from carpus.core.types import FloatArray
 from tests.measures.tracked import tracked
 

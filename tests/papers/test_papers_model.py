@@ -11,10 +11,9 @@ from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.kinematics import joint_centres
 from carpus.core.hand.sites import SITE_CHAINS, SITES
 from carpus.core.papers.chain import hand_measured, palm_modelled
-from carpus.core.papers.euler import body_turn_by_euler, euler_near, rotation_of
 from carpus.core.papers.neutral import as_written, by_the_discs
 from carpus.core.papers.settings import PaperSettings
-from carpus.core.papers.tracker import PaperMotion
+from carpus.core.papers.tracker import PaperMotion, body_turn_by_euler, euler_near, rotation_of
 from tests.papers.hands import ARCHED_M, CAMERA, FROM_ABOVE, MIDDLE_M, calibration, hand_calibration, straight_hand
 
 DT_S = 1.0 / 30.0

@@ -12,9 +12,8 @@ import numpy as np
 import pytest
 
 from carpus.core.errors import CarpusFault, NotCorrectable, OutputExists
-from carpus.core.pipeline import correcting
-from carpus.core.pipeline.correcting import correct_beside
-from carpus.core.pipeline.correction import CorrectionTask, correct, not_held, task_of, with_places
+from carpus.core.pipeline import correction
+from carpus.core.pipeline.correction import CorrectionTask, correct, correct_in_process, not_held, task_of, with_places
 from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json
 from carpus.core.session.corrected import CORRECTED, corrected_from, corrections_in
 from carpus.core.session.marker_doubts import name_doubt
@@ -184,7 +183,7 @@ def test_where_the_others_expect_a_disc_is_said_without_it(stored: Stored) -> No
 
 def test_it_is_done_in_a_process_of_its_own_and_says_how_far_it_is(stored: Stored, tmp_path: Path) -> None:
     seen: list[tuple[int, int]] = []
-    done = correct_beside(
+    done = correct_in_process(
         task(stored, tmp_path / "new.h5", put_right(stored)), lambda at, of: seen.append((at, of)), threading.Event()
     )
     assert done
@@ -195,12 +194,12 @@ def test_it_is_done_in_a_process_of_its_own_and_says_how_far_it_is(stored: Store
 def test_stopping_leaves_nothing_behind_and_faults_come_across(stored: Stored, tmp_path: Path) -> None:
     stopping = threading.Event()
     stopping.set()
-    assert not correct_beside(task(stored, tmp_path / "new.h5"), lambda *_: None, stopping)
+    assert not correct_in_process(task(stored, tmp_path / "new.h5"), lambda *_: None, stopping)
     assert list(tmp_path.iterdir()) == []
     (tmp_path / "there.h5").write_bytes(b"x")
     with pytest.raises(OutputExists):
-        correct_beside(task(stored, tmp_path / "there.h5"), lambda *_: None, threading.Event())
-    assert isinstance(correcting._fault("ValueError", "", "odd"), CarpusFault)
+        correct_in_process(task(stored, tmp_path / "there.h5"), lambda *_: None, threading.Event())
+    assert isinstance(correction._fault("ValueError", "", "odd"), CarpusFault)
 
 
 def test_a_session_without_spots_cannot_be_corrected(stored: Stored, tmp_path: Path) -> None:

@@ -19,8 +19,8 @@ from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.errors import NotLookedBack
 from carpus.core.pipeline import looking_back
 from carpus.core.pipeline.looking_back import LookingBack
-from carpus.core.pipeline.looking_back_process import NICER, run
 from carpus.core.pipeline.pieces import PieceByPiece, TrackedHand
+from carpus.core.pipeline.processes import NICER, look_back
 from carpus.core.pipeline.track import from_neutral, learnt_from
 from carpus.core.session.values import Motion, motion_of
 from carpus.core.simulation.spec import RecordingSpec
@@ -221,7 +221,7 @@ def test_a_fault_over_there_is_told_in_one_line(capfd: pytest.CaptureFixture[str
 def test_the_process_ends_with_its_owner(capfd: pytest.CaptureFixture[str]) -> None:
     context = multiprocessing.get_context("spawn")
     link, theirs = context.Pipe()
-    process = context.Process(target=run, args=(theirs,), daemon=True)
+    process = context.Process(target=look_back, args=(theirs,), daemon=True)
     process.start()
     theirs.close()
     link.send((tracked_hand(), PIECE_S, LAG_S))
@@ -252,7 +252,7 @@ def test_the_process_steps_back_behind_the_tracking() -> None:
 def test_the_process_loads_no_window_and_no_numpy_before_its_threads_are_settled() -> None:
     code = (
         "import sys\n"
-        "import carpus.core.pipeline.looking_back_process\n"
+        "import carpus.core.pipeline.processes\n"
         "assert 'numpy' not in sys.modules\n"
         "import carpus.core.pipeline.pieces\n"
         "loaded = {name.split('.')[0] for name in sys.modules}\n"

@@ -18,9 +18,9 @@ from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished, FolderMissing, OutputNotWritable, SessionChanged
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.library.corrections import Corrections
+from carpus.core.library.kept_sets import keep_set_up
 from carpus.core.library.library import Library
 from carpus.core.library.set_up import SetUp
-from carpus.core.library.set_ups import keep_set_up
 from carpus.core.records import database, erasure, of_clinic, of_patients, of_sessions
 from carpus.core.records.changes import new
 from carpus.core.records.log import read_log

@@ -40,8 +40,7 @@ from carpus.core.records.changes import PRACTICE, new
 from carpus.core.records.database import STORE_FILE, set_aside
 from carpus.core.records.log import read_log
 from carpus.core.records.of_clinic import diagnoses, list_diagnosis
-from carpus.core.records.patients import columns
-from carpus.core.records.pseudonyms import WORDS, suggest_pseudonym
+from carpus.core.records.patients import WORDS, columns, suggest_pseudonym
 from carpus.core.records.retention import due
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, PatientEntry

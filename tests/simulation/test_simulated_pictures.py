@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from carpus.core.hand.protocols import HAND21
-from carpus.core.simulation.lighting import corner_light
 from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.simulation.render import corner_light
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.skin import skin_distance
 from carpus.core.simulation.spec import RecordingSpec

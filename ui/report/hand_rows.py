@@ -6,9 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from carpus.core.measures.grade import Grade
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.norms import GradedTotal, graded_totals, total_norm
+from carpus.core.results.norms import Grade, GradedTotal, graded_totals, total_norm
 from carpus.core.results.progress import compare_rows
 from carpus.core.results.ranges import RangeRow, RowKey, finger_keys, spread_keys, thumb_keys
 from carpus.ui import numbers

@@ -1,0 +1,64 @@
+"""What runs in processes of their own: looking back at a running session, and tracking a stored one again.
+
+In the process that tracks, draws and stores either would hold the interpreter's lock, and frames would be lost. Both
+end with their owner. This module loads no NumPy before their threads are settled.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from contextlib import suppress
+from multiprocessing.connection import Connection
+
+NICER = 10
+"""Whoever tracks, draws and stores comes first."""
+BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+TELL_EVERY = 15
+"""Frames."""
+
+
+def look_back(link: Connection) -> None:
+    """Entry of a process. It is sent the hand, then lists of steps as often as wanted, then None. After each list it
+    answers with the pieces that came due (often none), after None with the rest; a text in their place says why it
+    cannot go on."""
+    _settle()
+    try:
+        from carpus.core.pipeline.pieces import PieceByPiece
+
+        pieces = PieceByPiece(*link.recv())
+        while (frames := link.recv()) is not None:
+            link.send([piece for kept in frames for piece in pieces.take(kept)])
+        link.send(pieces.rest())
+    except Exception as cause:  # the one catch of this process: told, not printed
+        with suppress(OSError):  # the owner may be gone, which may be the cause
+            link.send(f"{type(cause).__name__}: {cause}")
+
+
+def track_again(link: Connection) -> None:
+    """Entry of a process. It is sent a task; it sends ``("at", done, total)``, at last ``("done", ...)`` or ``("fault",
+    kind, subject, detail)``."""
+    _settle()
+
+    def tell(done: int, total: int | None) -> None:
+        if done % TELL_EVERY == 0:
+            link.send(("at", done, total or 0))
+
+    try:
+        from carpus.core.pipeline.correction import correct
+
+        correct(link.recv(), tell)
+        link.send(("done", "", "", ""))
+    except Exception as cause:  # the one catch of this process: told, not printed
+        subject, detail = getattr(cause, "subject", ""), getattr(cause, "detail", str(cause))
+        with suppress(OSError):  # the owner may be gone, which may be the cause
+            link.send(("fault", type(cause).__name__, subject, detail))
+
+
+def _settle() -> None:
+    # an interrupt from the keyboard reaches owner and process; the owner decides what it means
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for name in BLAS_THREADS:
+        os.environ.setdefault(name, "1")
+    if hasattr(os, "nice"):
+        os.nice(NICER)
