@@ -27,7 +27,7 @@ from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.logo import LogoRefused, logo_png
 from carpus.ui.report.paper import SIZES, print_on, printer_for
-from carpus.ui.report.pdf import session_report, write_letter, write_session_report
+from carpus.ui.report.pdf import session_report, write_report, write_session_report
 from carpus.ui.report.screen import ReportScreen, suggested_name
 from carpus.ui.report.sentences import filled
 from carpus.ui.report.session_page import SessionReport
@@ -177,7 +177,7 @@ def test_a_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, t
         letter = LetterReport(
             replace(made, comment=comment), "\n".join(["D" * 80] * 6), date(2026, 11, 22), "Real Name", language
         )
-        path = write_letter(letter, tmp_path / f"{len(comment)}.pdf")
+        path = write_report(letter, tmp_path / f"{len(comment)}.pdf")
         assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
         words = words_of(path)
         assert f"Real Name ({made.pseudonym})" in words
@@ -194,7 +194,7 @@ def test_a_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, t
 def test_the_sheet_for_home_is_one_page_in_the_patients_language(
     language: str, names: tuple[str, ...], tmp_path: Path
 ) -> None:
-    path = write_letter(home_report(language, "left", names), tmp_path / "home.pdf")
+    path = write_report(home_report(language, "left", names), tmp_path / "home.pdf")
     assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
     words = words_of(path)
     with speaking(language):
@@ -289,7 +289,7 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(qtbot: QtBot, theme
 
 def test_a_letter_names_nobody_unless_asked(tmp_path: Path) -> None:
     made = report()
-    words = words_of(write_letter(LetterReport(made, "Dr A\nVienna", date(2026, 11, 22)), tmp_path / "x.pdf"))
+    words = words_of(write_report(LetterReport(made, "Dr A\nVienna", date(2026, 11, 22)), tmp_path / "x.pdf"))
     assert f"camera: {made.pseudonym} Dear" in words
     for kept in ("Dr A", "Vienna", "22 Nov 2026", "Whole arc", "± ", "first session on", LEGAL_SENTENCE[:60]):
         assert kept in words

@@ -31,9 +31,8 @@ from carpus.ui.report.hand_rows import (
     hand_summary,
     limits_words,
 )
-from carpus.ui.report.page import Page
+from carpus.ui.report.page import Page, painted_on_nothing
 from carpus.ui.report.pdf import progress_report, write_progress_report, write_session_report
-from carpus.ui.report.session_page import painted_on_nothing
 from carpus.ui.report.words import quality_lines
 from carpus.ui.terms import LEGAL_SENTENCE
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden

@@ -14,12 +14,16 @@ from carpus.ui.check_card.words import figure_name
 from carpus.ui.fonts import MEDIUM, SEMIBOLD
 from carpus.ui.plot.control_chart import ControlMarks, ControlPlot, control_plots, paint_control_ground
 from carpus.ui.plot.marks import Scales
-from carpus.ui.report.page import Page
+from carpus.ui.report.page import Page, PageColumn
 from carpus.ui.report.pdf import write_page
 from carpus.ui.translate import say, tr
 
 TITLE = "Carpus camera check"
 _ROW_PT, _CHART_PT = 20.0, 140.0
+TABLE = (
+    PageColumn(0.0, size_pt=10.0), PageColumn(0.49, ends=True, size_pt=10.0),
+    PageColumn(0.725, ends=True, size_pt=10.0), PageColumn(1.0, SEMIBOLD, ends=True, size_pt=10.0),
+)  # fmt: skip
 _TOKENS: dict[Verdict, str] = {"right": "good", "unusual": "warn", "out": "bad"}
 
 
@@ -44,8 +48,7 @@ def paint_check_page(page: Page, result: CheckResult) -> None:
     verdict = verdict_of(earlier, check)
     page.text(tr("Carpus camera check"), page.left, 62, 15, SEMIBOLD)
     page.text_right(_day(check.when), page.right, 62, 10, MEDIUM)
-    lower = page.paragraph(say(sentence_of(check, verdict)), page.left, 76, page.right - page.left, 12, SEMIBOLD,
-                           _TOKENS[verdict])  # fmt: skip
+    lower = page.said(say(sentence_of(check, verdict)), 76, 12, SEMIBOLD, _TOKENS[verdict])
     pairs = [(tr("Camera"), result.camera), *result.asides]
     page.facts(pairs, lower + 10, (0.0, *(0.46 + 0.54 * k / (len(pairs) - 1) for k in range(len(pairs) - 1))))
     top = _table(page, check, lower + 60)
@@ -57,28 +60,20 @@ def paint_check_page(page: Page, result: CheckResult) -> None:
         "depth, or a card that was not printed at 100 % (its ruler says which). If it is out: check once more, then "
         "calibrate; still out: do not measure with it."
     )
-    page.paragraph(said.format(count=USUAL_OF), page.left, top + 22, page.right - page.left, 8.5, token="text2")
+    page.said(said.format(count=USUAL_OF), top + 22, 8.5, token="text2")
 
 
 def _table(page: Page, check: CardCheck, top: float) -> float:
     """The six figures; returns the lower edge."""
-    columns = (page.left + 250, page.left + 370, page.right)
-    page.text(tr("On the card"), page.left, top, 8.5, token="text2")
-    for name, right in zip((tr("True"), tr("Measured"), tr("Off by")), columns, strict=True):
-        page.text_right(name, right, top, 8.5, token="text2")
+    rows = []
     for figure, measured, sd in zip(FIGURES, check.measured, check.sd, strict=True):
-        page.rule(top + 6)
-        top += _ROW_PT
         unit = "°" if figure.kind == "angle" else " mm"
-        page.text(figure_name(figure.name), page.left, top, 10)
-        page.text_right(f"{numbers.fixed(figure.true, 1)}{unit}", columns[0], top, 10)
-        page.text_right(f"{numbers.fixed(measured, 1)} ± {numbers.fixed(sd, 1)}{unit}", columns[1], top, 10)
-        page.text_right(f"{_signed(measured - figure.true, 1)}{unit}", columns[2], top, 10, SEMIBOLD)
-    page.rule(top + 6)
-    top += _ROW_PT
-    page.text(tr("All distances together"), page.left, top, 10)
-    page.text_right(f"{_signed(100.0 * (check.scale - 1.0), 2)} %", columns[2], top, 10, SEMIBOLD)
-    return top
+        off = f"{_signed(measured - figure.true, 1)}{unit}"
+        seen = f"{numbers.fixed(measured, 1)} ± {numbers.fixed(sd, 1)}{unit}"
+        rows.append((figure_name(figure.name), f"{numbers.fixed(figure.true, 1)}{unit}", seen, off))
+    rows.append((tr("All distances together"), "", "", f"{_signed(100.0 * (check.scale - 1.0), 2)} %"))
+    heads = (tr("On the card"), tr("True"), tr("Measured"), tr("Off by"))
+    return page.table(TABLE, rows, top - 8, heads=heads, pitch_pt=_ROW_PT, drop_pt=6.0) - 6
 
 
 def _chart(page: Page, top: float, plot: ControlPlot) -> float:

@@ -14,7 +14,6 @@ from carpus.ui.report.session_page import (
     is_short,
     paint_comment_lines,
     paint_head,
-    paint_watermark,
     what_words,
 )
 from carpus.ui.terms import LEGAL_SENTENCE
@@ -40,9 +39,7 @@ def comment_pages(report: SessionReport) -> list[list[str]]:
 
 def paint_comment_page(page: Page, report: SessionReport, lines: list[str]) -> None:
     """One page of the comment."""
-    if report.figures.simulated:
-        paint_watermark(page)
     y = paint_head(page, tr("Session report"), report.pseudonym, what_words(report))
     page.title(tr("Comment of the therapist"), y + 18)
     paint_comment_lines(page, lines, FIRST_PT)
-    page.paragraph(LEGAL_SENTENCE, page.left, LOWEST_PT - 30, page.right - page.left, 8.0, SEMIBOLD)
+    page.said(LEGAL_SENTENCE, LOWEST_PT - 30, 8.0, SEMIBOLD)

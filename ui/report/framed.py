@@ -9,8 +9,7 @@ from PySide6.QtGui import QImage
 
 from carpus.core.results.report_form import PAPER_PT, Letterhead, ReportForm
 from carpus.ui.fonts import REGULAR, SEMIBOLD
-from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
-from carpus.ui.report.session_page import painted_on_nothing
+from carpus.ui.report.page import A4_PT, MARGIN_PT, Page, painted_on_nothing
 from carpus.ui.translate import tr
 
 EDGE_PT = 28.35

@@ -47,7 +47,7 @@ def paint_finger_table(
         y += ROW_PT
     page.rule(y)
     words = limits_words(figures)
-    return page.paragraph(words, page.left, y + 2, page.right - page.left, 8.0) if words else y
+    return page.said(words, y + 2, 8.0) if words else y
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,11 +100,10 @@ def _fitted(page: Page, edges: tuple[float, ...], column: int, line: CellLine, b
     """A text in its column, smaller or on two lines where it is too long."""
     room = edges[column + 1] - edges[column] - GAP_PT
     left, size = page.left + edges[column], line.size_pt
-    while size > LEAST_SIZE_PT and page.width_of(line.text, size, line.weight) > room:
-        if " " in line.text and column == CHANGE_COLUMN and size <= 7.0:
-            page.paragraph(line.text, left, baseline - 1.6 * size, room, LEAST_SIZE_PT + 0.5, line.weight, line.token)
-            return
-        size -= 0.25
+    if column == CHANGE_COLUMN and " " in line.text and page.width_of(line.text, 7.0, line.weight) > room:
+        page.paragraph(line.text, left, baseline - 11.2, room, LEAST_SIZE_PT + 0.5, line.weight, line.token)
+        return
+    size = page.fitting(line.text, room, size, line.weight, LEAST_SIZE_PT)
     page.text(line.text, left, baseline, size, line.weight, line.token)
 
 

@@ -14,6 +14,7 @@ from carpus.ui import numbers
 from carpus.ui.figures import FINGERS, Figure, Row, figure_of, with_side
 from carpus.ui.marker_words import finger_name
 from carpus.ui.report.further_rows import main_words
+from carpus.ui.report.words import since_sessions
 from carpus.ui.translate import inside, say, tr
 from carpus.ui.verdicts import change_short, reason_words
 
@@ -214,12 +215,7 @@ def hand_summary(figures: SessionFigures, previous: SessionFigures | None, first
     parts.append(tr("{what}: {fingers}.").format(what=what, fingers=", ".join(today)))
     if bounds:
         parts.append(tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST))
-    if previous is not None:
-        parts.append(hand_since_words(figures, previous, numbers.day_beside(previous.when, figures.when)))
-    if first is not None and (previous is None or first.session_id != previous.session_id):
-        day = numbers.day_beside(first.when, figures.when)
-        parts.append(hand_since_words(figures, first, tr("the first session on {day}").format(day=day)))
-    return " ".join(part for part in parts if part)
+    return " ".join([*parts, *since_sessions(figures, previous, first, hand_since_words)])
 
 
 def hand_since_words(figures: SessionFigures, before: SessionFigures, when: str) -> str:

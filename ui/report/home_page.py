@@ -15,14 +15,13 @@ from carpus.core.records.values import HomePlan
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.goals import Goals, row_aimed_at
 from carpus.core.results.progress import compare_rows, progress
-from carpus.core.results.report_form import ReportForm
 from carpus.core.types import Side
 from carpus.ui import language, numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.patient.figure import arc_of, figure_at
 from carpus.ui.patient.words import task_words
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
-from carpus.ui.report.session_page import SessionReport, paint_head, paint_watermark
+from carpus.ui.report.session_page import OfSession, paint_head
 from carpus.ui.theme import LIGHT
 from carpus.ui.translate import inside, say, tr
 
@@ -57,11 +56,10 @@ class OwnWay:
 
 
 @dataclass(frozen=True, slots=True)
-class HomeReport:
+class HomeReport(OfSession):
     """All that is on the page: never a diagnosis or the real name. ``again`` the next appointment, None for a line to
     write it on; ``at`` its time as it was typed; ``language`` the patient's, by two letters."""
 
-    report: SessionReport
     tasks: tuple[HomeTask, ...]
     day: date
     again: date | None = None
@@ -71,25 +69,10 @@ class HomeReport:
     language: str = ""
 
     @property
-    def form(self) -> ReportForm:
-        """Letterhead and paper."""
-        return self.report.form
-
-    @property
     def plan(self) -> HomePlan:
         """What is to be done, as it is remembered with the patient."""
         names, first = tuple(task.exercise.id for task in self.tasks), self.tasks[0]
         return HomePlan(names, first.times, first.rounds, self.day, self.again, self.at, self.note, self.language)
-
-    @property
-    def pseudonym(self) -> str:
-        """The made-up name."""
-        return self.report.pseudonym
-
-    @property
-    def side(self) -> Side:
-        """The hand."""
-        return self.report.figures.side
 
 
 def own_way(figures: SessionFigures, history: Sequence[SessionFigures], goals: Goals) -> OwnWay | None:
@@ -128,8 +111,6 @@ def way_words(way: OwnWay) -> str:
 
 def paint_home_page(page: Page, home: HomeReport) -> None:
     """Paint everything on one page."""
-    if home.report.figures.simulated:
-        paint_watermark(page)
     who = f"{home.pseudonym}, {inside(terms.hand_name(home.side))}"
     y = paint_head(page, numbers.long_date(home.day), tr("Your hand at home"), who) + 14
     height = min(TALLEST_PT, ROWS_PT / max(len(home.tasks), 1) - 12)
@@ -299,8 +280,7 @@ def _paint_curve(page: Page, way: OwnWay, box: QRectF) -> None:
 
 def _paint_foot(page: Page, home: HomeReport, top: float) -> None:
     """When to come again, room for questions, what to do when it hurts."""
-    width, foot = page.right - page.left, A4_PT[1] - MARGIN_PT
-    top = max(top, foot - 150)
+    top = max(top, A4_PT[1] - MARGIN_PT - 150)
     page.painter.setPen(Qt.PenStyle.NoPen)
     page.painter.setBrush(QColor(LIGHT.soft))
     page.painter.drawRoundedRect(page.box(page.left, top, LEFT_PT, 74), 6 * page.point, 6 * page.point)
@@ -309,7 +289,7 @@ def _paint_foot(page: Page, home: HomeReport, top: float) -> None:
         page.rule(top + 48, page.left + 12, page.left + LEFT_PT - 12)
     else:
         words = numbers.long_date(home.again)
-        size = min(13.0, 13.0 * (LEFT_PT - 24) / page.width_of(words, 13.0, SEMIBOLD))
+        size = page.fitting(words, LEFT_PT - 24, 13.0, SEMIBOLD)
         page.text(words, page.left + 12, top + 38, size, SEMIBOLD)
         page.text(home.at, page.left + 12, top + 56, 12.0, SEMIBOLD)
     left = page.left + LEFT_PT + GAP_PT
@@ -319,5 +299,5 @@ def _paint_foot(page: Page, home: HomeReport, top: float) -> None:
         page.rule(below, left, page.right)
     y = top + 84
     said = tr("It may pull, but it should not hurt. If it still hurts an hour later, do less next time and call us.")
-    y = page.paragraph(said, page.left, y, width, 9.0, SEMIBOLD)
-    page.paragraph(terms.LEGAL_SENTENCE, page.left, y + 2, width, 7.0, REGULAR, "text2")
+    y = page.said(said, y, 9.0, SEMIBOLD)
+    page.said(terms.LEGAL_SENTENCE, y + 2, 7.0, REGULAR, "text2")

@@ -6,23 +6,19 @@ other hand and of last time, the change since the first session, the comment, in
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date
 from functools import partial
 
-from carpus.core.results.progress import compare
-from carpus.core.results.report_form import ReportForm
-from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.marker_words import finger_name
 from carpus.ui.report.framed import BODY_FOOT_PT
 from carpus.ui.report.hand_rows import AT_LEAST, compared_figures, hand_since_words, range_words, trains_thumb
-from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
-from carpus.ui.report.session_page import SessionReport, comment_lines, paint_watermark, painted_on_nothing
+from carpus.ui.report.page import MARGIN_PT, Page, PageColumn, paint_to_fit, painted_on_nothing
+from carpus.ui.report.session_page import OfSession, SessionReport, comment_lines
 from carpus.ui.report.tables import table_rows
-from carpus.ui.report.words import corrected_words, method, since_words, warnings
+from carpus.ui.report.words import corrected_words, method, since_compared, since_sessions, warnings
 from carpus.ui.translate import inside, tr
 
 SMALLEST = 0.82
@@ -30,58 +26,35 @@ OMISSIONS = 3
 MOST_ADDRESS_LINES, MOST_ADDRESS = 6, 80
 SIZE_PT, LEADING_PT = 10.0, 14.5
 FOOT_PT = 84.0
-EDGES = (0.0, 0.30, 0.62, 0.84)
+TABLE = (
+    PageColumn(0.0, size_pt=9.5), PageColumn(0.30, SEMIBOLD, size_pt=9.5), PageColumn(0.62, size_pt=9.5),
+    PageColumn(0.84, size_pt=9.5),
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
-class LetterReport:
+class LetterReport(OfSession):
     """All that is on the page: what the report has, to whom it goes and when. ``real_name`` is printed where it is not
     empty, beside the made-up one."""
 
-    report: SessionReport
     recipient: str
     day: date
     real_name: str = ""
     language: str = ""
 
-    @property
-    def form(self) -> ReportForm:
-        """Letterhead and paper."""
-        return self.report.form
-
-    @property
-    def pseudonym(self) -> str:
-        """The made-up name."""
-        return self.report.pseudonym
-
-    @property
-    def side(self) -> Side:
-        """The hand."""
-        return self.report.figures.side
-
 
 def paint_letter_page(page: Page, letter: LetterReport) -> None:
     """Paint everything on one page."""
-    if letter.report.figures.simulated:
-        paint_watermark(page)
-    room = BODY_FOOT_PT - FOOT_PT
-    share, omitted = 1.0, 0
-    for omitted in range(OMISSIONS + 1):
-        share = min(1.0, room / painted_on_nothing(page, partial(_paint, letter=letter, omitted=omitted)))
-        if share >= SMALLEST:
-            break
-    page.painter.save()
-    page.painter.translate(0.5 * (1.0 - share) * A4_PT[0] * page.point, 0.0)
-    page.painter.scale(share, share)
-    _paint(page, letter, omitted)
-    page.painter.restore()
+    room, omitted = BODY_FOOT_PT - FOOT_PT, 0
+    while omitted < OMISSIONS and room < SMALLEST * painted_on_nothing(page, partial(_paint, letter, omitted)):
+        omitted += 1
+    paint_to_fit(page, room, partial(_paint, letter, omitted))
     _paint_foot(page, letter)
 
 
-def _paint(page: Page, letter: LetterReport, omitted: int) -> float:
+def _paint(letter: LetterReport, omitted: int, page: Page) -> float:
     """All but the foot, without what is omitted; returns the lower edge."""
     report, figures = letter.report, letter.report.figures
-    width = page.right - page.left
     y = MARGIN_PT
     page.text_right(numbers.day_of_year(letter.day), page.right, y + SIZE_PT, SIZE_PT)
     for line in address_lines(letter.recipient):
@@ -90,23 +63,24 @@ def _paint(page: Page, letter: LetterReport, omitted: int) -> float:
     y += 24
     who = f"{letter.real_name} ({letter.pseudonym})" if letter.real_name else letter.pseudonym
     subject = tr("Movement measured by camera: {who}").format(who=who)
-    y = _lines(page, subject, y, 12.0, SEMIBOLD) + 10
-    y = _lines(page, tr("Dear colleague,"), y) + 6
+    y = page.said(subject, y, 12.0, SEMIBOLD) + 10
+    y = page.said(tr("Dear colleague,"), y, SIZE_PT) + 6
     said = tr("On {day} we measured: {exercise}, {hand}. Repetitions that count: {count}.").format(
         day=numbers.day_of_year(figures.when),
         exercise=terms.exercise_name(figures.exercise.id),
         hand=inside(terms.hand_name(figures.side)),
         count=figures.counted,
     )
-    y = _lines(page, said, y)
+    y = page.said(said, y, SIZE_PT)
     for words in [*warnings(figures), *filter(None, [corrected_words(figures)])]:
-        y = page.paragraph(words, page.left, y + 3, width, SIZE_PT, SEMIBOLD, "warn")
+        y = page.said(words, y + 3, SIZE_PT, SEMIBOLD, "warn")
     y = _paint_figures(page, report, y + 8, beside=omitted < 1)
     if any(cell.startswith(AT_LEAST) for row in figure_rows(report) for cell in row):
         said = tr("{sign}: the camera did not see the end of that movement.").format(sign=AT_LEAST)
-        y = page.paragraph(said, page.left, y + 3, width, 8.5, REGULAR, "text2")
-    for words in _changes(report, with_first=omitted < 2):
-        y = _lines(page, words, y + 4)
+        y = page.said(said, y + 3, 8.5, REGULAR, "text2")
+    since = since_compared if report.joints is None else hand_since_words
+    for words in since_sessions(figures, report.previous, report.first if omitted < 2 else None, since):
+        y = page.said(words, y + 4, SIZE_PT)
     if report.comment.strip():
         y += 6
         if omitted < 3:
@@ -114,8 +88,8 @@ def _paint(page: Page, letter: LetterReport, omitted: int) -> float:
                 page.text(line, page.left, y + SIZE_PT, 9.0)
                 y += 12.5
         else:
-            y = _lines(page, tr("The comment is too long for this letter; it is in the report."), y, SIZE_PT, MEDIUM)
-    y = _lines(page, tr("Kind regards,"), y + 10) + 34
+            y = page.said(tr("The comment is too long for this letter; it is in the report."), y, SIZE_PT, MEDIUM)
+    y = page.said(tr("Kind regards,"), y + 10, SIZE_PT) + 34
     page.rule(y, page.left, page.left + 200)
     signed = ", ".join(filter(None, [report.therapist, letter.form.letterhead.name]))
     page.text(signed or tr("Signature"), page.left, y + 12, 9.0, REGULAR, "text2")
@@ -124,24 +98,16 @@ def _paint(page: Page, letter: LetterReport, omitted: int) -> float:
 
 def _paint_figures(page: Page, report: SessionReport, top: float, *, beside: bool) -> float:
     """The main figures, with those of the other hand and of last time beside them."""
-    width = page.right - page.left
     rows = figure_rows(report)
     if not rows:
-        return _lines(page, tr("No range could be measured."), top)
+        return page.said(tr("No range could be measured."), top, SIZE_PT)
     heads = ["", tr("Mean ± sd"), "", ""]
     if beside and report.other_hand is not None:
         heads[2] = terms.hand_name(report.other_hand.side)
     if beside and report.previous is not None:
         heads[3] = numbers.day_beside(report.previous.when, report.figures.when)
-    baseline = top + SIZE_PT
-    for weight, cells in ((MEDIUM, heads), *((REGULAR, list(row)) for row in rows)):
-        for column, cell in enumerate(cells):
-            if column < 2 or heads[column]:
-                left = page.left + EDGES[column] * width
-                page.text(cell, left, baseline, 9.5, SEMIBOLD if column == 1 and weight == REGULAR else weight)
-        page.rule(baseline + 4.5)
-        baseline += 16.0
-    return baseline - 8.0
+    shown = [[cell if column < 2 or heads[column] else "" for column, cell in enumerate(row)] for row in rows]
+    return page.table(TABLE, shown, top + 2, heads=heads, head_pt=9.5, pitch_pt=16.0) + 3.5
 
 
 def figure_rows(report: SessionReport) -> list[tuple[str, str, str, str]]:
@@ -159,23 +125,6 @@ def figure_rows(report: SessionReport) -> list[tuple[str, str, str, str]]:
         name = figure.row_name if trains_thumb(figures) else f"{finger_name(str(figure.finger))}, {figure.row_name}"
         found.append((name, cells[0], cells[1], cells[2]))
     return found
-
-
-def _changes(report: SessionReport, *, with_first: bool) -> Sequence[str]:
-    """What may be said of change since last time and since the first session, beyond error only."""
-    figures = report.figures
-    before = []
-    if report.previous is not None:
-        before.append((report.previous, numbers.day_beside(report.previous.when, figures.when)))
-    first = report.first
-    if with_first and first is not None and (report.previous is None or first.session_id != report.previous.session_id):
-        day = numbers.day_beside(first.when, figures.when)
-        before.append((first, tr("the first session on {day}").format(day=day)))
-    if report.joints is None:
-        said = [since_words(compare(earlier, figures), when) for earlier, when in before]
-    else:
-        said = [hand_since_words(figures, earlier, when) for earlier, when in before]
-    return [words for words in said if words]
 
 
 def _paint_foot(page: Page, letter: LetterReport) -> None:
@@ -207,7 +156,3 @@ def address_lines(recipient: str) -> list[str]:
     """
     lines = [line.strip()[:MOST_ADDRESS] for line in recipient.splitlines()]
     return [line for line in lines if line][:MOST_ADDRESS_LINES]
-
-
-def _lines(page: Page, words: str, top: float, size_pt: float = SIZE_PT, weight: int = REGULAR) -> float:
-    return page.paragraph(words, page.left, top, page.right - page.left, size_pt, weight)

@@ -11,15 +11,8 @@ from carpus.ui.plot.session import paint_session
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.plot.ways import WayPlot, finger_ways, paint_planes, plane_marks, side_by_side, wrist_way
 from carpus.ui.report.further_rows import further_rows, further_title
-from carpus.ui.report.page import A4_PT, Page
-from carpus.ui.report.session_page import (
-    LOWEST_PT,
-    SessionReport,
-    paint_head,
-    paint_watermark,
-    painted_on_nothing,
-    what_words,
-)
+from carpus.ui.report.page import Page, paint_to_fit
+from carpus.ui.report.session_page import LOWEST_PT, SessionReport, paint_head, what_words
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.translate import tr
 
@@ -32,13 +25,8 @@ def paint_motion_page(page: Page, report: SessionReport) -> None:
     """Paint everything from the upper to the lower margin, smaller where there is too much."""
     if report.motion is None:
         return
-    if report.figures.simulated:
-        paint_watermark(page)
     motion = report.motion
-    share = min(1.0, LOWEST_PT / painted_on_nothing(page, lambda trial: _paint_all(trial, report, motion)))
-    page.painter.translate(0.5 * (1.0 - share) * A4_PT[0] * page.point, 0.0)
-    page.painter.scale(share, share)
-    _paint_all(page, report, motion)
+    paint_to_fit(page, LOWEST_PT, lambda trial: _paint_all(trial, report, motion))
 
 
 def _paint_all(page: Page, report: SessionReport, motion: MotionCurves) -> float:
@@ -58,9 +46,8 @@ def _paint_all(page: Page, report: SessionReport, motion: MotionCurves) -> float
     y = _paint_curves(
         page, report, motion, "zyz", tr("ZYZ angles"), tr("band: ± 1 sd; black: α + γ, with γ"), y, zyz_pt
     )
-    width = page.right - page.left
-    y = page.paragraph(zyz_words([motion]), page.left, y, width, 8.0, REGULAR, "text2")
-    y = page.paragraph(LEGAL_SENTENCE, page.left, y + 3, width, 8.0, MEDIUM)
+    y = page.said(zyz_words([motion]), y, 8.0, REGULAR, "text2")
+    y = page.said(LEGAL_SENTENCE, y + 3, 8.0, MEDIUM)
     return y + 8
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPicture
 
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.plot.style import PlotStyle, paper_style
@@ -16,6 +16,26 @@ A4_PT = (595.28, 841.89)
 DISPLAY_FROM_PT = 20.0
 MARGIN_PT = 42.52
 """15 mm."""
+LEAST_PT, LINE_PT = 5.0, 9.5
+"""Of the words of a table: the smallest, and a line's height where they have several."""
+
+
+Cell = str | tuple[str, int, str]
+"""Words of a table, with a weight and a colour of their own or without."""
+
+
+@dataclass(frozen=True, slots=True)
+class PageColumn:
+    """Where a column of a table begins, as a share of the page's width, or ends (``ends``). What is wider than
+    ``room``, a share too, is written smaller, or on several lines where it ``wraps``."""
+
+    at: float
+    weight: int = REGULAR
+    ends: bool = False
+    room: float = 1.0
+    wraps: bool = False
+    size_pt: float = 9.0
+    token: str = "text"
 
 
 @dataclass(slots=True)
@@ -118,6 +138,55 @@ class Page:
                 line = longer
         return [*lines, line]
 
+    def fitting(self, text: str, room: float, size_pt: float, weight: int = REGULAR, least_pt: float = 6.0) -> float:
+        """The size at which a line is no wider than ``room`` points; never below the least one."""
+        while size_pt > least_pt and self.width_of(text, size_pt, weight) > room:
+            size_pt -= 0.25
+        return size_pt
+
+    def said(self, text: str, top: float, size_pt: float = 9.0, weight: int = REGULAR, token: str = "text") -> float:
+        """A paragraph as wide as the page; returns its lower edge."""
+        return self.paragraph(text, self.left, top, self.right - self.left, size_pt, weight, token)
+
+    def small_line(self, text: str, baseline: float, size_pt: float = 8.0) -> None:
+        """One small line across the page, smaller where it is too long."""
+        room = 0.99 * (self.right - self.left)
+        size_pt *= min(1.0, room / max(self.width_of(text, size_pt), 1.0))
+        self.text(text, self.left, baseline, size_pt, REGULAR, "text2")
+
+    def table(
+        self, columns: Sequence[PageColumn], rows: Sequence[Sequence[Cell]], top: float, *, heads: Sequence[str] = (),
+        head_pt: float = 8.5, pitch_pt: float = 15.5, drop_pt: float = 4.5,
+    ) -> float:  # fmt: skip
+        """Heads, then rows with a line above and below each, ``drop_pt`` under their words; the lower edge."""
+        y = top
+        if heads:
+            y = self._row(columns, [(head, MEDIUM, "text2") for head in heads], y + 8, head_pt) + drop_pt
+        for cells in rows:
+            self.rule(y)
+            y = self._row(columns, cells, y + pitch_pt - drop_pt) + drop_pt
+        self.rule(y)
+        return y
+
+    def _row(
+        self, columns: Sequence[PageColumn], cells: Sequence[Cell], baseline: float, size_pt: float = 0.0
+    ) -> float:
+        """One row; returns its last baseline."""
+        width, last = self.right - self.left, baseline
+        for column, cell in zip(columns, cells, strict=True):
+            text, weight, token = (cell, column.weight, column.token) if isinstance(cell, str) else cell
+            edge, size = self.left + column.at * width, size_pt or column.size_pt
+            if column.wraps and not size_pt:
+                low = self.paragraph(text, edge, baseline - size, self.right - edge, size, weight, token)
+                last = max(last, low - 0.45 * size)
+                continue
+            for number, line in enumerate(text.split("\n")):
+                fits = self.fitting(line, column.room * width, size, weight, LEAST_PT)
+                left = edge - self.width_of(line, fits, weight) if column.ends else edge
+                self.text(line, left, baseline + LINE_PT * number, fits, weight, token)
+                last = max(last, baseline + LINE_PT * number)
+        return last
+
     def rule(self, y: float, left: float | None = None, right: float | None = None) -> None:
         """A fine line across."""
         self.painter.setPen(QPen(QColor(LIGHT.line), 0.6 * self.point))
@@ -146,5 +215,24 @@ class Page:
         if end + 12.0 + self.width_of(aside, 8.5) <= self.right:
             self.text_right(aside, self.right, baseline, 8.5, REGULAR, "text2")
             return 0.0
-        below = baseline + 3.0
-        return self.paragraph(aside, self.left, below, self.right - self.left, 8.5, REGULAR, "text2") - below
+        return self.said(aside, baseline + 3.0, 8.5, REGULAR, "text2") - baseline - 3.0
+
+
+def painted_on_nothing(page: Page, paint: Callable[[Page], float]) -> float:
+    """The lower edge that painting would have, in points."""
+    nowhere = QPicture()
+    painter = QPainter(nowhere)
+    try:
+        return paint(Page(painter, page.point))
+    finally:
+        painter.end()
+
+
+def paint_to_fit(page: Page, lowest_pt: float, paint: Callable[[Page], float]) -> None:
+    """Paint something no lower than that, smaller and in the middle where it would go further."""
+    share = min(1.0, lowest_pt / painted_on_nothing(page, paint))
+    page.painter.save()
+    page.painter.translate(0.5 * (1.0 - share) * A4_PT[0] * page.point, 0.0)
+    page.painter.scale(share, share)
+    paint(page)
+    page.painter.restore()

@@ -14,7 +14,7 @@ from carpus.ui.report.letter_page import LetterReport, paint_letter_page
 from carpus.ui.report.motion_page import paint_motion_page
 from carpus.ui.report.page import Page
 from carpus.ui.report.progress_page import ProgressReport, paint_progress_page
-from carpus.ui.report.session_page import SessionReport, paint_session_page
+from carpus.ui.report.session_page import SessionReport, paint_session_page, paint_watermark
 
 Report = SessionReport | ProgressReport | BesideReport | LetterReport | HomeReport
 
@@ -43,7 +43,12 @@ def pages_of(report: Report) -> list[Callable[[Page], None]]:
 
 
 def _painted(report: Report, number: int, count: int, paint: Callable[[Page], None], page: Page) -> None:
+    def body(framed: Page) -> None:
+        if any(figures.simulated for figures in report.sessions):
+            paint_watermark(framed)
+        paint(framed)
+
     page.painter.save()
     with speaking(report.language):
-        paint_framed(page, report.form, number, count, paint)
+        paint_framed(page, report.form, number, count, body)
     page.painter.restore()

@@ -25,10 +25,7 @@ from carpus.core.results.report_form import PAPER_PT, ReportForm
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session
 from carpus.ui.fonts import load_fonts
-from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.hand_rows import followed_keys, followed_kinds
-from carpus.ui.report.home_page import HomeReport
-from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import Page
 from carpus.ui.report.pages import Report, pages_of
 from carpus.ui.report.progress_page import ProgressReport
@@ -107,7 +104,7 @@ def write_session_report(report: Session | SessionReport, output_path: Path, **c
     Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; nothing half-written stays.
     """
     page = session_report(report, **context) if isinstance(report, Session) else report  # type: ignore[arg-type]
-    return _write(output_path, page, TITLE)
+    return write_report(page, output_path)
 
 
 def write_progress_report(
@@ -115,17 +112,7 @@ def write_progress_report(
 ) -> Path:
     """Write the one-page report over sessions; faults as :func:`write_session_report`."""
     page = report if isinstance(report, ProgressReport) else progress_report(report, **context)  # type: ignore[arg-type]
-    return _write(output_path, page, TITLE)
-
-
-def write_beside_report(report: BesideReport, output_path: Path) -> Path:
-    """Write the one page of two sessions side by side; faults as :func:`write_session_report`."""
-    return _write(output_path, report, TITLE)
-
-
-def write_letter(letter: LetterReport | HomeReport, output_path: Path) -> Path:
-    """Write the one page of a letter or of a sheet for home; faults as :func:`write_session_report`."""
-    return _write(output_path, letter, TITLE)
+    return write_report(page, output_path)
 
 
 def progress_report(
@@ -171,10 +158,11 @@ def _painting(sheet: PrintedSheet) -> Callable[[Page], None]:
     return lambda page: paint_sheet(page, sheet)
 
 
-def _write(output_path: Path, report: Report, title: str) -> Path:
+def write_report(report: Report, output_path: Path) -> Path:
+    """Write a report of any kind; faults as :func:`write_session_report`."""
     width_pt, height_pt = PAPER_PT[report.form.paper]
     paper = None if report.form.paper == "a4" else QSizeF(width_pt * MM_PER_PT, height_pt * MM_PER_PT)
-    return _write_pages(output_path, [(paper, paint) for paint in pages_of(report)], title)
+    return _write_pages(output_path, [(paper, paint) for paint in pages_of(report)], TITLE)
 
 
 def _write_pages(output_path: Path, pages: Sequence[tuple[QSizeF | None, Callable[[Page], None]]], title: str) -> Path:

@@ -25,12 +25,18 @@ from carpus.ui.report.page import Page
 from carpus.ui.report.pages import Report, pages_of
 from carpus.ui.report.panel import ReportPanel
 from carpus.ui.report.paper import print_on, printer_for
-from carpus.ui.report.pdf import write_beside_report, write_letter, write_progress_report, write_session_report
+from carpus.ui.report.pdf import write_report
+from carpus.ui.report.progress_page import ProgressReport
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.tour.bubble import BubbleView
 
 WIDEST_PX = 980
+KINDS: dict[type, str] = {
+    SessionReport: "report", LetterReport: "letter", HomeReport: "home", BesideReport: "side-by-side",
+    ProgressReport: "progress",
+}  # fmt: skip
+"""How the files of each are called."""
 
 
 class ReportScreen(QWidget):
@@ -227,36 +233,19 @@ class ReportScreen(QWidget):
 
 def suggested_name(report: Report) -> str:
     """``Linden-42_2026-11-20_15-29_wrist-fe_report.pdf``: the made-up name, when, and what was done."""
-    if isinstance(report, SessionReport | LetterReport | HomeReport):
-        figures = report.figures if isinstance(report, SessionReport) else report.report.figures
-        what = figures.exercise.id.lower().replace("_", "-")
-        name = report.pseudonym.replace(" ", "-")
-        kind = {SessionReport: "report", LetterReport: "letter", HomeReport: "home"}[type(report)]
-        return f"{name}_{figures.when:%Y-%m-%d_%H-%M}_{what}_{kind}.pdf"
-    if isinstance(report, BesideReport):
-        when, kind = max(figures.when for figures in report.sessions), "side-by-side"
-    else:
-        when, kind = report.progress.points[-1].figures.when, "progress"
-    return f"{report.pseudonym.replace(' ', '-')}_{when:%Y-%m-%d}_{kind}.pdf"
+    name, when = report.pseudonym.replace(" ", "-"), max(figures.when for figures in report.sessions)
+    if isinstance(report, ProgressReport | BesideReport):
+        return f"{name}_{when:%Y-%m-%d}_{KINDS[type(report)]}.pdf"
+    what = report.sessions[0].exercise.id.lower().replace("_", "-")
+    return f"{name}_{when:%Y-%m-%d_%H-%M}_{what}_{KINDS[type(report)]}.pdf"
 
 
 def _written(report: Report, target: Path, replace_asked: bool) -> Path:
     """Put in the place of an old file only where the person has agreed to that."""
-
-    def write(place: Path) -> None:
-        if isinstance(report, SessionReport):
-            write_session_report(report, place)
-        elif isinstance(report, BesideReport):
-            write_beside_report(report, place)
-        elif isinstance(report, LetterReport | HomeReport):
-            write_letter(report, place)
-        else:
-            write_progress_report(report, place)
-
     if replace_asked and target.exists():
-        replace_file(target, write)
+        replace_file(target, lambda place: write_report(report, place))
     else:
-        write(target)
+        write_report(report, target)
     return target
 
 

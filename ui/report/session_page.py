@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date
 
-from PySide6.QtCore import QPointF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPicture
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPen
 
 from carpus.core.by_hand.values import HandValue
 from carpus.core.hand.exercises import AXIS_TICK_DEG, SIDES
@@ -18,21 +18,24 @@ from carpus.core.results.norms import wrist_norm
 from carpus.core.results.progress import compare_rows
 from carpus.core.results.report_form import USUAL_FORM, ReportForm
 from carpus.core.results.seen import JointCurves, ReportCurves
+from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.names import day_words
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
-from carpus.ui.icons import paint_mark, paint_state
+from carpus.ui.icons import State, paint_mark, paint_state
 from carpus.ui.plot.session import SessionPlot, paint_session
 from carpus.ui.plot.style import CURVE_TOKENS
 from carpus.ui.report.active_passive import active_passive
 from carpus.ui.report.hand_part import paint_finger_curves, paint_finger_table, paint_wrist_line
 from carpus.ui.report.hand_rows import compared_figures, hand_summary
-from carpus.ui.report.page import A4_PT, MARGIN_PT, Page
+from carpus.ui.report.page import A4_PT, MARGIN_PT, Page, PageColumn, paint_to_fit, painted_on_nothing
 from carpus.ui.report.tables import TableRow, column_names, norm_words, repetition_words, table_rows
 from carpus.ui.report.words import corrected_words, method, other_lines, quality_lines, summary, warnings
 from carpus.ui.theme import LIGHT
 from carpus.ui.translate import inside, tr
 
+INSIDE_PT = 11.0
+"""Between the line of a card and its words."""
 COMMENT_PT, COMMENT_LEADING_PT = 9.0, 12.5
 MOST_COMMENT_LINES = 6
 """A longer comment has pages of its own."""
@@ -72,15 +75,42 @@ class SessionReport:
     language: str = ""
     """The language it is painted in, by two letters; empty for the window's."""
 
+    @property
+    def sessions(self) -> tuple[SessionFigures, ...]:
+        """Whose figures are on the page."""
+        return (self.figures,)
+
+
+@dataclass(frozen=True, slots=True)
+class OfSession:
+    """A page made of what the report of a session has."""
+
+    report: SessionReport
+
+    @property
+    def form(self) -> ReportForm:
+        """Letterhead and paper."""
+        return self.report.form
+
+    @property
+    def pseudonym(self) -> str:
+        """The made-up name."""
+        return self.report.pseudonym
+
+    @property
+    def side(self) -> Side:
+        """The hand."""
+        return self.report.figures.side
+
+    @property
+    def sessions(self) -> tuple[SessionFigures, ...]:
+        """Whose figures are on the page."""
+        return self.report.sessions
+
 
 def paint_session_page(page: Page, report: SessionReport) -> None:
     """Paint everything from the upper to the lower margin, smaller where many warnings leave too little room."""
-    if report.figures.simulated:
-        paint_watermark(page)
-    share = min(1.0, LOWEST_PT / painted_on_nothing(page, lambda trial: _paint_all(trial, report)))
-    page.painter.translate(0.5 * (1.0 - share) * A4_PT[0] * page.point, 0.0)
-    page.painter.scale(share, share)
-    _paint_all(page, report)
+    paint_to_fit(page, LOWEST_PT, lambda trial: _paint_all(trial, report))
 
 
 def _paint_all(page: Page, report: SessionReport) -> float:
@@ -88,7 +118,7 @@ def _paint_all(page: Page, report: SessionReport) -> float:
     y = paint_head(page, tr("Session report"), report.pseudonym, what_words(report))
     y = _paint_facts(page, report, y)
     said = (summary if report.joints is None else hand_summary)(report.figures, report.previous, report.first)
-    y = page.paragraph(said, page.left, y + 5, page.right - page.left, 10.0, SEMIBOLD)
+    y = page.said(said, y + 5, 10.0, SEMIBOLD)
     if report.joints is None:
         if report.form.has("table"):
             y = _paint_active_passive(page, report, _paint_table(page, report, y + 7))
@@ -110,16 +140,6 @@ def _paint_all(page: Page, report: SessionReport) -> float:
             y = paint_finger_curves(page, report.curves, report.joints, report.figures, y + 8, room)
     y = _paint_boxes(page, report, y + 9)
     return _paint_foot(page, report, _paint_told(page, report, y))
-
-
-def painted_on_nothing(page: Page, paint: Callable[[Page], float]) -> float:
-    """The lower edge that painting would have, in points."""
-    nowhere = QPicture()
-    painter = QPainter(nowhere)
-    try:
-        return paint(Page(painter, page.point))
-    finally:
-        painter.end()
 
 
 def paint_watermark(page: Page) -> None:
@@ -175,14 +195,13 @@ def _paint_facts(page: Page, report: SessionReport, top: float) -> float:
         (tr("Therapist"), report.therapist or numbers.UNKNOWN),
     ]
     page.facts(pairs, top + 5, (0.0, 0.25, 0.44, 0.67, 0.81))
-    width = page.right - page.left
-    if words := _diagnosis_words(report):
-        top = page.paragraph(words, page.left, top + 35, width, 8.5, MEDIUM) - 33
-    for words in warnings(figures):
-        top = page.paragraph(words, page.left, top + 35, width, 8.5, SEMIBOLD, "warn") - 33
+    lines = [(_diagnosis_words(report), MEDIUM, "text"), *((words, SEMIBOLD, "warn") for words in warnings(figures))]
     if said := corrected_words(figures):
         kept = tr("Markers were put right by hand; the result as measured is kept.")
-        top = page.paragraph(f"{said} {kept}", page.left, top + 35, width, 8.5, MEDIUM, "text") - 33
+        lines.append((f"{said} {kept}", MEDIUM, "text"))
+    for words, weight, token in lines:
+        if words:
+            top = page.said(words, top + 35, 8.5, weight, token) - 33
     page.rule(top + 36)
     return top + 36
 
@@ -198,7 +217,11 @@ def _diagnosis_words(report: SessionReport) -> str:
     return ", ".join(part for part in parts if part)
 
 
-TABLE_EDGES = (0.0, 0.143, 0.354, 0.467, 0.594, 0.690, 0.715)
+TABLE = (
+    PageColumn(0.0, MEDIUM, room=0.135), PageColumn(0.143, SEMIBOLD), PageColumn(0.354, ends=True),
+    PageColumn(0.467, ends=True), PageColumn(0.594, ends=True), PageColumn(0.690, ends=True),
+    PageColumn(0.715, MEDIUM, room=0.285),
+)  # fmt: skip
 
 
 def _paint_table(page: Page, report: SessionReport, top: float) -> float:
@@ -206,21 +229,19 @@ def _paint_table(page: Page, report: SessionReport, top: float) -> float:
     rows = [row for row in table_rows(figures, report.previous, report.other_hand) if row.best]
     if not rows and figures.passive is not None:
         return top  # the table of what was passive says all there is
-    baseline = top + 26 + page.title(tr("Range of motion"), top + 11, repetition_words(figures))
-    head = column_names(figures, report.previous, report.other_hand)
-    _paint_row(page, head, baseline, 8.5, ["text2"] * 7, [MEDIUM] * 7)
-    for row in rows:
-        page.rule(baseline + 4.5)
-        baseline += 15.5
-        weights = [MEDIUM, SEMIBOLD, REGULAR, REGULAR, REGULAR, REGULAR, MEDIUM]
-        _paint_row(page, row, baseline, 9.0, ["text"] * 7, weights)
-    page.rule(baseline + 4.5)
-    source = norm_words(figures)
-    if source:
-        baseline += 10.0
-        size = min(7.5, 7.5 * (page.right - page.left) / page.width_of(source, 7.5))
-        page.text(source, page.left, baseline + 4.0, size, REGULAR, "text2")
-    return baseline + 4.5
+    top += 18 + page.title(tr("Range of motion"), top + 11, repetition_words(figures))
+    heads = column_names(figures, report.previous, report.other_hand)
+    y = page.table(TABLE, [_cells(row) for row in rows], top, heads=_cells(heads))
+    if source := norm_words(figures):
+        page.small_line(source, y + 9.5, 7.5)
+        y += 10.0
+    return y
+
+
+def _cells(row: TableRow) -> tuple[str, ...]:
+    return (
+        row.movement, row.today, row.best, row.other_hand, row.usual, row.last, row.short_change or row.change,
+    )  # fmt: skip
 
 
 def _paint_active_passive(page: Page, report: SessionReport, top: float) -> float:
@@ -228,49 +249,21 @@ def _paint_active_passive(page: Page, report: SessionReport, top: float) -> floa
     found = active_passive(report.figures, report.by_hand if report.form.has("by_hand") else ())
     if found is None:
         return top
-    width = page.right - page.left
     said = "" if report.figures.rows or report.joints is not None else repetition_words(report.figures)
     y = top + 18 + page.title(tr("Active and passive"), top + 18, said)
     if found.said:
-        y = page.paragraph(found.said, page.left, y, width, 9.0, MEDIUM)
+        y = page.said(found.said, y, 9.0, MEDIUM)
     y = paint_words(page, found.heads, found.rows, y)
-    return page.paragraph(found.note, page.left, y + 2, width, 7.5, REGULAR, "text2") if found.note else y
+    return page.said(found.note, y + 2, 7.5, REGULAR, "text2") if found.note else y
 
 
 def paint_words(page: Page, heads: Sequence[str], rows: Sequence[Sequence[str]], top: float) -> float:
     """A table of words in even columns, the first one wider, smaller where a word is too long; the lower edge."""
-    y, step = top, (page.right - page.left) / (len(heads) + 0.4)
-    lines = max(head.count("\n") for head in heads) + 1
-    for number, cells in enumerate((heads, *rows)):
-        baseline, weight = y + 11, MEDIUM if not number else REGULAR
-        for column, cell in enumerate(cells):
-            left = page.left + (column + (0.4 if column else 0.0)) * step
-            room = (1.4 if not column else 1.0) * step - 4.0
-            for line, words in enumerate(cell.split("\n")):
-                size = 8.0 if not number else 9.0
-                while size > 5.0 and page.width_of(words, size, weight) > room:
-                    size -= 0.25
-                page.text(words, left, baseline + 9.5 * line, size, weight, "text2" if not number else "text")
-        y = baseline + 3.5 + (9.5 * (lines - 1) if not number else 0.0)
-        page.rule(y)
-    return y
-
-
-def _paint_row(
-    page: Page, row: TableRow, baseline: float, size: float, tokens: Sequence[str], weights: Sequence[int]
-) -> None:
-    width = page.right - page.left
-    texts = (row.movement, row.today, row.best, row.other_hand, row.usual, row.last, row.short_change or row.change)
-    for column, text in enumerate(texts):
-        edge = page.left + TABLE_EDGES[column] * width
-        if column in (0, 1, 6):
-            room = {0: TABLE_EDGES[1] * width - 4.0, 6: width - TABLE_EDGES[6] * width}.get(column, width)
-            fitting = size
-            while fitting > 6.5 and page.width_of(text, fitting, weights[column]) > room:
-                fitting -= 0.25
-            page.text(text, edge, baseline, fitting, weights[column], tokens[column])
-        else:
-            page.text_right(text, edge, baseline, size, weights[column], tokens[column])
+    step = 1.0 / (len(heads) + 0.4)
+    gap = 4.0 / (page.right - page.left)
+    columns = [PageColumn(0.0, room=1.4 * step - gap)]
+    columns += [PageColumn((k + 0.4) * step, room=step - gap) for k in range(1, len(heads))]
+    return page.table(columns, rows, top + 3, heads=heads, head_pt=8.0, pitch_pt=14.5, drop_pt=3.5)
 
 
 def _paint_curves(page: Page, report: SessionReport, top: float) -> float:
@@ -371,36 +364,39 @@ def _paint_boxes(page: Page, report: SessionReport, top: float) -> float:
     if not (sure or other):
         return top
     notes = "  ".join(f"“{text}”" for _, text in report.figures.notes[:3])
-    gap, inside = 12.0, 11.0
+    gap = 12.0
     width = (page.right - page.left - gap) / 2
     rows = max(len(lines) * sure, (len(others) + (2 if notes else 0)) * other)
     height = 24 + 13.5 * rows + 6
     left = page.left
     if sure:
-        page.card(left, top, width, height)
-        page.text(tr("How sure are these figures?"), left + inside, top + 17, 10.0, SEMIBOLD)
-        sign = page.box(left + width - inside - 12, top + 7, 12, 12)
-        state, token = ("good", "good") if good else ("warn", "warn")
-        paint_state(page.painter, state, sign, QColor(getattr(LIGHT, token)), QColor("#FFFFFF"))  # type: ignore[arg-type]
-        baseline = top + 33
-        for name, value, fine in lines:
-            page.text(name, left + inside, baseline, 8.5, REGULAR, "text2")
-            page.text_right(value, left + width - inside, baseline, 8.5, MEDIUM, "text" if fine else "warn")
-            baseline += 13.5
+        said = [(name, value, "text" if fine else "warn") for name, value, fine in lines]
+        _paint_box(page, QRectF(left, top, width, height), tr("How sure are these figures?"), said)
+        sign = page.box(left + width - INSIDE_PT - 12, top + 7, 12, 12)
+        state: State = "good" if good else "warn"
+        paint_state(page.painter, state, sign, QColor(getattr(LIGHT, state)), QColor("#FFFFFF"))
         left += width + gap
     if other:
-        page.card(left, top, width, height)
-        page.text(tr("Speed, pain, note"), left + inside, top + 17, 10.0, SEMIBOLD)
-        baseline = top + 33
-        for name, value in others:
-            page.text(name, left + inside, baseline, 8.5, REGULAR, "text2")
-            page.text_right(value, left + width - inside, baseline, 8.5, MEDIUM)
-            baseline += 13.5
+        said = [(name, value, "text") for name, value in others]
+        baseline = _paint_box(page, QRectF(left, top, width, height), tr("Speed, pain, note"), said)
         if notes:
-            most = int(2 * (width - 2 * inside) / page.width_of("n", 8.5))
+            room = width - 2 * INSIDE_PT
+            most = int(2 * room / page.width_of("n", 8.5))
             shown = notes if len(notes) <= most else notes[: most - 1] + "…"
-            page.paragraph(shown, left + inside, baseline - 9, width - 2 * inside, 8.5)
+            page.paragraph(shown, left + INSIDE_PT, baseline - 9, room, 8.5)
     return top + height
+
+
+def _paint_box(page: Page, box: QRectF, title: str, lines: Sequence[tuple[str, str, str]]) -> float:
+    """A card with names and their values; returns the baseline of the line after them."""
+    page.card(box.left(), box.top(), box.width(), box.height())
+    page.text(title, box.left() + INSIDE_PT, box.top() + 17, 10.0, SEMIBOLD)
+    baseline = box.top() + 33
+    for name, value, token in lines:
+        page.text(name, box.left() + INSIDE_PT, baseline, 8.5, REGULAR, "text2")
+        page.text_right(value, box.right() - INSIDE_PT, baseline, 8.5, MEDIUM, token)
+        baseline += 13.5
+    return baseline
 
 
 def _paint_told(page: Page, report: SessionReport, top: float) -> float:
@@ -425,7 +421,7 @@ def _paint_comment(page: Page, report: SessionReport, top: float) -> float:
         return top
     if not is_short(page, report.comment):
         words = tr("The therapist’s comment is on the last page.")
-        return page.paragraph(words, page.left, top, page.right - page.left, 8.5, MEDIUM) + 5
+        return page.said(words, top, 8.5, MEDIUM) + 5
     page.text(tr("Comment of the therapist"), page.left, top + 9, 10.0, SEMIBOLD)
     return paint_comment_lines(page, comment_lines(page, report.comment), top + 12) + 5
 
@@ -443,7 +439,7 @@ def _paint_by_hand(page: Page, report: SessionReport, top: float) -> float:
     if not report.by_hand or not report.form.has("by_hand"):
         return top + 10
     words = tr("Entered by hand, not measured by Carpus: {values}.").format(values=day_words(report.by_hand))
-    return page.paragraph(words, page.left, top + 5, page.right - page.left, 8.5) + 5
+    return page.said(words, top + 5, 8.5) + 5
 
 
 def _speaks_of_error(report: SessionReport) -> bool:
@@ -460,10 +456,9 @@ def _speaks_of_error(report: SessionReport) -> bool:
 def _paint_foot(page: Page, report: SessionReport, top: float) -> float:
     figures = report.figures
     page.rule(top)
-    width = page.right - page.left
     said = method(figures, report.markers, compared=_speaks_of_error(report))
-    y = page.paragraph(said, page.left, top + 4, width, 8.0, REGULAR, "text2")
-    y = page.paragraph(terms.LEGAL_SENTENCE, page.left, y + 3, width, 8.0, SEMIBOLD)
+    y = page.said(said, top + 4, 8.0, REGULAR, "text2")
+    y = page.said(terms.LEGAL_SENTENCE, y + 3, 8.0, SEMIBOLD)
     residual = figures.quality.residual_mm
     made_by = f" ({report.revision[:7]})" if report.revision else ""
     parts = [tr("Session {id}").format(id=figures.session_id[:8]), f"Carpus {figures.software_version}{made_by}"]
@@ -477,7 +472,5 @@ def _paint_foot(page: Page, report: SessionReport, top: float) -> float:
     if math.isfinite(residual):
         parts.append(tr("calibrated to {size} mm").format(size=numbers.fixed(residual, 1)))
     parts.append(tr("smoothed") if figures.smoothed else tr("as measured live"))
-    words = " · ".join(parts)
-    size_pt = min(8.0, 7.9 * width / page.width_of(words, 8.0))
-    page.text(words, page.left, max(y + 12, A4_PT[1] - MARGIN_PT + 8), size_pt, REGULAR, "text2")
+    page.small_line(" · ".join(parts), max(y + 12, A4_PT[1] - MARGIN_PT + 8))
     return y + 12

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from datetime import datetime
 
 from carpus.core.hand.exercises import SIDES, STILL_RADIUS_MM
@@ -29,16 +30,26 @@ def summary(figures: SessionFigures, previous: SessionFigures | None, first: Ses
     if not today:
         return tr("No range could be measured.") if figures.passive is None else tr("No active range was measured.")
     parts = [f"{today[0].upper()}{today[1:]}."]
+    return " ".join([*parts, *since_sessions(figures, previous, first, since_compared)])
+
+
+def since_sessions(
+    figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None,
+    said: Callable[[SessionFigures, SessionFigures, str], str],
+) -> list[str]:  # fmt: skip
+    """What is ``said`` of change since last time, and since the first session where that is another one."""
+    found = []
     if previous is not None:
-        parts.append(since_words(compare(previous, figures), numbers.day_beside(previous.when, figures.when)))
+        found.append(said(figures, previous, numbers.day_beside(previous.when, figures.when)))
     if first is not None and (previous is None or first.session_id != previous.session_id):
-        parts.append(
-            since_words(
-                compare(first, figures),
-                tr("the first session on {day}").format(day=numbers.day_beside(first.when, figures.when)),
-            )
-        )
-    return " ".join(part for part in parts if part)
+        day = numbers.day_beside(first.when, figures.when)
+        found.append(said(figures, first, tr("the first session on {day}").format(day=day)))
+    return [words for words in found if words]
+
+
+def since_compared(figures: SessionFigures, before: SessionFigures, when: str) -> str:
+    """What may be said of change of the wrist since a session."""
+    return since_words(compare(before, figures), when)
 
 
 def _name(movement: str, angle: int, figures: SessionFigures) -> str:
