@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
-from carpus.core.capture.cameras import CAMERAS, check_address
+from carpus.core.capture.devices.cameras import CAMERAS, check_address
 from carpus.core.errors import CameraUnknown
 from carpus.core.known_names import known_names, nearest
 

@@ -6,8 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from carpus.core.capture.notice import Notice, ignore
-from carpus.core.capture.source import FrameSource
+from carpus.core.capture.source import FrameSource, Notice, ignore
 from carpus.core.errors import RecordingMissing, RecordingUnreadable
 from carpus.core.phrase import phrase
 
@@ -52,7 +51,7 @@ class _How:
 
 
 def _tum_folder(path: Path, how: _How) -> FrameSource:
-    from carpus.core.capture.tum import TumFolder
+    from carpus.core.capture.files.tum import TumFolder
 
     return TumFolder(
         path, need_depth=how.need_depth, read_ahead=8, leave_out_damaged=how.leave_out_damaged, notice=how.notice
@@ -64,19 +63,19 @@ def _is_oni(path: Path) -> bool:
 
 
 def _oni(path: Path, how: _How) -> FrameSource:
-    from carpus.core.capture.oni_source import OniSource
+    from carpus.core.capture.files.oni_source import OniSource
 
     return OniSource(path, registered=how.registered, notice=how.notice)
 
 
 def _is_raw(path: Path) -> bool:
-    from carpus.core.capture.raw import is_raw_recording
+    from carpus.core.capture.files.raw import is_raw_recording
 
     return is_raw_recording(path)
 
 
 def _raw(path: Path, how: _How) -> FrameSource:
-    from carpus.core.capture.raw import RawRecording
+    from carpus.core.capture.files.raw import RawRecording
 
     return RawRecording(path, notice=how.notice)
 
@@ -86,7 +85,7 @@ def _is_realsense(path: Path) -> bool:
 
 
 def _realsense(path: Path, _how: _How) -> FrameSource:
-    from carpus.core.capture.realsense_recording import RealSenseRecording
+    from carpus.core.capture.files.realsense_recording import RealSenseRecording
 
     return RealSenseRecording(path)
 
@@ -96,7 +95,7 @@ def _is_kinect(path: Path) -> bool:
 
 
 def _kinect(path: Path, how: _How) -> FrameSource:
-    from carpus.core.capture.kinect_recording import KinectRecording
+    from carpus.core.capture.files.kinect_recording import KinectRecording
 
     return KinectRecording(path, notice=how.notice)
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import CAMERA_FILE
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import SourceInfo, is_simulated
-from carpus.core.capture.tum import TumFolder
 from carpus.core.check_card.trust import camera_of
 from carpus.core.depth_sensor import ASSUMED, DepthSensor
 from carpus.core.hand.exercises import SIDES

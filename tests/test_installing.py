@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.capture import doctor, maker_library, orbbec, realsense
-from carpus.core.capture.cameras import CAMERAS, camera_kind, udev_rules
+from carpus.core.capture import doctor
+from carpus.core.capture.devices import maker_library, orbbec, realsense
+from carpus.core.capture.devices.cameras import CAMERAS, camera_kind, udev_rules
 from carpus.core.errors import ExtraMissing
 from carpus.core.installing import CAMERAS_EXTRA, how_to_install
 from carpus.core.words import one_sentence

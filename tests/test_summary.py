@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.hand.protocols import HAND21
 from carpus.core.results.figures import session_figures
 from carpus.core.session.reader import read_session

@@ -124,7 +124,7 @@ def _source(recording: Path | None) -> FrameSource:
 
         return open_recording(recording, need_depth=False, leave_out_damaged=True, notice=tell)
     from carpus.app.settings import load_settings
-    from carpus.core.capture.cameras import open_camera
+    from carpus.core.capture.devices.cameras import open_camera
     from carpus.core.capture.given_name import with_given_name
 
     settings = load_settings()

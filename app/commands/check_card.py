@@ -127,7 +127,7 @@ def _source(recording: Path | None, data_folder: Path) -> FrameSource:
         return open_recording(recording, leave_out_damaged=True, data_folder=data_folder, notice=tell)
     from carpus.app.settings import load_settings
     from carpus.core.capture.calibrated import with_stored_calibration
-    from carpus.core.capture.cameras import open_camera
+    from carpus.core.capture.devices.cameras import open_camera
     from carpus.core.capture.given_name import with_given_name
 
     live = with_given_name(open_camera(load_settings().camera.uri, notice=tell), data_folder)

@@ -8,7 +8,7 @@ from pathlib import Path
 from carpus.app.commands.kept import note
 from carpus.app.commands.progress import tell
 from carpus.app.of_file import read_choices
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import RecordingMissing
 from carpus.core.session.reader import read_session
 from carpus.core.summary import recording_summary, session_summary, source_summary

@@ -15,11 +15,11 @@ from carpus.app.command_line import CAMERA_HELP, camera_address, number
 from carpus.app.commands.progress import bar, tell
 from carpus.app.settings import load_settings
 from carpus.core.capture.calibrated import with_stored_calibration
-from carpus.core.capture.cameras import open_camera
+from carpus.core.capture.devices.cameras import open_camera
+from carpus.core.capture.files.raw import RawWriter
+from carpus.core.capture.files.raw_tum import TumWriter
 from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.identity import recorded_at
-from carpus.core.capture.raw import RawWriter
-from carpus.core.capture.raw_tum import TumWriter
 from carpus.core.dates import iso
 from carpus.core.errors import OutputExists
 from carpus.core.pipeline.recorder import Recorder

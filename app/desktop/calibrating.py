@@ -21,8 +21,7 @@ from carpus.core.camera_calibration.gather import Gathering
 from carpus.core.camera_calibration.guidance import ASKED_VIEWS, next_step, target_outline
 from carpus.core.camera_calibration.keep import keep_calibration, stored_of
 from carpus.core.capture.calibrated import SERIAL, stored_calibration
-from carpus.core.capture.notice import Notice
-from carpus.core.capture.source import FrameSource, SourceInfo, is_simulated
+from carpus.core.capture.source import FrameSource, Notice, SourceInfo, is_simulated
 from carpus.core.durable import replace_file
 from carpus.core.errors import BoardMissing, BoardViewsAlike, CameraLost, CarpusFault
 from carpus.core.pipeline.channels import Newest

@@ -8,8 +8,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from carpus.core.capture.notice import Notice
-from carpus.core.capture.source import FrameSource, SourceInfo
+from carpus.core.capture.source import FrameSource, Notice, SourceInfo
 from carpus.core.errors import CameraLost, CarpusFault
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.types import Frame

@@ -9,10 +9,9 @@ from carpus.app.settings import Settings
 from carpus.core.camera_calibration.board import Board
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
-from carpus.core.capture.cameras import open_camera
+from carpus.core.capture.devices.cameras import open_camera
 from carpus.core.capture.given_name import with_given_name
-from carpus.core.capture.notice import Notice
-from carpus.core.capture.source import FrameSource
+from carpus.core.capture.source import FrameSource, Notice
 from carpus.core.check_card.ages import known_serials
 from carpus.core.check_card.standing import Standing, standing_of
 

@@ -18,8 +18,7 @@ from carpus.app.desktop.naming import Naming
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.camera_calibration.sheet import PAPER_MM
 from carpus.core.capture.calibrated import SERIAL
-from carpus.core.capture.notice import Notice
-from carpus.core.capture.source import FrameSource, SourceInfo
+from carpus.core.capture.source import FrameSource, Notice, SourceInfo
 from carpus.core.check_card.card import card_sheets
 from carpus.core.check_card.chart import add_check, chart_path, check_of, read_checks
 from carpus.core.check_card.measure import CardWatch

@@ -16,7 +16,7 @@ from carpus.app.desktop.practice import PRACTICE_REPETITIONS
 from carpus.app.desktop.sources import OpenSource
 from carpus.app.desktop.ways import FindPatient, Tell, Way
 from carpus.core.calibration.result import Verdict
-from carpus.core.capture.raw import MB_PER_MINUTE
+from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.hand.exercises import EXERCISES
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.records.values import SessionEntry

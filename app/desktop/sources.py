@@ -17,10 +17,9 @@ from carpus.app.sources import open_recording
 from carpus.core.calibration.result import Calibration
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
-from carpus.core.capture.cameras import name_to_open, open_camera
+from carpus.core.capture.devices.cameras import name_to_open, open_camera
 from carpus.core.capture.given_name import with_given_name
-from carpus.core.capture.paced import PacedSource
-from carpus.core.capture.practice import PracticeSource
+from carpus.core.capture.paced import PacedSource, PracticeSource
 from carpus.core.capture.source import FrameSource, is_simulated
 from carpus.core.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
 from carpus.core.library.set_up import SetUp

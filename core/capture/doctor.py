@@ -19,11 +19,11 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.capture.camera_kind import CameraKind
-from carpus.core.capture.cameras import CAMERAS, camera_kind, kind_of, kind_to_open, open_camera
-from carpus.core.capture.raw import MB_PER_MINUTE
+from carpus.core.capture.devices.camera_kind import CameraKind
+from carpus.core.capture.devices.cameras import CAMERAS, camera_kind, kind_of, kind_to_open, open_camera
+from carpus.core.capture.devices.usb_devices import UsbCamera
+from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.capture.source import SourceInfo
-from carpus.core.capture.usb_devices import UsbCamera
 from carpus.core.disk_encryption import disk_encryption_finding, disk_state
 from carpus.core.errors import (
     CameraBusy,

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
 from carpus.core.camera import Camera
 from carpus.core.depth_sensor import DepthSensor
+from carpus.core.errors import CarpusFault
 from carpus.core.types import SIMULATED, Frame
+
+Notice = Callable[[CarpusFault], None]
+"""Hears of faults that are told and not raised: the source goes on. Called where it is opened or frames are read."""
+
+
+def ignore(_fault: CarpusFault) -> None:
+    """For those who do not want to be told."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -39,3 +39,15 @@ class VideoMode:
     def __str__(self) -> str:
         names = {int(item): item.name for item in PixelFormat}
         return f"{self.width_px}x{self.height_px} {names.get(self.pixel_format, self.pixel_format)} {self.fps} fps"
+
+
+@dataclass(frozen=True, slots=True)
+class Lens:
+    """Intrinsics of the colour pictures as the driver tells them: pixels, and the lens's model with coefficients."""
+
+    fx_px: float
+    fy_px: float
+    cx_px: float
+    cy_px: float
+    model: str
+    coefficients: tuple[float, ...]

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import platformdirs
 
-from carpus.core.capture.raw import SUFFIX as RAW_SUFFIX
+from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.durable import sync_folder
 from carpus.core.errors import CarpusFault, OutputNotWritable, RecordingReturned, WaitingErased
 from carpus.core.library.set_up import MARKERS_SUFFIX

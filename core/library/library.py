@@ -15,10 +15,10 @@ import numpy as np
 from carpus.core.agreement.limits_file import read_limits
 from carpus.core.by_hand.values import HandValue
 from carpus.core.calibration.result import ALL_STRAIGHT
-from carpus.core.capture.picture_file import read_color
-from carpus.core.capture.raw import SUFFIX as RAW_SUFFIX
-from carpus.core.capture.raw import RawRecording
-from carpus.core.capture.raw_pictures import decode_color
+from carpus.core.capture.files.picture_file import read_color
+from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
+from carpus.core.capture.files.raw import RawRecording
+from carpus.core.capture.files.raw_pictures import decode_color
 from carpus.core.check_card.trust import camera_of, with_trust
 from carpus.core.errors import (
     CarpusFault,

@@ -18,9 +18,9 @@ import numpy as np
 from carpus.core.calibration.calibrate import CalibrationOutcome
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
+from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.identity import recorded_at, recording_id
-from carpus.core.capture.raw import SUFFIX as RAW_SUFFIX
-from carpus.core.capture.raw import RawWriter
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.dates import iso
 from carpus.core.errors import DiskFull, EndStalled, ExtraMissing, NotLookedBack, RecordingEmpty

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from carpus.core.capture.raw_pictures import decode_color, decode_depth
+from carpus.core.capture.files.raw_pictures import decode_color, decode_depth
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import PictureDamaged
 from carpus.core.phrase import phrase

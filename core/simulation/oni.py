@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.capture.camera_info import CAMERA_FILE
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import OutputExists
 from carpus.core.simulation.oni_writer import ColorCodec, write_oni
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate

@@ -13,11 +13,11 @@ from typing import BinaryIO, Literal
 import numpy as np
 
 from carpus.core.camera import Camera
-from carpus.core.capture import oni_format as oni
 from carpus.core.capture.camera_info import sidecar_path, write_camera_info
-from carpus.core.capture.oni_depth_codec import encode_depth
-from carpus.core.capture.oni_format import Codec, NodeType, RecordType
-from carpus.core.capture.raw_pictures import encode_color
+from carpus.core.capture.files import oni_format as oni
+from carpus.core.capture.files.oni_depth_codec import encode_depth
+from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType
+from carpus.core.capture.files.raw_pictures import encode_color
 from carpus.core.capture.video_mode import PixelFormat
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
 from carpus.core.private import private

@@ -20,7 +20,7 @@ import platformdirs
 
 from carpus.core.calibration.result import Clicks
 from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
-from carpus.core.capture.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, SIMULATED_REMARK
+from carpus.core.capture.files.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, SIMULATED_REMARK
 from carpus.core.durable import write_fault
 from carpus.core.errors import OutputExists, OutputNotWritable
 from carpus.core.simulation.depth_kinds import depth_pictures

@@ -149,7 +149,7 @@ def write_deb(folder: Path, python: Path, number: str) -> Path:
     told = run(
         python, "-P", "-c",
         "import sys; sys.path.insert(0, sys.argv[1]); from man_page import man_page; from carpus import __version__;"
-        "from carpus.app.commands import COMMANDS; from carpus.core.capture.cameras import udev_rules;"
+        "from carpus.app.commands import COMMANDS; from carpus.core.capture.devices.cameras import udev_rules;"
         "print(man_page(__version__, sys.argv[2], COMMANDS), udev_rules(), sep=chr(0), end='')",
         HERE, date,
     )  # fmt: skip

@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CarpusFault
 from carpus.core.pipeline.track import TrackSettings, learnt_in, track_recording
 from carpus.core.session.reader import read_session

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from carpus.core.calibration.calibrate import MeasuredHand, measure_hand, still_capture
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CalibrationImpossible
 from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
 from carpus.core.session.reader import read_session

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.sites import joint_angle_names

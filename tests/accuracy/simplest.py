@@ -16,7 +16,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from carpus.core.camera import Camera
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.hand.clinical_angles import angles_from_rotation
 from carpus.core.hand.wrist_frame import wrist_axes
 from carpus.core.simulation.recording import clicks_of

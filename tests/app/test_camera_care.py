@@ -19,8 +19,7 @@ from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.camera import Camera
 from carpus.core.camera_calibration import guidance
 from carpus.core.capture.calibrated import stored_calibration
-from carpus.core.capture.notice import Notice
-from carpus.core.capture.source import FrameSource
+from carpus.core.capture.source import FrameSource, Notice
 from carpus.core.check_card import measure
 from carpus.core.check_card.chart import add_check, chart_path, read_checks
 from carpus.core.errors import CameraLost

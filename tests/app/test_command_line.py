@@ -23,7 +23,7 @@ from carpus.app.__main__ import main
 from carpus.app.commands import progress
 from carpus.app.sources import open_recording
 from carpus.core.capture.camera_info import CAMERA_FILE
-from carpus.core.capture.tum import COLOR_LIST, TumFolder
+from carpus.core.capture.files.tum import COLOR_LIST, TumFolder
 from carpus.core.errors import RecordingEmpty
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.session.reader import read_session

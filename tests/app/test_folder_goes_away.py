@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture.raw import LOOK_EVERY_S, RawRecording, RawWriter
+from carpus.core.capture.files.raw import LOOK_EVERY_S, RawRecording, RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import CarpusFault, FolderMissing, RecordingMoved, RecordingReturned, ShareEmpty, WaitingErased
 from carpus.core.library.coming_home import bring_home, fallback_place

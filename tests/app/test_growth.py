@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.capture.cameras import CAMERAS, camera_kind, kind_of
+from carpus.core.capture.devices.cameras import CAMERAS, camera_kind, kind_of
 from carpus.core.formats.formats import FORMATS
 from carpus.core.hand.exercises import EXERCISES, exercises_of
 from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_names

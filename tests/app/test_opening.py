@@ -11,7 +11,7 @@ import pytest
 
 from carpus.app.desktop.practice import practice_beginning, practice_spec
 from carpus.app.desktop.sources import NobodyWaitsError, Progress, TakesDrawn
-from carpus.core.capture.practice import PracticeSource
+from carpus.core.capture.paced import PracticeSource
 from carpus.core.capture.source import is_simulated
 from carpus.core.errors import CarpusFault, DiskFull
 from carpus.core.hand.exercises import exercise_named

@@ -13,7 +13,7 @@ import pytest
 from carpus.app import compose
 from carpus.app.settings import load_sound_settings
 from carpus.core.camera import Camera
-from carpus.core.capture.raw import RawWriter
+from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import RecordingUnreadable, SettingsInvalid
 from carpus.core.formats.new_output import new_table, plain_cell
@@ -117,7 +117,7 @@ from carpus.core.calibration.clicks import write_clicks
 from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import write_camera_info
 from carpus.core.simulation.oni_writer import _create
-from carpus.core.capture.raw_tum import TumWriter
+from carpus.core.capture.files.raw_tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.durable import replace_file
 from carpus.core.formats.new_output import new_text
@@ -144,7 +144,7 @@ def test_whatever_the_umask_files_are_for_their_owner(tmp_path: Path, umask: str
 
 @pytest.mark.parametrize("name", ["/etc/hostname", "../../secret.png", "rgb/../../x.png", "rgb/a\0b.png"])
 def test_a_list_of_pictures_stays_in_its_folder(tmp_path: Path, name: str) -> None:
-    from carpus.core.capture.tum import TumFolder
+    from carpus.core.capture.files.tum import TumFolder
 
     (tmp_path / "rgb.txt").write_text(f"1.0 {name}\n")
     with pytest.raises(RecordingUnreadable, match="leads out of the folder"):

@@ -18,7 +18,7 @@ import pytest
 from carpus.app.__main__ import main, parser
 from carpus.app.command_line import CommandParser
 from carpus.app.commands import COMMANDS
-from carpus.core.capture import cameras
+from carpus.core.capture.devices import cameras
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.values import PatientEntry
 from tests.formats.takes import stored

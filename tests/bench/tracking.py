@@ -11,7 +11,7 @@ import numpy as np
 
 from carpus.core.calibration.calibrate import calibrate
 from carpus.core.calibration.clicks import read_clicks
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.pipeline import frame_walk
 from carpus.core.pipeline.frame_walk import FrameWalk
 from carpus.core.pipeline.track import TrackSettings, build_walk, learnt_from

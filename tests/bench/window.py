@@ -23,8 +23,8 @@ from carpus.app.desktop.practice import practice_spec
 from carpus.app.desktop.unattended import Walker
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.calibration.clicks import read_clicks
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource
-from carpus.core.capture.tum import TumFolder
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.session.reader import read_session

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.capture.raw import RawWriter
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.raw import RawWriter
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.recording import cached_recording
 from tests.bench.timing import HEAD, Times, line

@@ -26,8 +26,8 @@ from carpus.core.capture.calibrated import (
     with_stored_calibration,
 )
 from carpus.core.capture.camera_info import CameraInfo, StoredCalibration, read_camera_info, write_camera_info
-from carpus.core.capture.raw import RawWriter
-from carpus.core.capture.raw_tum import TumWriter
+from carpus.core.capture.files.raw import RawWriter
+from carpus.core.capture.files.raw_tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import CameraFileUnreadable
 from carpus.core.pipeline.track import source_facts

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.camera import Camera
-from carpus.core.capture.oni_format import RecordType
+from carpus.core.capture.files.oni_format import RecordType
 from carpus.core.simulation.oni_writer import ColorCodec, DepthCodec, OniWriter
 from carpus.core.types import ByteImage, DepthImage
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.capture.capture_messages import Opened
-from carpus.core.capture.capture_process import Outlet
+from carpus.core.capture.devices.capture_messages import Opened
+from carpus.core.capture.devices.capture_process import Outlet
+from carpus.core.capture.files.realsense_recording import FilePlayer
 from carpus.core.capture.frame_assembly import WAITING_IN_FILE, Assembler, Layout
-from carpus.core.capture.realsense_recording import FilePlayer
 from carpus.core.capture.source import SourceInfo
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
 from carpus.core.types import Frame

@@ -12,17 +12,24 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carpus.core.camera import Camera
-from carpus.core.capture import openni2_opening
-from carpus.core.capture.capture_link import CaptureProcess
-from carpus.core.capture.capture_messages import Alive, Arrived, Opened
-from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_view, fitted_camera
-from carpus.core.capture.nearest_pairing import TOLERANCE_US, NearestPairing, Stamped
-from carpus.core.capture.openni2 import CallFailed, Picture
-from carpus.core.capture.openni2_process import agreed_size
-from carpus.core.capture.unseen_camera import why_unlisted
-from carpus.core.capture.usb_devices import UsbCamera, usb_cameras
+from carpus.core.capture.devices import openni2_camera
+from carpus.core.capture.devices.capture_link import CaptureProcess
+from carpus.core.capture.devices.capture_messages import Alive, Arrived, Opened
+from carpus.core.capture.devices.capture_process import why_unlisted
+from carpus.core.capture.devices.openni2 import CallFailed, Picture
+from carpus.core.capture.devices.openni2_camera import agreed_size
+from carpus.core.capture.devices.usb_devices import UsbCamera, usb_cameras
+from carpus.core.capture.devices.xtion import MODELS
+from carpus.core.capture.frame_assembly import (
+    TOLERANCE_US,
+    Assembler,
+    Layout,
+    NearestPairing,
+    Stamped,
+    camera_of_view,
+    fitted_camera,
+)
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
-from carpus.core.capture.xtion import MODELS
 from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed
 
 PERIOD_US = 33_333
@@ -260,7 +267,7 @@ def seen(**changes: bool) -> UsbCamera:
     ],
 )
 def test_why_a_camera_could_not_be_opened(cameras: list[UsbCamera], reason: str, fault: type[CarpusFault]) -> None:
-    failed = openni2_opening._why_not_opened(CallFailed("oniDeviceOpen", 1, reason), cameras)
+    failed = openni2_camera._why_not_opened(CallFailed("oniDeviceOpen", 1, reason), cameras)
     assert failed.fault is fault
 
 
@@ -278,9 +285,9 @@ def test_the_modes_of_an_xtion() -> None:
         for code in (PixelFormat.RGB888, PixelFormat.YUV422)
         for width, height, fps in ((320, 240, 30), (320, 240, 60), (640, 480, 30), (1280, 1024, 30))
     ]
-    best = openni2_opening.choose_mode(offered, PixelFormat.RGB888, (640, 480), 30)
+    best = openni2_camera.choose_mode(offered, PixelFormat.RGB888, (640, 480), 30)
     assert best == VideoMode(PixelFormat.RGB888, 640, 480, 30)
-    assert openni2_opening.choose_mode(offered, PixelFormat.DEPTH_1_MM, (640, 480), 30) is None
+    assert openni2_camera.choose_mode(offered, PixelFormat.DEPTH_1_MM, (640, 480), 30) is None
 
 
 def test_slots_of_pictures_before_the_opening_are_given_back(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture import astra, doctor, openni2_driver, realsense, xtion
-from carpus.core.capture.camera_kind import CameraKind
-from carpus.core.capture.cameras import camera_kind
+from carpus.core.capture import doctor
+from carpus.core.capture.devices import astra, openni2_camera, realsense, xtion
+from carpus.core.capture.devices.camera_kind import CameraKind
+from carpus.core.capture.devices.cameras import camera_kind
+from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.doctor import examine
 from carpus.core.capture.source import SourceInfo
-from carpus.core.capture.usb_devices import UsbCamera
 from carpus.core.errors import CameraBusy, DriverMissing
 from carpus.core.finding import Finding
 from carpus.core.types import Frame
@@ -108,8 +109,8 @@ def test_no_driver(monkeypatch: pytest.MonkeyPatch) -> None:
     def missing() -> None:
         raise DriverMissing("libOpenNI2.so.0", "cannot open shared object file")
 
-    monkeypatch.setattr(openni2_driver, "load_library", missing)
-    finding = openni2_driver.driver_finding()
+    monkeypatch.setattr(openni2_camera, "load_library", missing)
+    finding = openni2_camera.driver_finding()
     assert (finding.state, finding.found) == ("bad", "cannot open shared object file")
     assert "libopenni2-0" in finding.remedy
 

@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.capture import capture_link, realsense_recording
-from carpus.core.capture.realsense_recording import FilePlayer
+from carpus.core.capture.devices import capture_link
+from carpus.core.capture.files import realsense_recording
+from carpus.core.capture.files.realsense_recording import FilePlayer
 from carpus.core.errors import DriverFailed
 from carpus.core.types import Frame
 from tests.capture.oni_samples import color_picture

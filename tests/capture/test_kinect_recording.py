@@ -13,8 +13,8 @@ import pytest
 
 from carpus.app.sources import open_recording
 from carpus.core.camera import Camera
-from carpus.core.capture import kinect_recording
-from carpus.core.capture.kinect_recording import DepthOnColor, KinectRecording, read_calibration
+from carpus.core.capture.files import kinect_recording
+from carpus.core.capture.files.kinect_recording import DepthOnColor, KinectRecording, read_calibration
 from carpus.core.depth_sensor import AZURE_KINECT
 from carpus.core.errors import CarpusFault, ExtraMissing, PicturesLost, RecordingDamaged, RecordingUnsupported
 from carpus.core.words import one_sentence

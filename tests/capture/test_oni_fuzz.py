@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.capture.oni_source import OniSource
+from carpus.core.capture.files.oni_source import OniSource
 from carpus.core.errors import CarpusFault
 from tests.capture.oni_samples import HEIGHT, WIDTH, records, write_sample
 

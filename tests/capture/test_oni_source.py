@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from carpus.core.capture.camera_info import sidecar_path, write_camera_info
-from carpus.core.capture.oni_format import RecordType
-from carpus.core.capture.oni_source import OniSource
+from carpus.core.capture.files.oni_format import RecordType
+from carpus.core.capture.files.oni_source import OniSource
 from carpus.core.capture.paced import PacedSource
 from carpus.core.errors import (
     CameraFileUnreadable,

@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
-from carpus.core.capture import openni2
-from carpus.core.capture.openni2 import load_library
+from carpus.core.capture.devices import openni2
+from carpus.core.capture.devices.openni2 import load_library
 from carpus.core.capture.video_mode import PixelFormat, VideoMode
 from carpus.core.errors import DriverMissing
 from tests.capture.oni_samples import HEIGHT, WIDTH, write_sample
@@ -23,7 +23,7 @@ ROOT = Path(__file__).parents[2]
 def in_process(body: str, *arguments: str) -> Any:
     """Run ``body`` with the library at hand; what it puts into ``result``."""
     program = (
-        "import json, sys\nfrom carpus.core.capture.openni2 import *\nresult = None\n"
+        "import json, sys\nfrom carpus.core.capture.devices.openni2 import *\nresult = None\n"
         + body
         + "\nprint(json.dumps(result))"
     )

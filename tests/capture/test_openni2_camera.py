@@ -13,10 +13,10 @@ from itertools import islice, pairwise
 import pytest
 
 from carpus.core.camera import Camera
-from carpus.core.capture.camera_plan import CameraPlan
-from carpus.core.capture.openni2_camera import open_openni2
-from carpus.core.capture.process_camera import ProcessCamera
-from carpus.core.capture.xtion import MODELS
+from carpus.core.capture.devices.capture_messages import CameraPlan
+from carpus.core.capture.devices.openni2_camera import open_openni2
+from carpus.core.capture.devices.process_camera import ProcessCamera
+from carpus.core.capture.devices.xtion import MODELS
 from carpus.core.errors import (
     CameraFileUnreadable,
     CameraLost,
@@ -135,7 +135,7 @@ def test_what_a_slow_reader_misses_is_counted(camera: ProcessCamera) -> None:
 def test_a_lost_camera_comes_back(
     camera: ProcessCamera, told: list[CarpusFault], how: signal.Signals, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("carpus.core.capture.process_camera.ANSWER_S", 2.0)
+    monkeypatch.setattr("carpus.core.capture.devices.process_camera.ANSWER_S", 2.0)
     frames = []
     for frame in camera.frames():
         frames.append(frame)
@@ -162,7 +162,7 @@ def test_a_camera_lost_before_anyone_looked_comes_back_too(camera: ProcessCamera
 def test_a_camera_that_stays_away_is_a_fault(
     camera: ProcessCamera, told: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("carpus.core.capture.process_camera.RETRY_S", 0.05)
+    monkeypatch.setattr("carpus.core.capture.devices.process_camera.RETRY_S", 0.05)
     camera._patience_s = 0.1
     frames = camera.frames()
     next(frames)

@@ -15,16 +15,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.capture import maker_library, orbbec
-from carpus.core.capture.camera_plan import CameraPlan
-from carpus.core.capture.cameras import open_camera
-from carpus.core.capture.capture_process import GaveUp
-from carpus.core.capture.color_lock import ColorLock
+from carpus.core.capture.devices import maker_library, orbbec
+from carpus.core.capture.devices.cameras import open_camera
+from carpus.core.capture.devices.capture_messages import CameraPlan
+from carpus.core.capture.devices.capture_process import GaveUp
+from carpus.core.capture.devices.color_lock import ColorLock
+from carpus.core.capture.devices.orbbec import _Controls, driver_finding, open_orbbec, sensor_named
+from carpus.core.capture.devices.orbbec_opening import choose_streams, find_camera, library
+from carpus.core.capture.devices.process_camera import ProcessCamera
 from carpus.core.capture.doctor import opened_findings, rules_finding
-from carpus.core.capture.orbbec import driver_finding, open_orbbec, sensor_named
-from carpus.core.capture.orbbec_opening import choose_streams, find_camera, library
-from carpus.core.capture.orbbec_process import _Controls
-from carpus.core.capture.process_camera import ProcessCamera
 from carpus.core.depth_sensor import AZURE_KINECT
 from carpus.core.errors import (
     CameraBusy,
@@ -68,7 +67,7 @@ def camera(
 def test_a_camera_streams_is_lost_and_comes_back(
     camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("carpus.core.capture.process_camera.RETRY_S", 0.05)
+    monkeypatch.setattr("carpus.core.capture.devices.process_camera.RETRY_S", 0.05)
     info = camera.info
     lens = info.camera
     assert (info.name, info.settings["serial"]) == ("Orbbec Femto Bolt(Playback)", SERIAL)

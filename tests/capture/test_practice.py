@@ -8,7 +8,7 @@ from itertools import islice
 import numpy as np
 
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture.practice import PracticeSource
+from carpus.core.capture.paced import PracticeSource
 from carpus.core.capture.source import SourceInfo
 from carpus.core.types import Frame
 

@@ -17,17 +17,17 @@ import pytest
 
 import carpus
 from carpus.app.sources import open_recording
-from carpus.core.capture import maker_library, realsense
-from carpus.core.capture.cameras import open_camera
-from carpus.core.capture.color_hold import MOST_ROUNDS, ColorHold, SeenColors
+from carpus.core.capture.devices import maker_library, realsense
+from carpus.core.capture.devices.cameras import open_camera
+from carpus.core.capture.devices.capture_process import why_not_opened, why_unlisted
+from carpus.core.capture.devices.color_lock import MOST_ROUNDS, ColorHold, SeenColors
+from carpus.core.capture.devices.maker_library import further_findings
+from carpus.core.capture.devices.process_camera import ProcessCamera
+from carpus.core.capture.devices.realsense import driver_finding, open_realsense
+from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.doctor import opened_findings
-from carpus.core.capture.maker_library import further_findings
-from carpus.core.capture.process_camera import ProcessCamera
-from carpus.core.capture.realsense import driver_finding, open_realsense
-from carpus.core.capture.realsense_recording import RealSenseRecording
-from carpus.core.capture.tum import TumFolder
-from carpus.core.capture.unseen_camera import why_not_opened, why_unlisted
-from carpus.core.capture.usb_devices import UsbCamera
+from carpus.core.capture.files.realsense_recording import RealSenseRecording
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import (
     CameraBusy,
     CameraLost,
@@ -119,7 +119,7 @@ def camera(tmp_path: Path, told: list[CarpusFault]) -> Iterator[ProcessCamera]:
 def test_a_camera_streams_is_lost_and_comes_back(
     camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("carpus.core.capture.process_camera.RETRY_S", 0.05)
+    monkeypatch.setattr("carpus.core.capture.devices.process_camera.RETRY_S", 0.05)
     info = camera.info
     assert (info.name, info.settings["preset"], info.settings["emitter"]) == (
         "Intel RealSense D435", "high accuracy", "on",
@@ -160,7 +160,7 @@ def test_a_camera_streams_is_lost_and_comes_back(
 def test_another_camera_of_the_kind_is_told_and_ours_waited_for(
     camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("carpus.core.capture.process_camera.RETRY_S", 0.05)
+    monkeypatch.setattr("carpus.core.capture.devices.process_camera.RETRY_S", 0.05)
     frames = camera.frames()
     next(frames)
     (tmp_path / "other").touch()

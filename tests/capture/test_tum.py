@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 
 from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.capture.camera_info import write_camera_info
+from carpus.core.capture.files.tum import SIMULATED_REMARK, TumFolder, missing_before, nearest_pairs
 from carpus.core.capture.source import FrameSource
-from carpus.core.capture.tum import SIMULATED_REMARK, TumFolder, missing_before, nearest_pairs
 from carpus.core.errors import (
     CameraFileUnreadable,
     CarpusFault,

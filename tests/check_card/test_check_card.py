@@ -17,7 +17,7 @@ from carpus.core.camera import Camera
 from carpus.core.camera_calibration.sheet import PAPER_MM, Disc, Paper, SheetLine, SheetText
 from carpus.core.capture.calibrated import new_calibration_path
 from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
-from carpus.core.capture.raw import RawWriter
+from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.check_card.ages import camera_ages
 from carpus.core.check_card.card import FIGURES, card_sheets, disc_places_m, figures_of

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from carpus.core.calibration.clicks import read_clicks
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource
-from carpus.core.capture.tum import TumFolder
 from carpus.core.library.set_up import SetUp
 from carpus.core.simulation.motions import STILL_S
 from carpus.core.simulation.recording import CLICKS_FILE, simulate

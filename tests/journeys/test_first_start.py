@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 from carpus.app.compose import Desktop
 from carpus.app.desktop import welcoming
 from carpus.app.settings import load_settings
-from carpus.core.capture import openni2_driver
+from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.doctor import examine_at_start
 from carpus.core.errors import OutputNotWritable
 from carpus.core.records.values import PatientEntry
@@ -173,6 +173,6 @@ def test_the_drivers_own_code_is_never_called_in_the_windows_process(
         def __getattr__(self, name: str) -> object:
             raise AssertionError(f"{name} was called")
 
-    monkeypatch.setattr(openni2_driver, "load_library", Library)
+    monkeypatch.setattr(openni2_camera, "load_library", Library)
     (driver,) = (finding for finding in examine_at_start(tmp_path) if finding.name == "Driver")
     assert driver.state == "good"

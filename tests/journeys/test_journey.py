@@ -22,9 +22,9 @@ from pytestqt.qtbot import QtBot
 from carpus.app.compose import Desktop
 from carpus.app.desktop.sources import RECENT_FRAMES, Sources
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.capture import xtion
 from carpus.core.capture.camera_info import sidecar_path
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.devices import xtion
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
 from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.pipeline import measuring

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture.raw import RawRecording, RawWriter
+from carpus.core.capture.files.raw import RawRecording, RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import DiskStalled, EndStalled, RecordingMoved
 from carpus.core.pipeline.live import LiveSession, LiveSettings

@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from carpus.core.calibration.clicks import read_clicks
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.pipeline.track import TrackSettings, track_recording
 from carpus.core.simulation.recording import CLICKS_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec

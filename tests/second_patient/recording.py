@@ -14,7 +14,7 @@ import numpy as np
 import platformdirs
 
 from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
-from carpus.core.capture.tum import COLOR_LIST, DEPTH_LIST, SIMULATED_REMARK
+from carpus.core.capture.files.tum import COLOR_LIST, DEPTH_LIST, SIMULATED_REMARK
 from carpus.core.types import FloatArray, Side
 from tests.second_patient.camera import Hung, hung_camera
 from tests.second_patient.discs import NAMES

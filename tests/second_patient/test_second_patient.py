@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.clicks import read_clicks
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.hand.wrist_frame import wrist_axes

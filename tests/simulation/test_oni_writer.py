@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from carpus.core.capture.camera_info import read_camera_info, sidecar_path
-from carpus.core.capture.oni_contents import read_contents
-from carpus.core.capture.oni_source import OniSource
+from carpus.core.capture.files.oni_contents import read_contents
+from carpus.core.capture.files.oni_source import OniSource
 from carpus.core.capture.source import is_simulated
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable, RecordingDamaged
 from carpus.core.simulation.oni_writer import OniWriter, write_oni
@@ -70,7 +70,7 @@ def test_the_librarys_own_recorder_agrees(tmp_path: Path) -> None:
     first, second = write_sample(tmp_path / "first.oni", 6), tmp_path / "second.oni"
     program = """
 import ctypes, sys, time
-from carpus.core.capture.openni2 import *
+from carpus.core.capture.devices.openni2 import *
 with Context() as library:
     c = library.c
     device = library.open(sys.argv[1])

@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import OutputExists
 from carpus.core.simulation.recording import (
     TRUTH_FILE,

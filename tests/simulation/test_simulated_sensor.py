@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.capture.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.depth_sensor import D455
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.depth_kinds import depth_pictures

@@ -14,7 +14,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from carpus.core.capture.raw import RawRecording
+from carpus.core.capture.files.raw import RawRecording
 from carpus.core.session.reader import read_session, verify
 from carpus.core.session.recovery import recover_folder
 

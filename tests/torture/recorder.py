@@ -20,8 +20,8 @@ from threading import Event
 
 import numpy as np
 
+from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.paced import PacedSource
-from carpus.core.capture.raw import RawWriter
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.detection.surface_samples import SamplingSettings
 from carpus.core.pipeline.frame_walk import FrameWalk

@@ -26,9 +26,8 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from carpus.core.camera import COEFFICIENTS, Camera
-from carpus.core.capture.notice import Notice, ignore
-from carpus.core.capture.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
-from carpus.core.capture.source import SourceInfo
+from carpus.core.capture.files.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
+from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.depth_sensor import ASSUMED_SENSOR, sensor_of
 from carpus.core.errors import (
     DiskFull,

@@ -12,9 +12,8 @@ from typing import TextIO
 import numpy as np
 
 from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
-from carpus.core.capture.raw_pictures import encode_color, encode_depth
-from carpus.core.capture.source import SourceInfo, is_simulated
-from carpus.core.capture.tum import (
+from carpus.core.capture.files.raw_pictures import encode_color, encode_depth
+from carpus.core.capture.files.tum import (
     COLOR_LIST,
     DEPTH_LIST,
     DEPTH_UNIT_M,
@@ -22,6 +21,7 @@ from carpus.core.capture.tum import (
     RECORDING_ID_REMARK,
     SIMULATED_REMARK,
 )
+from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
 from carpus.core.private import private
 from carpus.core.types import DepthImage, Frame

@@ -10,14 +10,14 @@ import sys
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from carpus.core.capture.notice import Notice, ignore
+from carpus.core.capture.source import Notice, ignore
 from carpus.core.errors import CameraUnknown
 from carpus.core.known_names import known_names
 
 if TYPE_CHECKING:
     from carpus.core.camera import Camera
-    from carpus.core.capture.camera_kind import CameraKind, LiveCamera
-    from carpus.core.capture.usb_devices import UsbCamera
+    from carpus.core.capture.devices.camera_kind import CameraKind, LiveCamera
+    from carpus.core.capture.devices.usb_devices import UsbCamera
 
 CAMERAS = {
     "xtion": "xtion",

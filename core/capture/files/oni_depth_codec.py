@@ -7,7 +7,7 @@ import struct
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.capture.oni_format import Codec
+from carpus.core.capture.files.oni_format import Codec
 from carpus.core.types import DepthImage
 
 MAX_VALUES = 0x8000

@@ -18,8 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.capture.frame_assembly import Assembler, Layout, fitted_camera
-from carpus.core.capture.notice import Notice, ignore
-from carpus.core.capture.source import SourceInfo
+from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.depth_sensor import AZURE_KINECT
 from carpus.core.errors import ExtraMissing, PicturesLost, RecordingDamaged, RecordingUnsupported
 from carpus.core.types import Frame

@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.capture import oni_format as oni
-from carpus.core.capture.oni_format import Codec, NodeType, RecordType
+from carpus.core.capture.files import oni_format as oni
+from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType
 from carpus.core.capture.video_mode import PixelFormat
 from carpus.core.errors import (
     CarpusFault,

@@ -11,6 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.capture.camera_info import CameraInfo, read_camera_info, sidecar_path
+from carpus.core.capture.files.oni_contents import OniContents, OniStream, identity_of, read_contents
+from carpus.core.capture.files.oni_depth_codec import decode_depth
+from carpus.core.capture.files.oni_format import Codec
+from carpus.core.capture.files.raw_pictures import decode_color
 from carpus.core.capture.frame_assembly import (
     DEPTH_UNIT_M,
     WAITING_IN_FILE,
@@ -19,12 +23,7 @@ from carpus.core.capture.frame_assembly import (
     camera_of_view,
     fitted_camera,
 )
-from carpus.core.capture.notice import Notice, ignore
-from carpus.core.capture.oni_contents import OniContents, OniStream, identity_of, read_contents
-from carpus.core.capture.oni_depth_codec import decode_depth
-from carpus.core.capture.oni_format import Codec
-from carpus.core.capture.raw_pictures import decode_color
-from carpus.core.capture.source import SourceInfo
+from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.capture.video_mode import Sensor
 from carpus.core.errors import (
     CameraFileUnreadable,

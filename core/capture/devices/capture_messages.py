@@ -2,11 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
 
-from carpus.core.capture.video_mode import Sensor, VideoMode
+from carpus.core.capture.video_mode import Lens, Sensor, VideoMode
 from carpus.core.errors import CarpusFault
+
+
+@dataclass(frozen=True, slots=True)
+class CameraPlan:
+    """Open a live camera: the first, or the one with this serial number; ``models`` names what may be plugged in, by
+    USB vendor and product; ``uri`` is OpenNI2's address of the one to open, empty for any.
+
+    ``context`` makes the library's context in the capture process; None: the one of the real bus. A stand-in puts a
+    software device of the library there, which is then found, opened and read like a camera.
+    """
+
+    serial: str = ""
+    size_px: tuple[int, int] = (640, 480)
+    fps: int = 30
+    models: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    context: Callable[[], Any] | None = None
+    uri: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,18 +39,6 @@ class Ring:
 @dataclass(frozen=True, slots=True)
 class Alive:
     """The process is up and not stuck in the driver."""
-
-
-@dataclass(frozen=True, slots=True)
-class Lens:
-    """Intrinsics of the colour pictures as the driver tells them: pixels, and the lens's model with coefficients."""
-
-    fx_px: float
-    fy_px: float
-    cx_px: float
-    cy_px: float
-    model: str
-    coefficients: tuple[float, ...]
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from functools import partial
 
-from carpus.core.capture.camera_kind import CameraKind
-from carpus.core.capture.openni2_camera import open_openni2
-from carpus.core.capture.openni2_driver import driver_finding
+from carpus.core.capture.devices.camera_kind import CameraKind
+from carpus.core.capture.devices.openni2_camera import driver_finding, open_openni2
 from carpus.core.phrase import phrase
 
 MODELS = {

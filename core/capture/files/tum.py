@@ -14,9 +14,8 @@ import numpy as np
 
 from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import CAMERA_FILE, default_camera, read_camera_info
-from carpus.core.capture.notice import Notice, ignore
-from carpus.core.capture.picture_file import read_color, read_depth
-from carpus.core.capture.source import SourceInfo
+from carpus.core.capture.files.picture_file import read_color, read_depth
+from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.errors import (
     CameraFileUnreadable,
     DepthMissing,

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from carpus.core.camera import Camera
-from carpus.core.capture.notice import Notice
-from carpus.core.capture.source import FrameSource
-from carpus.core.capture.usb_devices import UsbCamera, usb_cameras
+from carpus.core.capture.devices.usb_devices import UsbCamera, usb_cameras
+from carpus.core.capture.source import FrameSource, Notice
 from carpus.core.finding import Finding
 
 

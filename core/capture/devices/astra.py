@@ -8,9 +8,9 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from carpus.core.capture import openni2_driver
-from carpus.core.capture.camera_kind import CameraKind
-from carpus.core.capture.openni2_camera import open_openni2
+from carpus.core.capture.devices import openni2_camera
+from carpus.core.capture.devices.camera_kind import CameraKind
+from carpus.core.capture.devices.openni2_camera import open_openni2
 from carpus.core.finding import Finding
 from carpus.core.phrase import phrase
 
@@ -38,7 +38,7 @@ def driver_finding(asks_version: bool = True, wanted: bool = True) -> Finding | 
     """OpenNI2 and, beside it, the maker's driver; None where no Astra is plugged in."""
     if not wanted:
         return None
-    library = openni2_driver.driver_finding(asks_version)
+    library = openni2_camera.driver_finding(asks_version)
     if library.state != "good":
         return replace(library, name=NAME)
     file = DRIVER_FILES.get(sys.platform, DRIVER_FILE)

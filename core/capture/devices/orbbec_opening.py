@@ -9,12 +9,10 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
-from carpus.core.capture.camera_plan import CameraPlan
-from carpus.core.capture.capture_messages import Lens
-from carpus.core.capture.capture_process import GaveUp
-from carpus.core.capture.unseen_camera import why_unlisted
-from carpus.core.capture.usb_devices import usb_cameras
-from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
+from carpus.core.capture.devices.capture_messages import CameraPlan
+from carpus.core.capture.devices.capture_process import GaveUp, why_unlisted
+from carpus.core.capture.devices.usb_devices import usb_cameras
+from carpus.core.capture.video_mode import Lens, PixelFormat, Sensor, VideoMode
 from carpus.core.errors import CameraBusy, CameraUnsuited, DriverMissing
 
 MODULE, PACKAGE = "pyorbbecsdk", "pyorbbecsdk2"

@@ -1,0 +1,260 @@
+"""A live camera that speaks OpenNI2: the library on this computer, how the camera is opened inside the capture process
+and why it could not be, and what is handed on of what it sends."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import multiprocessing
+import sys
+import threading
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+
+from carpus.core.camera import Camera
+from carpus.core.capture.devices.capture_messages import Broken, CameraPlan, Opened
+from carpus.core.capture.devices.capture_process import WAIT_MS, GaveUp, Heard, Outlet, why_unlisted
+from carpus.core.capture.devices.openni2 import (
+    CallFailed,
+    Context,
+    Device,
+    DeviceProperty,
+    Picture,
+    Stream,
+    StreamProperty,
+    library_version,
+    load_library,
+)
+from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
+from carpus.core.capture.devices.usb_devices import UsbCamera, usb_cameras
+from carpus.core.capture.source import Notice, ignore
+from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
+from carpus.core.depth_sensor import PRIMESENSE
+from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CameraUnsuited, DriverFailed, DriverMissing
+from carpus.core.finding import Finding
+from carpus.core.phrase import phrase
+
+
+def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
+    """Open a live camera, start colour and depth, lay depth on colour."""
+    if plan.uri:
+        found = [plan.uri]
+    else:
+        known = {(int(vendor, 16), int(product, 16)) for vendor, product in plan.models}
+        found = [each.uri for each in library.devices() if (each.vendor_id, each.product_id) in known]
+        if not found:
+            raise why_unlisted(usb_cameras(plan.models))
+    device = _wanted(library, found, plan)
+    streams: dict[Sensor, Stream] = {}
+    for sensor, wanted in ((Sensor.COLOR, PixelFormat.RGB888), (Sensor.DEPTH, PixelFormat.DEPTH_1_MM)):
+        mode = choose_mode(device.modes(sensor), wanted, plan.size_px, plan.fps)
+        if mode is None:
+            raise GaveUp(CameraUnsuited, f"no {wanted.name} pictures")
+        stream = streams[sensor] = device.create_stream(sensor)
+        if stream.mode() != mode and not stream.set_mode(mode):
+            raise GaveUp(CameraUnsuited, f"{sensor.name.lower()} {mode}")
+        stream.set_int(StreamProperty.MIRRORING, 0)
+    automatic = [
+        streams[Sensor.COLOR].set_int(key, 1)
+        for key in (StreamProperty.AUTO_EXPOSURE, StreamProperty.AUTO_WHITE_BALANCE)
+    ]
+    for stream in streams.values():
+        stream.start()
+    # only a running depth stream takes it
+    registered = device.can_register() and device.set_int(DeviceProperty.IMAGE_REGISTRATION, 1)
+    synchronous = device.enable_sync()
+    modes = {sensor: stream.mode() for sensor, stream in streams.items()}
+    info = device.info()
+    by_usb = plan.models.get((f"{info.vendor_id:04x}", f"{info.product_id:04x}"))
+    settings = {
+        "camera": by_usb or info.name or info.uri,
+        "vendor": info.vendor,
+        "uri": info.uri,
+        "serial": device.text(DeviceProperty.SERIAL_NUMBER),
+        "firmware": device.version(DeviceProperty.FIRMWARE_VERSION),
+        "driver": device.version(DeviceProperty.DRIVER_VERSION),
+        "library": f"OpenNI2 {library.version}",
+        "color_mode": str(modes[Sensor.COLOR]),
+        "depth_mode": str(modes[Sensor.DEPTH]),
+        "registered": "by the camera" if registered else "no",
+        "synchronous": "yes" if synchronous else "no",
+        "automatic_exposure": "on" if all(automatic) else "not settable",
+    }
+    across, down = (
+        streams[Sensor.COLOR].get_float(key) for key in (StreamProperty.HORIZONTAL_FOV, StreamProperty.VERTICAL_FOV)
+    )
+    view = (across, down) if across and down else None
+    mirrored = {sensor: bool(stream.get_int(StreamProperty.MIRRORING)) for sensor, stream in streams.items()}
+    return device, Opened(modes, mirrored, view, {key: value for key, value in settings.items() if value})
+
+
+def _wanted(library: Context, uris: Sequence[str], plan: CameraPlan) -> Device:
+    """The first of these, or the one with the plan's serial number: only an open device tells it."""
+    others = []
+    for uri in uris:
+        try:
+            device = library.open(uri)
+        except CallFailed as failure:
+            raise _why_not_opened(failure, usb_cameras(plan.models)) from failure
+        serial = device.text(DeviceProperty.SERIAL_NUMBER)
+        if not plan.serial or serial == plan.serial:
+            return device
+        others.append(f"{device.info().name} {serial}".strip())
+        device.close()
+    raise why_unlisted((), others)
+
+
+def choose_mode(
+    modes: Sequence[VideoMode], pixel_format: PixelFormat, size_px: tuple[int, int], fps: int
+) -> VideoMode | None:
+    """The mode of this format nearest to what is wanted: same size and rate, else the largest that is not larger.
+
+    >>> offered = [VideoMode(200, 320, 240, 60), VideoMode(200, 320, 240, 30), VideoMode(200, 1280, 1024, 30)]
+    >>> choose_mode(offered, PixelFormat.RGB888, (640, 480), 30)
+    VideoMode(pixel_format=200, width_px=320, height_px=240, fps=30)
+    """
+    width, height = size_px
+    fitting = [
+        mode
+        for mode in modes
+        if mode.pixel_format == pixel_format and mode.width_px <= width and mode.height_px <= height
+    ]
+    return max(fitting, key=lambda mode: (mode.width_px * mode.height_px, -abs(mode.fps - fps)), default=None)
+
+
+def _why_not_opened(failure: CallFailed, seen: Sequence[UsbCamera]) -> GaveUp:
+    if any(not camera.may_open for camera in seen):
+        return GaveUp(CameraPermission, str(next(camera.node for camera in seen if not camera.may_open)))
+    if any(camera.is_claimed for camera in seen) or "USB interface" in failure.reason:
+        return GaveUp(CameraBusy, failure.reason)
+    return GaveUp(CameraMissing if not seen else DriverFailed, failure.reason)
+
+
+BYTES_PER_PIXEL: dict[int, int] = {PixelFormat.RGB888: 3, PixelFormat.DEPTH_1_MM: 2, PixelFormat.DEPTH_100_UM: 2}
+
+
+def serve(outlet: Outlet, plan: CameraPlan) -> None:
+    """Serve a plan in the capture process."""
+    try:
+        _serve(outlet, plan)
+    except CallFailed as failure:
+        raise GaveUp(DriverFailed, f"{failure.call}: {failure.reason}") from failure
+
+
+def _serve(outlet: Outlet, plan: CameraPlan) -> None:
+    library, gone = Context(), _Gone()
+    outlet.hold(library, gone)
+    library.watch(gone.hear)
+    device, opened = open_camera(library, plan)
+    gone.uri = device.info().uri
+    streams = list(device.streams)
+
+    def pass_on(heard: Heard) -> None:
+        if library.wait(streams, WAIT_MS) is not None:
+            # the wait names the older stream; reading only that one would starve the other
+            for stream in streams:
+                if library.wait([stream], 0) is not None:
+                    _take(outlet, stream, opened.modes[stream.sensor])
+                    heard.picture_of(stream.sensor)
+
+    def set_automatic(on: bool) -> bool:
+        color = next(stream for stream in streams if stream.sensor == Sensor.COLOR)
+        keys = (StreamProperty.AUTO_EXPOSURE, StreamProperty.AUTO_WHITE_BALANCE)
+        done = [color.set_int(key, int(on)) for key in keys]
+        return all(done)
+
+    outlet.set_exposure = set_automatic
+    outlet.send(opened)
+    try:
+        outlet.watch(opened.modes, gone, pass_on)
+    finally:
+        device.close()
+
+
+class _Gone(threading.Event):
+    """Set by the library's own threads when the device at ``uri`` was unplugged."""
+
+    uri = ""
+
+    def hear(self, uri: str) -> None:
+        if uri == self.uri:
+            self.set()
+
+
+def _take(outlet: Outlet, stream: Stream, mode: VideoMode) -> None:
+    """Pass one picture on, where there is one."""
+    with stream.read() as picture:
+        if picture is None:
+            return
+        size = agreed_size(picture, mode)
+        if size is None:
+            outlet.send(Broken(stream.sensor, picture.index))
+        else:
+            pixels = memoryview((ctypes.c_ubyte * size).from_address(picture.address)).cast("B")
+            outlet.put(stream.sensor, picture.index, picture.timestamp_us, pixels)
+
+
+def agreed_size(picture: Picture, mode: VideoMode) -> int | None:
+    """Bytes that may be read of ``picture``: None unless size, format and stride are those of its stream.
+
+    A driver may hand out any width and height with any number of bytes behind them.
+    """
+    row = mode.width_px * BYTES_PER_PIXEL.get(mode.pixel_format, 0)
+    size = row * mode.height_px
+    agreed = (
+        size > 0
+        and picture.address != 0
+        and not picture.is_cropped
+        and picture.pixel_format == mode.pixel_format
+        and (picture.width_px, picture.height_px) == (mode.width_px, mode.height_px)
+        and picture.stride_bytes == row
+        and picture.size_bytes == size
+    )
+    return size if agreed else None
+
+
+def open_openni2(
+    *,
+    models: Mapping[tuple[str, str], str],
+    uri: str | None = None,
+    camera: Camera | None = None,
+    patience_s: float = math.inf,
+    notice: Notice = ignore,
+) -> ProcessCamera:
+    """The first camera among ``models`` (names by USB vendor and product), or the one at OpenNI2's ``uri``."""
+    plan = CameraPlan(size_px=SIZE_PX, models=models, uri=uri or "")
+    name = uri or "camera"
+    return ProcessCamera(serve, plan, name, lambda _: PRIMESENSE, camera=camera, patience_s=patience_s, notice=notice)
+
+
+def driver_finding(asks_version: bool = True, _wanted: bool = True) -> Finding:
+    """The OpenNI2 library; loaded, but not started. ``asks_version``, in a process of its own, takes half a second."""
+    try:
+        load_library()
+    except DriverMissing as fault:
+        remedy = (
+            phrase("Run: sudo apt-get install libopenni2-0")
+            if sys.platform.startswith("linux")
+            else phrase("Install OpenNI2 from the camera's maker, then start Carpus again.")
+        )
+        return Finding(
+            phrase("Driver"),
+            "bad",
+            fault.detail or "not found",
+            phrase("Needed for live cameras. {remedy}", remedy=remedy),
+        )
+    if not asks_version:
+        return Finding(phrase("Driver"), "good", phrase("OpenNI2"))
+    try:
+        with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as other:
+            return Finding(
+                phrase("Driver"), "good", phrase("OpenNI2 {value}", value=other.submit(library_version).result())
+            )
+    except BrokenProcessPool:
+        return Finding(
+            phrase("Driver"),
+            "bad",
+            phrase("OpenNI2 ends when it is asked for its version"),
+            phrase("Install it again."),
+        )

@@ -1,0 +1,1 @@
+"""Stored recordings, a file for each format."""
