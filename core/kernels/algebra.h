@@ -78,7 +78,11 @@ static inline void product(
                 skips = all_finite(b, wide, count, cols);
             z += any != 0.0 || !skips;
         }
-        for (; j + 2 * LANES <= last; j += 2 * LANES) {
+        /* What is left of a row is taken with what was done already, where that can be set again. */
+        const int whole = !(how & ADD) && last >= 2 * LANES;
+        for (; whole ? j < last : j + 2 * LANES <= last; j += 2 * LANES) {
+            if (j + 2 * LANES > last)
+                j = last - 2 * LANES;
             lanes s[4] = {{0}}, t[4] = {{0}};
             for (int k = 0; k < z; k++) {
                 const lanes x = *(const lanes *)(of[k] + j), y = *(const lanes *)(of[k] + j + LANES);

@@ -23,8 +23,8 @@ VARIABLE, NUMPY = "CARPUS_KERNELS", "numpy"
 _FFI = _cffi_backend.FFI()
 NOTHING = _FFI.NULL
 """Stands for an array that is not given."""
-_BUFFERS = {
-    np.dtype(number): _FFI.typeof(f"{name}[]")
+_C_TYPES = {
+    np.dtype(number): name
     for number, name in (
         (np.float64, "double"),
         (np.float32, "float"),
@@ -35,6 +35,7 @@ _BUFFERS = {
         (np.int64, "int64_t"),
     )
 }
+_BUFFERS = {number: _FFI.typeof(f"{name}[]") for number, name in _C_TYPES.items()}
 _FAULTS = {
     1: np.linalg.LinAlgError("Matrix is not positive definite"),
     2: MemoryError("no memory for a kernel"),
@@ -44,6 +45,8 @@ _FAULTS = {
 _DECLARED = re.compile(r"^KERNEL int (\w+)\(([^;]*)\);", re.M)
 _SIZED = re.compile(r"(\w+)\[([^]]*)\]")
 """An argument that is an array, and how many numbers it has."""
+_ARRAY = re.compile(r"(?:const )?(\w+) (?:\*(\w+)|(\w+)\[.*)")
+"""An argument that is an array: its type, and its name where its size is not declared, or where it is."""
 
 
 class Kernels:
@@ -64,7 +67,7 @@ class Kernels:
             for name, arguments in declared:
                 pointers = _SIZED.sub(r"*\1", arguments)
                 function = loaded.load_function(_FFI.typeof(f"int (*)({pointers})"), name)
-                setattr(self, name, _called(function, _sizes(arguments)))
+                setattr(self, name, _called(function, arguments))
             self._wide = loaded.load_function(_FFI.typeof("int (*)(void)"), "kernels_run_wide")
         except AttributeError as fault:
             raise OSError(str(fault)) from fault
@@ -79,45 +82,51 @@ class Kernels:
         raise AttributeError(f"no kernel {name}")
 
 
-def _sizes(arguments: str) -> Callable[..., bool]:
-    """Whether the arrays given have the sizes declared; compiled, since it is asked at each call."""
-    names = [re.findall(r"\w+", _SIZED.sub(r"\1", one))[-1] for one in arguments.split(",")]
-    sizes = [f"({name} is nothing or {name}.size == {size})" for name, size in _SIZED.findall(arguments)]
-    asked: Callable[..., bool] = eval(f"lambda {','.join(names)}: {' and '.join(sizes) or True}", {"nothing": NOTHING})
-    return asked
+def _called(function: Any, arguments: str) -> Callable[..., None]:
+    """A function of arrays, each of the type and size that its header declares, and numbers.
 
-
-def _called(function: Any, are_whole: Callable[..., bool]) -> Callable[..., None]:
-    """A function of arrays, each of the type that its header declares, and numbers."""
-    of_array, buffers, array, usual = _FFI.from_buffer, _BUFFERS, np.ndarray, np.dtype(np.float64)
-    doubles = buffers[usual]
-
-    def as_c(value: Any) -> Any:
-        if not isinstance(value, array):
-            return value
-        native = value.dtype.newbyteorder("=")
-        if native not in buffers:
-            raise TypeError(f"no kernel takes {native}")
-        return of_array(buffers[native], np.ascontiguousarray(value, dtype=native))
-
-    def call(*arguments: Any) -> None:
-        if not are_whole(*arguments):
-            raise ValueError("an array is not of the size that the kernel reads or writes")
-        try:
-            status = function(
-                *[
-                    (of_array(doubles, x) if x.dtype is usual else of_array(buffers[x.dtype], x))
-                    if x.__class__ is array
-                    else x
-                    for x in arguments
-                ]
+    Written out for these arguments and compiled: a frame asks thirty times, and a loop over them takes as long again
+    as the call.
+    """
+    names, given, whole = [], [], []
+    for one in map(str.strip, arguments.split(",")):
+        is_array = _ARRAY.fullmatch(one)
+        names.append((is_array[2] or is_array[3]) if is_array else one.split()[-1])
+        given.append(names[-1])
+        if is_array:
+            is_usual = " or ".join(
+                f"{names[-1]}.dtype is {dtype.name}" for dtype, name in _C_TYPES.items() if name == is_array[1]
             )
-        except (TypeError, ValueError, KeyError, BufferError):  # one that is not there, or not stored row by row
-            status = function(*[as_c(x) for x in arguments])
-        if status:
-            raise _FAULTS[status]
-
+            taken = f"of_array(as_{is_array[1]}, {names[-1]}) if {is_usual} else as_c({names[-1]})"
+            given[-1] = f"{names[-1]} if {names[-1]} is nothing else {taken}"
+    whole = [f"({name} is nothing or {name}.size == {size})" for name, size in _SIZED.findall(arguments)]
+    written = f"""
+def call({", ".join(names)}):
+    if not ({" and ".join(whole) or True}):
+        raise ValueError("an array is not of the size that the kernel reads or writes")
+    try:
+        status = function({", ".join(given)})
+    except (TypeError, ValueError, KeyError, BufferError):  # one that is not stored row by row
+        status = function({", ".join(f"as_c({name})" for name in names)})
+    if status:
+        raise faults[status]
+"""
+    types = {f"as_{name}": _BUFFERS[dtype] for dtype, name in _C_TYPES.items()}
+    known = {"function": function, "nothing": NOTHING, "of_array": _FFI.from_buffer, "as_c": _as_c, "faults": _FAULTS}
+    space: dict[str, Any] = known | types | {dtype.name: dtype for dtype in _C_TYPES}
+    exec(written, space)
+    call: Callable[..., None] = space["call"]
     return call
+
+
+def _as_c(value: Any) -> Any:
+    """An array stored otherwise, as one that C reads; a number as it is."""
+    if not isinstance(value, np.ndarray):
+        return value
+    native = value.dtype.newbyteorder("=")
+    if native not in _BUFFERS:
+        raise TypeError(f"no kernel takes {native}")
+    return _FFI.from_buffer(_BUFFERS[native], np.ascontiguousarray(value, dtype=native))
 
 
 def _loaded(asked: str) -> Kernels | None:

@@ -39,13 +39,26 @@ int corrected(
            *own = white + m * n, *root = own + m * m, *inverse = root + m * m, *unit = inverse + m * m, *off = unit + m,
            *innovation = off + m, *apart = innovation + m, *line = apart + m, *each = line + n,
            *likelihood = each + modes * m, *square = likelihood + modes;
-    int used[m > 0 ? m : 1], failed = 0;
+    int used[m > 0 ? m : 1], depends[m > 0 ? m : 1], failed = 0;
     for (int c = 0; c < chains && !failed; c++) {
         const double *expected = value + c * m, *seen = measured + c * m, *noise = variance + c * m;
         int u = 0;
         for (int i = 0; i < m; i++)
             if (isfinite(seen[i]))
                 used[u++] = i;
+        /* Those that depend on few numbers first: products skip what is zero in four rows at once. */
+        for (int a = 0; a < u; a++) {
+            const double *from = slope + (size_t)(c * m + used[a]) * n;
+            depends[a] = 0;
+            for (int j = 0; j < n; j++)
+                depends[a] += from[j] != 0.0;
+        }
+        for (int a = 1; a < u; a++)
+            for (int b = a; b > 0 && depends[b - 1] > depends[b]; b--) {
+                const int i = used[b], d = depends[b];
+                used[b] = used[b - 1], depends[b] = depends[b - 1];
+                used[b - 1] = i, depends[b - 1] = d;
+            }
         /* Everything in units of the noise; the slope (u, n), and turned (n, u). */
         for (int a = 0; a < u; a++) {
             unit[a] = 1.0 / sqrt(noise[used[a]]);
@@ -64,9 +77,8 @@ int corrected(
             double *to = out_mean + (c * modes + k) * n, *wide = out_covariance + (size_t)(c * modes + k) * nn;
             for (int j = 0; j < n; j++)
                 line[j] = at[j] - about[c * n + j];
-            product(innovation, u, line, n, 1, tall, u, 1, n, u, SET);
             for (int a = 0; a < u; a++)
-                innovation[a] = off[a] - innovation[a];
+                innovation[a] = off[a] - dot(across + a * n, line, n);
             product(cross, n, across, n, 1, spread, n, u, n, n, SET);
             memcpy(root, own, sizeof(double) * (size_t)(u * u));
             product(root, u, cross, n, 1, tall, u, u, n, u, ADD | LOWER);
@@ -82,7 +94,9 @@ int corrected(
             }
             square[k] = sum;
             likelihood[k] = -0.5 * sum - log_root;
-            product(line, n, apart, u, 1, white, n, 1, u, n, SET);
+            memset(line, 0, sizeof(double) * (size_t)n);
+            for (int a = 0; a < u; a++)
+                add_scaled(line, apart[a], white + a * n, n);
             for (int j = 0; j < n; j++)
                 to[j] = at[j] + (share_mean ? share_mean[j] : 1.0) * line[j];
             product(wide, n, white, 1, n, white, n, n, u, n, SET | LOWER);
@@ -137,7 +151,7 @@ static void mixed(
         memcpy(out_probability, probability, sizeof(double) * (size_t)modes);
         return;
     }
-    double share[modes * modes], by[modes * modes], middle[n], apart[modes * n], shifted[modes * n];
+    double share[modes * modes], middle[n], apart[modes * n], shifted[modes * n], own[modes * n];
     for (int to = 0; to < modes; to++) {
         double sum = 0.0;
         for (int from = 0; from < modes; from++)
@@ -146,7 +160,7 @@ static void mixed(
             share[to * modes + from] /= sum;
         out_probability[to] = sum;
     }
-    /* The scatter of the means, about the first of them: sum of s a a' less the square of sum of s a. */
+    /* The scatter of the means, about the first of them: sum of s (P + a a') less the square of sum of s a. */
     memcpy(middle, mean, sizeof middle);
     for (int from = 0; from < modes; from++)
         for (int j = 0; j < n; j++)
@@ -157,11 +171,12 @@ static void mixed(
             out_mean[to * n + j] = middle[j] + shifted[to * n + j];
     for (int r = 0; r < n; r++) {
         double *row = out_covariance + r * n;
-        for (int to = 0; to < modes; to++)
-            for (int from = 0; from < modes; from++)
-                by[to * modes + from] = share[to * modes + from] * apart[from * n + r];
-        product(row, nn, share, modes, 1, covariance + r * n, nn, modes, modes, r + 1, SET);
-        product(row, nn, by, modes, 1, apart, n, modes, modes, r + 1, ADD);
+        for (int from = 0; from < modes; from++) {
+            const double *before = covariance + (size_t)from * nn + r * n, *off = apart + from * n;
+            for (int j = 0; j <= r; j++)
+                own[from * n + j] = before[j] + off[r] * off[j];
+        }
+        product(row, nn, share, modes, 1, own, n, modes, modes, r + 1, SET);
         for (int to = 0; to < modes; to++)
             add_scaled(row + (size_t)to * nn, -shifted[to * n + r], shifted + to * n, r + 1);
     }
@@ -178,14 +193,25 @@ int merged(
     for (int c = 0; c < chains; c++) {
         const double *share = probability + c * modes, *first = mean + c * modes * n;
         double *middle = whole_mean + c * n, *out = whole + (size_t)c * nn;
-        product(middle, n, share, modes, 1, first, n, 1, modes, n, SET);
+        const double *each = covariance + (size_t)c * modes * nn;
+        memset(middle, 0, sizeof(double) * (size_t)n);
+        for (int k = 0; k < modes; k++)
+            add_scaled(middle, share[k], first + k * n, n);
         for (int k = 0; k < modes; k++)
             for (int j = 0; j < n; j++) {
                 apart[k * n + j] = first[k * n + j] - middle[j];
                 weighed[k * n + j] = share[k] * apart[k * n + j];
             }
-        product(out, nn, share, modes, 1, covariance + (size_t)c * modes * nn, nn, 1, modes, nn, SET);
-        product(out, n, weighed, 1, n, apart, n, n, modes, n, ADD);
+        for (int r = 0; r < n; r++) {
+            double *row = out + r * n;
+            memset(row, 0, sizeof(double) * (size_t)(r + 1));
+            for (int k = 0; k < modes; k++) {
+                const double *own = each + (size_t)k * nn + r * n, *off = apart + k * n, by = weighed[k * n + r];
+                for (int j = 0; j <= r; j++)
+                    row[j] += share[k] * own[j] + by * off[j];
+            }
+        }
+        mirror(out, n);
     }
     return 0;
 }
