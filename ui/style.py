@@ -53,9 +53,12 @@ Surface#badge {{ border-radius: {badge}px; }}
 Surface#dot {{ border-radius: 6px; }}
 RecordingPill {{ border-radius: {pill}px; }}
 KeyCaps Surface {{ border-radius: 4px; }}
+Option {{ background: {surface}; border: 1px solid {line}; border-radius: {card}px; }}
+Option:hover {{ background: {canvas}; }}
+Option:checked {{ background: {soft}; border: 2px solid {accent}; }}
 MarkerRow {{ border: 0; border-left: 3px solid transparent; border-bottom: 1px solid {line}; }}
 MarkerRow:checked {{ background: {soft}; border-left-color: {accent}; }}
-MarkerRow QLabel#value {{ color: {text2}; }}
+Option QLabel#sentence, MarkerRow QLabel#value {{ color: {text2}; }}
 FocusRing {{ border: 2px solid {accent}; border-radius: {ring}px; }}
 """
 _OF_TOKEN = """

@@ -253,6 +253,8 @@ class Sign(QWidget):
         box = QRectF((self.width() - size) * self._lean, (self.height() - size) / 2, size, size)
         if self._name == "carpus":
             paint_mark(painter, box, self._theme.color(self._token))
+        elif self._name == "chosen":
+            paint_state(painter, "good", box, self._theme.color("accent"), self._theme.color("on_accent"))
         elif self._name in STATE_TOKENS:
             paint_status(painter, self._theme, self._name, box)
         else:

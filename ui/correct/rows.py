@@ -33,6 +33,7 @@ class MarkerRow(QPushButton):
         for part in (self._sign, self._said, self._value):
             part.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
             row.addWidget(part, int(part is self._said))
+        self.on_enter = "pass"
         self.setCheckable(True)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

@@ -6,11 +6,12 @@ from collections.abc import Callable, Sequence
 from datetime import date
 
 from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QRectF, QSize, Qt
-from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPainterPath, QPaintEvent, QPen, QResizeEvent
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPainterPath, QPen, QResizeEvent
 from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
 from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.ui import numbers, terms
+from carpus.ui.controls.text import ElidedText
 from carpus.ui.fonts import MEDIUM, font
 from carpus.ui.ports import PatientRow
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
@@ -80,7 +81,7 @@ def columns(text_scale: float) -> tuple[float, ...]:
 
 
 class PatientRowPainter(QStyledItemDelegate):
-    """Paints one row from the tokens."""
+    """Paints one row from the tokens, and its part of the rounded surface."""
 
     def __init__(self, theme: Theme, model: PatientModel) -> None:
         super().__init__()
@@ -98,11 +99,14 @@ class PatientRowPainter(QStyledItemDelegate):
         row = self._model.row(index.row())
         painter.save()
         corners = QPainterPath()
-        corners.addRoundedRect(QRectF(option.widget.viewport().rect()), CARD_RADIUS_PX, CARD_RADIUS_PX)  # type: ignore[attr-defined]
-        painter.setClipPath(corners)
+        frame = QRectF(option.widget.viewport().rect()).adjusted(0.5, 0.5, -0.5, -0.5)  # type: ignore[attr-defined]
+        corners.addRoundedRect(frame, CARD_RADIUS_PX, CARD_RADIUS_PX)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setClipRect(box)
+        painter.fillPath(corners, theme.color("surface"))
+        painter.setClipPath(corners, Qt.ClipOperation.IntersectClip)
         if state & QStyle.StateFlag.State_Selected:
             painter.fillRect(box, theme.color("soft"))
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             painter.setPen(Qt.PenStyle.NoPen)
             painter.setBrush(theme.color("accent"))
             painter.drawRoundedRect(QRectF(0, box.top() + 12, 4, box.height() - 24), 2, 2)
@@ -113,6 +117,8 @@ class PatientRowPainter(QStyledItemDelegate):
                 painter.setPen(QPen(theme.color("line"), 1))
                 painter.drawLine(int(box.left()) + 20, int(box.bottom()), int(box.right()) - 20, int(box.bottom()))
         self._paint_cells(painter, box, row)
+        painter.setClipRect(box)
+        painter.strokePath(corners, QPen(theme.color("line"), 1))
         painter.restore()
 
     def _paint_cells(self, painter: QPainter, box: QRectF, row: PatientRow) -> None:
@@ -154,27 +160,29 @@ class ListHeader(QWidget):
     def __init__(self, theme: Theme, rows: QListView) -> None:
         super().__init__()
         self._theme, self._rows = theme, rows
-        rows.verticalScrollBar().rangeChanged.connect(lambda *_: self.update())
-        theme.follow(self, lambda: self.setFixedHeight(theme.px(28)))
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        painter.setFont(font(12 * self._theme.text_scale, MEDIUM))
-        painter.setPen(self._theme.color("text2"))
-        flags, metrics = int(Qt.AlignmentFlag.AlignVCenter), QFontMetricsF(painter.font())
-        width = self._rows.viewport().width()
         names = (
             self.tr("Patient"), self.tr("Hand"), self.tr("Diagnosis or operation"), self.tr("Since"),
-            self.tr("Last session"),
+            self.tr("Last session"), self.tr("Sessions"),
         )  # fmt: skip
-        shares = (*columns(self._theme.text_scale), 1.0)
-        for name, share, following in zip(names, shares[:-1], shares[1:], strict=True):
-            if following > share:
-                room = (following - share) * width - 8
-                words = metrics.elidedText(name, Qt.TextElideMode.ElideRight, room)
-                painter.drawText(QRectF(share * width, 0, room + 4, self.height()), flags, words)
-        right = QRectF(0, 0, width - RIGHT_PAD_PX, self.height())
-        painter.drawText(right, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), self.tr("Sessions"))
+        self._names = [ElidedText(theme, name, 12, MEDIUM, "text2") for name in names]
+        for name in self._names:
+            name.setParent(self)
+        rows.verticalScrollBar().rangeChanged.connect(lambda *_: self._place())
+        theme.follow(self, lambda: self.setFixedHeight(theme.px(28)))
+        theme.changed.connect(self._place)
+
+    def _place(self) -> None:
+        bar = self._rows.verticalScrollBar()
+        width = self.width() - (bar.sizeHint().width() if bar.maximum() else 0)
+        end = width - RIGHT_PAD_PX
+        count = self._names[-1].fontMetrics().horizontalAdvance(self._names[-1].text()) + 2
+        edges = [round(share * width) for share in columns(self._theme.text_scale)]
+        lefts = [*edges, end - count]
+        for name, left, right in zip(self._names, lefts, [*(edge - 8 for edge in lefts[1:]), end], strict=True):
+            name.setGeometry(left, 0, max(right - left, 0), self.height())
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._place()
 
 
 class PatientList(QListView):
@@ -217,18 +225,3 @@ class PatientList(QListView):
 
     def minimumSizeHint(self) -> QSize:
         return QSize(300, 2 * self._theme.px(ROW_PX))
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self.viewport())
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        frame = QRectF(self.viewport().rect()).adjusted(0.5, 0.5, -0.5, -0.5)
-        rounded = QPainterPath()
-        rounded.addRoundedRect(frame, CARD_RADIUS_PX, CARD_RADIUS_PX)
-        painter.fillPath(rounded, self._theme.color("surface"))
-        painter.end()
-        super().paintEvent(event)
-        painter.begin(self.viewport())
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(QPen(self._theme.color("line"), 1))
-        painter.drawPath(rounded)
-        painter.end()

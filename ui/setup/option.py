@@ -4,26 +4,36 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFont, QFontMetricsF, QKeyEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QButtonGroup, QGridLayout, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
-from carpus.ui.fonts import REGULAR, SEMIBOLD, font
-from carpus.ui.icons import State, paint_state
-from carpus.ui.theme import CARD_RADIUS_PX, Theme
-
-LEFT_PX, RIGHT_PX = 60, 24
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, StateText, Text
+from carpus.ui.icons import State
+from carpus.ui.theme import Theme
 
 
-class Option(QAbstractButton):
+class Option(QPushButton):
     """One of several; ``state`` puts a state icon with its word at the right."""
 
     def __init__(self, theme: Theme, name: str, sentence: str) -> None:
         super().__init__()
-        self._theme, self._sentence = theme, sentence
-        self._state: State = "none"
-        self._state_words = ""
-        self.setText(name)
+        self._mark, self._state = Sign(theme, "open", 22, (22, 22)), StateText(theme, 14, REGULAR)
+        self._sentence = Text(theme, sentence, 14, REGULAR, "text2", wrap=True)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(18, 14, 22, 14)
+        grid.setHorizontalSpacing(18)
+        grid.setVerticalSpacing(2)
+        grid.setColumnStretch(1, 1)
+        grid.addWidget(self._mark, 0, 0)
+        grid.setRowStretch(1, 1)
+        grid.addWidget(Text(theme, name, 16, SEMIBOLD), 0, 1)
+        grid.addWidget(self._state, 0, 2)
+        grid.addWidget(self._sentence, 1, 1, 1, 2)
+        for part in self.findChildren(QWidget):
+            part.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self._sentence.setObjectName("sentence")
+        self.on_enter = "pass"
         self.setCheckable(True)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setAccessibleName(name)
@@ -31,80 +41,29 @@ class Option(QAbstractButton):
         policy = QSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
         policy.setHeightForWidth(True)
         self.setSizePolicy(policy)
-        theme.changed.connect(self.updateGeometry)
+        self.toggled.connect(lambda on: self._mark.show_sign("chosen" if on else "open", size_px=22))
 
     def show_sentence(self, sentence: str, state: State = "none", words: str = "") -> None:
         """Change what is said of it."""
-        self._sentence, self._state, self._state_words = sentence, state, words
+        self._sentence.setText(sentence)
+        self._state.show_state(state, words, token="text")
         self.setAccessibleDescription(" ".join(part for part in (sentence, words) if part))
         self.updateGeometry()
-        self.update()
 
     @property
     def state_words(self) -> str:
         """The word beside the state icon."""
-        return self._state_words
-
-    def _name_font(self) -> QFont:
-        return font(16 * self._theme.text_scale, SEMIBOLD)
-
-    def _sentence_font(self) -> QFont:
-        return font(14 * self._theme.text_scale, REGULAR)
+        return self._state.text()
 
     def heightForWidth(self, width: int) -> int:
-        room = QRectF(0, 0, max(width - LEFT_PX - RIGHT_PX, 100), 10_000)
-        words = QFontMetricsF(self._sentence_font()).boundingRect(room, int(Qt.TextFlag.TextWordWrap), self._sentence)
-        return round(QFontMetricsF(self._name_font()).height() + words.height()) + 36
+        layout = self.layout()
+        return layout.totalHeightForWidth(width) if layout is not None else -1
 
     def sizeHint(self) -> QSize:
         return QSize(600, self.heightForWidth(600))
 
     def minimumSizeHint(self) -> QSize:
         return QSize(200, self.heightForWidth(self.width() or 600))
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        color, chosen = self._theme.color, self.isChecked()
-        edge = 2.0 if chosen else 1.0
-        painter.setPen(QPen(color("accent" if chosen else "line"), edge))
-        painter.setBrush(color("soft" if chosen else "canvas" if self.underMouse() else "surface"))
-        box = QRectF(self.rect()).adjusted(edge / 2, edge / 2, -edge / 2, -edge / 2)
-        painter.drawRoundedRect(box, CARD_RADIUS_PX, CARD_RADIUS_PX)
-        name = QFontMetricsF(self._name_font())
-        size = float(self._theme.px(22))
-        mark = QRectF(20, 18 + (name.height() - size) / 2, size, size)
-        if chosen:
-            paint_state(painter, "good", mark, color("accent"), color("on_accent"))
-        else:
-            painter.setPen(QPen(color("border"), 1.5))
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.drawEllipse(mark.adjusted(1, 1, -1, -1))
-        painter.setPen(color("text"))
-        painter.setFont(self._name_font())
-        line = QRectF(LEFT_PX, 18, self.width() - LEFT_PX - RIGHT_PX, name.height())
-        painter.drawText(line, int(Qt.AlignmentFlag.AlignVCenter), self.text())
-        if self._state_words:
-            self._paint_state(painter, line)
-        painter.setFont(self._sentence_font())
-        painter.setPen(color("text2"))
-        below = QRectF(LEFT_PX, line.bottom() + 2, line.width(), self.height() - line.bottom() - 10)
-        painter.drawText(below, int(Qt.TextFlag.TextWordWrap), self._sentence)
-
-    def _paint_state(self, painter: QPainter, line: QRectF) -> None:
-        painter.setFont(self._sentence_font())
-        width = QFontMetricsF(self._sentence_font()).horizontalAdvance(self._state_words)
-        size = float(self._theme.px(18))
-        right = line.right()
-        icon = QRectF(right - width - 8 - size, line.center().y() - size / 2, size, size)
-        token = {"good": "good", "warn": "warn", "bad": "bad"}.get(self._state, "text2")
-        paint_state(painter, self._state, icon, self._theme.color(token), self._theme.color("surface"))
-        painter.setPen(self._theme.color("text"))
-        painter.drawText(
-            QRectF(right - width, line.top(), width + 2, line.height()),
-            int(Qt.AlignmentFlag.AlignVCenter),
-            self._state_words,
-        )
 
 
 class Options(QWidget):
