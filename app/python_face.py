@@ -41,7 +41,7 @@ from carpus.core.hand.exercises import EXERCISES
 from carpus.core.hand.protocols import protocol_named
 from carpus.core.hand.sites import SITES
 from carpus.core.papers.settings import PaperSettings
-from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, track_recording, walk_of
+from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, pipeline_of, track_recording
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.session import reader
@@ -327,10 +327,10 @@ def _tracked(path: Path, told: Clicks, chosen: TrackSettings) -> Iterator[HandFr
         camera = source.info.camera
         outcome = calibrate(told, opening, camera, chosen.calibration, chosen.detection)
         ends_s = opening[outcome.capture_frames - 1].timestamp_s
-        walk = walk_of(outcome, camera, chosen, learnt_from(outcome.noise, ends_s, chosen.tracker))
+        pipeline = pipeline_of(outcome, camera, chosen, learnt_from(outcome.noise, ends_s, chosen.tracker))
         names = told.protocol.joint_names(chosen.paper is None and chosen.tracker.dip == "free")
-        for frame in from_neutral(chain(opening, frames), walk.tracker, ends_s, lambda each: each.timestamp_s):
-            yield _hand_frame(walk(frame), names, told.protocol.markers)
+        for frame in from_neutral(chain(opening, frames), pipeline.tracker, ends_s, lambda each: each.timestamp_s):
+            yield _hand_frame(pipeline(frame), names, told.protocol.markers)
     finally:
         source.close()
 

@@ -222,8 +222,11 @@ def remarks_of(pairs: Sequence[Pairs], shift: Shift | None, overlap_s: float = m
         for one in pairs
         if not 1.0 / LARGEST_SCALE <= (share := _scale(one)) <= LARGEST_SCALE
     ]
-    if shift is None:
-        return tuple(out)
+    return tuple(out) if shift is None else (*out, *_remarks_of_clocks(shift, overlap_s))
+
+
+def _remarks_of_clocks(shift: Shift, overlap_s: float) -> list[str]:
+    out: list[str] = []
     if overlap_s < SAFE_OVERLAP_S:
         out.append(phrase("only {time} s are in common: the shift of the clocks is not sure", time=f"{overlap_s:.1f}"))
     if shift.match < 0.0 and math.isfinite(shift.most_s):
@@ -261,7 +264,7 @@ def remarks_of(pairs: Sequence[Pairs], shift: Shift | None, overlap_s: float = m
             drift=f"{percent + 100.0 * shift.drift:+.2f}",
         )
         out.append(words)
-    return tuple(out)
+    return out
 
 
 def _scale(pairs: Pairs) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from datetime import date
 from pathlib import Path
@@ -86,13 +87,7 @@ def export_sessions(
     except OSError as cause:
         raise OutputNotWritable(folder, cause.strerror or "") from cause
     refused: list[Refused] = []
-    nobody = Deidentification() if deidentified else None
-    if nobody is not None:
-        for one in sessions:
-            try:
-                nobody.know(read_outline(one.path))
-            except CarpusFault:
-                continue  # told when it is read
+    nobody = _nobody(sessions) if deidentified else None
     files: list[Path] = []
     parts: dict[Path, tuple[Path, ...]] = {}
     done, total, stopped = 0, len(sessions) * len(writers), False
@@ -119,6 +114,15 @@ def export_sessions(
     if len(writers) > 1 and files and not (folder / README).exists():
         files.append(new_text(folder / README, _readme(formats, deidentified)))
     return Exported(folder, tuple(files), tuple(refused), stopped, parts)
+
+
+def _nobody(sessions: Iterable[Wanted]) -> Deidentification:
+    """Names that are nobody's for those whose sessions these are."""
+    nobody = Deidentification()
+    for one in sessions:
+        with suppress(CarpusFault):  # told when it is read
+            nobody.know(read_outline(one.path))
+    return nobody
 
 
 def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version: str) -> Take:

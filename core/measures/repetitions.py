@@ -127,16 +127,6 @@ def find_repetitions(angle: Signal) -> FoundRepetitions:
     strokes: list[Stroke] = []
     whole: list[Repetition] = []
     cut: list[Repetition] = []
-
-    def between(start: int, end: int, cut_at: int | None = None) -> Repetition:
-        valid_share = float(np.isfinite(angle.value[start : end + 1]).mean())
-        one = Repetition(float(time[start]), float(time[end]), valid_share)
-        if cut_at is None:
-            return one
-        by_gap = angle.beside_gap(float(time[cut_at]), 1.5 / angle.rate_hz)
-        by: Cut = "cut_by_gap" if by_gap else "cut_by_start" if cut_at == start else "cut_by_end"
-        return replace(one, cut=by, cut_s=float(time[cut_at]))
-
     for run in runs:
         strokes += [
             Stroke(
@@ -149,16 +139,27 @@ def find_repetitions(angle: Signal) -> FoundRepetitions:
             if abs(b.value - a.value) >= least
         ]
         marks = home.marks(run, runs)
-        whole += [between(a, b) for a, b in pairwise(marks) if time[b] - time[a] >= LEAST_DURATION_S]
+        whole += [_between(angle, a, b) for a, b in pairwise(marks) if time[b] - time[a] >= LEAST_DURATION_S]
         first, last = run.part.start, run.part.stop - 1
         if not home.rests(run.turns[0]) and run.turns[0].turn not in marks:
-            cut.append(between(first, marks[0] if marks else last, first))
+            cut.append(_between(angle, first, marks[0] if marks else last, first))
         end, before = run.turns[-1], run.turns[-2]
         # Who stops half way and stays there has not come back: what was seen ends in that repetition.
         left = home.side is not None and end.high is not home.side and abs(end.value - before.value) >= least
         if (left or not home.rests(end)) and marks and marks[-1] < run.turns[-1].turn:
-            cut.append(between(marks[-1], last, last))
+            cut.append(_between(angle, marks[-1], last, last))
     return FoundRepetitions(tuple(whole), tuple(strokes), tuple(cut), unseen)
+
+
+def _between(angle: Signal, start: int, end: int, cut_at: int | None = None) -> Repetition:
+    """The repetition from one sample to another, cut at a sample where it is."""
+    time = angle.time_s
+    one = Repetition(float(time[start]), float(time[end]), float(np.isfinite(angle.value[start : end + 1]).mean()))
+    if cut_at is None:
+        return one
+    by_gap = angle.beside_gap(float(time[cut_at]), 1.5 / angle.rate_hz)
+    by: Cut = "cut_by_gap" if by_gap else "cut_by_start" if cut_at == start else "cut_by_end"
+    return replace(one, cut=by, cut_s=float(time[cut_at]))
 
 
 Uncounted = Literal["too_short", "nothing_seen", "small_range", "no_return", "too_quick"]

@@ -135,7 +135,7 @@ def _writer(session: Session, output: Path, settings: TrackSettings, version: st
 
 
 class _Retracking:
-    """The walk through the stored blobs, with the corrections on its way."""
+    """The way through the stored blobs, with the corrections on its way."""
 
     def __init__(
         self, session: Session, table: DetectionTable, settings: TrackSettings, corrections: Sequence[Correction]

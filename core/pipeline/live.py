@@ -47,7 +47,7 @@ _LOOK_S = 0.005
 _FRAME_PATIENCE_S = 0.25
 """A stop waits this long for the capture thread to come back with a frame before it closes the source under it."""
 
-Walk = Callable[[Frame], TrackedFrame]
+Pipeline = Callable[[Frame], TrackedFrame]
 
 
 class SessionSink(Sink, Protocol):
@@ -110,7 +110,7 @@ class _Captured(NamedTuple):
 
     frame: Frame
     at_s: float
-    walk: Walk
+    pipeline: Pipeline
     rows: Recorder[SessionSink, TrackedFrame | _Note] | None
 
 
@@ -156,7 +156,7 @@ class LiveSession:
         self._captured = self._tracked = self._missing = 0
         self._handed = self._worked = self._left_out = self._left_out_before = 0
         self._worked_at: deque[float] = deque(maxlen=math.ceil(2.0 * fps))
-        self._walk: Walk | None = None
+        self._pipeline: Pipeline | None = None
         self._listener: Listener | None = None
         self._rows: Recorder[SessionSink, TrackedFrame | _Note] | None = None
         self._pictures: Recorder[PictureSink, Frame] | None = None
@@ -226,14 +226,14 @@ class LiveSession:
             return list(self._recent)[-count:] if count > 0 else []
 
     # --- tracking -----------------------------------------------------------------------------
-    def begin_tracking(self, walk: Walk) -> None:
-        """From the next captured frame on, ``walk`` turns frames into tracked frames, in the tracking thread.
+    def begin_tracking(self, pipeline: Pipeline) -> None:
+        """From the next captured frame on, ``pipeline`` turns frames into tracked frames, in the tracking thread.
 
-        A walk before it ends; curves and view start anew. Frames lost on the way are in the ``dropped_before`` of the
-        frame that ``walk`` is given.
+        One before it ends; curves and view start anew. Frames lost on the way are in the ``dropped_before`` of the
+        frame that it is given.
         """
         with self._lock:
-            self._walk = walk
+            self._pipeline = pipeline
             self._history.clear()
             self._newest_view.clear()
             self._worked += len(self._to_tracking.taken())
@@ -242,7 +242,7 @@ class LiveSession:
     def end_tracking(self) -> None:
         """No further frame is tracked; the pictures go on."""
         with self._lock:
-            self._walk = None
+            self._pipeline = None
 
     def listen(self, listener: Listener | None) -> None:
         """Hand every tracked frame and event on from now; None for nobody. One that raises hears nothing more."""
@@ -251,7 +251,7 @@ class LiveSession:
     @property
     def tracking(self) -> bool:
         """Whether frames are being tracked."""
-        return self._walk is not None
+        return self._pipeline is not None
 
     def newest(self) -> TrackedView | None:
         """The newest tracked frame with its picture; older ones that were not looked at are gone."""
@@ -290,22 +290,8 @@ class LiveSession:
             ),
         )
         rows.start()
-        pictures: Recorder[PictureSink, Frame] | None = None
-        if open_pictures is not None:
-            pictures = Recorder(
-                "pictures",
-                open_pictures,
-                lambda sink, frame: sink.append_frame(frame),
-                _room_for(self._newest_frame.look(), settings.pictures_waiting),
-                lambda cause: self._tell("pictures_failed", cause),
-                waits=self._source_waits,
-                patience=Patience(
-                    self.notice,
-                    lambda sink, frame: sink.go_on_elsewhere(frame),
-                    settings.told_stall_s,
-                    min(settings.told_stall_s, settings.moved_stall_s),  # no more than these have room to wait for
-                ),
-            )
+        pictures = None if open_pictures is None else self._recorder_of_pictures(open_pictures)
+        if pictures is not None:
             try:
                 pictures.start()
             except Exception:
@@ -315,6 +301,23 @@ class LiveSession:
             self._rows, self._pictures = rows, pictures
             self._recorded_from = None
             self._paused = False
+
+    def _recorder_of_pictures(self, open_pictures: Callable[[], PictureSink]) -> Recorder[PictureSink, Frame]:
+        settings = self._settings
+        return Recorder(
+            "pictures",
+            open_pictures,
+            lambda sink, frame: sink.append_frame(frame),
+            _room_for(self._newest_frame.look(), settings.pictures_waiting),
+            lambda cause: self._tell("pictures_failed", cause),
+            waits=self._source_waits,
+            patience=Patience(
+                self.notice,
+                lambda sink, frame: sink.go_on_elsewhere(frame),
+                settings.told_stall_s,
+                min(settings.told_stall_s, settings.moved_stall_s),  # no more than these have room to wait for
+            ),
+        )
 
     def pause_recording(self) -> None:
         """Stores nothing until :meth:`resume_recording`; the pause is noted in the file."""
@@ -348,7 +351,7 @@ class LiveSession:
             rows, self._catching_up = self._rows, True  # from now on no frame is recorded
             last = self._handed  # a file hands over more meanwhile, which is waited for by nobody
         try:
-            while rows is not None and rows.fault is None and self._is_behind(last) and self._walk is not None:
+            while rows is not None and rows.fault is None and self._is_behind(last) and self._pipeline is not None:
                 time.sleep(_LOOK_S)
         finally:
             with self._lock:
@@ -470,8 +473,8 @@ class LiveSession:
         with self._lock:
             recorded = not (self._paused or self._catching_up)
             rows, pictures = (self._rows, self._pictures) if recorded else (None, None)
-            walk = self._walk
-            self._handed += walk is not None  # told with the rows: who stops the recording waits for this frame too
+            pipeline = self._pipeline
+            self._handed += pipeline is not None  # told with the rows: who stops the recording waits for this frame too
             self._recent.append(frame)
             self._arrivals.append(at_s)
             self._captured += 1
@@ -481,8 +484,8 @@ class LiveSession:
         if pictures is not None:
             pictures.put(frame)
         self._newest_frame.put(frame)
-        if walk is not None:
-            self._hand_over(_Captured(frame, at_s, walk, rows))
+        if pipeline is not None:
+            self._hand_over(_Captured(frame, at_s, pipeline, rows))
 
     def _hand_over(self, captured: _Captured) -> None:
         """To the tracker; without room the frame is left out, and counted in the next one. Of what is not recorded only
@@ -510,13 +513,13 @@ class LiveSession:
     def _track(self) -> None:
         for captured in self._to_tracking:
             try:
-                # Else captured for a walk that has ended, or waiting for a recording that has failed.
-                if captured.walk is self._walk and not self._is_of_the_past(captured):
+                # Else captured for a pipeline that has ended, or waiting for a recording that has failed.
+                if captured.pipeline is self._pipeline and not self._is_of_the_past(captured):
                     self._track_one(captured)
             except Exception as cause:  # the one catch at the top of this thread
                 with self._lock:
-                    if self._walk is captured.walk:
-                        self._walk = None
+                    if self._pipeline is captured.pipeline:
+                        self._pipeline = None
                 self._tell("tracking_failed", cause)
             finally:
                 with self._lock:
@@ -532,9 +535,9 @@ class LiveSession:
 
     def _track_one(self, captured: _Captured) -> None:
         frame = captured.frame
-        tracked = captured.walk(frame)
+        tracked = captured.pipeline(frame)
         with self._lock:
-            if self._walk is not captured.walk:
+            if self._pipeline is not captured.pipeline:
                 return
             self._history.append(tracked)
             self._tracked += 1

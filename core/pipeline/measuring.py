@@ -28,12 +28,12 @@ from carpus.core.library.set_up import MARKERS_SUFFIX, SetUp
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.around_hand import AroundHand, HandArea
 from carpus.core.pipeline.channels import ChannelFull, NeverDrop
-from carpus.core.pipeline.frame_walk import FrameWalk
+from carpus.core.pipeline.frame_pipeline import FramePipeline
 from carpus.core.pipeline.live import Listener, LiveSession
 from carpus.core.pipeline.looking_back import LookingBack
 from carpus.core.pipeline.pieces import TrackedHand
 from carpus.core.pipeline.said_again import NOT_LOOKED_BACK
-from carpus.core.pipeline.track import Learnt, TrackSettings, build_walk, learnt_from, parameters_json, source_facts
+from carpus.core.pipeline.track import Learnt, TrackSettings, build_pipeline, learnt_from, parameters_json, source_facts
 from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import Fallback, SessionWriter
@@ -79,11 +79,11 @@ class SessionPlaces(Protocol):
         ...
 
 
-class LiveWalk:
-    """One frame's walk in the live session, begun at the neutral pose. Hands on what looking back needs, if wanted."""
+class LivePipeline:
+    """That of the live session, begun at the neutral pose. Hands on what looking back needs, if wanted."""
 
-    def __init__(self, walk: FrameWalk[Tracker], neutral_ends_s: float) -> None:
-        self._walk = walk
+    def __init__(self, pipeline: FramePipeline[Tracker], neutral_ends_s: float) -> None:
+        self._pipeline = pipeline
         self._neutral_ends_s = neutral_ends_s
         self._begun = False
         self.keep: Callable[[KeptSteps], None] | None = None
@@ -109,14 +109,14 @@ class LiveWalk:
 
     def __call__(self, frame: Frame) -> TrackedFrame:
         """Track one frame; in the tracking thread."""
-        tracker = self._walk.tracker
+        tracker = self._pipeline.tracker
         if not self._begun and frame.timestamp_s > self._neutral_ends_s:
             # The still frames made the calibration; counted twice they would make it too sure of itself.
             tracker.begin_at_neutral()
             self._begun = True
         for answer in self._answers.taken():
             tracker.hear(answer)
-        tracked = self._walk(frame)
+        tracked = self._pipeline(frame)
         self._tell_answers(tracker.taken_up(), tracked)
         if self.seen is not None:
             self.seen(tracked)
@@ -128,7 +128,7 @@ class LiveWalk:
     def _tell_answers(self, heard: list[SpotAnswer], tracked: TrackedFrame) -> None:
         if self._restating:
             self._restating, self._to_restate = False, set(self._shown)
-        markers = self._walk.tracker.markers
+        markers = self._pipeline.tracker.markers
         for name in sorted(self._to_restate):
             u, v = tracked.marker_measured_px[markers.index(name)]
             if np.isfinite(u):
@@ -255,7 +255,7 @@ class SourceMeasuring:
         self._on_begin, self._on_recording, self._on_chosen = on_begin, on_recording, on_chosen
         self._played = False
         self._identity: tuple[str, str] | None = None
-        self._walk: LiveWalk | None = None
+        self._pipeline: LivePipeline | None = None
         self._learnt: Learnt | None = None
         self._calibration: Calibration | None = None
         self._markers_rgb: ByteImage | None = None
@@ -293,16 +293,18 @@ class SourceMeasuring:
         used = held[: max(outcome.capture_frames, 1)]
         neutral_ends_s = max(frame.timestamp_s for frame in used)
         self._learnt = learnt_from(outcome.noise, neutral_ends_s, self._settings.tracker)
-        walk = build_walk(outcome, self.camera, self._settings, self._learnt, keep_history=self._settings.smooth)
-        self._walk = LiveWalk(walk, neutral_ends_s)
-        self._walk.taken_up = lambda answer, time_s: self._note(SPOT_SAID, answer.text(), time_s)
+        pipeline = build_pipeline(
+            outcome, self.camera, self._settings, self._learnt, keep_history=self._settings.smooth
+        )
+        self._pipeline = LivePipeline(pipeline, neutral_ends_s)
+        self._pipeline.taken_up = lambda answer, time_s: self._note(SPOT_SAID, answer.text(), time_s)
         self._calibration = outcome.calibration
         self._markers_rgb = _around_hand(held[0].color_rgb, outcome.pixel)
         try:
             self._session.listen(self._listener(self._calibration) if self._calibration is not None else None)
         except ExtraMissing as fault:
             self._session.notice(fault)
-        self._session.begin_tracking(self._walk)
+        self._session.begin_tracking(self._pipeline)
         self._on_begin()
 
     def choose(self, set_up: SetUp) -> None:
@@ -315,29 +317,20 @@ class SourceMeasuring:
     def answer_spot(self, answer: SpotAnswer) -> None:
         """What a person says of blue spots of a picture shown: the tracker takes it up in its own thread, with the next
         frame, and the recording notes it."""
-        if self._walk is not None:
-            self._walk.answer(answer)
+        if self._pipeline is not None:
+            self._pipeline.answer(answer)
 
     def _note(self, kind: str, text: str, time_s: float) -> None:
         self._session.add_event(kind, text, time_s)
 
     def start_recording(self) -> None:
         """Open the session file, and a raw recording beside it if wanted; waits for the disk."""
-        calibration, walk, learnt = self._calibration, self._walk, self._learnt
+        calibration, pipeline, learnt = self._calibration, self._pipeline, self._learnt
         assert calibration is not None
-        assert walk is not None
+        assert pipeline is not None
         assert learnt is not None
         path = self._places.new_path(self._set_up)
-        free = shutil.disk_usage(path.parent).free
-        if free < LEAST_FREE_BYTES:
-            raise DiskFull(
-                path.parent,
-                phrase(
-                    "{free} MB free, {least_free_bytes} MB are needed",
-                    free=f"{free / 1000000.0:.0f}",
-                    least_free_bytes=f"{LEAST_FREE_BYTES / 1000000.0:.0f}",
-                ),
-            )
+        _check_room(path.parent)
         now = datetime.now().astimezone()
         recorded, identity = self._identity or (iso(now), str(uuid.uuid4()))
         header = new_header(
@@ -358,7 +351,7 @@ class SourceMeasuring:
             looking_back = LookingBack(
                 TrackedHand(calibration, self.camera, learnt.applied(self._settings.tracker)),
             )
-            walk.keep = looking_back.take
+            pipeline.keep = looking_back.take
         fallback = Fallback(self._elsewhere, self._session.notice)
         try:
             self._session.start_recording(
@@ -368,11 +361,11 @@ class SourceMeasuring:
                 self._open_pictures(path.with_suffix(RAW_SUFFIX), said) if self._set_up.keep_pictures else None,
             )
         except BaseException:
-            walk.keep = None
+            pipeline.keep = None
             if looking_back is not None:
                 looking_back.cancel()
             raise
-        walk.restate()
+        pipeline.restate()
         if self._starts_with_recording and not self._played:
             self._played = True
             self._session.start()
@@ -380,9 +373,9 @@ class SourceMeasuring:
 
     def _open_pictures(self, path: Path, said: SourceInfo) -> Callable[[], AroundHand]:
         """A raw recording of the hand and its surroundings, beside the session."""
-        assert self._walk is not None
+        assert self._pipeline is not None
         hand = HandArea(self.camera, self._set_up.protocol)
-        self._walk.seen = hand.take
+        self._pipeline.seen = hand.take
         return lambda: AroundHand(RawWriter(path, said, fallback=self._elsewhere), hand.area)
 
     def _elsewhere(self) -> Path:
@@ -416,8 +409,8 @@ class SourceMeasuring:
             self._places.cut_short()
             raise
         finally:
-            if self._walk is not None:
-                self._walk.keep = self._walk.seen = None
+            if self._pipeline is not None:
+                self._pipeline.keep = self._pipeline.seen = None
         if self._markers_rgb is not None:
             _keep_picture(path.with_suffix(MARKERS_SUFFIX), self._markers_rgb)
         return self._places.entered(self._set_up, path)
@@ -447,3 +440,12 @@ def _keep_picture(path: Path, color_rgb: ByteImage) -> None:
         with suppress(OSError):
             path.touch(mode=0o600)
             path.write_bytes(data.tobytes())
+
+
+def _check_room(folder: Path) -> None:
+    """Raise :class:`DiskFull` where no recording should begin."""
+    free = shutil.disk_usage(folder).free
+    if free < LEAST_FREE_BYTES:
+        free_mb, least_mb = f"{free / 1e6:.0f}", f"{LEAST_FREE_BYTES / 1e6:.0f}"
+        why = phrase("{free} MB free, {least_free_bytes} MB are needed", free=free_mb, least_free_bytes=least_mb)
+        raise DiskFull(folder, why)

@@ -26,7 +26,7 @@ from carpus.core.errors import DiskFull, OutputExists, RecordingEmpty
 from carpus.core.papers.neutral import as_written, by_the_discs
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.papers.tracker import PaperTracker
-from carpus.core.pipeline.frame_walk import FrameWalk, HandTracker
+from carpus.core.pipeline.frame_pipeline import FramePipeline, HandTracker
 from carpus.core.pipeline.live import Listener
 from carpus.core.pipeline.said_again import answers_in, notes_in
 from carpus.core.pipeline.session_source import SessionPictures
@@ -139,23 +139,23 @@ def learnt_from(still: StillNoise, neutral_ends_s: float, settings: TrackerSetti
     return Learnt(pixel_sd_px, depth_ratio, neutral_ends_s, radius_m)
 
 
-def build_walk(
+def build_pipeline(
     outcome: CalibrationOutcome, camera: Camera, settings: TrackSettings, learnt: Learnt, keep_history: bool = True
-) -> FrameWalk[Tracker]:
+) -> FramePipeline[Tracker]:
     """Detector and tracker for a calibrated hand; raises what :func:`require_calibration` does."""
     calibration = require_calibration(outcome)
     detector = Detector(outcome.appearance, camera, settings.detection)
     tracker = Tracker(calibration, camera, learnt.applied(settings.tracker), keep_history=keep_history)
-    return FrameWalk(detector, tracker, settings.detection.sampling)
+    return FramePipeline(detector, tracker, settings.detection.sampling)
 
 
-def walk_of(
+def pipeline_of(
     outcome: CalibrationOutcome, camera: Camera, settings: TrackSettings, learnt: Learnt
-) -> FrameWalk[HandTracker]:
-    """As :func:`build_walk`, with the chosen filter, which may be the papers'."""
+) -> FramePipeline[HandTracker]:
+    """As :func:`build_pipeline`, with the chosen filter, which may be the papers'."""
     calibration = _calibrated(require_calibration(outcome), camera, settings.paper)
     tracker, _ = _following(calibration, camera, settings, learnt)
-    return FrameWalk(Detector(outcome.appearance, camera, settings.detection), tracker, settings.detection.sampling)
+    return FramePipeline(Detector(outcome.appearance, camera, settings.detection), tracker, settings.detection.sampling)
 
 
 def _calibrated(calibration: Calibration, camera: Camera, paper: PaperSettings | None) -> Calibration:
@@ -239,7 +239,7 @@ def track_recording(
     learnt = learnt_from(outcome.noise, neutral_ends_s, settings.tracker)
     calibration = _calibrated(calibration, source.info.camera, settings.paper)
     tracker, look_back = _following(calibration, source.info.camera, settings, learnt)
-    walk = FrameWalk(
+    pipeline = FramePipeline(
         Detector(outcome.appearance, source.info.camera, settings.detection), tracker, settings.detection.sampling
     )
     ordered = from_neutral(chain(opening, frames), tracker, neutral_ends_s, lambda frame: frame.timestamp_s)
@@ -266,11 +266,11 @@ def track_recording(
     writer = SessionWriter.create(output, header, source.info.camera, calibration)
     answers = {} if said is None else answers_in(said)
 
-    def walked(frame: Frame) -> TrackedFrame:
+    def answered(frame: Frame) -> TrackedFrame:
         _answer(tracker, answers.get(frame.index, ()))
-        return walk(frame)
+        return pipeline(frame)
 
-    tracked = _heard(map(walked, ordered), listener)
+    tracked = _heard(map(answered, ordered), listener)
     notes = () if said is None else notes_in(said)
     return _written(writer, tracked, look_back, outcome.verdict, source.info.frame_count, progress, notes)
 

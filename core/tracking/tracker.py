@@ -1,4 +1,4 @@
-"""The tracker: the only part of the walk that remembers.
+"""The tracker: the only part of the pipeline that remembers.
 
 A frame's blobs are screened by what a person said of them and associated with the discs that were predicted; they
 update the state estimate, or the prediction is kept; the track is confirmed, coasted or given up; lost, or where too

@@ -15,10 +15,10 @@ from carpus.core.detection.surface_samples import SamplingSettings
 from carpus.core.errors import RecordingEmpty
 from carpus.core.pipeline import looking_back
 from carpus.core.pipeline.correction import correct, task_of
-from carpus.core.pipeline.frame_walk import FrameWalk
+from carpus.core.pipeline.frame_pipeline import FramePipeline
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.looking_back import LookingBack
-from carpus.core.pipeline.measuring import LiveWalk, SmoothedSession
+from carpus.core.pipeline.measuring import LivePipeline, SmoothedSession
 from carpus.core.pipeline.pieces import PIECE_S, TrackedHand
 from carpus.core.pipeline.said_again import NOT_LOOKED_BACK
 from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json, retrack_session
@@ -63,9 +63,9 @@ def frames() -> Iterator[Frame]:
         yield Frame(index, 10.0 + DT_S * index, NO_PICTURE, None, 1e-3)
 
 
-def live_walk() -> LiveWalk:
+def live_pipeline() -> LivePipeline:
     tracker = Tracker(calibration(), CAMERA, TrackerSettings())
-    return LiveWalk(FrameWalk(Blobs(), tracker, SamplingSettings()), neutral_ends_s=10.0)  # type: ignore[arg-type]
+    return LivePipeline(FramePipeline(Blobs(), tracker, SamplingSettings()), neutral_ends_s=10.0)  # type: ignore[arg-type]
 
 
 def open_session(path: Path, looker: LookingBack | None) -> SmoothedSession:
@@ -76,19 +76,19 @@ def begin_looking_back(piece_s: float = PIECE_S) -> LookingBack:
     return LookingBack(TrackedHand(calibration(), CAMERA, TrackerSettings()), piece_s=piece_s)
 
 
-def recorded(path: Path, piece_s: float, at_row: Callable[[LookingBack, int], None] = lambda *_: None) -> LiveWalk:
+def recorded(path: Path, piece_s: float, at_row: Callable[[LookingBack, int], None] = lambda *_: None) -> LivePipeline:
     """Records rows 30 to 559, pausing from 200 to 259; ``at_row`` is called before every frame."""
-    walk, looker = live_walk(), begin_looking_back(piece_s)
+    pipeline, looker = live_pipeline(), begin_looking_back(piece_s)
     session = open_session(path, looker)
     for frame in frames():
         at_row(looker, frame.index)
         if frame.index == 30:
-            walk.keep = looker.take
-        tracked = walk(frame)
+            pipeline.keep = looker.take
+        tracked = pipeline(frame)
         if 30 <= frame.index < 560 and not 200 <= frame.index < 260:
             session.append(tracked)
     session.close()
-    return walk
+    return pipeline
 
 
 def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(tmp_path: Path) -> None:
@@ -131,11 +131,11 @@ def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
 
 
 def test_the_walk_keeps_no_steps() -> None:
-    walk, kept = live_walk(), []
+    pipeline, kept = live_pipeline(), []
     for frame in frames():
-        walk.keep = kept.append if frame.index in (3, 4) else None
-        walk(frame)
-        assert not walk._walk.tracker.record.history
+        pipeline.keep = kept.append if frame.index in (3, 4) else None
+        pipeline(frame)
+        assert not pipeline._pipeline.tracker.record.history
     assert [[step.timestamp_s for step in steps.steps] for steps in kept] == [[10.0 + 3 * DT_S], [10.0 + 4 * DT_S]]
 
 
@@ -149,7 +149,7 @@ def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file
     wrong_m[MCP3] += [0.0, 0.014, 0.0]
     wrong = replace(right, marker_position_w0_m=wrong_m)
     tracker = Tracker(wrong, CAMERA, learnt.applied(settings.tracker))
-    walk = LiveWalk(FrameWalk(Blobs(), tracker, SamplingSettings()), -np.inf)  # type: ignore[arg-type]
+    pipeline = LivePipeline(FramePipeline(Blobs(), tracker, SamplingSettings()), -np.inf)  # type: ignore[arg-type]
     header = new_header(
         hand="right", protocol=right.clicks.protocol, software_version="0.1", subject_id="Linden 42",
         exercise="WRIST_FE", parameters=parameters_json(settings, {}, learnt), dip_free=False,
@@ -161,8 +161,8 @@ def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file
         live.add_event(SPOT_SAID, answer.text(), time_s)
 
     with LiveSession(source) as live:
-        walk.taken_up = take_up
-        live.begin_tracking(walk)
+        pipeline.taken_up = take_up
+        live.begin_tracking(pipeline)
         for count in range(1, 91):
             if count == begun_at:
                 live.start_recording(lambda: SessionWriter.create(path, header, CAMERA, wrong))
@@ -174,11 +174,11 @@ def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file
                 taken = view.tracked.marker_measured_px
                 spare = [px for px in hidden if not (np.linalg.norm(taken - px, axis=1) < 1.0).any()]
                 assert len(spare) == 1
-                walk.answer(SpotAnswer(view.tracked.index, "MCP3", (float(spare[0][0]), float(spare[0][1]))))
+                pipeline.answer(SpotAnswer(view.tracked.index, "MCP3", (float(spare[0][0]), float(spare[0][1]))))
             source.let(1)
             wait_until(lambda count=count: live.counters().tracked == count)
         assert live.stop_recording() == path
-        walk.restate()
+        pipeline.restate()
         source.let(1)
         wait_until(lambda: live.counters().tracked == 91)
     assert [answer.index for answer in said] == [said_at - 1, 90], "told anew for a recording that begins later"
@@ -204,9 +204,9 @@ def test_a_session_without_a_frame_is_none(tmp_path: Path) -> None:
 
 
 def test_a_note_from_before_the_first_picture_is_kept_with_the_first_row(tmp_path: Path) -> None:
-    walk, session = live_walk(), open_session(tmp_path / "early.h5", None)
+    pipeline, session = live_pipeline(), open_session(tmp_path / "early.h5", None)
     session.add_event(float("nan"), "note", "strap loose")
-    rows = [walk(frame) for frame in list(frames())[:3]]
+    rows = [pipeline(frame) for frame in list(frames())[:3]]
     for row in rows:
         session.append(row)
     session.close()

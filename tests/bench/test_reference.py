@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from carpus.core.detection.surface_samples import SamplingSettings
-from carpus.core.pipeline.frame_walk import FrameWalk
+from carpus.core.pipeline.frame_pipeline import FramePipeline
 from carpus.core.tracking import palm_association
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
@@ -41,11 +41,11 @@ def test_the_spy_measures_the_parts_of_a_frame_and_leaves_no_trace() -> None:
         def region_about(self, *_: object) -> object:
             return object()
 
-    walk = FrameWalk(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()), SamplingSettings())  # type: ignore[arg-type]
+    pipeline = FramePipeline(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()), SamplingSettings())  # type: ignore[arg-type]
     true = palm_association.corrected
-    with spied(walk) as spy:
+    with spied(pipeline) as spy:
         for index in range(5):
-            walk(Frame(index, index / 30.0, np.zeros((1, 1, 3), np.uint8), None, 1e-3))
+            pipeline(Frame(index, index / 30.0, np.zeros((1, 1, 3), np.uint8), None, 1e-3))
         assert palm_association.corrected is not true
     assert palm_association.corrected is true
     assert spy.calls("narrow") == 5

@@ -12,9 +12,9 @@ import numpy as np
 from carpus.core.calibration.calibrate import calibrate
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.pipeline import frame_walk
-from carpus.core.pipeline.frame_walk import FrameWalk
-from carpus.core.pipeline.track import TrackSettings, build_walk, learnt_from
+from carpus.core.pipeline import frame_pipeline
+from carpus.core.pipeline.frame_pipeline import FramePipeline
+from carpus.core.pipeline.track import TrackSettings, build_pipeline, learnt_from
 from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import hand_filter, palm_association
@@ -56,8 +56,8 @@ def frames_of(folder: Path) -> list[Frame]:
     return list(TumFolder(folder).frames())
 
 
-def walk_of(folder: Path, frames: list[Frame]) -> tuple[FrameWalk, float]:
-    """A calibrated walk at its start, and until when the hand was still."""
+def pipeline_of(folder: Path, frames: list[Frame]) -> tuple[FramePipeline, float]:
+    """A calibrated pipeline at its start, and until when the hand was still."""
     camera, settings = TumFolder(folder).info.camera, TrackSettings()
     opening = [frame for frame in frames if frame.timestamp_s - frames[0].timestamp_s <= settings.calibration.still_s]
     outcome = calibrate(
@@ -65,7 +65,7 @@ def walk_of(folder: Path, frames: list[Frame]) -> tuple[FrameWalk, float]:
     )
     ends_s = opening[max(outcome.capture_frames, 1) - 1].timestamp_s
     learnt = learnt_from(outcome.noise, ends_s, settings.tracker)
-    return build_walk(outcome, camera, settings, learnt, keep_history=False), ends_s
+    return build_pipeline(outcome, camera, settings, learnt, keep_history=False), ends_s
 
 
 def plain_step(plain: reference.ReferenceFilter, time_s: float, rng: np.random.Generator) -> float:
@@ -82,20 +82,20 @@ def measure(folder: Path, costs: Costs, rounds: int) -> None:
     frames = frames_of(folder)
     for _ in range(rounds):
         whole_ms = whole_frames(folder, frames, costs)
-        walk, ends_s = walk_of(folder, frames)
-        with spied(walk) as spy:
+        pipeline, ends_s = pipeline_of(folder, frames)
+        with spied(pipeline) as spy:
             for (frame, step_ms), whole in zip(beside_the_plain(frames, ends_s), whole_ms, strict=True):
-                _parts(walk, frame, spy, whole, costs)
+                _parts(pipeline, frame, spy, whole, costs)
                 step_ms()
 
 
 def whole_frames(folder: Path, frames: list[Frame], costs: Costs) -> list[float]:
     """Track the recording once, nothing measured inside a frame; CPU milliseconds of each frame."""
-    walk, ends_s = walk_of(folder, frames)
+    pipeline, ends_s = pipeline_of(folder, frames)
     times = Times()
     for frame, step_ms in beside_the_plain(frames, ends_s):
         with times.measured():
-            tracked = walk(frame)
+            tracked = pipeline(frame)
         costs.tracked += tracked.status is TrackStatus.TRACKED
         costs.reference.append(step_ms())
     costs.whole += times.cpu_ms
@@ -114,15 +114,15 @@ def beside_the_plain(frames: list[Frame], ends_s: float) -> Iterator[tuple[Frame
 
 
 class spied:  # noqa: N801  (read as a word)
-    """The walk with its parts measured, as a context."""
+    """The pipeline with its parts measured, as a context."""
 
-    def __init__(self, walk: FrameWalk) -> None:
-        self._walk, self._spy = walk, Spy()
+    def __init__(self, pipeline: FramePipeline) -> None:
+        self._pipeline, self._spy = pipeline, Spy()
 
     def __enter__(self) -> Spy:
         spy = self._spy
         whole_picture = lambda _, region=None: int(region is None)  # noqa: E731
-        spy.watch(self._walk.detector, "detect", "narrow", "wide", choose=whole_picture)
+        spy.watch(self._pipeline.detector, "detect", "narrow", "wide", choose=whole_picture)
         spy.watch(palm_association.association, "log_odds", "names")
         spy.watch(palm_association.association, "resolve", "names")
         spy.watch(palm_association, "associate_jointly", "joint")
@@ -132,7 +132,7 @@ class spied:  # noqa: N801  (read as a word)
         spy.watch(hand_filter, "palm_ahead", "predict")
         spy.watch(hand_filter, "predicted_measurement", "forecast")
         spy.watch(hand_filter, "surface_measurement", "surface")
-        spy.watch(frame_walk, "surface_samples", "surface")
+        spy.watch(frame_pipeline, "surface_samples", "surface")
         spy.watch(hand_filter, "find_palm", "find")
         return spy
 
@@ -140,10 +140,10 @@ class spied:  # noqa: N801  (read as a word)
         self._spy.leave()
 
 
-def _parts(walk: FrameWalk, frame: Frame, spy: Spy, whole: float, costs: Costs) -> None:
+def _parts(pipeline: FramePipeline, frame: Frame, spy: Spy, whole: float, costs: Costs) -> None:
     """Track a frame that costs ``whole`` once more, its parts measured."""
     before = {label: spy.calls(label) for label in spy.times}
-    walk(frame)
+    pipeline(frame)
     part = {label: spy.cpu_since(label, before[label]) for label in spy.times}
     detection = part["narrow"] + part["wide"]
     association, filtering = part["names"] + part["joint"], part["predict"] + part["forecast"] + part["update"]

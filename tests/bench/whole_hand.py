@@ -7,14 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.pipeline import frame_walk
-from carpus.core.pipeline.frame_walk import FrameWalk
+from carpus.core.pipeline import frame_pipeline
+from carpus.core.pipeline.frame_pipeline import FramePipeline
 from carpus.core.simulation.recording import cached_recording
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import digit_association, hand_filter, palm_association
 from carpus.core.types import Frame
 from tests.bench.timing import HEAD, Spy, line
-from tests.bench.tracking import Costs, beside_the_plain, frames_of, walk_of, whole_frames
+from tests.bench.tracking import Costs, beside_the_plain, frames_of, pipeline_of, whole_frames
 
 FIST, FINGERS = (
     RecordingSpec(
@@ -37,27 +37,27 @@ def measure(folder: Path, costs: Costs, rounds: int) -> None:
     frames = frames_of(folder)
     for _ in range(rounds):
         whole_ms = whole_frames(folder, frames, costs)
-        walk, ends_s = walk_of(folder, frames)
+        pipeline, ends_s = pipeline_of(folder, frames)
         spy = Spy()
-        spy.watch(walk.detector, "detect", "detect")
+        spy.watch(pipeline.detector, "detect", "detect")
         spy.watch(palm_association.association, "log_odds", "names")
         spy.watch(palm_association.association, "resolve", "names")
         spy.watch(palm_association, "associate_jointly", "names")
         spy.watch(digit_association, "_digit_jointly", "names")
         spy.watch(hand_filter, "surface_measurement", "surface")
-        spy.watch(frame_walk, "surface_samples", "surface")
+        spy.watch(frame_pipeline, "surface_samples", "surface")
         try:
             for (frame, step_ms), whole in zip(beside_the_plain(frames, ends_s), whole_ms, strict=True):
-                _parts(walk, frame, spy, whole, costs)
+                _parts(pipeline, frame, spy, whole, costs)
                 step_ms()
         finally:
             spy.leave()
 
 
-def _parts(walk: FrameWalk, frame: Frame, spy: Spy, whole: float, costs: Costs) -> None:
+def _parts(pipeline: FramePipeline, frame: Frame, spy: Spy, whole: float, costs: Costs) -> None:
     """Track a frame that costs ``whole`` once more, its parts measured."""
     before = {label: spy.calls(label) for label in spy.times}
-    walk(frame)
+    pipeline(frame)
     detection, association, surface = (spy.cpu_since(part, before[part]) for part in ("detect", "names", "surface"))
     costs.detection.append(detection)
     costs.association.append(association)

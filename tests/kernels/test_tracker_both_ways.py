@@ -13,8 +13,8 @@ from carpus.core.calibration.calibrate import calibrate
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.kernels import choice
-from carpus.core.pipeline.frame_walk import FrameWalk
-from carpus.core.pipeline.track import TrackSettings, build_walk, learnt_from
+from carpus.core.pipeline.frame_pipeline import FramePipeline
+from carpus.core.pipeline.track import TrackSettings, build_pipeline, learnt_from
 from carpus.core.simulation.recording import CLICKS_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.tracker import Tracker
@@ -33,7 +33,7 @@ NEAREST_RAD = 1e-4
 WRIST = RecordingSpec(seed=31, motion="mixed", seconds=1.8, hidden_share=0.1, false_blobs=2.0)
 HAND = RecordingSpec(seed=32, protocol="hand21", motion="fist", seconds=1.6, hidden_share=0.1, false_blobs=2.0)
 
-Walk = Callable[[], FrameWalk[Tracker]]
+Pipeline = Callable[[], FramePipeline[Tracker]]
 
 
 def damaged(frames: list[Frame]) -> list[Frame]:
@@ -44,7 +44,7 @@ def damaged(frames: list[Frame]) -> list[Frame]:
     return [replace(frame, color_rgb=dark) if frame.index == 37 else frame for frame in kept]
 
 
-def made(spec: RecordingSpec, folder: Path) -> tuple[list[Frame], Walk]:
+def made(spec: RecordingSpec, folder: Path) -> tuple[list[Frame], Pipeline]:
     """The frames to track, and walks of the hand calibrated in those before."""
     simulate(spec, folder)
     frames = damaged(list(TumFolder(folder).frames()))
@@ -54,26 +54,28 @@ def made(spec: RecordingSpec, folder: Path) -> tuple[list[Frame], Walk]:
     outcome = calibrate(clicks, opening, camera, settings.calibration, settings.detection, None)
     ends_s = opening[max(outcome.capture_frames, 1) - 1].timestamp_s
     learnt = learnt_from(outcome.noise, ends_s, settings.tracker)
-    return [one for one in frames if one.timestamp_s > ends_s], lambda: build_walk(outcome, camera, settings, learnt)
+    return [one for one in frames if one.timestamp_s > ends_s], lambda: build_pipeline(
+        outcome, camera, settings, learnt
+    )
 
 
 @pytest.mark.parametrize("spec", [WRIST, HAND], ids=["wrist", "hand"])
 def test_the_same_hand(spec: RecordingSpec, tmp_path: Path) -> None:
     with choice.forced(choice.NUMPY):
         frames, begun = made(spec, tmp_path / "made")
-        walk = begun()
-        expected = [walk(frame) for frame in frames]
-        looked_back = walk.tracker.smoothed()
-        whole_pictures = [walk.detector.detect(frame) for frame in frames[::5]]
+        pipeline = begun()
+        expected = [pipeline(frame) for frame in frames]
+        looked_back = pipeline.tracker.smoothed()
+        whole_pictures = [pipeline.detector.detect(frame) for frame in frames[::5]]
     assert {TrackStatus.TRACKED} <= {frame.status for frame in expected}
     for level in LEVELS:
         with choice.forced(level):
             tracker = begun().tracker
             found = [tracker.step(f.index, f.timestamp_s, f.detections, f.dropped_before) for f in expected]
             again = tracker.smoothed()
-            walk = begun()
-            walked = [walk(frame) for frame in frames]
-            pictures = [walk.detector.detect(frame) for frame in frames[::5]]
+            pipeline = begun()
+            followed = [pipeline(frame) for frame in frames]
+            pictures = [pipeline.detector.detect(frame) for frame in frames[::5]]
         for one, other in zip(numbers([found, again]), numbers([expected, looked_back]), strict=True):
             np.testing.assert_allclose(one, other, rtol=NEAREST, atol=NEAREST)
         for blobs, same in zip(pictures, whole_pictures, strict=True):
@@ -82,7 +84,7 @@ def test_the_same_hand(spec: RecordingSpec, tmp_path: Path) -> None:
             np.testing.assert_allclose(blobs.depth_sd_m, same.depth_sd_m, rtol=1e-9, atol=MOST_COUNTED_M)
             np.testing.assert_allclose(blobs.area_px, same.area_px, rtol=NEAREST_PX)
             np.testing.assert_allclose(blobs.similarity, same.similarity, rtol=1e-9)
-        for frame, same_frame in zip(walked, expected, strict=True):
+        for frame, same_frame in zip(followed, expected, strict=True):
             assert frame.status is same_frame.status
             for angles, others in (
                 (frame.moment.angles_rad, same_frame.moment.angles_rad),

@@ -604,7 +604,7 @@ def test_latency_counts_from_arrival_to_result() -> None:
 
 
 def test_nothing_of_a_file_is_lost_however_slow_the_tracker_and_the_disk() -> None:
-    """A file can wait: the source is far ahead of a slow walk and a slower disk, with next to no room between them."""
+    """A file can wait: the source is far ahead of slow tracking and a slower disk, with little room between them."""
     settings = LiveSettings(tracking_waiting=2, rows_waiting=2)
     stored: list[int] = []
 
@@ -613,14 +613,14 @@ def test_nothing_of_a_file_is_lost_however_slow_the_tracker_and_the_disk() -> No
             time.sleep(0.004)
             stored.append(tracked.index)
 
-    def walk(frame: Frame) -> TrackedFrame:
+    def pipeline(frame: Frame) -> TrackedFrame:
         time.sleep(0.002)
         return tracked(frame)
 
     source = HeldSource(total=120)
     source.let(200)
     live = LiveSession(source, settings, source_waits=True)
-    live.begin_tracking(walk)
+    live.begin_tracking(pipeline)
     live.start_recording(lambda: Slow(OUT))
     live.start()
     wait_until(lambda: "source_ended" in kinds(live.drain_events()))
@@ -633,14 +633,14 @@ def test_nothing_of_a_file_is_lost_however_slow_the_tracker_and_the_disk() -> No
 def test_a_file_that_waits_can_be_stopped() -> None:
     held = threading.Event()
 
-    def walk(frame: Frame) -> TrackedFrame:
+    def pipeline(frame: Frame) -> TrackedFrame:
         held.wait(20.0)
         return tracked(frame)
 
     source = HeldSource(total=50)
     source.let(60)
     live = LiveSession(source, LiveSettings(tracking_waiting=2), source_waits=True)
-    live.begin_tracking(walk)
+    live.begin_tracking(pipeline)
     live.start()
     wait_until(lambda: live.counters().waiting_tracking == 2)
     threading.Timer(0.1, held.set).start()

@@ -24,10 +24,10 @@ from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.detection.surface_samples import SamplingSettings
-from carpus.core.pipeline.frame_walk import FrameWalk
+from carpus.core.pipeline.frame_pipeline import FramePipeline
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.looking_back import LookingBack
-from carpus.core.pipeline.measuring import LiveWalk, SmoothedSession
+from carpus.core.pipeline.measuring import LivePipeline, SmoothedSession
 from carpus.core.pipeline.pieces import TrackedHand
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
@@ -95,15 +95,15 @@ def main() -> None:
     live = LiveSession(PacedSource(source))
     taken = os.open(told.folder / "taken", os.O_RDWR | os.O_CREAT)
     looker = None if told.played else LookingBack(TrackedHand(calibration(), CAMERA, TrackerSettings()))
-    walk: Callable[[Frame], TrackedFrame] = tracked
+    pipeline: Callable[[Frame], TrackedFrame] = tracked
     if looker is not None:
-        walk = FrameWalk(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()), SamplingSettings())  # type: ignore[arg-type]
-        live_walk = LiveWalk(walk, 10.0)
-        live_walk.keep = looker.take
-        walk = live_walk
+        pipeline = FramePipeline(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()), SamplingSettings())  # type: ignore[arg-type]
+        live_pipeline = LivePipeline(pipeline, 10.0)
+        live_pipeline.keep = looker.take
+        pipeline = live_pipeline
 
     def noted(frame: Frame) -> TrackedFrame:
-        row = walk(frame)
+        row = pipeline(frame)
         os.pwrite(taken, struct.pack("<dq", frame.timestamp_s, 1), 0)
         return row
 

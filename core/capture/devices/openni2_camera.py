@@ -38,14 +38,7 @@ from carpus.core.phrase import phrase
 
 def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
     """Open a live camera, start colour and depth, lay depth on colour."""
-    if plan.uri:
-        found = [plan.uri]
-    else:
-        known = {(int(vendor, 16), int(product, 16)) for vendor, product in plan.models}
-        found = [each.uri for each in library.devices() if (each.vendor_id, each.product_id) in known]
-        if not found:
-            raise why_unlisted(usb_cameras(plan.models))
-    device = _wanted(library, found, plan)
+    device = _wanted(library, plan)
     streams: dict[Sensor, Stream] = {}
     for sensor, wanted in ((Sensor.COLOR, PixelFormat.RGB888), (Sensor.DEPTH, PixelFormat.DEPTH_1_MM)):
         mode = choose_mode(device.modes(sensor), wanted, plan.size_px, plan.fps)
@@ -89,10 +82,18 @@ def open_camera(library: Context, plan: CameraPlan) -> tuple[Device, Opened]:
     return device, Opened(modes, mirrored, view, {key: value for key, value in settings.items() if value})
 
 
-def _wanted(library: Context, uris: Sequence[str], plan: CameraPlan) -> Device:
-    """The first of these, or the one with the plan's serial number: only an open device tells it."""
+def _wanted(library: Context, plan: CameraPlan) -> Device:
+    """The one at the plan's address, else the first of its models, or the one of these with its serial number: only an
+    open device tells it."""
+    if plan.uri:
+        found = [plan.uri]
+    else:
+        known = {(int(vendor, 16), int(product, 16)) for vendor, product in plan.models}
+        found = [each.uri for each in library.devices() if (each.vendor_id, each.product_id) in known]
+        if not found:
+            raise why_unlisted(usb_cameras(plan.models))
     others = []
-    for uri in uris:
+    for uri in found:
         try:
             device = library.open(uri)
         except CallFailed as failure:

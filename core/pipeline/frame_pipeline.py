@@ -1,4 +1,4 @@
-"""One frame's walk: picture -> blobs -> names -> belief -> angles."""
+"""From picture to angles: picture -> blobs -> assigned to discs -> state estimate -> angles."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class HandTracker(Protocol):
 AnyTracker = TypeVar("AnyTracker", bound=HandTracker)
 
 
-class FrameWalk(Generic[AnyTracker]):
+class FramePipeline(Generic[AnyTracker]):
     """Detector and tracker of one calibrated hand; call it with each frame in order."""
 
     def __init__(self, detector: Detector, tracker: AnyTracker, sampling: SamplingSettings) -> None:
