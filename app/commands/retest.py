@@ -48,8 +48,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.core.agreement.limits_file import store_limits
-    from carpus.core.agreement.retest import studies
-    from carpus.core.agreement.retest_table import write_study
+    from carpus.core.agreement.retest import studies, write_study
     from carpus.core.measures.error_limits import FEWEST_PEOPLE
 
     figures, raters = _read(arguments.sessions, _raters(arguments.raters))

@@ -129,7 +129,7 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.format == "tum":
             simulate(spec_from(arguments), arguments.output, progress)
         else:
-            from carpus.core.simulation.oni import simulate_oni
+            from carpus.core.simulation.oni_writer import simulate_oni
 
             simulate_oni(spec_from(arguments), arguments.output, progress)
     print(f"Recording: {arguments.output}")

@@ -72,8 +72,7 @@ def practice_take(set_up: SetUp, progress: Callable[[int, int], None]) -> tuple[
 
 def practice_beginning(set_up: SetUp) -> tuple[FrameSource, float] | None:
     """The same hand in the same place, as long as it is still; None where the whole take was drawn before."""
-    from carpus.core.simulation.first_pictures import FirstPictures
-    from carpus.core.simulation.recording import is_cached
+    from carpus.core.simulation.recording import FirstPictures, is_cached
 
     if is_cached(practice_spec(set_up)):
         return None

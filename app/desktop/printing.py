@@ -19,8 +19,7 @@ from carpus.app.desktop.files_written import tell_written
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.ways import Tell, Way
-from carpus.core.by_hand.table import COLUMNS, rows_of
-from carpus.core.by_hand.values import HandValue
+from carpus.core.by_hand.values import COLUMNS, HandValue, rows_of
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.formats.new_output import plain_cell
 from carpus.core.private import private

@@ -11,9 +11,8 @@ from PySide6.QtWidgets import QWidget
 from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.ways import Tell, Way
 from carpus.core.agreement.restated import Restated
-from carpus.core.agreement.retest import StudyFigures
+from carpus.core.agreement.retest import StudyFigures, write_study
 from carpus.core.agreement.retest_plan import RetestPlan
-from carpus.core.agreement.retest_table import write_study
 from carpus.core.durable import replace_file
 from carpus.core.library.library import Library
 from carpus.core.library.retest_people import RetestPeople

@@ -10,11 +10,13 @@ import math
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import scipy
 
 from carpus.core.agreement.statistics import Interval, icc_2_1, icc_3_1
+from carpus.core.formats.new_output import new_table
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.change import MDC95_FACTOR
 from carpus.core.measures.error_limits import MeasuredLimit, RetestStudy
@@ -195,3 +197,29 @@ def _readings(figures: SessionFigures) -> dict[tuple[str, str], float]:
         for row in (*figures.rows, *figures.joint_rows)
         if row.count and not (row.joint and row.limited)
     }
+
+
+HEAD = (
+    "protocol", "exercise", "of", "movement", "people", "readings", "icc_2_1", "icc_2_1_low", "icc_2_1_high",
+    "icc_3_1", "icc_3_1_low", "icc_3_1_high", "sem_deg",
+    "sem_low_deg", "sem_high_deg", "mdc95_deg", "mdc95_low_deg", "mdc95_high_deg",
+    "sem_same_rater_deg", "last_less_first_deg",
+)  # fmt: skip
+
+
+def write_study(studies: Sequence[StudyFigures], path: Path) -> Path:
+    """One line for each figure. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
+    rows = []
+    for one in studies:
+        for (of, movement), f in one.found.items():
+            values = (
+                f.icc, *f.icc_interval, f.icc_3_1, *f.icc_3_1_interval, f.sem, *f.sem_interval, f.mdc95,
+                *f.mdc95_interval, f.sem_same_rater, f.step,
+            )  # fmt: skip
+            counts = (str(f.people), str(f.readings))
+            rows.append((one.protocol, one.exercise, of, movement, *counts, *map(_cell, values)))
+    return new_table(path, HEAD, rows)
+
+
+def _cell(value: float) -> str:
+    return f"{value:.6g}" if math.isfinite(value) else ""

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from carpus.core.by_hand.table import COLUMNS, rows_of
+from carpus.core.by_hand.values import COLUMNS, rows_of
 from carpus.core.formats.new_output import new_json, new_table
 from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number
 from carpus.core.hand.sites import WRIST_ANGLES

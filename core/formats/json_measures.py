@@ -6,7 +6,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from carpus.core.by_hand.table import COLUMNS, rows_of
+from carpus.core.by_hand.values import COLUMNS, rows_of
 from carpus.core.formats.csv_tables import repetition_table
 from carpus.core.formats.new_output import new_json
 from carpus.core.formats.take import ANGLES_MEAN, Take

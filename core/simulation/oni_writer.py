@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
+import shutil
 import struct
-from collections.abc import Iterable
+import tempfile
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
@@ -13,14 +16,17 @@ from typing import BinaryIO, Literal
 import numpy as np
 
 from carpus.core.camera import Camera
-from carpus.core.capture.camera_info import sidecar_path, write_camera_info
+from carpus.core.capture.camera_info import CAMERA_FILE, sidecar_path, write_camera_info
 from carpus.core.capture.files import oni_format as oni
 from carpus.core.capture.files.oni_depth_codec import encode_depth
 from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType
 from carpus.core.capture.files.raw_pictures import encode_color
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.video_mode import PixelFormat
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
 from carpus.core.private import private
+from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
+from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import ByteImage, DepthImage, Frame
 
 ColorCodec = Literal["jpeg", "raw"]
@@ -277,3 +283,42 @@ def _string(text: str) -> bytes:
 def _record_bytes(kind: RecordType, node: int, fields: bytes, payload_size: int, replaces: int) -> bytes:
     size = oni.RECORD_HEADER.size + len(fields)
     return oni.RECORD_HEADER.pack(oni.RECORD_MAGIC, kind, node, size, payload_size, replaces) + fields
+
+
+RECORDING_FILE = "recording.oni"
+_MILLIMETRE = 1e-3
+
+
+def simulate_oni(
+    spec: RecordingSpec,
+    folder: Path,
+    progress: Callable[[int, int], None] | None = None,
+    *,
+    color: ColorCodec = "jpeg",
+) -> Path:
+    """Make ``recording.oni`` with its sidecar, clicks and truth in ``folder``; the file's path.
+
+    Depth is in whole millimetres, as the device gives it.
+    """
+    target = folder / RECORDING_FILE
+    if target.exists():
+        raise OutputExists(target)
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=".rendering.", dir=folder) as scratch:
+        pictures = Path(scratch) / "tum"
+        simulate(spec, pictures, progress)
+        source = TumFolder(pictures, read_ahead=4)
+        frames = in_millimetres(source.frames())
+        write_oni(target, frames, source.info.camera, fps=round(spec.fps), color=color, simulated=True)
+        for name in (CLICKS_FILE, TRUTH_FILE, CAMERA_FILE):
+            shutil.move(pictures / name, folder / name)
+    return target
+
+
+def in_millimetres(frames: Iterator[Frame]) -> Iterator[Frame]:
+    """The frames with their depth in whole millimetres, as the device gives it."""
+    for frame in frames:
+        depth = frame.depth_raw
+        if depth is not None:
+            depth = np.rint(depth * (frame.depth_unit_m / _MILLIMETRE)).astype(np.uint16)
+        yield dataclasses.replace(frame, depth_raw=depth, depth_unit_m=_MILLIMETRE)

@@ -12,6 +12,7 @@ import tempfile
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from importlib.metadata import PackageNotFoundError, version
+from itertools import islice
 from pathlib import Path
 
 import cv2
@@ -21,6 +22,7 @@ import platformdirs
 from carpus.core.calibration.result import Clicks
 from carpus.core.capture.camera_info import CAMERA_FILE, write_camera_info
 from carpus.core.capture.files.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, SIMULATED_REMARK
+from carpus.core.capture.source import SourceInfo
 from carpus.core.durable import write_fault
 from carpus.core.errors import OutputExists, OutputNotWritable
 from carpus.core.simulation.depth_kinds import depth_pictures
@@ -31,7 +33,7 @@ from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.trouble import FrameTimes, covered_discs, frame_times
 from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, truth_of
 from carpus.core.simulation.truth_file import read_visible_share, write_truth
-from carpus.core.types import ByteImage, DepthImage, FloatArray, Frame
+from carpus.core.types import SIMULATED, ByteImage, DepthImage, FloatArray, Frame
 
 CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"
 _MADE = ("rgb", "depth", COLOR_LIST, DEPTH_LIST, CAMERA_FILE, CLICKS_FILE, TRUTH_FILE)
@@ -302,3 +304,20 @@ def _write_lists(folder: Path, lists: dict[str, list[str]]) -> None:
     for kind, (title, name) in titles.items():
         text = "\n".join([f"# {title}", SIMULATED_REMARK, "# timestamp filename", *lists[kind], ""])
         (folder / name).write_text(text, encoding="utf-8")
+
+
+class FirstPictures:
+    """The pictures of the first ``seconds`` as a source: the same ones that the whole recording begins with."""
+
+    def __init__(self, spec: RecordingSpec, seconds: float) -> None:
+        self._pictures = SimulatedPictures(spec)
+        self._count = int((self._pictures.times.color_s < seconds).sum())
+        camera = self._pictures.truth.camera
+        self.info = SourceInfo(spec.cache_key, camera, True, self._count, spec.fps, {SIMULATED: "yes"})
+
+    def frames(self) -> Iterator[Frame]:
+        """Drawn one after the other."""
+        return islice(self._pictures.frames(), self._count)
+
+    def close(self) -> None:
+        """Nothing is held."""

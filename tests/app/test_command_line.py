@@ -30,8 +30,7 @@ from carpus.core.session.reader import read_session
 from carpus.core.session.recovery import interrupted_sessions
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.simulation.oni import in_millimetres
-from carpus.core.simulation.oni_writer import write_oni
+from carpus.core.simulation.oni_writer import in_millimetres, write_oni
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
 from tests.session.samples import CAMERA, make_calibration

@@ -31,8 +31,7 @@ from carpus.core.pipeline import measuring
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
 from carpus.core.session.writer import SessionWriter
-from carpus.core.simulation.oni import in_millimetres
-from carpus.core.simulation.oni_writer import write_oni
+from carpus.core.simulation.oni_writer import in_millimetres, write_oni
 from carpus.ui.messages.strip import NoticeStrip
 from carpus.ui.setup.choice import SourceChoice
 from tests.journeys.conftest import SPEED, Open

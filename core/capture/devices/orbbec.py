@@ -33,8 +33,7 @@ from carpus.core.capture.devices.orbbec_opening import (
 )
 from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
 from carpus.core.capture.devices.usb_devices import usb_cameras
-from carpus.core.capture.frame_assembly import camera_of_lens
-from carpus.core.capture.lens_bending import LensBending
+from carpus.core.capture.frame_assembly import LensBending, camera_of_lens
 from carpus.core.capture.source import Notice, ignore
 from carpus.core.capture.video_mode import Sensor
 from carpus.core.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSensor

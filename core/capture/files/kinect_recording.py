@@ -31,7 +31,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from carpus.core.camera import Camera
-from carpus.core.capture.lens_bending import LensBending, straight_pixels
+from carpus.core.capture.frame_assembly import LensBending, straight_pixels
 from carpus.core.types import FloatArray
 
 # The calibration that lies in a recording of an Azure Kinect or Femto: both lenses, and how the cameras stand.
