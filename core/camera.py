@@ -60,10 +60,10 @@ class Camera:
         >>> Camera(525.0, 525.0, 319.5, 239.5).project(np.array([0.0, 0.0, 0.7]))
         array([319.5, 239.5])
         """
-        z = point_cam_m[..., 2]
-        u = point_cam_m[..., 0] / z
-        v = point_cam_m[..., 1] / z
-        return np.stack((self.fx_px * u + self.cx_px, self.fy_px * v + self.cy_px), axis=-1)
+        out: FloatArray = point_cam_m[..., :2] / point_cam_m[..., 2:]
+        out *= (self.fx_px, self.fy_px)
+        out += (self.cx_px, self.cy_px)
+        return out
 
     def back_project(self, pixel: FloatArray, depth_m: FloatArray) -> FloatArray:
         """Points (..., 3) in camera axes, metres, of undistorted pixels (..., 2) at depths (...)."""

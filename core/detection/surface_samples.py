@@ -79,6 +79,15 @@ def finger_samples(frame: Frame, disc_px: FloatArray, settings: SamplingSettings
         return None
     height, width = frame.depth_raw.shape
     step = FINGER_STEP_PX
+    if (kernels := in_c()) is not None:
+        most = settings.most_finger
+        pixel, taken, found = np.empty((most, 2)), np.empty(most), np.empty(1, dtype=np.int32)
+        kernels.readings_about(
+            height, width, frame.depth_raw, frame.depth_unit_m, len(disc_px), disc_px, settings.finger_margin_px, step,
+            most, pixel, taken, found,
+        )  # fmt: skip
+        count = found.item()
+        return None if count < 0 else SurfaceSamples(pixel[:count], taken[:count])
     low = np.maximum(np.floor((disc_px.min(axis=0) - settings.finger_margin_px) / step), 0).astype(int)
     high = np.minimum(np.ceil((disc_px.max(axis=0) + settings.finger_margin_px) / step) * step, (width - 1, height - 1))
     u, v = np.arange(step * low[0], int(high[0]) + 1, step), np.arange(step * low[1], int(high[1]) + 1, step)

@@ -608,3 +608,107 @@ int readings_within(
     *found = taken;
     return 0;
 }
+
+/* The number that would stand at `place` were they in order; they are moved. */
+static double at_place(double *number, int count, int place)
+{
+    int low = 0, high = count - 1;
+    while (low < high) {
+        const double middle = number[low + (high - low) / 2];
+        int i = low, j = high;
+        while (i <= j) {
+            while (number[i] < middle)
+                i++;
+            while (number[j] > middle)
+                j--;
+            if (i <= j) {
+                const double kept = number[i];
+                number[i++] = number[j];
+                number[j--] = kept;
+            }
+        }
+        if (place <= j)
+            high = j;
+        else if (place >= i)
+            low = i;
+        else
+            break;
+    }
+    return number[place];
+}
+
+int readings_about(
+    int height, int width, const uint16_t *raw, double unit_m, int discs, const double *disc, double margin, int step,
+    int most, double *pixel, double *depth, int32_t *found)
+{
+    const int size[2] = {width, height};
+    int first[2], count[2];
+    *found = -1;
+    for (int k = 0; k < 2; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int i = 0; i < discs; i++) {
+            low = disc[2 * i + k] < low ? disc[2 * i + k] : low;
+            high = disc[2 * i + k] > high ? disc[2 * i + k] : high;
+        }
+        low = floor((low - margin) / step) * step;
+        high = ceil((high + margin) / step) * step;
+        if (!(low < size[k]) || !(high >= 0.0))
+            return 0;
+        first[k] = low > 0.0 ? (int)low : 0;
+        const int last = high < size[k] - 1 ? (int)high : size[k] - 1;
+        if (last < first[k])
+            return 0;
+        count[k] = (last - first[k]) / step + 1;
+    }
+    const int columns = count[0], rows = count[1];
+    const size_t all = (size_t)columns * (size_t)rows;
+    int32_t *kept = malloc(sizeof *kept * all);
+    double *apart = malloc(sizeof *apart * (2 * all + (size_t)columns * ((size_t)discs + 1)));
+    if (!kept || !apart) {
+        free(kept);
+        free(apart);
+        return NO_MEMORY;
+    }
+    int n = 0;
+    for (int r = 0; r < rows; r++)
+        for (int c = 0; c < columns; c++) {
+            const int at = (first[1] + r * step) * width + first[0] + c * step;
+            kept[n] = at;
+            n += raw[at] > 0;
+        }
+    double farthest = INFINITY;
+    if (n > most) {
+        /* Too many: those nearest to a disc tell most. How near goes with the column and with the row. */
+        double *along = apart + 2 * all, *line = along + (size_t)columns * (size_t)discs, *sorted = apart + all;
+        for (int i = 0; i < discs; i++)
+            for (int c = 0; c < columns; c++)
+                along[i * columns + c] = fabs(first[0] + c * step - disc[2 * i]);
+        for (int k = 0, row = -1; k < n; k++) {
+            const int v = kept[k] / width;
+            if (v != row) {
+                row = v;
+                for (int c = 0; c < columns; c++)
+                    line[c] = INFINITY;
+                for (int i = 0; i < discs; i++) {
+                    const double down = fabs(v - disc[2 * i + 1]), *own = along + i * columns;
+                    for (int c = 0; c < columns; c++)
+                        line[c] = down + own[c] < line[c] ? down + own[c] : line[c];
+                }
+            }
+            apart[k] = line[(kept[k] % width - first[0]) / step];
+        }
+        memcpy(sorted, apart, sizeof *apart * (size_t)n);
+        farthest = at_place(sorted, n, most - 1);
+    }
+    int taken = 0;
+    for (int k = 0; k < n && taken < most; k++)
+        if (n <= most || apart[k] <= farthest) {
+            pixel[2 * taken] = kept[k] % width;
+            pixel[2 * taken + 1] = kept[k] / width;
+            depth[taken++] = (float)(raw[kept[k]] * unit_m); /* as they are stored */
+        }
+    free(kept);
+    free(apart);
+    *found = taken > 0 ? taken : -1;
+    return 0;
+}

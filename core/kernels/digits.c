@@ -537,3 +537,88 @@ int digits_limited(
     }
     return 0;
 }
+
+int knuckles_bent(
+    int count, const int64_t *asked, const double *mean, const double *root, const double *rotation,
+    const double *translation, double fx, double fy, double cx, double cy, int readings, const double *pixel,
+    const double *depth, double step, int bends, const double *bend, int shares, const double *share, double near,
+    double steep, double facing_share, double most_past, double most_before, double nothing, double most_sd,
+    double least_sd, double alike, double *value, double *variance)
+{
+    /* A lattice of the readings, one wider than they reach. */
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int i = 0; i < 2 * readings; i++) {
+        const double cell = rint(pixel[i] / step);
+        if (!isfinite(cell))
+            return OUTSIDE;
+        low[i % 2] = cell < low[i % 2] ? cell : low[i % 2];
+        high[i % 2] = cell > high[i % 2] ? cell : high[i % 2];
+    }
+    if (!readings || bends < 1)
+        return OUTSIDE;
+    const double wide = high[0] - low[0] + 3.0, tall = high[1] - low[1] + 3.0;
+    if (wide * tall > 1e8)
+        return NO_MEMORY;
+    const int columns = (int)wide, rows = (int)tall;
+    double *lattice = malloc(sizeof *lattice * ((size_t)columns * (size_t)rows + (size_t)bends));
+    if (!lattice)
+        return NO_MEMORY;
+    double *total = lattice + (size_t)columns * (size_t)rows;
+    for (int i = 0; i < columns * rows; i++)
+        lattice[i] = NAN;
+    for (int i = 0; i < readings; i++) {
+        const int column = (int)(rint(pixel[2 * i] / step) - low[0]) + 1;
+        lattice[((int)(rint(pixel[2 * i + 1] / step) - low[1]) + 1) * columns + column] = depth[i];
+    }
+    for (int a = 0; a < count; a++) {
+        if (asked[a] < 0 || asked[a] >= CHAINS) {
+            free(lattice);
+            return OUTSIDE;
+        }
+        const int chain = (int)asked[a];
+        double s[JOINED], least = INFINITY, weight = 0.0, middle = 0.0, spread = 0.0;
+        joined(mean + chain * DIGIT, s);
+        const double azimuth = s[FAN] + s[0], ahead_x = cos(azimuth), ahead_y = sin(azimuth);
+        const double knuckle[3] = {root[3 * chain] + s[ROOT], root[3 * chain + 1] + s[ROOT + 1],
+                                   root[3 * chain + 2] - s[ROOT + 2]};
+        for (int q = 0; q < bends; q++) {
+            const double over = sin(bend[q]), on = cos(bend[q]);
+            const double along[3] = {on * ahead_x, on * ahead_y, -over}, normal[3] = {over * ahead_x, over * ahead_y, on};
+            const double facing = -(rotation[6] * normal[0] + rotation[7] * normal[1] + rotation[8] * normal[2]);
+            const double stray = facing > facing_share ? near : steep;
+            total[q] = 0.0;
+            for (int p = 0; p < shares; p++) {
+                const double reach = share[p] * s[LENGTH];
+                double place[3], seen[3];
+                for (int k = 0; k < 3; k++)
+                    place[k] = knuckle[k] + reach * along[k] + s[HEIGHT] * normal[k];
+                for (int k = 0; k < 3; k++)
+                    seen[k] = rotation[3 * k] * place[0] + rotation[3 * k + 1] * place[1] +
+                              rotation[3 * k + 2] * place[2] + translation[k];
+                const double c = rint((seen[0] * (fx / seen[2]) + cx) / step) - low[0] + 1.0;
+                const double r = rint((seen[1] * (fy / seen[2]) + cy) / step) - low[1] + 1.0;
+                const int column = c > 0.0 ? (c < columns - 1 ? (int)c : columns - 1) : 0;
+                const int row = r > 0.0 ? (r < rows - 1 ? (int)r : rows - 1) : 0;
+                const double past = lattice[row * columns + column] - seen[2], cost = 0.5 * (past / stray) * (past / stray);
+                const double limit = past > 0.0 ? most_past : most_before;
+                total[q] += !isfinite(past) ? nothing : cost < limit ? cost : limit;
+            }
+            least = total[q] < least ? total[q] : least;
+        }
+        for (int q = 0; q < bends; q++) {
+            total[q] = exp(least - total[q]);
+            weight += total[q];
+            middle += total[q] * bend[q];
+        }
+        middle /= weight;
+        for (int q = 0; q < bends; q++)
+            spread += total[q] * (bend[q] - middle) * (bend[q] - middle);
+        spread /= weight;
+        if (spread < most_sd * most_sd) {
+            value[chain] = middle;
+            variance[chain] = alike * (spread > least_sd * least_sd ? spread : least_sd * least_sd);
+        }
+    }
+    free(lattice);
+    return 0;
+}

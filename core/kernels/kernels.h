@@ -110,6 +110,9 @@ KERNEL int readings_within(
     int height, int width, const uint16_t raw[height * width], double unit_m, int corners,
     const double corner[corners * 2], double wider, double margin, int step, int most, double pixel[most * 2],
     double depth[most], int32_t *found);
+KERNEL int readings_about(
+    int height, int width, const uint16_t raw[height * width], double unit_m, int discs, const double disc[discs * 2],
+    double margin, int step, int most, double pixel[most * 2], double depth[most], int32_t found[1]);
 
 /* digits.c */
 KERNEL int digits_spread(
@@ -140,5 +143,12 @@ KERNEL int digits_limited(
     int modes, int size, const double *mean, const double *covariance, const double *slots, const double *limits,
     const double *direction, double abduction, double soft, double near_sd, double *out_mean, double *out_covariance,
     uint8_t *pulled);
+KERNEL int knuckles_bent(
+    int count, const int64_t asked[count], const double mean[105], const double root[15], const double rotation[9],
+    const double translation[3], double fx, double fy, double cx, double cy, int readings,
+    const double pixel[readings * 2], const double depth[readings], double step, int bends, const double bend[bends],
+    int shares, const double share[shares], double near, double steep, double facing_share, double most_past,
+    double most_before, double nothing, double most_sd, double least_sd, double alike, double value[5],
+    double variance[5]);
 
 #endif

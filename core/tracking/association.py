@@ -117,6 +117,15 @@ def resolve(odds: FloatArray) -> NDArray[np.int64]:
     """
     assigned = [-1] * odds.shape[0]
     if odds.shape[1]:
+        # Where the likeliest blobs of all markers are others, none better can be had.
+        for marker, row in enumerate(odds.tolist()):
+            likeliest = max(row)
+            if likeliest > 0.0:
+                assigned[marker] = row.index(likeliest)
+        named = [blob for blob in assigned if blob >= 0]
+        if len(set(named)) == len(named):
+            return np.array(assigned, dtype=np.int64)
+        assigned = [-1] * odds.shape[0]
         rows, columns = linear_sum_assignment(np.maximum(odds, 0.0), maximize=True)
         for marker, blob in zip(rows.tolist(), columns.tolist(), strict=True):
             if odds.item(marker, blob) > 0.0:

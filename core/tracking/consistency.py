@@ -93,8 +93,8 @@ def passed_over(
     unassigned = np.flatnonzero(is_unassigned)
     if not unassigned.size:
         return out
-    apart_px = np.linalg.norm(blob_px[unassigned][None] - disc_px[missing][:, None], axis=-1)
-    near = apart_px < settings.near_m * focal_px / disc_depth_m[missing][:, None]
+    apart_px = blob_px[unassigned] - disc_px[missing][:, None]
+    near = np.hypot(apart_px[..., 0], apart_px[..., 1]) < settings.near_m * focal_px / disc_depth_m[missing][:, None]
     deep = np.abs(blob_depth_m[unassigned][None] - disc_depth_m[missing][:, None]) < settings.near_depth_m
     out[missing] = (near & (deep | ~np.isfinite(blob_depth_m[unassigned])[None])).any(axis=1)
     return out

@@ -67,31 +67,36 @@ class DigitMotion:
     def __init__(
         self, density: FloatArray, scales: FloatArray, drift: FloatArray, stationary2: FloatArray, settles_s: float
     ) -> None:
-        self._density, self._scales, self._drift = density, scales, drift
         self._stationary2, self._settles_s = stationary2, settles_s
         self._dt_s = math.nan
-        self._forward = self._noise = self._modes = drift
+        self._forward = self._modes = drift
+        self._noise = drift, drift
+        angle, rate, constant = _SLOT, SLOTS + _SLOT, np.arange(ANATOMY.start, ANATOMY.stop)
+        self._still = np.repeat(np.eye(DIGIT_SIZE)[None], CHAINS, axis=0)
+        # By dt cubed over three, squared over two, and by dt: of the rates' noise, and of the constants'.
+        self._by_dt = np.zeros((4, CHAINS, DIGIT_SIZE, DIGIT_SIZE))
+        self._by_dt[0][:, angle, angle] = density
+        self._by_dt[1][:, angle, rate] = self._by_dt[1][:, rate, angle] = density
+        self._by_dt[2][:, rate, rate] = density
+        self._by_dt[3][:, constant, constant] = drift
+        self._scales2 = (scales**2)[:, None, None]
 
     def _set_step(self, dt_s: float) -> None:
         """Transition (n, n) and noise of a step; frames come evenly, so the last ones mostly serve again."""
         if self._dt_s == dt_s:
             return
-        density = self._density
-        forward = np.repeat(np.eye(DIGIT_SIZE)[None], CHAINS, axis=0)
-        noise = np.zeros((2, CHAINS, DIGIT_SIZE, DIGIT_SIZE))
-        angle, rate = _SLOT, SLOTS + _SLOT
-        forward[:, angle, rate] = dt_s
-        settles = self._stationary2 > 0.0
-        keep = np.where(settles, math.exp(-dt_s / self._settles_s), 1.0)
+        forward, angle = self._still.copy(), _SLOT
+        forward[:, angle, SLOTS + angle] = dt_s
+        keep = np.where(self._stationary2 > 0.0, math.exp(-dt_s / self._settles_s), 1.0)
         forward[:, angle, angle] = keep
-        noise[0][:, angle, angle] = density * (dt_s**3 / 3.0)
-        noise[0][:, angle, rate] = noise[0][:, rate, angle] = density * (0.5 * dt_s**2)
-        noise[0][:, rate, rate] = density * dt_s
-        constant = np.arange(ANATOMY.start, ANATOMY.stop)
-        noise[1][:, constant, constant] = self._drift * dt_s
-        noise[1][:, angle, angle] = self._stationary2 * (1.0 - keep**2)
-        self._forward, self._noise = forward, noise
-        self._modes = noise[0][:, None] * (self._scales**2)[:, None, None] + noise[1][:, None]
+        pushed = self._by_dt[0] * (dt_s**3 / 3.0)
+        pushed += self._by_dt[1] * (0.5 * dt_s**2)
+        pushed += self._by_dt[2] * dt_s
+        drifted = self._by_dt[3] * dt_s
+        drifted[:, angle, angle] = self._stationary2 * (1.0 - keep**2)
+        self._forward, self._noise = forward, (pushed, drifted)
+        self._modes = pushed[:, None] * self._scales2
+        self._modes += drifted[:, None]
         self._dt_s = dt_s
 
     def predicted(

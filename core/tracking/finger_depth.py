@@ -13,6 +13,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.digit_filter import SEEN, DigitView
 from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
 from carpus.core.tracking.kernel import Linearisation, ModeMixture, corrected
@@ -75,8 +76,18 @@ def knuckle_bends(
 ) -> KnuckleBends:
     """What the readings say of the digits ``asked`` (fingers), means (5, n), that begin under ``root_m`` (5, 3)."""
     out = KnuckleBends.none()
-    depth_at = _lattice(samples)
     bend_rad, share = _grid_rad(settings), np.array(settings.along)
+    if (kernels := in_c()) is not None:
+        camera = view.camera
+        kernels.knuckles_bent(
+            len(asked), np.array(asked), mean, root_m, view.rotation, view.translation_m, camera.fx_px, camera.fy_px,
+            camera.cx_px, camera.cy_px, len(samples.depth_m), samples.pixel, samples.depth_m, FINGER_STEP_PX,
+            bend_rad.size, bend_rad, share.size, share, settings.near_m, settings.steep_m, settings.facing_share,
+            settings.most_past, settings.most_before, settings.nothing, settings.most_sd_rad, settings.least_sd_rad,
+            settings.alike, out.value_rad, out.variance_rad2,
+        )  # fmt: skip
+        return out
+    depth_at = _lattice(samples)
     sin, cos = np.sin(bend_rad), np.cos(bend_rad)
     for chain in asked:
         state = mean[chain, SEEN]

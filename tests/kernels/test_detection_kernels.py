@@ -10,7 +10,7 @@ import pytest
 
 from carpus.core.depth_sensor import D435, PRIMESENSE, DepthSensor
 from carpus.core.detection.detector import Detector, Region
-from carpus.core.detection.surface_samples import SamplingSettings, surface_samples
+from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, surface_samples
 from carpus.core.kernels import choice
 from carpus.core.types import Detections, Frame
 from tests.detection.pictures import CAMERA, DISTANCE_M, PALM_PX, Extra, Look, depth_picture, frame, picture
@@ -148,6 +148,22 @@ def test_readings_on_the_back_of_the_hand() -> None:
     assert both(lambda: surface_samples(seen, np.full((4, 2), np.nan), SamplingSettings())) is None
     empty = replace(seen, depth_raw=np.zeros((240, 320), dtype=np.uint16))
     assert not len(both(lambda: surface_samples(empty, corners, SamplingSettings())).depth_m)
+
+
+def test_readings_about_the_fingers() -> None:
+    rng = np.random.default_rng(8)
+    raw = rng.integers(600, 700, (240, 320)) * (rng.uniform(size=(240, 320)) < 0.9)
+    seen = Frame(0, 0.0, np.zeros((240, 320, 3), np.uint8), raw.astype(np.uint16), 1e-3)
+    discs = np.column_stack((rng.uniform(120.0, 220.0, 15), rng.uniform(80.0, 190.0, 15)))
+    for shift_px in (0.0, -90.25, 130.0, 1e12, -1e4):
+        for most in (1, 40, 5000):
+            own = replace(SamplingSettings(), most_finger=most)
+            found = both(lambda shift_px=shift_px, own=own: finger_samples(seen, discs + shift_px, own), 1e-15)
+            assert (found is None) == (abs(shift_px) > 1e3)
+    alike = np.full((4, 2), 160.0)  # as far from a disc as others
+    both(lambda: finger_samples(seen, alike, replace(SamplingSettings(), most_finger=10)), 1e-15)
+    empty = replace(seen, depth_raw=np.zeros((240, 320), dtype=np.uint16))
+    assert both(lambda: finger_samples(empty, discs, SamplingSettings())) is None
 
 
 @pytest.mark.parametrize("level", LEVELS)

@@ -12,6 +12,7 @@ from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measured_as_named
 from carpus.core.tracking.digit_filter import DigitPoints, DigitsLinearisation, digits_linearised, spread_points
+from carpus.core.tracking.finger_depth import FingerDepthSettings, knuckle_bends
 from carpus.core.tracking.finger_model import Seat, seat_of
 from carpus.core.tracking.fingers import Fingers, disc_visibility
 from carpus.core.tracking.geometry import palm_of
@@ -22,11 +23,13 @@ from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.readout import Readout, ReadoutSettings
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.unscented import Spread
-from carpus.core.types import FloatArray
+from carpus.core.types import FloatArray, SurfaceSamples
 from tests.accuracy.carpus import measured_hand
 from tests.kernels.pairs import both
 from tests.kernels.test_filter_kernels import covariances
 from tests.simulation.measurements import measurement_sequence
+from tests.tracking.hands import RIGHT_PALM_M
+from tests.tracking.test_finger_depth import VIEW, readings, states
 from tests.tracking.test_palm_filter import moving
 
 SETTINGS = TrackerSettings()
@@ -129,3 +132,13 @@ def test_limits_of_joints(modes: int) -> None:
     narrow = ModeMixture(0.3 + 0.0 * mean, 1e-9 * covariance, mixture.probability)
     middle = np.full((5, 5), 0.3)
     both(lambda: constrained(narrow, middle, LimitSettings()))
+
+
+@pytest.mark.parametrize("flexion_deg", [10.0, 70.0])
+def test_bends_told_by_depth(flexion_deg: float) -> None:
+    samples, root, asked = readings(flexion_deg), RIGHT_PALM_M[1:], [1, 2, 3, 4]
+    found = both(lambda: knuckle_bends(asked, states(), root, VIEW, samples, FingerDepthSettings()))
+    assert found.is_any
+    both(lambda: knuckle_bends(asked, states() + 0.3, root, VIEW, samples, FingerDepthSettings()))
+    one = SurfaceSamples(samples.pixel[:1], samples.depth_m[:1])
+    both(lambda: knuckle_bends([2], states(), root, VIEW, one, FingerDepthSettings()))
