@@ -23,7 +23,7 @@ ASSUMED = "assumed"
 """Origin of a sensor that no source stated."""
 _MOST_TEXT = 80
 _WIDEST_EDGE_PX = 40
-_CORE_SHARE = 0.4
+CORE_SHARE = 0.4
 """Of a disc's area: what the detector takes its depth from."""
 
 
@@ -87,7 +87,7 @@ class DepthSensor:
 
     def disc_sd_m(self, depth_m: FloatArray, area_px: FloatArray) -> FloatArray:
         """Standard deviation (...) of a disc's depth, read over the middle of its area (...)."""
-        return self.mean_sd_m(depth_m, _CORE_SHARE * area_px)
+        return self.mean_sd_m(depth_m, CORE_SHARE * area_px)
 
     def stays_sd_m(self, depth_m: FloatArray) -> FloatArray:
         """Standard deviation (...) of the part that stays."""
@@ -101,7 +101,7 @@ class DepthSensor:
     def disc_stays_sd_m(self, depth_m: FloatArray, area_px: FloatArray) -> FloatArray:
         """What stays of a flat disc's depth (...): its middle holds more than one place of a window's error, which is
         alike over the window's width and gone beyond it."""
-        wide = np.sqrt(_CORE_SHARE * area_px) / self.patch_px
+        wide = np.sqrt(CORE_SHARE * area_px) / self.patch_px
         kept = np.where(
             wide <= 1.0, 1.0 - wide / 3.0, (1.0 - 1.0 / (3.0 * np.maximum(wide, 1.0))) / np.maximum(wide, 1.0)
         )

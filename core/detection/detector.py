@@ -59,11 +59,19 @@ class Detector:
     def region_about(self, pixel: FloatArray, covariance_px2: FloatArray, depth_m: FloatArray) -> Region:
         """Rectangle that holds all predicted discs (M, 2) with their uncertainty (M, 2, 2)."""
         disc_px_m, region_sd = self._camera.fx_px * self._settings.marker_radius_m, self._settings.region_sd
+        if (kernels := in_c()) is not None:
+            bounds = np.empty(4)
+            kernels.discs_reach(
+                len(pixel), *map(np.ascontiguousarray, (pixel, covariance_px2, depth_m)), disc_px_m, region_sd,
+                self._settings.most_unsure_px, _NEAREST_M, bounds,
+            )  # fmt: skip
+            return self._region(*bounds.tolist())
         variance = np.maximum(covariance_px2.diagonal(axis1=1, axis2=2), 0.0)
         reach = np.minimum(region_sd * np.sqrt(variance), self._settings.most_unsure_px)
         reach += (2.2 * disc_px_m / np.maximum(depth_m, _NEAREST_M) + 3.0)[:, None]
-        left, top = (pixel - reach).min(axis=0).tolist()
-        right, bottom = (pixel + reach).max(axis=0).tolist()
+        return self._region(*(pixel - reach).min(axis=0).tolist(), *(pixel + reach).max(axis=0).tolist())
+
+    def _region(self, left: float, top: float, right: float, bottom: float) -> Region:
         return Region(math.floor(left), math.floor(top), math.ceil(right) + 1, math.ceil(bottom) + 1).clipped(
             self._camera.width_px, self._camera.height_px
         )

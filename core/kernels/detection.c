@@ -712,3 +712,22 @@ int readings_about(
     *found = taken > 0 ? taken : -1;
     return 0;
 }
+
+/* Left, top, right and bottom of what discs may cover: detector.py, region_about. What is not known stays so. */
+int discs_reach(
+    int discs, const double *pixel, const double *covariance, const double *depth, double disc_px_m, double region_sd,
+    double most_unsure, double nearest_m, double *out)
+{
+    out[0] = out[1] = INFINITY;
+    out[2] = out[3] = -INFINITY;
+    for (int i = 0; i < discs; i++)
+        for (int k = 0; k < 2; k++) {
+            const double variance = covariance[4 * i + 3 * k], at = pixel[2 * i + k];
+            double reach = region_sd * sqrt(variance < 0.0 ? 0.0 : variance);
+            reach = reach > most_unsure ? most_unsure : reach;
+            reach += 2.2 * disc_px_m / (depth[i] < nearest_m ? nearest_m : depth[i]) + 3.0;
+            out[k] = at - reach < out[k] || isnan(at - reach) ? at - reach : out[k];
+            out[2 + k] = at + reach > out[2 + k] || isnan(at + reach) ? at + reach : out[2 + k];
+        }
+    return 0;
+}

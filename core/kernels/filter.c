@@ -28,7 +28,7 @@ static void reweighed(const double *before, const double *log_likelihood, double
 int corrected(
     int chains, int modes, int size, int count, const double *mean, const double *covariance, const double *probability,
     const double *value, const double *slope, const double *error, const double *about, const double *measured,
-    const double *variance, const double *shared, const double *share_mean, const double *share_covariance,
+    const double *variance, const double *shared, const double *share,
     double *out_mean, double *out_covariance, double *out_probability, double *nis, int64_t *dof, double *residual)
 {
     const int n = size, m = count, nn = n * n;
@@ -98,14 +98,14 @@ int corrected(
             for (int a = 0; a < u; a++)
                 add_scaled(line, apart[a], white + a * n, n);
             for (int j = 0; j < n; j++)
-                to[j] = at[j] + (share_mean ? share_mean[j] : 1.0) * line[j];
+                to[j] = at[j] + (share ? share[j] : 1.0) * line[j];
             product(wide, n, white, 1, n, white, n, n, u, n, SET | LOWER);
             for (int r = 0; r < n; r++) {
                 double *row = wide + r * n;
                 const double *before = spread + r * n;
-                if (share_covariance)
+                if (share)
                     for (int j = 0; j <= r; j++)
-                        row[j] = before[j] - share_covariance[r * n + j] * row[j];
+                        row[j] = before[j] - (share[r] + share[j] - share[r] * share[j]) * row[j];
                 else
                     for (int j = 0; j <= r; j++)
                         row[j] = before[j] - row[j];

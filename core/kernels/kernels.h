@@ -25,8 +25,8 @@ KERNEL int corrected(
     const double value[chains * count], const double slope[chains * count * size],
     const double error[chains * count * count], const double about[chains * size],
     const double measured[chains * count], const double variance[chains * count],
-    const double shared[chains * count * count], const double share_mean[size],
-    const double share_covariance[size * size], double out_mean[chains * modes * size],
+    const double shared[chains * count * count], const double share[size],
+    double out_mean[chains * modes * size],
     double out_covariance[chains * modes * size * size], double out_probability[chains * modes], double nis[chains],
     int64_t dof[chains], double residual[chains * count]);
 KERNEL int transitioned(
@@ -76,6 +76,15 @@ KERNEL int adapted_factors(
     int markers, const double factor[markers * 3], const double residual[markers * 3],
     const uint8_t measured[markers * 3], double weight, double least, double most, double out[markers * 3]);
 
+KERNEL int discs_in_camera(
+    const double value[54], const double rotation[9], const double palm[18], const double rotation_w0_cam[9],
+    const double translation[3], double out[18]);
+KERNEL int blobs_worth(
+    int blobs, const double pixel[blobs * 2], const double depth[blobs], const double depth_sd[blobs],
+    const double area[blobs], int use_depth, double radius_px, double shade, double whole_from, double pixel_sd,
+    double depth_ratio, double fixed_m, double square_per_m, int averages, double share, double patch,
+    double stays_fixed, double stays_square, double value[blobs * 3], double variance[blobs * 3]);
+
 /* surface.c */
 KERNEL int surface_fit(
     int count, const double *pixel, const double *depth, double fx, double fy, double cx, double cy,
@@ -113,6 +122,10 @@ KERNEL int readings_within(
 KERNEL int readings_about(
     int height, int width, const uint16_t raw[height * width], double unit_m, int discs, const double disc[discs * 2],
     double margin, int step, int most, double pixel[most * 2], double depth[most], int32_t found[1]);
+
+KERNEL int discs_reach(
+    int discs, const double pixel[discs * 2], const double covariance[discs * 4], const double depth[discs],
+    double disc_px_m, double region_sd, double most_unsure, double nearest_m, double out[4]);
 
 /* digits.c */
 KERNEL int digits_spread(

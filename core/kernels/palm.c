@@ -369,3 +369,47 @@ int adapted_factors(
     }
     return 0;
 }
+
+int discs_in_camera(
+    const double *value, const double *rotation, const double *palm, const double *rotation_w0_cam,
+    const double *translation, double *out)
+{
+    for (int d = 0; d < DISCS; d++) {
+        double place[3], in_w0[3];
+        for (int k = 0; k < 3; k++)
+            place[k] = palm[3 * d + k] + value[SHAPE + 3 * d + k] + value[SKIN + 3 * d + k];
+        times3(rotation, place, in_w0);
+        for (int k = 0; k < 3; k++)
+            in_w0[k] += value[POSITION + k];
+        times3(rotation_w0_cam, in_w0, out + 3 * d);
+        for (int k = 0; k < 3; k++)
+            out[3 * d + k] += translation[k];
+    }
+    return 0;
+}
+
+/* Blobs as measurements: palm_association.py, measurements_of. */
+int blobs_worth(
+    int blobs, const double *pixel, const double *depth, const double *depth_sd, const double *area, int use_depth,
+    double radius_px, double shade, double whole_from, double pixel_sd, double depth_ratio, double fixed_m,
+    double square_per_m, int averages, double share, double patch, double stays_fixed, double stays_square,
+    double *value, double *variance)
+{
+    for (int i = 0; i < blobs; i++) {
+        const double hidden = whole_from - area[i] / (M_PI * radius_px * radius_px);
+        const double wander_px = shade * radius_px * (hidden < 0.0 ? 0.0 : hidden);
+        const int known = use_depth && isfinite(depth[i]);
+        const double at_m = known ? depth[i] : 1.0, sd_m = known ? depth_sd[i] : 1.0, at2 = at_m * at_m;
+        const double patches = share * area[i] / (patch * patch);
+        double book_m = fixed_m + square_per_m * at2;
+        if (averages)
+            book_m /= sqrt(patches < 1.0 ? 1.0 : patches);
+        const double book2 = book_m * book_m, beyond2 = sd_m * sd_m - book2, stays_m = stays_fixed + stays_square * at2;
+        value[3 * i] = pixel[2 * i];
+        value[3 * i + 1] = pixel[2 * i + 1];
+        value[3 * i + 2] = use_depth ? depth[i] : NAN;
+        variance[3 * i] = variance[3 * i + 1] = pixel_sd * pixel_sd + wander_px * wander_px;
+        variance[3 * i + 2] = depth_ratio * depth_ratio * book2 + (beyond2 < 0.0 ? 0.0 : beyond2) + stays_m * stays_m;
+    }
+    return 0;
+}

@@ -240,7 +240,7 @@ class FingerModel:
     def learning(self, seat: Seat) -> float:
         """Share of what this picture says of the anatomy that is believed: little while the palm is unsure, as its
         error stays for as long as its discs are hidden."""
-        variance = float(np.trace(seat.pose_covariance[3:, 3:]))
+        variance = float(sum(seat.pose_covariance.diagonal()[3:].tolist()))
         own = self.settings.fingers
         return own.learning / (1.0 + (variance / own.sure_turn_rad**2) ** 2)
 

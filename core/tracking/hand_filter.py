@@ -114,7 +114,7 @@ class Posterior:
     @property
     def turn_sd_rad(self) -> float:
         """How surely the hand's turn was predicted, all axes and modes together."""
-        return math.sqrt(float(np.trace(self.predicted.nominal.covariance[TURN, TURN])))
+        return math.sqrt(sum(self.predicted.nominal.covariance.diagonal()[TURN].tolist()))
 
 
 class HandFilter:
@@ -237,7 +237,7 @@ class HandFilter:
         )
 
     def _by_surface(
-        self, scan: Scan, estimate: PalmEstimate, mixture: ModeMixture, partial: tuple[FloatArray, FloatArray] | None
+        self, scan: Scan, estimate: PalmEstimate, mixture: ModeMixture, partial: FloatArray | None
     ) -> tuple[PalmEstimate, ModeMixture] | None:
         """The palm updated by the surface of the back of the hand; None where that says nothing."""
         if self._surface is None or scan.ideal.surface is None:

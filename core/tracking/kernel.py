@@ -173,15 +173,15 @@ class Update:
     residual: FloatArray
 
 
-def partial_update(size: int, slow: slice, learning: float) -> tuple[FloatArray, FloatArray]:
-    """Shares of a correction that mean (n,) and covariance (n, n) take: the numbers of ``slow`` only ``learning``.
+def partial_update(size: int, slow: slice, learning: float) -> FloatArray:
+    """Shares (n,) of a correction that the mean takes: the numbers of ``slow`` only ``learning``.
 
     Partial-update Schmidt-Kalman filter (Brink 2017): errors that stay with a disc come again in every picture, and
     believed in full they would bend the hand's geometry until it explains them.
     """
     mean = np.ones(size)
     mean[slow] = learning
-    return mean, mean[:, None] + mean - mean[:, None] * mean
+    return mean
 
 
 def corrected(
@@ -190,7 +190,7 @@ def corrected(
     measured: FloatArray,
     variance: FloatArray,
     shared: FloatArray | None = None,
-    partial: tuple[FloatArray, FloatArray] | None = None,
+    partial: FloatArray | None = None,
 ) -> Update:
     """Kalman correction of every chain and mode by ``measured`` (C, m), NaN where there is nothing.
 
@@ -204,7 +204,7 @@ def corrected(
         kernels.corrected(
             *mixture.mean.shape, measured.shape[1], mixture.mean, mixture.covariance, mixture.probability,
             linearised.value, linearised.slope, linearised.error, linearised.about, measured, variance,
-            NOTHING if shared is None else shared, *((NOTHING, NOTHING) if partial is None else partial),
+            NOTHING if shared is None else shared, NOTHING if partial is None else partial,
             out.mean, out.covariance, out.probability, nis, dof, residual,
         )  # fmt: skip
         return Update(out, nis, dof, residual)
@@ -226,8 +226,8 @@ def corrected(
     step = (apart[..., None, :] @ white)[..., 0, :]
     covariance = _turned(white) @ white
     if partial is not None:
-        step *= partial[0]
-        covariance *= partial[1]
+        step *= partial
+        covariance *= partial[:, None] + partial - partial[:, None] * partial
     np.subtract(mixture.covariance, covariance, out=covariance)
     covariance += np.swapaxes(covariance, -1, -2).copy()
     covariance *= 0.5

@@ -10,7 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.depth_sensor import DepthSensor
+from carpus.core.depth_sensor import CORE_SHARE, DepthSensor
+from carpus.core.kernels.choice import in_c
 from carpus.core.tracking import association
 from carpus.core.tracking.joint_association import JointAssociation, associate_jointly, is_jointly_compatible
 from carpus.core.tracking.kernel import ModeMixture, corrected
@@ -57,6 +58,15 @@ def measurements_of(
     not the disc's.
     """
     noise = settings.noise
+    if (kernels := in_c()) is not None:
+        out = Measurements(np.empty((len(blobs), 3)), np.empty((len(blobs), 3)))
+        kernels.blobs_worth(
+            len(blobs), blobs.pixel, blobs.depth_m, blobs.depth_sd_m, blobs.area_px, settings.use_depth, radius_px,
+            noise.shade_share, noise.whole_from, noise.pixel_sd_px, noise.depth_ratio,
+            sensor.reading.fixed_m, sensor.reading.square_per_m, sensor.averages, CORE_SHARE, sensor.patch_px,
+            sensor.stays.fixed_m, sensor.stays.square_per_m, out.value, out.variance,
+        )  # fmt: skip
+        return out
     depth = blobs.depth_m if settings.use_depth else np.full_like(blobs.depth_m, np.nan)
     shown = blobs.area_px / (np.pi * radius_px**2)
     wander_px = noise.shade_share * radius_px * np.maximum(noise.whole_from - shown, 0.0)

@@ -83,7 +83,7 @@ class PredictedMeasurement:
     covariance: FloatArray
     view: View
     spread: Spread
-    partial: tuple[FloatArray, FloatArray] | None = None
+    partial: FloatArray | None = None
     digits: PredictedDigits | None = None
     order: MarkerOrder | None = None
 
@@ -144,7 +144,7 @@ def predicted_measurement(
     mixture: ModeMixture,
     view: View,
     spread: Spread,
-    partial: tuple[FloatArray, FloatArray] | None = None,
+    partial: FloatArray | None = None,
     digits: PredictedDigits | None = None,
     order: MarkerOrder | None = None,
 ) -> PredictedMeasurement:

@@ -51,14 +51,14 @@ def _cam_m(calibration: Calibration) -> FloatArray:
 def fresh_share(before_m: FloatArray, after_m: FloatArray, camera: Camera) -> float:
     """How far the depths' errors are other ones than in the picture before, 0 to 1, by how the discs (M, 3), in camera
     axes, have moved meanwhile: across by so much of a matching window, along by so much of a reading's error."""
-    across_m, down_m, along_m = np.abs(after_m - before_m).mean(axis=0).tolist()
-    depth_m = float(after_m[:, 2].mean())
+    across_m, down_m, along_m = (np.add.reduce(np.abs(after_m - before_m)) / len(after_m)).tolist()
+    depth_m = float(np.add.reduce(after_m[:, 2])) / len(after_m)
     windows = math.hypot(across_m, down_m) * camera.fx_px / depth_m / camera.sensor.patch_px
     return 1.0 - math.exp(-2.0 * windows - along_m / float(camera.sensor.reading_sd_m(np.array(depth_m))))
 
 
-def shape_partial_update(news: float) -> tuple[FloatArray, FloatArray]:
-    """Shares of a correction that mean and covariance take, what is learnt only ``news`` (0 to 1) of what is told."""
+def shape_partial_update(news: float) -> FloatArray:
+    """Shares (n,) of a correction that the mean takes, what is learnt only ``news`` (0 to 1) of what is told."""
     return partial_update(SIZE, LEARNT, 1.0 - math.sqrt(1.0 - news))
 
 

@@ -157,7 +157,7 @@ def calibrated_covariance(surface: BackSurface, view: View, settings: SurfaceSet
 def levelled_mixture(
     mixture: ModeMixture,
     found: SurfaceMeasurement,
-    partial: tuple[FloatArray, FloatArray] | None,
+    partial: FloatArray | None,
     settings: SurfaceSettings,
 ) -> ModeMixture | None:
     """The palm's modes corrected by what the surface says, numbers taking their ``partial``; None where it is so far

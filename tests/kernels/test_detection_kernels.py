@@ -166,6 +166,19 @@ def test_readings_about_the_fingers() -> None:
     assert both(lambda: finger_samples(empty, discs, SamplingSettings())) is None
 
 
+def test_where_expected_discs_may_lie() -> None:
+    rng = np.random.default_rng(17)
+    detector = Detector(learnt(Look(), rng)[0], CAMERA, SETTINGS)
+    for discs in (1, 6, 21):
+        pixel, depth = rng.uniform(20.0, 220.0, size=(discs, 2)), rng.uniform(0.1, 1.0, size=discs)
+        covariance = np.abs(rng.normal(size=(discs, 3, 3))) * 10.0 ** rng.uniform(-1.0, 5.0, size=(discs, 1, 1))
+        both(lambda p=pixel, c=covariance, d=depth: detector.region_about(p, c[:, :2, :2], d))
+    pixel[-1, 0] = np.nan
+    for how in (choice.NUMPY, *LEVELS):
+        with choice.forced(how), pytest.raises(ValueError):
+            detector.region_about(pixel, covariance[:, :2, :2], depth)
+
+
 @pytest.mark.parametrize("level", LEVELS)
 def test_a_depth_picture_of_another_size_is_refused(level: str) -> None:
     """Its readings lie elsewhere: as many pixels on or beyond its end they would be another place's, or nobody's."""

@@ -15,11 +15,12 @@ from carpus.core.tracking.adaptive_noise import adapted_factor
 from carpus.core.tracking.association import AssociationSettings, log_odds
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_ahead
+from carpus.core.tracking.palm_association import measurements_of
 from carpus.core.tracking.palm_state import BACK, RELIEF, SIZE, TURN, PalmEstimate
 from carpus.core.tracking.palm_view import View, error_reset, palm_linearised
 from carpus.core.tracking.predicted_measurement import predicted_measurement
 from carpus.core.tracking.readout import Readout, ReadoutSettings
-from carpus.core.tracking.settings import MeasurementNoise
+from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
 from carpus.core.tracking.soft_tissue import (
     DigitSpeeds,
     SoftTissue,
@@ -30,7 +31,7 @@ from carpus.core.tracking.soft_tissue import (
 )
 from carpus.core.tracking.surface_fit import SurfaceSettings, surface_measurement
 from carpus.core.tracking.unscented import Spread
-from carpus.core.types import FloatArray, Side, SurfaceSamples
+from carpus.core.types import Detections, FloatArray, Side, SurfaceSamples
 from tests.kernels.pairs import both
 from tests.kernels.test_filter_kernels import covariances
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, calibration
@@ -62,6 +63,7 @@ def test_sight_and_what_is_expected(seed: int, modes: int) -> None:
     rng = np.random.default_rng(seed)
     estimate, view = moving(seed), view_of(rng)
     both(lambda: palm_linearised(estimate, view, Spread()))
+    both(lambda: view.discs_cam_m(estimate))
     mixture = mixture_about(estimate, rng, modes)
 
     def expected() -> tuple[FloatArray, FloatArray]:
@@ -162,3 +164,17 @@ def test_adapted_noise() -> None:
         seen = rng.uniform(size=shape) < 0.6
         both(lambda f=factor, r=residual, s=seen: adapted_factor(f, r, s, 0.03, noise))
         both(lambda f=factor, r=residual: adapted_factor(f, r, np.zeros(r.shape, dtype=bool), 0.03, noise))
+
+
+@pytest.mark.parametrize("sensor", [PRIMESENSE, D435, AZURE_KINECT], ids=lambda sensor: sensor.name)
+@pytest.mark.parametrize("use_depth", [True, False])
+def test_what_blobs_are_worth(sensor: DepthSensor, use_depth: bool) -> None:
+    rng = np.random.default_rng(16)
+    for count in (0, 1, 30):
+        depth = rng.uniform(0.4, 1.2, size=count)
+        depth[1::4] = np.nan
+        blobs = Detections(
+            rng.uniform(0.0, 640.0, size=(count, 2)), depth, rng.uniform(1e-4, 0.01, size=count),
+            rng.uniform(5.0, 200.0, size=count), np.ones(count),
+        )  # fmt: skip
+        both(lambda blobs=blobs: measurements_of(blobs, 7.0, TrackerSettings(use_depth=use_depth), sensor))
