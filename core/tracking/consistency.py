@@ -85,14 +85,11 @@ def passed_over(
     ``assigned`` (M,) blob of every marker or -1; ``blob_px`` (B, 2) and ``blob_depth_m`` (B,) of all blobs.
     """
     out = np.zeros(assigned.size, dtype=bool)
-    missing = np.flatnonzero(assigned < 0)
-    if not missing.size:
+    is_named = assigned >= 0
+    named = assigned[is_named]
+    if named.size in (assigned.size, len(blob_px)):
         return out
-    is_unassigned = np.ones(len(blob_px), dtype=bool)
-    is_unassigned[assigned[assigned >= 0]] = False
-    unassigned = np.flatnonzero(is_unassigned)
-    if not unassigned.size:
-        return out
+    missing, unassigned = np.flatnonzero(~is_named), np.delete(np.arange(len(blob_px)), named)
     apart_px = blob_px[unassigned] - disc_px[missing][:, None]
     near = np.hypot(apart_px[..., 0], apart_px[..., 1]) < settings.near_m * focal_px / disc_depth_m[missing][:, None]
     deep = np.abs(blob_depth_m[unassigned][None] - disc_depth_m[missing][:, None]) < settings.near_depth_m

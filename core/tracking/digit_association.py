@@ -7,6 +7,7 @@ jointly compatible, all ways to name them are weighed jointly.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from itertools import product
 
@@ -25,7 +26,6 @@ from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray
 
-_AXES = np.arange(3)
 _SLOT = np.arange(SLOTS)
 BENDS = np.array([[0.0, 0.0, 1.0, 0.0, 1.0], *([0.0, 1.0, 1.0, 1.0, 0.0],) * 4])
 """Slots (5, 5) that tilt the discs past them."""
@@ -161,8 +161,7 @@ def _each_by_itself(scene: DigitScene, settings: TrackerSettings) -> DigitAssign
     assigned = np.full(CHAINS * DISCS, -1, dtype=np.int64)
     if not free.size:
         return DigitAssignment(assigned.reshape(CHAINS, DISCS), np.zeros((CHAINS, DISCS), dtype=bool))
-    place = 3 * np.arange(DISCS)[:, None] + _AXES
-    own = scene.spread[:, place[:, :, None], place[:, None, :]].reshape(-1, 3, 3)
+    own = np.einsum("rdidj->rdij", scene.spread.reshape(CHAINS, DISCS, 3, DISCS, 3)).reshape(-1, 3, 3)
     odds = association.log_odds(
         scene.linearised.value.reshape(-1, 3),
         own,
@@ -172,9 +171,9 @@ def _each_by_itself(scene: DigitScene, settings: TrackerSettings) -> DigitAssign
         settings.noise.depth_outlier,
         settings.association,
     )
-    assumed = np.log(settings.association.prior_marker / settings.association.prior_clutter)
+    assumed = math.log(settings.association.prior_marker / settings.association.prior_clutter)
     value = odds.value + (np.log(scene.visible / (1.0 - scene.visible)).ravel() - assumed)[:, None]
-    value[~np.repeat(scene.has_discs, DISCS)] = association.IMPOSSIBLE
+    value.reshape(CHAINS, DISCS, -1)[~scene.has_discs] = association.IMPOSSIBLE
     found = association.resolve(value)
     named = found >= 0
     assigned[named] = free[found[named]]

@@ -150,16 +150,19 @@ class Fingers:
 
     def _take(self, estimates: ModeMixture, merged: tuple[FloatArray, FloatArray]) -> None:
         self._estimates, (self._mean, self._covariance) = estimates, merged
+        self._speeds: DigitSpeeds | None = None
 
     @property
     def speeds(self) -> DigitSpeeds:
         """How fast the thumb turns at its base and the fingers at their knuckles, root mean square; a joint that
         nothing shows may turn as fast as its rate is unsure."""
-        unsure = np.where(self._unseen_s > 0.0, self._covariance[:, _RATE, _RATE], 0.0)
-        square = self._mean[:, _RATE] ** 2 + unsure
-        thumb, fingers = square[0, _THUMB_BASE].mean(), square[1:, FLEXION].mean()
-        fastest = self._settings.tissue.fastest_rad_s
-        return DigitSpeeds(min(math.sqrt(thumb), fastest), min(math.sqrt(fingers), fastest))
+        if self._speeds is None:
+            unsure = np.where(self._unseen_s > 0.0, self._covariance[:, _RATE, _RATE], 0.0)
+            square = self._mean[:, _RATE] ** 2 + unsure
+            thumb, fingers = square[0, _THUMB_BASE].mean(), square[1:, FLEXION].mean()
+            fastest = self._settings.tissue.fastest_rad_s
+            self._speeds = DigitSpeeds(min(math.sqrt(thumb), fastest), min(math.sqrt(fingers), fastest))
+        return self._speeds
 
     @property
     def known(self) -> ModeMixture:

@@ -63,8 +63,14 @@ class Readout:
         self._axes_shape = np.full(_SHAPE_SIZE, np.nan)
         self._axes = np.eye(3)
         self._sensitivity = np.zeros((3, _SHAPE_SIZE))
+        self._last: tuple[FloatArray, tuple[FloatArray, FloatArray]] | None = None
 
-    def _axes_of(self, shape: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _axes_of(self, estimate: PalmEstimate) -> tuple[FloatArray, FloatArray]:
+        if self._last is None or self._last[0] is not estimate.value:
+            self._last = estimate.value, self._axes_of_shape(estimate.value[SHAPE])
+        return self._last[1]
+
+    def _axes_of_shape(self, shape: FloatArray) -> tuple[FloatArray, FloatArray]:
         moved_m = shape - self._axes_shape
         if not np.abs(moved_m).max() <= self._settings.shape_moved_m:  # so too at first
             self._axes, self._sensitivity = wrist_axes_sensitivity(self._disc_m + shape.reshape(-1, 3), _DORSAL)
@@ -74,7 +80,7 @@ class Readout:
 
     def palm(self, estimate: PalmEstimate) -> tuple[PalmInBody, FloatArray]:
         """The palm as refined, for the fingers, and the covariance (3, 3) of its axes' turn, in the body."""
-        axes, sensitivity = self._axes_of(estimate.value[SHAPE])
+        axes, sensitivity = self._axes_of(estimate)
         error = np.zeros((3, SIZE))
         error[_AXES, TURN.start + _AXES] = 1.0
         error[:, SHAPE] = axes @ sensitivity
@@ -93,7 +99,7 @@ class Readout:
 
         The origin of W2 is the WRIST disc where the skin has carried it; the axes are those of the fixed unit.
         """
-        axes, sensitivity = self._axes_of(estimate.value[SHAPE])
+        axes, sensitivity = self._axes_of(estimate)
         if (kernels := in_c()) is not None:
             position, rate, angles, sd, zyz = np.empty((5, 3))
             shown = np.empty((3, 3))
