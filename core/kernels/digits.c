@@ -622,3 +622,83 @@ int knuckles_bent(
     free(lattice);
     return 0;
 }
+
+/* Where discs are to be seen, and how surely: predicted_measurement.py, PredictedDigits.image. */
+int digits_image(
+    const double *disc_m, const double *rotation, const double *translation, double fx, double fy, double cx, double cy,
+    double scale, double *pixel, double *covariance, double *depth)
+{
+    for (int c = 0; c < CHAINS; c++)
+        for (int d = 0; d < 3; d++) {
+            double u[POINTS], v[POINTS], *own = covariance + 4 * (3 * c + d);
+            for (int p = 0; p < POINTS; p++) {
+                double seen[3];
+                times3(rotation, disc_m + ((c * POINTS + p) * 3 + d) * 3, seen);
+                for (int k = 0; k < 3; k++)
+                    seen[k] += translation[k];
+                u[p] = seen[0] * (fx / seen[2]) + cx;
+                v[p] = seen[1] * (fy / seen[2]) + cy;
+                if (!p)
+                    depth[3 * c + d] = seen[2];
+            }
+            pixel[2 * (3 * c + d)] = u[0];
+            pixel[2 * (3 * c + d) + 1] = v[0];
+            memset(own, 0, 4 * sizeof *own);
+            for (int p = 1; p <= BENT; p++) {
+                const double x = (u[p] - u[BENT + p]) * (0.5 / scale), y = (v[p] - v[BENT + p]) * (0.5 / scale);
+                own[0] += x * x;
+                own[1] += x * y;
+                own[3] += y * y;
+            }
+            own[2] = own[1];
+        }
+    return 0;
+}
+
+int best_posture(
+    int postures, int blobs, const double *disc, const double *point, double near2, double nearness, double *score,
+    int64_t *best, int64_t *used, int64_t *found)
+{
+    if (postures < 1 || blobs < 1)
+        return OUTSIDE;
+    *score = -INFINITY;
+    for (int s = 0; s < postures; s++) {
+        double worth[3], sum = 0.0;
+        int nearest[3], count = 0;
+        for (int d = 0; d < 3; d++) {
+            const double *at = disc + (3 * s + d) * 3;
+            double least = INFINITY;
+            nearest[d] = 0;
+            for (int b = 0; b < blobs; b++) {
+                const double x = at[0] - point[3 * b], y = at[1] - point[3 * b + 1], z = at[2] - point[3 * b + 2];
+                const double gap2 = x * x + y * y + z * z;
+                if (gap2 < least) {
+                    least = gap2;
+                    nearest[d] = b;
+                }
+            }
+            worth[d] = 1.0 - least / near2;
+            worth[d] = worth[d] > 0.0 ? worth[d] : 0.0;
+        }
+        /* A blob is one disc only: the second disc that takes it is worth nothing. */
+        static const int PAIRS[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+        for (int k = 0; k < 3; k++) {
+            const int a = PAIRS[k][0], b = PAIRS[k][1];
+            if (nearest[a] == nearest[b])
+                worth[worth[a] < worth[b] ? a : b] = 0.0;
+        }
+        for (int d = 0; d < 3; d++) {
+            count += worth[d] != 0.0;
+            sum += worth[d];
+        }
+        if (count + nearness * sum > *score) {
+            *score = count + nearness * sum;
+            *best = s;
+            *found = 0;
+            for (int d = 0; d < 3; d++)
+                if (worth[d] > 0.0)
+                    used[(*found)++] = nearest[d];
+        }
+    }
+    return 0;
+}

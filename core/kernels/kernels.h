@@ -163,5 +163,11 @@ KERNEL int knuckles_bent(
     int shares, const double share[shares], double near, double steep, double facing_share, double most_past,
     double most_before, double nothing, double most_sd, double least_sd, double alike, double value[5],
     double variance[5]);
+KERNEL int digits_image(
+    const double disc_m[585], const double rotation[9], const double translation[3], double fx, double fy, double cx,
+    double cy, double scale, double pixel[30], double covariance[60], double depth[15]);
+KERNEL int best_posture(
+    int postures, int blobs, const double disc[postures * 9], const double point[blobs * 3], double near2,
+    double nearness, double score[1], int64_t best[1], int64_t used[3], int64_t found[1]);
 
 #endif

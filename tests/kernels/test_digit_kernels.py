@@ -12,6 +12,7 @@ from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measured_as_named
 from carpus.core.tracking.digit_filter import DigitPoints, DigitsLinearisation, digits_linearised, spread_points
+from carpus.core.tracking.digit_search import DigitSearchSettings, _best_posture
 from carpus.core.tracking.finger_depth import FingerDepthSettings, knuckle_bends
 from carpus.core.tracking.finger_model import Seat, seat_of
 from carpus.core.tracking.fingers import Fingers, disc_visibility
@@ -20,6 +21,8 @@ from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.joint_limits import LimitSettings, constrained
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.palm_association import Measurements
+from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.predicted_measurement import PredictedDigits
 from carpus.core.tracking.readout import Readout, ReadoutSettings
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.unscented import Spread
@@ -28,7 +31,7 @@ from tests.accuracy.carpus import measured_hand
 from tests.kernels.pairs import both
 from tests.kernels.test_filter_kernels import covariances
 from tests.simulation.measurements import measurement_sequence
-from tests.tracking.hands import RIGHT_PALM_M
+from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
 from tests.tracking.test_finger_depth import VIEW, readings, states
 from tests.tracking.test_palm_filter import moving
 
@@ -132,6 +135,21 @@ def test_limits_of_joints(modes: int) -> None:
     narrow = ModeMixture(0.3 + 0.0 * mean, 1e-9 * covariance, mixture.probability)
     middle = np.full((5, 5), 0.3)
     both(lambda: constrained(narrow, middle, LimitSettings()))
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_where_digits_are_expected(side: str) -> None:
+    it, estimate, view = hand(side, 1), moving(1), View(CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, np.zeros((6, 18)))
+    digits = PredictedDigits(it.fingers.known, it.points(), it.seat.palm)
+    both(lambda: digits.image(estimate, view, Spread()))
+
+
+@pytest.mark.parametrize("count", [2, 9])
+def test_the_posture_that_explains_most(count: int) -> None:
+    rng = np.random.default_rng(18)
+    disc_m, settings = rng.normal(scale=0.02, size=(200, 3, 3)), DigitSearchSettings()
+    for point_m in (disc_m[7, :2] + 0.001, rng.normal(scale=0.02, size=(count, 3)), np.full((count, 3), 9.0)):
+        both(lambda point_m=point_m: _best_posture(disc_m, point_m, settings))
 
 
 @pytest.mark.parametrize("flexion_deg", [10.0, 70.0])
