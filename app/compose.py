@@ -26,7 +26,6 @@ from carpus.app.desktop.backing_up import BackingUp
 from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.erasing import Erasing
 from carpus.app.desktop.journey import Journey, Parts
-from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.locking import Locking
 from carpus.app.desktop.no_folder import NoFolder
 from carpus.app.desktop.patients import PatientShelf
@@ -52,6 +51,7 @@ from carpus.ui.check_card.standing_words import card_words
 from carpus.ui.fonts import load_fonts
 from carpus.ui.icons import program_icon
 from carpus.ui.keys import Keys
+from carpus.ui.last_places import LastPlaces
 from carpus.ui.settings.camera_card import CameraCard
 from carpus.ui.shell import Shell
 from carpus.ui.style import apply_style
@@ -155,7 +155,7 @@ class Desktop:
     def why_no_other_language(self) -> str:
         """One sentence where the window cannot be put together again now, else nothing."""
         journey, safe = self.journey, self.safe
-        busy = journey.is_at_work or safe.backing_up.is_at_work or self.tour.is_on or journey.teller.busy
+        busy = journey.is_at_work or safe.backing_up.is_at_work or self.tour.is_on or journey.messages.busy
         return not_now_words() if busy else ""
 
     def come_to_front(self) -> None:
@@ -261,7 +261,7 @@ def compose(
         journey, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen), library.error_limits
     )
     keeper.screen.retest_wanted.connect(journey.show_retest)
-    journey.retesting.in_force.connect(lambda: keeper.screen.show_limits(library.error_limits))
+    journey.retest.in_force.connect(lambda: keeper.screen.show_limits(library.error_limits))
     follows = qt.styleHints().colorSchemeChanged.connect(lambda _: keeper.follow_system())
     library.who = lambda: journey.settings.report.therapist
     library.angle_order = lambda: journey.settings.report.angle_order
@@ -285,12 +285,12 @@ def compose(
     keeper.language_chosen.connect(lambda: QTimer.singleShot(0, desktop.speak_anew))
     keeper.keeps_language = desktop.why_no_other_language
     for found in recovered:
-        words = journey.teller.recovered_words(found)
+        words = journey.messages.recovered_words(found)
         place = journey.patients.notice_place
-        journey.teller.strip(place, words, tr("Re&view it"), partial(journey.review_recovered, found))
+        journey.messages.strip(place, words, tr("Re&view it"), partial(journey.review_recovered, found))
     for fault in (*told, *faults):
         said = WordTable().fault(fault)
-        journey.teller.strip(
+        journey.messages.strip(
             journey.patients.notice_place,
             said,
             tr("I have read it"),
@@ -374,7 +374,7 @@ def speak_in_the_window(desktop: Desktop) -> None:
     def hook(kind: type[BaseException], value: BaseException, trace: TracebackType | None) -> None:
         logging.getLogger("carpus").error("uncaught", exc_info=(kind, value, trace))
         if isinstance(value, Exception):
-            desktop.journey.teller.fault(value)
+            desktop.journey.messages.fault(value)
 
     sys.excepthook = hook
 

@@ -26,8 +26,8 @@ from carpus.core.phrase import phrase
 from carpus.core.pipeline.live import LiveSettings
 from carpus.core.pipeline.live_values import StartMode
 from carpus.core.pipeline.track import TrackSettings
+from carpus.core.results.report_form import ReportSettings
 from carpus.core.session.values import ANGLE_ORDERS as ANGLE_ORDERS
-from carpus.core.session.values import AngleOrder
 from carpus.core.tracking.settings import TrackerSettings
 
 SETTINGS_FILE, PREFERENCES_FILE = "settings.toml", "preferences.toml"
@@ -74,18 +74,6 @@ class RecordingSettings:
     keep_pictures: bool = True
     smooth: bool = True
     start: StartMode = "key"
-
-
-@dataclass(frozen=True, slots=True)
-class ReportSettings:
-    """``therapist`` initials that are printed on reports; ``angle_order`` of the wrist's angles in the window and on
-    reports: the papers' ``zyx`` or ``isb``; ``agreement_limit_deg`` what two measurements may differ by, 0 for none;
-    ``retest_days`` after a session the next one is due on the clinic's page."""
-
-    therapist: str = ""
-    angle_order: AngleOrder = "zyx"
-    agreement_limit_deg: float = 0.0
-    retest_days: int = 28
 
 
 @dataclass(frozen=True, slots=True)

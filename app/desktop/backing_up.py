@@ -101,7 +101,7 @@ class BackingUp(QObject):
     def look_again(self) -> None:
         """Work out how it stands, and show it."""
         store = self._library.store
-        self._background.run(lambda: last_backup(store), self._take_last, self._journey.teller.fault, self)
+        self._background.run(lambda: last_backup(store), self._take_last, self._journey.messages.fault, self)
 
     def _take_last(self, last: LastBackup | None) -> None:
         self.last = last
@@ -123,7 +123,7 @@ class BackingUp(QObject):
         facts = self._facts()
         words = Words(facts.headline, facts.detail, self.tr("Plug the disk for back-ups in, and back up."))
         place = self._journey.patients.notice_place
-        self._journey.teller.strip(place, words, self.tr("To the settings"), self._journey.safety_wanted.emit)
+        self._journey.messages.strip(place, words, self.tr("To the settings"), self._journey.safety_wanted.emit)
 
     def look(self) -> None:
         """Once a minute: is it time?"""
@@ -171,7 +171,7 @@ class BackingUp(QObject):
     def _failed(self, fault: Exception) -> None:
         self._running = False
         self.card.show_progress(None)
-        self._journey.teller.fault(fault)
+        self._journey.messages.fault(fault)
 
     def _choose_place(self) -> bool:
         """Ask for the folder; whether one was chosen."""
@@ -260,7 +260,7 @@ class BackingUp(QObject):
     def _ask(self, backup: Backup, content: Content, plan: RestorePlan) -> None:
         what = self.tr("Restore the back-up of {when}? {come} sessions come, {change} change, {go} go.")
         when = numbers.report_date(backup.made.astimezone())
-        self._journey.teller.ask(
+        self._journey.messages.ask(
             Words(
                 what.format(when=when, come=len(plan.added), change=len(plan.replaced), go=len(plan.lost)),
                 self.tr("The folder of what is here now is kept beside the new one."),

@@ -9,14 +9,14 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject
 
-from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.phrases import shortened
-from carpus.app.desktop.places import STEPS, TABS, UNDER_TABS, Place
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.pipeline.live_values import LiveCounters
 from carpus.core.results.figures import SessionFigures
 from carpus.ui import numbers, terms
+from carpus.ui.flow import STEPS, TABS, Navigator
 from carpus.ui.icons import State
+from carpus.ui.now_open import NowOpen
 from carpus.ui.ports import Phrasebook
 from carpus.ui.shell import Shell
 
@@ -43,40 +43,35 @@ class Bar(QObject):
         self,
         shell: Shell,
         now: NowOpen,
-        place: Callable[[], Place],
+        way: Navigator,
         camera_there: Callable[[], bool],
         review: OnReview,
         phrasebook: Phrasebook,
         *,
         is_demo: bool,
         care: Callable[[], tuple[State, str] | None] = lambda: None,
-        sign_more: Callable[[], list[str]] = list,
     ) -> None:
         super().__init__(shell)
-        self._shell, self._now, self._place = shell, now, place
+        self._shell, self._now, self._way = shell, now, way
         self._again = (-1, 0)
-        self._care, self._sign_more = care, sign_more
+        self._care = care
         self._camera_there, self._review, self._phrasebook, self._is_demo = camera_there, review, phrasebook, is_demo
 
     def show(self) -> None:
         """All of it, for the place."""
-        bar, row, set_up, place = self._shell.bar, self._now.patient, self._now.set_up, self._place()
+        bar, row, set_up, place = self._shell.bar, self._now.patient, self._now.set_up, self._way.place
         side = set_up.side if set_up is not None else row.side if row is not None else ""
         words = [terms.hand_name(side)] if side else []
         if place == "live" and set_up is not None:
             words.append(terms.exercise_name(set_up.exercise.id))
-        own = {
-            "clinic": self.tr("Clinic"),
-            "retest": self.tr("Test and retest"), "board": self.tr("Camera calibration"), "card": self.tr("Check card")
-        }  # fmt: skip
-        name = own.get(place, self._now.name)
-        bar.show_place(name, " · ".join(words))
+        here = self._way.here
+        bar.show_place(here.title(), " · ".join(words))
         if place in STEPS and place != "live":
             names = [self.tr("Exercise"), self.tr("Camera"), self.tr("Markers"), self.tr("Measure")]
             bar.show_steps(names, STEPS.index(place))
-        elif place in TABS or place in UNDER_TABS:
+        elif place in TABS or here.tab:
             names = [self.tr("Sessions"), self.tr("Review"), self.tr("Progress"), self.tr("Report")]
-            bar.show_tabs(names, TABS.index(UNDER_TABS.get(place, place)))
+            bar.show_tabs(names, TABS.index(here.tab or place))
         else:
             bar.show_nothing()
         if place != "live":
@@ -87,7 +82,7 @@ class Bar(QObject):
 
     def sign_lines(self) -> list[str]:
         """What must not be forgotten of what is on the screen: that it is simulated, or was doubtful."""
-        now, place, figures = self._now, self._place(), self._review.figures
+        now, place, figures = self._now, self._way.place, self._review.figures
         simulated = False
         findings: tuple[CalibrationFinding, ...] = ()
         measuring = now.source.measuring if now.source is not None else None
@@ -106,12 +101,11 @@ class Bar(QObject):
         if findings:
             said = " ".join(self._phrasebook.finding(finding).happened for finding in findings)
             lines.append(self.tr("Measured although doubtful: {findings}").format(findings=said))
-        lines += self._sign_more()
-        return lines
+        return [*lines, *self._way.here.sign_lines()]
 
     def show_camera(self) -> None:
         """The camera in words; on the live screen the counters speak."""
-        camera, now, place = self._shell.bar.camera, self._now, self._place()
+        camera, now, place = self._shell.bar.camera, self._now, self._way.place
         if place == "live":
             return
         if place == "camera":
@@ -135,7 +129,7 @@ class Bar(QObject):
         not while measuring."""
         self._again = (percent, waiting)
         button = self._shell.bar.again
-        if self._place() == "live":
+        if self._way.place == "live":
             button.show_words("", "")
         elif percent >= 0:
             short = self.tr("{percent} %").format(percent=percent)

@@ -11,9 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.camera_at_hand import CameraAtHand, Look
-from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.naming import Naming
-from carpus.app.desktop.ways import Tell, Way
 from carpus.core.camera_calibration.board import Board, board_sheet
 from carpus.core.camera_calibration.calibrate import calibrate_camera
 from carpus.core.camera_calibration.effect import effect_of
@@ -31,6 +29,9 @@ from carpus.ui.background import Background
 from carpus.ui.camera_calibration.screen import BoardScreen
 from carpus.ui.camera_calibration.values import BoardChoice, BoardProgress, BoardResult
 from carpus.ui.fault_words import fault_words
+from carpus.ui.flow import Navigator
+from carpus.ui.last_places import LastPlaces
+from carpus.ui.messages.messages import Messages
 from carpus.ui.report.calibration_page import write_calibration_page
 from carpus.ui.report.pdf import write_sheets
 
@@ -54,8 +55,8 @@ class Calibrating(QObject):
         self,
         window: QWidget,
         screen: BoardScreen,
-        way: Way,
-        tell: Tell,
+        way: Navigator,
+        tell: Messages,
         cameras: BoardCameras,
         places: LastPlaces,
         background: Background,

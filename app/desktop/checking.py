@@ -13,9 +13,7 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.calibrating import lost_words
 from carpus.app.desktop.camera_at_hand import CameraAtHand, Look
-from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.naming import Naming
-from carpus.app.desktop.ways import Tell, Way
 from carpus.core.camera_calibration.sheet import PAPER_MM
 from carpus.core.capture.calibrated import SERIAL
 from carpus.core.capture.source import FrameSource, Notice, SourceInfo
@@ -31,6 +29,9 @@ from carpus.ui import numbers
 from carpus.ui.background import Background
 from carpus.ui.check_card.screen import CardScreen
 from carpus.ui.check_card.values import CameraChecks, CardProgress
+from carpus.ui.flow import Navigator
+from carpus.ui.last_places import LastPlaces
+from carpus.ui.messages.messages import Messages
 from carpus.ui.report.check_page import CheckResult, write_check_report
 from carpus.ui.report.pdf import write_sheets
 
@@ -71,8 +72,8 @@ class Checking(QObject):
         self,
         window: QWidget,
         screen: CardScreen,
-        way: Way,
-        tell: Tell,
+        way: Navigator,
+        tell: Messages,
         cameras: CardCameras,
         places: LastPlaces,
         background: Background,

@@ -11,7 +11,6 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 
 from carpus import __version__
-from carpus.app.desktop.ways import Tell, Way
 from carpus.core.library.corrections import Corrections, Difference, Waiting, difference
 from carpus.core.pipeline.correction import correct_in_process, not_held, task_of
 from carpus.core.results.figures import session_figures
@@ -23,7 +22,9 @@ from carpus.ui import numbers, terms
 from carpus.ui.background import Background
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
+from carpus.ui.flow import Navigator
 from carpus.ui.marker_words import marker_name
+from carpus.ui.messages.messages import Messages
 from carpus.ui.ports import StoredMoment
 from carpus.ui.translate import inside, tr
 
@@ -56,8 +57,8 @@ class Correcting(QObject):
         parent: QObject,
         screen: CorrectScreen,
         sheet: ResultsSheet,
-        way: Way,
-        tell: Tell,
+        way: Navigator,
+        tell: Messages,
         stored: Corrections,
         *,
         initials: Callable[[], str],

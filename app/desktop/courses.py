@@ -7,9 +7,7 @@ import math
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QWidget
 
-from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.patient_view import PatientViewing
-from carpus.app.desktop.ways import Tell
 from carpus.core.errors import CarpusFault
 from carpus.core.library.exercise_sets import USUAL_SETS, ExerciseSet, next_part
 from carpus.core.library.kept_sets import keep_sets, read_sets
@@ -18,6 +16,8 @@ from carpus.core.library.set_up import SetUp
 from carpus.ui import numbers
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen
+from carpus.ui.messages.messages import Messages
+from carpus.ui.now_open import NowOpen
 from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.setup.set_words import course_words
@@ -31,7 +31,7 @@ LINGER_S = 2.0
 class KeptSets(QObject):
     """What the exercise screen offers; kept in the store."""
 
-    def __init__(self, host: QWidget, screen: ExerciseScreen, tell: Tell, library: Library, theme: Theme) -> None:
+    def __init__(self, host: QWidget, screen: ExerciseScreen, tell: Messages, library: Library, theme: Theme) -> None:
         super().__init__(host)
         self._screen, self._tell, self._library = screen, tell, library
         self.sheet = SetSheet(host, theme)

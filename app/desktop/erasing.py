@@ -55,7 +55,7 @@ class Erasing(QObject):
         self._ask(lambda: self._records.plan_patient(patient_id))
 
     def _ask(self, work: Callable[[], ErasurePlan]) -> None:
-        self._journey.background.run(work, self._show, self._journey.teller.fault, self)
+        self._journey.background.run(work, self._show, self._journey.messages.fault, self)
 
     def _show(self, plan: ErasurePlan) -> None:
         self._plan = plan
@@ -107,7 +107,7 @@ class Erasing(QObject):
 
     def _say(self, place: QVBoxLayout, words: Words, icon: str) -> None:
         """What was done, until it is closed or left."""
-        strip = self._journey.teller.strip(place, words, "", lambda: None, icon=icon, later=self.tr("Close"))
+        strip = self._journey.messages.strip(place, words, "", lambda: None, icon=icon, later=self.tr("Close"))
         self._journey.way.leaving.connect(strip.later)
 
     def _archive(self) -> None:
@@ -120,7 +120,7 @@ class Erasing(QObject):
                 self._gone(single)
                 self._offer_undo(plan, plan.identity)
 
-            self._journey.background.run(lambda: act(plan.identity), done, self._journey.teller.fault, self)
+            self._journey.background.run(lambda: act(plan.identity), done, self._journey.messages.fault, self)
 
     def _offer_undo(self, plan: ErasurePlan, archived: str) -> None:
         """What was archived is said where it was, and comes back by one press."""
@@ -134,7 +134,7 @@ class Erasing(QObject):
             what = self.tr("{name} is in the archive.").format(name=plan.pseudonym)
             place = journey.patients.notice_place
         words = Words(what, self.tr("Nothing is lost. It counts nowhere until it is brought back."), "")
-        strip = journey.teller.strip(
+        strip = journey.messages.strip(
             place, words, self.tr("&Undo"), lambda: self._bring_back(archived), icon="archive", later=self.tr("Close")
         )
         journey.way.leaving.connect(strip.later)  # elsewhere it is said no more; the archive has it
@@ -143,7 +143,7 @@ class Erasing(QObject):
         self._journey.background.run(
             lambda: self._records.bring_back(identity),
             lambda _: self.show_again(identity),
-            self._journey.teller.fault,
+            self._journey.messages.fault,
             self,
         )
 
@@ -160,7 +160,7 @@ class Erasing(QObject):
     def _refused(self, single: bool, fault: Exception) -> None:
         """Some of it may be gone all the same."""
         self._gone(single)
-        self._journey.teller.fault(fault)
+        self._journey.messages.fault(fault)
 
     def _gone(self, single: bool) -> None:
         """The list from which it was chosen, without it."""

@@ -8,12 +8,12 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
-from carpus.app.desktop.files_written import tell_written
-from carpus.app.desktop.last_places import LastPlaces
-from carpus.app.desktop.ways import Tell
 from carpus.core.formats.film import UNFINISHED, write_film, write_picture
 from carpus.core.library.library import Library
 from carpus.ui.background import Background
+from carpus.ui.last_places import LastPlaces
+from carpus.ui.messages.files_written import tell_written
+from carpus.ui.messages.messages import Messages
 from carpus.ui.review.film import FilmWanted, film_pictures
 from carpus.ui.theme import Theme
 
@@ -24,7 +24,13 @@ class Filming(QObject):
     filmed = Signal(str, object)
 
     def __init__(
-        self, window: QWidget, tell: Tell, library: Library, places: LastPlaces, background: Background, theme: Theme
+        self,
+        window: QWidget,
+        tell: Messages,
+        library: Library,
+        places: LastPlaces,
+        background: Background,
+        theme: Theme,
     ) -> None:
         super().__init__(window)
         self._window, self._tell, self._library = window, tell, library

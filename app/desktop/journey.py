@@ -1,6 +1,6 @@
 """Puts the screens and the flows together: patient, exercise, camera, markers, live, review, progress, report.
 
-Each flow knows only its own screens and the narrow ports of :mod:`app.desktop.ways`; which leads to which is told here.
+A screen whose flow lies in its folder knows its own way (:mod:`ui.flow`); of the others it is told here.
 """
 
 from __future__ import annotations
@@ -11,37 +11,29 @@ from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date, datetime
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QWidget
 
+from carpus import __version__
 from carpus.app.desktop.bar import Bar
-from carpus.app.desktop.beside import Beside
-from carpus.app.desktop.by_hand import ByHand
 from carpus.app.desktop.calibrating import Calibrating
 from carpus.app.desktop.camera_care import CameraCare
 from carpus.app.desktop.camera_watch import CameraWatch
 from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.checking import Checking
-from carpus.app.desktop.clinic import Clinic
-from carpus.app.desktop.comparing import Comparing
 from carpus.app.desktop.correcting import Correcting, Moments
 from carpus.app.desktop.courses import CourseRun, KeptSets
 from carpus.app.desktop.filming import Filming
-from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.measuring_flow import MeasuringFlow
-from carpus.app.desktop.navigation import Navigator, ScreenStop
-from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.opening import Opener
 from carpus.app.desktop.patient_view import PatientViewing
-from carpus.app.desktop.places import STEPS, TABS, Place
 from carpus.app.desktop.printing import Printing
 from carpus.app.desktop.report_forms import ReportForms
-from carpus.app.desktop.retesting import Retesting
 from carpus.app.desktop.setting_up import SettingUp, SetUpScreens
 from carpus.app.desktop.shelf import StoredSessions
-from carpus.app.desktop.sources import OpenSource, Sources
-from carpus.app.desktop.teller import Teller
+from carpus.app.desktop.sources import Sources
 from carpus.app.desktop.viewing import Viewing, ViewScreens
 from carpus.app.settings import Settings
 from carpus.core.capture.calibrated import SERIAL
@@ -49,28 +41,32 @@ from carpus.core.errors import CarpusFault
 from carpus.core.library.corrections import Corrections
 from carpus.core.library.library import Library, Recovered
 from carpus.core.library.set_up import SetUp
-from carpus.ui.agreement.screen import AgreementScreen
+from carpus.ui.agreement.flow import AgreementFlow
 from carpus.ui.background import Background
-from carpus.ui.beside.screen import BesideScreen
-from carpus.ui.by_hand.screen import ByHandScreen
+from carpus.ui.beside.flow import BesideFlow
+from carpus.ui.by_hand.flow import ByHandFlow
 from carpus.ui.camera_calibration.screen import BoardScreen
 from carpus.ui.check_card.screen import CardScreen
 from carpus.ui.check_card.standing_words import bar_words, card_words, session_words, unsure_words
-from carpus.ui.clinic.screen import ClinicScreen
+from carpus.ui.clinic.flow import ClinicFlow
 from carpus.ui.correct.results_sheet import ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
+from carpus.ui.flow import STEPS, TABS, Context, Flow, Navigator
 from carpus.ui.help.screen import HelpScreen
 from carpus.ui.icons import State
 from carpus.ui.keys import Keys
+from carpus.ui.last_places import LastPlaces
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.markers.screen import MarkersScreen
+from carpus.ui.messages.messages import Messages
 from carpus.ui.messages.strip import NoticeStrip
+from carpus.ui.now_open import NowOpen, OpenSource
 from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.ports import PatientRow, PatientStore, Phrasebook
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.screen import ReportScreen
-from carpus.ui.retest.screen import RetestScreen
+from carpus.ui.retest.flow import RetestFlow
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.sessions.screen import SessionsScreen
 from carpus.ui.setup.camera import CameraScreen
@@ -111,6 +107,47 @@ def _now() -> datetime:
     return datetime.now().astimezone()
 
 
+class _Stop(Flow):
+    """A screen whose flow lies elsewhere; each of these becomes a flow in the screen's folder."""
+
+    def __init__(
+        self,
+        context: Context,
+        place: str,
+        screen: QWidget,
+        guide: str = "session",
+        *,
+        show: Callable[..., None] | None = None,
+        first: Callable[[], QWidget] | None = None,
+        up: Callable[[], None] | None = None,
+        leave: Callable[[], None] = lambda: None,
+        while_aside: bool = False,
+        title: str = "",
+        sign: Callable[[], list[str]] = list,
+    ) -> None:
+        self.place, self.guide, self.while_aside = place, guide, while_aside
+        self._show, self._first, self._up, self._leave, self._title, self._sign = show, first, up, leave, title, sign
+        super().__init__(context, screen)
+
+    def show(self, *given: Any) -> None:
+        (self._show or super().show)(*given)
+
+    def title(self) -> str:
+        return self._title or super().title()
+
+    def first(self) -> QWidget:
+        return (self._first or super().first)()
+
+    def up(self) -> None:
+        (self._up or super().up)()
+
+    def leave(self) -> None:
+        self._leave()
+
+    def sign_lines(self) -> list[str]:
+        return self._sign()
+
+
 class Journey(QObject):
     """Owns the screens and the flows. ``settings_wanted`` asks for the settings screen,
     ``safety_wanted`` for what it has of back-up, lock and records."""
@@ -127,8 +164,12 @@ class Journey(QObject):
         self.now = NowOpen(choice=SourceChoice("practice" if parts.is_demo else "camera"))
         self.background = Background()
         self.opener = Opener(parts.sources)
-        self._places = LastPlaces(parts.library.store)
-        self.teller = Teller(shell.stage, theme, parts.phrasebook)
+        self.messages = messages = Messages(shell.stage, theme, parts.phrasebook)
+        self.way = Navigator(shell, lambda: messages.busy, lambda: self.live.recording_state != "off")
+        self.context = Context(
+            shell, theme, keys, parts.library, self.background, messages, self.way, self.now,
+            LastPlaces(parts.library.store), parts.settings.report, parts.today, __version__, parts.is_demo,
+        )  # fmt: skip
         self._make_screens(theme, keys)
         self._make_flows(theme)
         self._fill_table()
@@ -147,13 +188,7 @@ class Journey(QObject):
         self.review = ReviewScreen(theme, keys, background, library)
         self.sessions = SessionsScreen(theme, background, StoredSessions(library), keys)
         self.progress = ProgressScreen(theme, keys, background, library)
-        self.by_hand = ByHandScreen(theme, self._parts.today)
         self.report = ReportScreen(theme, keys, background)
-        self.agreement = AgreementScreen(theme, keys)
-        self._beside_background = Background()  # its own: what the list still reads holds up no picture
-        self.beside_screen = BesideScreen(theme, keys, self._beside_background, library)
-        self.retest = RetestScreen(theme, keys)
-        self.clinic = ClinicScreen(theme, keys)
         self.board = BoardScreen(theme, keys)
         self.card = CardScreen(theme, keys)
         self._corrections = Corrections(library)
@@ -163,8 +198,8 @@ class Journey(QObject):
         self.help = HelpScreen(theme, keys)
 
     def _make_flows(self, theme: Theme) -> None:
-        now, tell, library, places = self.now, self.teller, self._parts.library, self._places
-        self.way = Navigator(self._shell, lambda: tell.busy, lambda: self.live.recording_state != "off")
+        now, tell, library, context = self.now, self.messages, self._parts.library, self.context
+        places = context.places
         # In a demo the simulated camera is the camera: whether another is plugged in is nowhere looked for, or said.
         self.watch = CameraWatch(self, (lambda: "") if self.is_demo else self._parts.sources.camera_name)
         self.setting_up = SettingUp(
@@ -186,26 +221,11 @@ class Journey(QObject):
             today=self._parts.today,
         )  # fmt: skip
         self.filming = Filming(self._shell, tell, library, places, self.background, theme)
-        self.entering_by_hand = ByHand(
-            self, self.by_hand, self.way, tell, now, library, self.background,
-            initials=lambda: self.settings.report.therapist, back=self._to_progress,
-        )  # fmt: skip
-        self.comparing = Comparing(
-            self._shell, self.agreement, self.way, tell, now, library, places,
-            theme=theme, limit_deg=lambda: self.settings.report.agreement_limit_deg,
-        )  # fmt: skip
-        self.beside = Beside(
-            self._shell, self.beside_screen, self.way, tell, now, library, places, self.background,
-            theme=theme, therapist=lambda: self.settings.report.therapist,
-        )  # fmt: skip
-        self.retesting = Retesting(
-            self._shell, self.retest, self.way, tell, library, places, self.background, theme=theme,
-            today=self._parts.today,
-        )  # fmt: skip
-        self.clinic_weeks = Clinic(
-            self._shell, self.clinic, self.way, tell, library, places, self.background,
-            after_days=lambda: self.settings.report.retest_days, today=self._parts.today,
-        )  # fmt: skip
+        self.by_hand = ByHandFlow(context)
+        self.agreement = AgreementFlow(context)
+        self.beside = BesideFlow(context)
+        self.retest = RetestFlow(context)
+        self.clinic = ClinicFlow(context)
         cameras, is_demo = self._parts.cameras, self.is_demo
         self.care = CameraCare(self, cameras, self.background, _now)
         self.calibrating = Calibrating(
@@ -220,49 +240,49 @@ class Journey(QObject):
             initials=lambda: self.settings.report.therapist,
         )  # fmt: skip
         self.bar = Bar(
-            self._shell, now, lambda: self.way.place, lambda: self.watch.there, self.review, self._parts.phrasebook,
-            is_demo=is_demo, care=self._care_words, sign_more=self._care_lines,
+            self._shell, now, self.way, lambda: self.watch.there, self.review, self._parts.phrasebook,
+            is_demo=is_demo, care=self._care_words,
         )  # fmt: skip
 
     def _fill_table(self) -> None:
-        """Every place: its screen, what has the keyboard first, where Back leads, what ends with it."""
-        put, first, setting_up = self.way.put, self._first, self.setting_up
+        """The screens whose flow is not their own yet."""
+        context, setting_up, viewing = self.context, self.setting_up, self.viewing
         up_from_patients = self._past_strips(self.patients, self._to_patient)
-        put("patients", ScreenStop(self.patients, lambda: self.patients.search, up_from_patients))
-        put("exercise", ScreenStop(self.exercise, self.exercise.first, self._to_patient))
-        put("camera", ScreenStop(self.camera, self.camera.first, setting_up.up_from_camera))
-        markers = ScreenStop(
-            self.markers, lambda: self.markers.picture, setting_up.up_from_markers, self.markers.end, while_aside=True
-        )
-        put("markers", markers)
-        put("live", ScreenStop(self.live, first(self.live), setting_up.up_to_camera))
         up_from_sessions = self._past_strips(self.sessions, self._to_patient)
-        put("sessions", ScreenStop(self.sessions, self.sessions.first, up_from_sessions))
-        put("review", ScreenStop(self.review, first(self.review), self._to_patient, self.review.end))
-        put("progress", ScreenStop(self.progress, first(self.progress), self._up_from_progress))
-        put("by_hand", ScreenStop(self.by_hand, self.by_hand.first, self.entering_by_hand.leave))
-        put("report", ScreenStop(self.report, lambda: self.report.save_button, self._up_from_report))
-        put("correct", ScreenStop(self.correct, first(self.correct), self._to_session, while_aside=True))
-        put(
-            "agreement",
-            ScreenStop(self.agreement, self.agreement.first, self._to_session, self.comparing.leave, while_aside=True),
-        )
-        put(
-            "beside",
-            ScreenStop(self.beside_screen, first(self.beside_screen), self._up_from_beside, self.beside_screen.end),
-        )
-        put("retest", ScreenStop(self.retest, self.retest.first, self._to_patient))
-        put("clinic", ScreenStop(self.clinic, self.clinic.first, self._to_patient))
-        put(
-            "board",
-            ScreenStop(self.board, self.board.first, self._up_from_board, self.calibrating.leave, while_aside=True),
-        )
-        put("card", ScreenStop(self.card, self.card.first, self._up_from_card, self.checking.leave, while_aside=True))
-        put("help", ScreenStop(self.help, lambda: self.help.text, self._to_patient))
-
-    @staticmethod
-    def _first(screen: QWidget) -> Callable[[], QWidget]:
-        return lambda: screen
+        _Stop(
+            context, "patients", self.patients, first=lambda: self.patients.search, up=up_from_patients,
+            show=self.show_patients,
+        )  # fmt: skip
+        _Stop(context, "exercise", self.exercise, "exercises")
+        _Stop(context, "camera", self.camera, "camera", up=setting_up.up_from_camera)
+        _Stop(
+            context, "markers", self.markers, "calibration", first=lambda: self.markers.picture,
+            up=setting_up.up_from_markers, leave=self.markers.end, while_aside=True, sign=self._measuring_lines,
+        )  # fmt: skip
+        _Stop(
+            context, "live", self.live, "measuring", up=setting_up.up_to_camera, sign=self._measuring_lines
+        )  # fmt: skip
+        _Stop(context, "sessions", self.sessions, "sessions", up=up_from_sessions, show=viewing.open_sessions)
+        _Stop(
+            context, "review", self.review, "figures", leave=self.review.end, show=viewing.open_review,
+            sign=self._review_lines,
+        )  # fmt: skip
+        _Stop(context, "progress", self.progress, "figures", up=self._up_from_progress, show=viewing.open_progress)
+        _Stop(
+            context, "report", self.report, "figures", first=lambda: self.report.save_button, up=self._up_from_report
+        )  # fmt: skip
+        _Stop(context, "correct", self.correct, "correct", up=self._to_session, while_aside=True)
+        _Stop(
+            context, "board", self.board, "cameracheck", up=self._up_from_board, leave=self.calibrating.leave,
+            while_aside=True, title=self.tr("Camera calibration"),
+            sign=lambda: self._simulated_camera(self.board.shows_simulated),
+        )  # fmt: skip
+        _Stop(
+            context, "card", self.card, "cameracheck", up=self._up_from_card, leave=self.checking.leave,
+            while_aside=True, title=self.tr("Check card"),
+            sign=lambda: self._simulated_camera(self.card.checks.simulated),
+        )  # fmt: skip
+        _Stop(context, "help", self.help, first=lambda: self.help.text)
 
     def _connect(self, keys: Keys) -> None:
         shell, bar, way = self._shell, self._shell.bar, self.way
@@ -274,18 +294,17 @@ class Journey(QObject):
         bar.help.connect(self._open_guide)
         bar.settings.connect(self.settings_wanted)
         # A lost camera leaves the tracking light to be seen from afar; elsewhere the top bar stays.
-        way.leaving.connect(lambda to: self.teller.cover(self.live.stage if to == "live" else shell.stage))
+        way.leaving.connect(lambda to: self.messages.cover(self.live.stage if to == "live" else shell.stage))
         way.arrived.connect(lambda _: self.bar.show())
         self.help.done.connect(way.back)
-        self.help.told.connect(self.teller.fault)
+        self.help.told.connect(self.messages.fault)
         self.watch.looked.connect(self._camera_looked_for)
         self.patients.start.connect(self.setting_up.start)
         self.patients.set_up.connect(self.setting_up.choose_exercise)
         self.patients.review.connect(self.viewing.review_newest)
         self.patients.progress.connect(self.viewing.open_progress)
         self.patients.sessions.connect(self.viewing.open_sessions)
-        self.patients.clinic_wanted.connect(self.clinic_weeks.show)
-        self.clinic_weeks.opened.connect(self.show_patients)
+        self.patients.clinic_wanted.connect(self.clinic.show)
         self.setting_up.ready.connect(self.measuring.begin)
         self.setting_up.closing.connect(self._source_closes)
         self.way.arrived.connect(self._meet_camera)
@@ -309,13 +328,13 @@ class Journey(QObject):
         self.review.report.connect(self.printing.session)
         self.review.export.connect(self.printing.export)
         self.review.film.connect(self.filming.save)
-        self.printing.formats.compare.connect(lambda: self.comparing.show(self.now.session_id))
+        self.printing.formats.compare.connect(lambda: self.agreement.show(self.now.session_id))
         self.sessions.reference_wanted.connect(self._compare_listed)
         self.sessions.pair_wanted.connect(self.beside.show)
         self.review.beside.connect(self.beside.show)
         self.beside.report_wanted.connect(self.printing.pair)
-        self.beside_screen.arrived.connect(self.bar.show)
-        self.retesting.measure.connect(self.setting_up.start)
+        self.beside.screen.arrived.connect(self.bar.show)
+        self.retest.measure.connect(self.setting_up.start)
         self.review.again.connect(self._another_set)
         self.review.arrived.connect(self.bar.show)
         self.progress.report.connect(
@@ -331,11 +350,11 @@ class Journey(QObject):
         self.correcting.used.connect(self._result_used)
         self.sessions.changed.connect(self.correcting.look_for_waiting)
         self.progress.table_wanted.connect(self.printing.table)
-        self.progress.by_hand_wanted.connect(self.entering_by_hand.show)
+        self.progress.by_hand_wanted.connect(self.by_hand.show)
 
     # --- where one is -------------------------------------------------------------------------------------
     @property
-    def place(self) -> Place:
+    def place(self) -> str:
         """Where the person is."""
         return self.way.place
 
@@ -395,12 +414,6 @@ class Journey(QObject):
         else:
             self._to_patient()
 
-    def _up_from_beside(self) -> None:
-        if self.beside.back_to == "review" or self.now.patient is None:
-            self._to_session()
-        else:
-            self.viewing.open_sessions(self.now.patient.patient_id)
-
     def _up_from_report(self) -> None:
         if isinstance(self.report.shown, BesideReport):
             self.way.go("beside")
@@ -413,12 +426,6 @@ class Journey(QObject):
             self._to_patient()
         else:
             self._to_session()
-
-    def _to_progress(self) -> None:
-        if self.now.patient is not None:
-            self.viewing.open_progress(self.now.patient.patient_id)
-        else:
-            self._to_patient()
 
     def _stored(self, session_id: str) -> None:
         self.bar.show_recording("off", 0.0)
@@ -437,7 +444,7 @@ class Journey(QObject):
         self.setting_up.close_source()
         self.now.patient = self.now.set_up = None
         self.now.session_id = ""
-        self.retesting.show()
+        self.retest.show()
 
     # --- the camera itself --------------------------------------------------------------------------------
     def show_board(self) -> None:
@@ -480,25 +487,23 @@ class Journey(QObject):
     def _care_words(self) -> tuple[State, str] | None:
         return bar_words(self.care.standing)
 
-    def _care_lines(self) -> list[str]:
-        """What must not be forgotten of the camera where one is."""
-        simulated = self.board.shows_simulated if self.place == "board" else self.card.checks.simulated
-        if self.place in ("board", "card"):
-            return [self.tr("Simulated camera: nothing here is of a real one.")] if simulated else []
-        if self.place in ("markers", "live") and self.now.kind == "camera":
-            return [words] if (words := session_words(self.care.standing)) else []
+    def _simulated_camera(self, simulated: bool) -> list[str]:
+        return [self.tr("Simulated camera: nothing here is of a real one.")] if simulated else []
+
+    def _measuring_lines(self) -> list[str]:
+        """What must not be forgotten of the camera that measures."""
+        words = session_words(self.care.standing) if self.now.kind == "camera" else ""
+        return [words] if words else []
+
+    def _review_lines(self) -> list[str]:
+        """And of the camera that measured."""
         figures = self.review.figures
-        if self.place == "review" and self.review.shown and figures is not None:
-            return [words] if (words := unsure_words(figures.camera)) else []
-        if self.place == "beside" and self.beside_screen.shown is not None and not self.now.is_practice:
-            both = self.beside_screen.shown.both
-            words = self.tr("Simulated hand: this is not a patient’s, and does not count.")
-            return [words] if both.first.simulated or both.second.simulated else []
-        return []
+        words = unsure_words(figures.camera) if self.review.shown and figures is not None else ""
+        return [words] if words else []
 
     def _compare_listed(self, session_id: str) -> None:
         self.now.session_id = session_id
-        self.comparing.show(session_id)
+        self.agreement.show(session_id)
 
     def _another_set(self) -> None:
         if self.now.source is not None:
@@ -522,19 +527,19 @@ class Journey(QObject):
 
     def review_file(self, path: Path) -> None:
         """Open a session file handed over from outside; not while something is measured or asked."""
-        if self.teller.busy or self.live.recording_state != "off" or self.now.source is not None:
+        if self.messages.busy or self.live.recording_state != "off" or self.now.source is not None:
             return
         try:
             found = self._parts.library.look_at(path)
         except CarpusFault as fault:
-            self.teller.fault(fault)
+            self.messages.fault(fault)
             return
         if not found.patient_id:  # of nobody here: shown under the name in its file
             self.now.patient = PatientRow("", found.subject_id, found.side)
         self.viewing.open_review_of(found.patient_id, found.session_id)
 
-    def _go_to_step(self, place: Place) -> None:
-        if self.teller.busy:
+    def _go_to_step(self, place: str) -> None:
+        if self.messages.busy:
             return
         if place == "exercise":
             self.setting_up.exercise_again()
@@ -552,7 +557,7 @@ class Journey(QObject):
             actions[name]()
 
     def _escape(self) -> None:
-        taken = not self.teller.busy and (self.takes_escape() or (self.place == "report" and self.report.to_report()))
+        taken = not self.messages.busy and (self.takes_escape() or (self.place == "report" and self.report.to_report()))
         if not taken:
             self.way.back()
 
@@ -566,8 +571,8 @@ class Journey(QObject):
     def _open_guide(self) -> None:
         """The page of the screen one is on."""
         if self.way.may_aside():
-            self.help.start_folder = self._places.folder("reports")
-            self.help.show_page_of(self.place)
+            self.help.start_folder = self.context.places.folder("reports")
+            self.help.show_page(self.way.here.guide)
             self.way.aside("help")
 
     @property
@@ -575,9 +580,9 @@ class Journey(QObject):
         """Whether something is measured, or worked on that would end with the window."""
         measures = self.now.source is not None and self.way.behind in MEASURING
         measures |= self.calibrating.hand.is_open or self.checking.hand.is_open
-        return measures or self.correcting.is_at_work or self.comparing.is_at_work or self.background.busy
+        return measures or self.correcting.is_at_work or self.agreement.is_at_work or self.background.busy
 
-    def show_again_at(self, place: Place, before: NowOpen) -> None:
+    def show_again_at(self, place: str, before: NowOpen) -> None:
         """Where the person was before the window was put together again: the same patient and tab."""
         if place == "beside":
             place = "sessions"  # from where both can be ticked again
@@ -599,7 +604,7 @@ class Journey(QObject):
 
     def put_settings(self, screen: QWidget) -> None:
         """The settings screen, which is made where settings are kept."""
-        self.way.put("settings", ScreenStop(screen, self._first(screen), self._to_patient))
+        _Stop(self.context, "settings", screen, "data")
 
     def close(self) -> None:
         """The window closes: finish what runs, in order, and wait for it."""
@@ -607,13 +612,12 @@ class Journey(QObject):
         self.patient_view.close()
         self.markers.end()
         self.review.end()
-        self.beside_screen.end()
+        self.beside.close()
         self.correcting.close()
-        self.comparing.close()
+        self.agreement.close()
         recording = self.measuring.let_go()
         self.opener.close()
         self.calibrating.hand.wait()
         self.checking.hand.wait()
-        self._beside_background.wait()
         self.background.wait()
         self.measuring.finish(recording=recording)

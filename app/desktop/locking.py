@@ -63,7 +63,7 @@ class Locking(QObject):
         self._background = Background()  # the system may take a second or two to answer
         folder = library.folder
         self._background.run(
-            lambda: disk_encryption_finding(disk_state(folder)), self._show_disk, journey.teller.fault, self
+            lambda: disk_encryption_finding(disk_state(folder)), self._show_disk, journey.messages.fault, self
         )
         self._hidden = (shell.bar, shell.sign, shell.stage)
         shortcut = QShortcut(QKeySequence(key), shell)
@@ -159,7 +159,7 @@ class Locking(QObject):
                 self.pin.take_away()
         except CarpusFault as fault:
             self.pin_sheet.close_sheet()
-            self._journey.teller.fault(fault)
+            self._journey.messages.fault(fault)
             return
         self._library.note("pin_changed", set=int(bool(new)))
         self.pin_sheet.close_sheet()

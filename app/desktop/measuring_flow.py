@@ -6,15 +6,16 @@ import logging
 
 from PySide6.QtCore import QObject, Signal
 
-from carpus.app.desktop.now_open import NowOpen
-from carpus.app.desktop.ways import TellOfCamera, Way
 from carpus.core.errors import CameraLost
 from carpus.core.library.set_up import SetUp
 from carpus.core.pipeline.live_values import LiveEvent
 from carpus.core.words import Words
 from carpus.ui import numbers
+from carpus.ui.flow import Navigator
 from carpus.ui.live.screen import LiveScreen
+from carpus.ui.messages.messages import Messages
 from carpus.ui.messages.stop_card import Answer
+from carpus.ui.now_open import NowOpen
 
 log = logging.getLogger(__name__)
 
@@ -28,7 +29,7 @@ class MeasuringFlow(QObject):
     patients_wanted = Signal()
     close_wanted = Signal()
 
-    def __init__(self, parent: QObject, live: LiveScreen, way: Way, tell: TellOfCamera, now: NowOpen) -> None:
+    def __init__(self, parent: QObject, live: LiveScreen, way: Navigator, tell: Messages, now: NowOpen) -> None:
         super().__init__(parent)
         self._live, self._way, self._tell, self._now = live, way, tell, now
         live.told.connect(self.take)

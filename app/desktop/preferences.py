@@ -16,7 +16,6 @@ from carpus.app.settings import (
     LockSettings,
     PatientSettings,
     RecordsSettings,
-    ReportSettings,
     ScreenSettings,
     Settings,
     StreamSettings,
@@ -26,6 +25,7 @@ from carpus.core.bundled_parts import licence_texts
 from carpus.core.errors import CarpusFault
 from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.newer_version import newest_version
+from carpus.core.results.report_form import ReportSettings
 from carpus.ui.background import Background
 from carpus.ui.ports import Preferences
 from carpus.ui.settings.licences import LicencesWindow
@@ -118,6 +118,7 @@ class PreferenceKeeper(QObject):
             stream=self._settings.stream,
             patient=self._settings.patient,
         )
+        self._journey.context.report = self._settings.report
         self._store()
         if other_language:
             self.language_chosen.emit()
@@ -136,7 +137,7 @@ class PreferenceKeeper(QObject):
         try:
             keep_preferences(self._settings, self._folder)
         except CarpusFault as fault:
-            self._journey.teller.fault(fault)
+            self._journey.messages.fault(fault)
 
     def keep(
         self,

@@ -15,10 +15,6 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from carpus import __version__
-from carpus.app.desktop.files_written import tell_written
-from carpus.app.desktop.last_places import LastPlaces
-from carpus.app.desktop.now_open import NowOpen
-from carpus.app.desktop.ways import Tell, Way
 from carpus.core.by_hand.values import COLUMNS, HandValue, rows_of
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.formats.new_output import plain_cell
@@ -33,6 +29,11 @@ from carpus.core.results.report_form import ReportForm
 from carpus.core.session.values import Session
 from carpus.ui.background import Background
 from carpus.ui.export.sheet import ExportSheet
+from carpus.ui.flow import Navigator
+from carpus.ui.last_places import LastPlaces
+from carpus.ui.messages.files_written import tell_written
+from carpus.ui.messages.messages import Messages
+from carpus.ui.now_open import NowOpen
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.home_page import HomeReport, own_way
 from carpus.ui.report.home_sheet import HomeSheet
@@ -106,8 +107,8 @@ class Printing(QObject):
         self,
         window: QWidget,
         screen: ReportScreen,
-        way: Way,
-        tell: Tell,
+        way: Navigator,
+        tell: Messages,
         now: NowOpen,
         stored: PatientPapers,
         places: LastPlaces,

@@ -70,7 +70,7 @@ class RecordLists(QObject):
         self._keep_years(years)
 
     def _run(self, work: Callable[[], T], done: Callable[[T], None]) -> None:
-        self._journey.background.run(work, done, self._journey.teller.fault, self)
+        self._journey.background.run(work, done, self._journey.messages.fault, self)
 
     def show_due(self) -> None:
         """Patients of whom nothing need be kept any more."""

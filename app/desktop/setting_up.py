@@ -9,12 +9,8 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject, Qt, Signal
 
-from carpus.app.desktop.last_places import LastPlaces
-from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.opening import Opener
 from carpus.app.desktop.practice import PRACTICE_REPETITIONS
-from carpus.app.desktop.sources import OpenSource
-from carpus.app.desktop.ways import FindPatient, Tell, Way
 from carpus.core.calibration.result import Verdict
 from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.hand.exercises import EXERCISES
@@ -26,8 +22,13 @@ from carpus.core.types import ByteImage, Side
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.background import Background
+from carpus.ui.flow import Navigator
+from carpus.ui.last_places import LastPlaces
 from carpus.ui.markers.screen import MarkersScreen
+from carpus.ui.messages.messages import Messages
 from carpus.ui.messages.stop_card import Answer
+from carpus.ui.now_open import NowOpen, OpenSource
+from carpus.ui.ports import PatientRow
 from carpus.ui.setup.camera import CameraScreen
 from carpus.ui.setup.choice import SourceChoice
 from carpus.ui.setup.exercise import ExerciseScreen
@@ -69,11 +70,11 @@ class SettingUp(QObject):
         self,
         parent: QObject,
         screens: SetUpScreens,
-        way: Way,
-        tell: Tell,
+        way: Navigator,
+        tell: Messages,
         now: NowOpen,
         memory: SetUpMemory,
-        find_patient: FindPatient,
+        find_patient: Callable[[str], PatientRow],
         opener: Opener,
         places: LastPlaces,
         background: Background,

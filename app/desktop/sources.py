@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
@@ -27,6 +27,7 @@ from carpus.core.pipeline.live import Listener, LiveSession
 from carpus.core.pipeline.measuring import SessionPlaces, SourceMeasuring
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.types import Frame
+from carpus.ui.now_open import OpenSource
 from carpus.ui.setup.choice import SourceChoice
 
 Progress = Callable[[int, int], None]
@@ -37,20 +38,6 @@ RECENT_FRAMES = 16
 
 class NobodyWaitsError(Exception):
     """Ends a long opening or drawing from inside."""
-
-
-@dataclass(frozen=True, slots=True)
-class OpenSource:
-    """A source with its calibrator; ``measuring`` owns it and closes it.
-
-    ``asks_registration``: nothing says whether the depth of this recording lies on its colours.
-    ``rests``: whether the simulated hand lies still because its movement is not drawn yet.
-    """
-
-    calibrator: HandCalibrator
-    measuring: SourceMeasuring
-    asks_registration: bool = False
-    rests: Callable[[], bool] = lambda: False
 
 
 class Sources:

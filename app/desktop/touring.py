@@ -111,7 +111,7 @@ class Tour(QObject):
         return TourMoment(
             place,
             is_meant=self._asked_for or place == "patients" or journey.now.is_practice,
-            is_covered=journey.teller.busy or is_covered(journey.patients.window()),
+            is_covered=journey.messages.busy or is_covered(journey.patients.window()),
             is_busy=busy,
             work=journey.markers.work,
             is_recording=recording != "off",

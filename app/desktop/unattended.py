@@ -20,7 +20,6 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 
 from carpus.app import compose
-from carpus.app.desktop.places import TABS, Place
 from carpus.app.desktop.practice import practice_spec
 from carpus.app.desktop.sources import RECENT_FRAMES
 from carpus.app.settings import FirstStartSettings, ScreenSettings, Settings
@@ -32,6 +31,7 @@ from carpus.core.simulation.recording import SimulatedPictures, clicks_of, is_ca
 from carpus.core.types import FloatArray
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
+from carpus.ui.flow import TABS
 
 REPETITIONS = 2
 PATIENCE_S = 60.0
@@ -56,7 +56,7 @@ class Walker:
         self.journey = desktop.journey
         self._faults: list[Exception] = []
         self._is_stopping = is_stopping
-        desktop.journey.teller.told.connect(self._faults.append)
+        desktop.journey.messages.told.connect(self._faults.append)
 
     def until(self, condition: Callable[[], bool], patience_s: float = PATIENCE_S) -> None:
         """Let the window live until something holds; a fault it tells meanwhile ends the way."""
@@ -71,7 +71,7 @@ class Walker:
             self.desktop.application.processEvents()
             QTest.qWait(5)
 
-    def at(self, place: Place) -> None:
+    def at(self, place: str) -> None:
         """Wait for a screen."""
         self.until(lambda: self.journey.place == place)
 
@@ -128,7 +128,7 @@ class Walker:
         self.until(lambda: self.journey.review.shown)
         return self.journey.session_id
 
-    def tab(self, place: Place) -> None:
+    def tab(self, place: str) -> None:
         """Click a tab of the patient."""
         button = self.desktop.shell.bar.way()[TABS.index(place)]
         QTest.mouseClick(button, Qt.MouseButton.LeftButton)

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
 
-from carpus.app.desktop.last_places import LastPlaces
-from carpus.app.desktop.now_open import NowOpen
-from carpus.app.desktop.places import TABS
-from carpus.app.desktop.ways import FindPatient, Tell, Way
 from carpus.core.errors import SessionUnreadable
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.records.values import SessionEntry
+from carpus.ui.flow import TABS, Navigator
+from carpus.ui.last_places import LastPlaces
+from carpus.ui.messages.messages import Messages
+from carpus.ui.now_open import NowOpen
+from carpus.ui.ports import PatientRow
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.sessions.screen import SessionsScreen
@@ -48,11 +49,11 @@ class Viewing(QObject):
         self,
         parent: QObject,
         screens: ViewScreens,
-        way: Way,
-        tell: Tell,
+        way: Navigator,
+        tell: Messages,
         now: NowOpen,
         sessions: KeptSessions,
-        find_patient: FindPatient,
+        find_patient: Callable[[str], PatientRow],
         places: LastPlaces,
     ) -> None:
         super().__init__(parent)

@@ -70,7 +70,7 @@ class Welcome(QObject):
 
         def failed(fault: Exception) -> None:
             panel.show_checks(here)
-            self._journey.teller.fault(fault)
+            self._journey.messages.fault(fault)
 
         needs_camera = not self._journey.is_demo
         self._background.run(lambda: list(examine_at_start(folder, needs_camera=needs_camera)), show, failed, panel)

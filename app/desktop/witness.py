@@ -23,18 +23,18 @@ class Witness(QObject):
 
     def __init__(self, journey: Journey, library: Library) -> None:
         super().__init__(journey)
-        self._now_beside: Callable[[], Sequence[str]] = lambda: sorted(journey.beside_screen.ids)
+        self._now_beside: Callable[[], Sequence[str]] = lambda: sorted(journey.beside.screen.ids)
         self._now, self._library = journey.now, library
         self._seen = ("", "")
-        self.log_lost.connect(journey.teller.fault)
+        self.log_lost.connect(journey.messages.fault)
         library.log_fault = self.log_lost.emit
         journey.way.arrived.connect(self._arrived)
         journey.printing.reported.connect(lambda path, sessions: self._made(path, "report", sessions))
         journey.filming.filmed.connect(lambda path, sessions: self._made(path, "export", sessions))
         journey.printing.tabled.connect(lambda path, sessions: self._made(path, "export", sessions))
         journey.beside.tabled.connect(lambda paths, sessions: library.made(paths, "export", sessions))
-        journey.comparing.saved.connect(lambda paths, sessions: library.made(paths, "export", sessions))
-        journey.agreement.chart.saved.connect(lambda path: self._made(path, "export", [self._now.session_id]))
+        journey.agreement.saved.connect(lambda paths, sessions: library.made(paths, "export", sessions))
+        journey.agreement.screen.chart.saved.connect(lambda path: self._made(path, "export", [self._now.session_id]))
         journey.review.curves.saved.connect(lambda path: self._made(path, "export", [self._now.session_id]))
         journey.progress.chart.saved.connect(lambda path: self._made(path, "export", self._of_patient()))
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
+from carpus.core.session.values import AngleOrder
+
 Paper = Literal["a4", "letter"]
 PAPERS: tuple[Paper, ...] = get_args(Paper)
 PAPER_PT: dict[Paper, tuple[float, float]] = {"a4": (595.28, 841.89), "letter": (612.0, 792.0)}
@@ -18,6 +20,18 @@ UNASKED_OUT = frozenset({"diagnosis"})
 """Left out until the clinic wants it."""
 MOST_SENTENCES = 60
 MOST_NAME, MOST_ADDRESS_LINES, MOST_ADDRESS = 60, 4, 80
+
+
+@dataclass(frozen=True, slots=True)
+class ReportSettings:
+    """``therapist`` initials that are printed on reports; ``angle_order`` of the wrist's angles in the window and on
+    reports: the papers' ``zyx`` or ``isb``; ``agreement_limit_deg`` what two measurements may differ by, 0 for none;
+    ``retest_days`` after a session the next one is due on the clinic's page."""
+
+    therapist: str = ""
+    angle_order: AngleOrder = "zyx"
+    agreement_limit_deg: float = 0.0
+    retest_days: int = 28
 
 
 @dataclass(frozen=True, slots=True)

@@ -7496,6 +7496,29 @@
     </message>
 </context>
 <context>
+    <name>AgreementFlow</name>
+    <message>
+        <source>the session of {when}</source>
+        <translation>die Sitzung vom {when}</translation>
+    </message>
+    <message>
+        <source>Other measurements ({endings})</source>
+        <translation>Andere Messungen ({endings})</translation>
+    </message>
+    <message>
+        <source>Another measurement</source>
+        <translation>Andere Messung</translation>
+    </message>
+    <message>
+        <source>Save tables and plots into a folder</source>
+        <translation>Tabellen und Bilder in einen Ordner speichern</translation>
+    </message>
+    <message>
+        <source>same recording</source>
+        <translation>dieselbe Aufnahme</translation>
+    </message>
+</context>
+<context>
     <name>AgreementScreen</name>
     <message>
         <source>Other &amp;reference…</source>
@@ -7815,19 +7838,19 @@
     <name>Bar</name>
     <message>
         <source>Clinic</source>
-        <translation>Klinik</translation>
+        <translation type="vanished">Klinik</translation>
     </message>
     <message>
         <source>Test and retest</source>
-        <translation>Wiederholungstest</translation>
+        <translation type="vanished">Wiederholungstest</translation>
     </message>
     <message>
         <source>Camera calibration</source>
-        <translation>Kamerakalibrierung</translation>
+        <translation type="vanished">Kamerakalibrierung</translation>
     </message>
     <message>
         <source>Check card</source>
-        <translation>Prüfkarte</translation>
+        <translation type="vanished">Prüfkarte</translation>
     </message>
     <message>
         <source>Exercise</source>
@@ -7943,7 +7966,11 @@
     </message>
 </context>
 <context>
-    <name>Beside</name>
+    <name>BesideFlow</name>
+    <message>
+        <source>Simulated hand: this is not a patient’s, and does not count.</source>
+        <translation>Simulierte Hand: Sie gehört keinem Patienten und zählt nicht.</translation>
+    </message>
     <message>
         <source>With which session?</source>
         <translation>Mit welcher Sitzung?</translation>
@@ -8312,7 +8339,7 @@
     </message>
 </context>
 <context>
-    <name>ByHand</name>
+    <name>ByHandFlow</name>
     <message>
         <source>Leave without saving?</source>
         <translation>Ohne Speichern verlassen?</translation>
@@ -8730,7 +8757,11 @@
     </message>
 </context>
 <context>
-    <name>Clinic</name>
+    <name>ClinicFlow</name>
+    <message>
+        <source>Clinic</source>
+        <translation>Klinik</translation>
+    </message>
     <message>
         <source>Save page</source>
         <translation>Seite speichern</translation>
@@ -8832,29 +8863,6 @@
     <message>
         <source>other sign</source>
         <translation>anderes Vorzeichen</translation>
-    </message>
-</context>
-<context>
-    <name>Comparing</name>
-    <message>
-        <source>the session of {when}</source>
-        <translation>die Sitzung vom {when}</translation>
-    </message>
-    <message>
-        <source>Other measurements ({endings})</source>
-        <translation>Andere Messungen ({endings})</translation>
-    </message>
-    <message>
-        <source>Another measurement</source>
-        <translation>Andere Messung</translation>
-    </message>
-    <message>
-        <source>Save tables and plots into a folder</source>
-        <translation>Tabellen und Bilder in einen Ordner speichern</translation>
-    </message>
-    <message>
-        <source>same recording</source>
-        <translation>dieselbe Aufnahme</translation>
     </message>
 </context>
 <context>
@@ -9682,12 +9690,20 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>Journey</name>
     <message>
+        <source>Camera calibration</source>
+        <translation>Kamerakalibrierung</translation>
+    </message>
+    <message>
+        <source>Check card</source>
+        <translation>Prüfkarte</translation>
+    </message>
+    <message>
         <source>Simulated camera: nothing here is of a real one.</source>
         <translation>Simulierte Kamera: Nichts hier kommt von einer echten.</translation>
     </message>
     <message>
         <source>Simulated hand: this is not a patient’s, and does not count.</source>
-        <translation>Simulierte Hand: Sie gehört keinem Patienten und zählt nicht.</translation>
+        <translation type="vanished">Simulierte Hand: Sie gehört keinem Patienten und zählt nicht.</translation>
     </message>
 </context>
 <context>
@@ -10430,6 +10446,29 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Go on measuring, or stop: the session is saved and Carpus closes.</source>
         <translation>Messen Sie weiter, oder beenden Sie: Die Sitzung wird gespeichert, und Carpus schließt sich.</translation>
+    </message>
+</context>
+<context>
+    <name>Messages</name>
+    <message>
+        <source>Go on</source>
+        <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>A session of {name} was cut short on {day} at {time}. It has been recovered.</source>
+        <translation>Eine Sitzung von {name} brach am {day} um {time} ab. Sie ist wiederhergestellt.</translation>
+    </message>
+    <message>
+        <source>All data up to {kept} are safe; at most the last second is missing; more only where the figures came late.</source>
+        <translation>Alle Daten bis {kept} sind sicher; höchstens die letzte Sekunde fehlt; mehr nur, wo die Werte später kamen.</translation>
+    </message>
+    <message>
+        <source>Review it now, or leave it for later: it stays in the patient&apos;s list.</source>
+        <translation>Sehen Sie sie jetzt an, oder lassen Sie sie für später: Sie bleibt in der Liste.</translation>
+    </message>
+    <message>
+        <source>Waiting for the camera … {seconds} s</source>
+        <translation>Warten auf die Kamera … {seconds} s</translation>
     </message>
 </context>
 <context>
@@ -11896,6 +11935,37 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>RetestFlow</name>
+    <message>
+        <source>Test and retest</source>
+        <translation>Wiederholungstest</translation>
+    </message>
+    <message>
+        <source>Use these limits for {exercise}, from {count} people?</source>
+        <translation>Diese Grenzen für {exercise} verwenden, von {count} Personen?</translation>
+    </message>
+    <message>
+        <source>Sessions stay as they are; reports already made keep their limits.</source>
+        <translation>Sitzungen bleiben, wie sie sind; fertige Berichte behalten ihre Grenzen.</translation>
+    </message>
+    <message>
+        <source>From now on progress and reports judge by them, and name date and number of people.</source>
+        <translation>Von jetzt an urteilen Verlauf und Berichte danach und nennen Datum und Zahl der Personen.</translation>
+    </message>
+    <message>
+        <source>Use these limits</source>
+        <translation>Diese Grenzen verwenden</translation>
+    </message>
+    <message>
+        <source>Leave it as it is</source>
+        <translation>So lassen</translation>
+    </message>
+    <message>
+        <source>Save table</source>
+        <translation>Tabelle speichern</translation>
+    </message>
+</context>
+<context>
     <name>RetestScreen</name>
     <message>
         <source>Exercise</source>
@@ -12004,33 +12074,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Grey = not yet usable. Reports then say whose limits they are, with date and number of people. A new camera, exercise or way of mounting needs its own study.</source>
         <translation>Grau = noch nicht brauchbar. Berichte sagen dann, wessen Grenzen es sind, mit Datum und Zahl der Personen. Eine neue Kamera, Übung oder Art des Klebens braucht eine eigene Untersuchung.</translation>
-    </message>
-</context>
-<context>
-    <name>Retesting</name>
-    <message>
-        <source>Use these limits for {exercise}, from {count} people?</source>
-        <translation>Diese Grenzen für {exercise} verwenden, von {count} Personen?</translation>
-    </message>
-    <message>
-        <source>Sessions stay as they are; reports already made keep their limits.</source>
-        <translation>Sitzungen bleiben, wie sie sind; fertige Berichte behalten ihre Grenzen.</translation>
-    </message>
-    <message>
-        <source>From now on progress and reports judge by them, and name date and number of people.</source>
-        <translation>Von jetzt an urteilen Verlauf und Berichte danach und nennen Datum und Zahl der Personen.</translation>
-    </message>
-    <message>
-        <source>Use these limits</source>
-        <translation>Diese Grenzen verwenden</translation>
-    </message>
-    <message>
-        <source>Leave it as it is</source>
-        <translation>So lassen</translation>
-    </message>
-    <message>
-        <source>Save table</source>
-        <translation>Tabelle speichern</translation>
     </message>
 </context>
 <context>
@@ -12746,29 +12789,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>A bent finger is measured from its own rest, and less surely.</source>
         <translation>Ein gebeugter Finger wird von seiner eigenen Ruhelage aus gemessen, und weniger sicher.</translation>
-    </message>
-</context>
-<context>
-    <name>Teller</name>
-    <message>
-        <source>Go on</source>
-        <translation>Weiter</translation>
-    </message>
-    <message>
-        <source>A session of {name} was cut short on {day} at {time}. It has been recovered.</source>
-        <translation>Eine Sitzung von {name} brach am {day} um {time} ab. Sie ist wiederhergestellt.</translation>
-    </message>
-    <message>
-        <source>All data up to {kept} are safe; at most the last second is missing; more only where the figures came late.</source>
-        <translation>Alle Daten bis {kept} sind sicher; höchstens die letzte Sekunde fehlt; mehr nur, wo die Werte später kamen.</translation>
-    </message>
-    <message>
-        <source>Review it now, or leave it for later: it stays in the patient&apos;s list.</source>
-        <translation>Sehen Sie sie jetzt an, oder lassen Sie sie für später: Sie bleibt in der Liste.</translation>
-    </message>
-    <message>
-        <source>Waiting for the camera … {seconds} s</source>
-        <translation>Warten auf die Kamera … {seconds} s</translation>
     </message>
 </context>
 <context>

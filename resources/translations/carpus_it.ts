@@ -7496,6 +7496,29 @@
     </message>
 </context>
 <context>
+    <name>AgreementFlow</name>
+    <message>
+        <source>the session of {when}</source>
+        <translation>la seduta: {when}</translation>
+    </message>
+    <message>
+        <source>Other measurements ({endings})</source>
+        <translation>Altre misure ({endings})</translation>
+    </message>
+    <message>
+        <source>Another measurement</source>
+        <translation>Un’altra misura</translation>
+    </message>
+    <message>
+        <source>Save tables and plots into a folder</source>
+        <translation>Salva tabelle e grafici in una cartella</translation>
+    </message>
+    <message>
+        <source>same recording</source>
+        <translation>stessa registrazione</translation>
+    </message>
+</context>
+<context>
     <name>AgreementScreen</name>
     <message>
         <source>Other &amp;reference…</source>
@@ -7815,19 +7838,19 @@
     <name>Bar</name>
     <message>
         <source>Clinic</source>
-        <translation>Clinica</translation>
+        <translation type="vanished">Clinica</translation>
     </message>
     <message>
         <source>Test and retest</source>
-        <translation>Test e retest</translation>
+        <translation type="vanished">Test e retest</translation>
     </message>
     <message>
         <source>Camera calibration</source>
-        <translation>Calibrazione della telecamera</translation>
+        <translation type="vanished">Calibrazione della telecamera</translation>
     </message>
     <message>
         <source>Check card</source>
-        <translation>Cartoncino di controllo</translation>
+        <translation type="vanished">Cartoncino di controllo</translation>
     </message>
     <message>
         <source>Exercise</source>
@@ -7943,7 +7966,11 @@
     </message>
 </context>
 <context>
-    <name>Beside</name>
+    <name>BesideFlow</name>
+    <message>
+        <source>Simulated hand: this is not a patient’s, and does not count.</source>
+        <translation>Mano simulata: non è di un paziente, e non conta.</translation>
+    </message>
     <message>
         <source>With which session?</source>
         <translation>Con quale seduta?</translation>
@@ -8312,7 +8339,7 @@
     </message>
 </context>
 <context>
-    <name>ByHand</name>
+    <name>ByHandFlow</name>
     <message>
         <source>Leave without saving?</source>
         <translation>Uscire senza salvare?</translation>
@@ -8730,7 +8757,11 @@
     </message>
 </context>
 <context>
-    <name>Clinic</name>
+    <name>ClinicFlow</name>
+    <message>
+        <source>Clinic</source>
+        <translation>Clinica</translation>
+    </message>
     <message>
         <source>Save page</source>
         <translation>Salva pagina</translation>
@@ -8832,29 +8863,6 @@
     <message>
         <source>other sign</source>
         <translation>segno opposto</translation>
-    </message>
-</context>
-<context>
-    <name>Comparing</name>
-    <message>
-        <source>the session of {when}</source>
-        <translation>la seduta: {when}</translation>
-    </message>
-    <message>
-        <source>Other measurements ({endings})</source>
-        <translation>Altre misure ({endings})</translation>
-    </message>
-    <message>
-        <source>Another measurement</source>
-        <translation>Un’altra misura</translation>
-    </message>
-    <message>
-        <source>Save tables and plots into a folder</source>
-        <translation>Salva tabelle e grafici in una cartella</translation>
-    </message>
-    <message>
-        <source>same recording</source>
-        <translation>stessa registrazione</translation>
     </message>
 </context>
 <context>
@@ -9682,12 +9690,20 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>Journey</name>
     <message>
+        <source>Camera calibration</source>
+        <translation>Calibrazione della telecamera</translation>
+    </message>
+    <message>
+        <source>Check card</source>
+        <translation>Cartoncino di controllo</translation>
+    </message>
+    <message>
         <source>Simulated camera: nothing here is of a real one.</source>
         <translation>Telecamera simulata: qui non c’è nulla di una vera.</translation>
     </message>
     <message>
         <source>Simulated hand: this is not a patient’s, and does not count.</source>
-        <translation>Mano simulata: non è di un paziente, e non conta.</translation>
+        <translation type="vanished">Mano simulata: non è di un paziente, e non conta.</translation>
     </message>
 </context>
 <context>
@@ -10430,6 +10446,29 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Go on measuring, or stop: the session is saved and Carpus closes.</source>
         <translation>Continuare a misurare, o fermare: la seduta viene salvata e Carpus si chiude.</translation>
+    </message>
+</context>
+<context>
+    <name>Messages</name>
+    <message>
+        <source>Go on</source>
+        <translation>Continua</translation>
+    </message>
+    <message>
+        <source>A session of {name} was cut short on {day} at {time}. It has been recovered.</source>
+        <translation>Una seduta di {name} si è interrotta il {day} alle {time}. È stata recuperata.</translation>
+    </message>
+    <message>
+        <source>All data up to {kept} are safe; at most the last second is missing; more only where the figures came late.</source>
+        <translation>Tutti i dati fino a {kept} sono al sicuro; manca al massimo l’ultimo secondo; di più solo se i valori arrivavano in ritardo.</translation>
+    </message>
+    <message>
+        <source>Review it now, or leave it for later: it stays in the patient&apos;s list.</source>
+        <translation>Rivederla ora, o lasciarla per dopo: resta nell’elenco del paziente.</translation>
+    </message>
+    <message>
+        <source>Waiting for the camera … {seconds} s</source>
+        <translation>In attesa della telecamera … {seconds} s</translation>
     </message>
 </context>
 <context>
@@ -11896,6 +11935,37 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>RetestFlow</name>
+    <message>
+        <source>Test and retest</source>
+        <translation>Test e retest</translation>
+    </message>
+    <message>
+        <source>Use these limits for {exercise}, from {count} people?</source>
+        <translation>Usare questi limiti per {exercise}, da {count} persone?</translation>
+    </message>
+    <message>
+        <source>Sessions stay as they are; reports already made keep their limits.</source>
+        <translation>Le sedute restano come sono; le relazioni già fatte mantengono i loro limiti.</translation>
+    </message>
+    <message>
+        <source>From now on progress and reports judge by them, and name date and number of people.</source>
+        <translation>D’ora in poi andamento e relazioni giudicano con questi, e indicano data e numero di persone.</translation>
+    </message>
+    <message>
+        <source>Use these limits</source>
+        <translation>Usa questi limiti</translation>
+    </message>
+    <message>
+        <source>Leave it as it is</source>
+        <translation>Lascia così</translation>
+    </message>
+    <message>
+        <source>Save table</source>
+        <translation>Salva la tabella</translation>
+    </message>
+</context>
+<context>
     <name>RetestScreen</name>
     <message>
         <source>Exercise</source>
@@ -12004,33 +12074,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Grey = not yet usable. Reports then say whose limits they are, with date and number of people. A new camera, exercise or way of mounting needs its own study.</source>
         <translation>Grigio = non ancora utilizzabile. Le relazioni dicono poi di chi sono i limiti, con data e numero di persone. Una nuova telecamera, un nuovo esercizio o un nuovo modo di applicare i dischetti richiede uno studio proprio.</translation>
-    </message>
-</context>
-<context>
-    <name>Retesting</name>
-    <message>
-        <source>Use these limits for {exercise}, from {count} people?</source>
-        <translation>Usare questi limiti per {exercise}, da {count} persone?</translation>
-    </message>
-    <message>
-        <source>Sessions stay as they are; reports already made keep their limits.</source>
-        <translation>Le sedute restano come sono; le relazioni già fatte mantengono i loro limiti.</translation>
-    </message>
-    <message>
-        <source>From now on progress and reports judge by them, and name date and number of people.</source>
-        <translation>D’ora in poi andamento e relazioni giudicano con questi, e indicano data e numero di persone.</translation>
-    </message>
-    <message>
-        <source>Use these limits</source>
-        <translation>Usa questi limiti</translation>
-    </message>
-    <message>
-        <source>Leave it as it is</source>
-        <translation>Lascia così</translation>
-    </message>
-    <message>
-        <source>Save table</source>
-        <translation>Salva la tabella</translation>
     </message>
 </context>
 <context>
@@ -12746,29 +12789,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>A bent finger is measured from its own rest, and less surely.</source>
         <translation>Un dito piegato si misura dalla sua posizione di riposo, con meno sicurezza.</translation>
-    </message>
-</context>
-<context>
-    <name>Teller</name>
-    <message>
-        <source>Go on</source>
-        <translation>Continua</translation>
-    </message>
-    <message>
-        <source>A session of {name} was cut short on {day} at {time}. It has been recovered.</source>
-        <translation>Una seduta di {name} si è interrotta il {day} alle {time}. È stata recuperata.</translation>
-    </message>
-    <message>
-        <source>All data up to {kept} are safe; at most the last second is missing; more only where the figures came late.</source>
-        <translation>Tutti i dati fino a {kept} sono al sicuro; manca al massimo l’ultimo secondo; di più solo se i valori arrivavano in ritardo.</translation>
-    </message>
-    <message>
-        <source>Review it now, or leave it for later: it stays in the patient&apos;s list.</source>
-        <translation>Rivederla ora, o lasciarla per dopo: resta nell’elenco del paziente.</translation>
-    </message>
-    <message>
-        <source>Waiting for the camera … {seconds} s</source>
-        <translation>In attesa della telecamera … {seconds} s</translation>
     </message>
 </context>
 <context>

@@ -301,7 +301,7 @@ def test_the_study_in_the_window_from_people_to_limits_in_force(
     settings = Settings(screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(tmp_path / "data")))
     today = (FIRST + timedelta(days=12)).date()
     desktop = compose.compose(qapp, settings, settings_folder=tmp_path / "settings", today=today)
-    journey, screen = desktop.journey, desktop.journey.retest
+    journey, screen = desktop.journey, desktop.journey.retest.screen
     try:
         desktop.show()
         journey.settings_wanted.emit()
@@ -312,10 +312,10 @@ def test_the_study_in_the_window_from_people_to_limits_in_force(
         qtbot.waitUntil(lambda: not journey.background.busy)
         assert "Nobody" in screen.answer.text()
         screen.people_button.click()
-        for tick in journey.retesting.sheet.ticks.values():
+        for tick in journey.retest.sheet.ticks.values():
             if "Otter" not in tick.text():
                 tick.click()
-        journey.retesting.sheet.take.click()
+        journey.retest.sheet.take.click()
         qtbot.waitUntil(lambda: len(screen.plan.people) == 12)
         states = [one.state for one in screen.plan.people]
         assert states.count("complete") == 10
@@ -335,7 +335,7 @@ def test_the_study_in_the_window_from_people_to_limits_in_force(
         assert "Otter 29, flexion, 2 Nov → 11 Nov" in words_of(screen)
         assert words_of(screen).count("no change proven → improved") == 3
         screen.use_button.click()
-        qtbot.waitUntil(lambda: journey.teller.busy)
+        qtbot.waitUntil(lambda: journey.messages.busy)
         (use,) = [one for one in desktop.shell.findChildren(Button) if one.text() == "Use these limits"]
         use.click()
         qtbot.waitUntil(lambda: bool(desktop.library.error_limits.studies) and not journey.background.busy)

@@ -52,7 +52,7 @@ def desktop(qapp: QApplication, recorded: tuple[Path, Path], tmp_path: Path) -> 
 def test_from_two_ticks_to_tables_and_a_page_and_back(
     qtbot: QtBot, desktop: compose.Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    journey, screen = desktop.journey, desktop.journey.beside_screen
+    journey, screen = desktop.journey, desktop.journey.beside.screen
     shown_list = journey.sessions.list
     qtbot.waitUntil(lambda: all(line.figure for line in shown_list.rows.lines))
     assert not journey.sessions.pair_button.isEnabled()
@@ -84,7 +84,7 @@ def test_from_two_ticks_to_tables_and_a_page_and_back(
 
     monkeypatch.setattr(QFileDialog, "getSaveFileName", staticmethod(lambda *_: (str(tmp_path / "pair.csv"), "")))
     qtbot.keyClick(screen, Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
-    qtbot.waitUntil(lambda: journey.teller.busy)
+    qtbot.waitUntil(lambda: journey.messages.busy)
     with (tmp_path / "pair.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert [row["movement"] for row in rows] == ["arc", "flexion", "extension"]
@@ -93,8 +93,8 @@ def test_from_two_ticks_to_tables_and_a_page_and_back(
     with (tmp_path / "pair-curves.csv").open(encoding="utf-8") as file:
         curves = list(csv.DictReader(file))
     assert len(curves) == 3 * 101
-    journey.teller.card.close_sheet()
-    qtbot.waitUntil(lambda: not journey.teller.busy)
+    journey.messages.card.close_sheet()
+    qtbot.waitUntil(lambda: not journey.messages.busy)
 
     screen.report_button.click()
     assert journey.place == "report"
@@ -111,7 +111,7 @@ def test_from_two_ticks_to_tables_and_a_page_and_back(
 
 
 def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: compose.Desktop) -> None:
-    journey, screen = desktop.journey, desktop.journey.beside_screen
+    journey, screen = desktop.journey, desktop.journey.beside.screen
     newest, older = (line.session_id for line in journey.sessions.list.rows.lines)
     journey.viewing.open_review(newest)
     qtbot.waitUntil(lambda: journey.review.shown)

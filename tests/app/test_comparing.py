@@ -16,13 +16,14 @@ from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
 from carpus.app import compose
-from carpus.app.settings import RecordingSettings, ReportSettings, ScreenSettings, Settings
+from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.agreement.compared_files import compare_files
 from carpus.core.agreement.reference import outline_of
 from carpus.core.agreement.watch import Stopped, WorkWatch
 from carpus.core.library.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.values import PatientEntry
+from carpus.core.results.report_form import ReportSettings
 from carpus.core.session.reader import read_session
 from tests.agreement.test_retest import written
 
@@ -93,7 +94,7 @@ def test_from_the_review_to_saved_tables(
     qtbot: QtBot, desktop: compose.Desktop, optical: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     journey = desktop.journey
-    screen, comparing = journey.agreement, journey.comparing
+    screen, comparing = journey.agreement.screen, journey.agreement
     choosing(monkeypatch, optical, tmp_path)
     journey.review.export_button.click()
     journey.printing.formats.compare_button.click()
@@ -124,7 +125,7 @@ def test_from_the_review_to_saved_tables(
     assert comparing.columns.chosen() == {"time": "Zeit", "flexion": "-FlexExt"}
     comparing.columns.leave()
     screen.save_button.click()
-    qtbot.waitUntil(lambda: journey.teller.busy)
+    qtbot.waitUntil(lambda: journey.messages.busy)
     names = sorted(path.name.rpartition("against-")[2] for path in tmp_path.glob("*against-optical*"))
     assert names == [
         "optical.agreement.csv", "optical.agreement.json", "optical.flexion.png", "optical.pairs.csv", "optical.pdf",
@@ -141,16 +142,16 @@ def test_from_the_list_of_sessions_with_another_one(qtbot: QtBot, desktop: compo
     journey.viewing.open_sessions(journey.patient.patient_id)
     journey.sessions.reference_button.click()
     assert journey.place == "agreement"
-    sheet = journey.comparing.reference
+    sheet = journey.agreement.reference
     assert [sheet.box.itemText(row) for row in range(sheet.box.count())] == [
         "19 Nov 2026, 09:00 · Wrist flexion–extension"
     ]
     sheet.session_button.click()
-    qtbot.waitUntil(lambda: journey.agreement.compared is not None)
-    assert journey.agreement.compared is not None
-    flexion = journey.agreement.compared.pairs[0].figures_deg
+    qtbot.waitUntil(lambda: journey.agreement.screen.compared is not None)
+    assert journey.agreement.screen.compared is not None
+    flexion = journey.agreement.screen.compared.pairs[0].figures_deg
     assert flexion.largest == pytest.approx(3.0, abs=0.1)
-    assert not journey.agreement.columns_button.isVisible(), "a session has no columns to be told"
+    assert not journey.agreement.screen.columns_button.isVisible(), "a session has no columns to be told"
     journey.way.back()
     assert journey.place == "review"
 
@@ -162,18 +163,18 @@ def test_a_file_that_is_no_measurement_is_said_in_words(
     wrong.write_text("one line only\n", encoding="utf-8")
     choosing(monkeypatch, wrong, tmp_path)
     journey = desktop.journey
-    journey.comparing.show(journey.session_id)
-    journey.comparing.reference.file_button.click()
-    qtbot.waitUntil(lambda: journey.teller.busy)
-    assert journey.agreement.compared is None
-    assert journey.agreement.other_button.isEnabled()
+    journey.agreement.show(journey.session_id)
+    journey.agreement.reference.file_button.click()
+    qtbot.waitUntil(lambda: journey.messages.busy)
+    assert journey.agreement.screen.compared is None
+    assert journey.agreement.screen.other_button.isEnabled()
 
 
 def test_a_comparison_is_given_up_when_the_screen_is_left(
     qtbot: QtBot, desktop: compose.Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, optical: Path
 ) -> None:
     journey = desktop.journey
-    comparing = journey.comparing
+    comparing = journey.agreement
     held = tmp_path / "movement.csv"
     held.write_text(optical.read_text(encoding="utf-8").replace("Zeit,FlexExt", "time,flexion"), encoding="utf-8")
     choosing(monkeypatch, held, tmp_path)
@@ -190,9 +191,9 @@ def test_a_comparison_is_given_up_when_the_screen_is_left(
     monkeypatch.setattr(WorkWatch, "at", at)
     comparing.reference.file_button.click()
     qtbot.waitUntil(lambda: bool(asked))
-    qtbot.waitUntil(journey.agreement.other_button.isEnabled)
-    assert journey.agreement.compared is None
-    assert not journey.teller.busy, "who stops it needs no message"
+    qtbot.waitUntil(journey.agreement.screen.other_button.isEnabled)
+    assert journey.agreement.screen.compared is None
+    assert not journey.messages.busy, "who stops it needs no message"
 
 
 def test_progress_rises_and_a_stop_writes_nothing(recorded: Path, optical: Path) -> None:

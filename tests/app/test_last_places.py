@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from carpus.app.desktop import last_places
-from carpus.app.desktop.last_places import LastPlaces
 from carpus.core.errors import DiskFull
 from carpus.core.records.store import Store
+from carpus.ui import last_places
+from carpus.ui.last_places import LastPlaces
 
 
 @pytest.fixture

@@ -13,7 +13,6 @@ from carpus.app.settings import (
     PREFERENCES_FILE,
     SETTINGS_FILE,
     RecordingSettings,
-    ReportSettings,
     ScreenSettings,
     Settings,
     keep_preferences,
@@ -21,6 +20,7 @@ from carpus.app.settings import (
     settings_folder,
 )
 from carpus.core.errors import SettingsInvalid
+from carpus.core.results.report_form import ReportSettings
 from carpus.core.words import one_sentence
 
 DEFAULTS = Path(__file__).parents[2] / "resources" / "defaults.toml"

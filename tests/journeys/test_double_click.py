@@ -78,7 +78,7 @@ def test_what_is_no_session_is_told(open_desktop: Open, tmp_path: Path) -> None:
     journey = (desktop := open_desktop()).journey
     desktop.called(path)
     assert journey.place == "patients"
-    assert journey.teller.busy
+    assert journey.messages.busy
 
 
 def test_a_file_alone_is_as_good_as_the_command(

@@ -145,7 +145,7 @@ def test_what_cannot_be_looked_at_is_told_and_stops_nothing(
 
     monkeypatch.setattr(welcoming, "examine_at_start", fails)
     desktop = open_desktop()
-    qtbot.waitUntil(lambda: desktop.journey.teller.busy)
+    qtbot.waitUntil(lambda: desktop.journey.messages.busy)
     panel = desktop.welcome.panel
     assert panel is not None
     assert panel.again_button.isEnabled()

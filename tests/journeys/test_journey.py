@@ -134,7 +134,7 @@ def test_the_whole_journey_by_mouse(
     assert source is not None
     journey.now.source = replace(source, rests=lambda: True)
     wait(qtbot, lambda: "drawn" in desktop.shell.bar.camera.text())
-    assert not journey.teller.busy, "a card would take Space from the recording"
+    assert not journey.messages.busy, "a card would take Space from the recording"
     journey.now.source = source
     click(qtbot, journey.live.main)
     wait(qtbot, lambda: journey.live.recording_state == "recording")
@@ -283,7 +283,7 @@ def test_a_recording_of_the_camera_plays_through_its_own_library_in_real_time(
     click(qtbot, journey.camera.primary)
     at(qtbot, desktop, "markers")  # nothing says that depth lies on colour: it is measured, nobody is asked
     click_discs(qtbot, desktop, take)
-    assert not journey.teller.busy
+    assert not journey.messages.busy
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
     at(qtbot, desktop, "live")
     journey.live.toggle_recording()
@@ -308,16 +308,16 @@ def test_depth_that_is_measured_beside_the_colours_is_opened_again_the_other_way
     verdict = make_calibration().verdict
     off = replace(verdict, findings=(CalibrationFinding("depth_off", (), 11.0, 3.0, "px"),))
     journey.setting_up.check_registration(off)
-    assert not journey.teller.busy, "a camera says it itself"
+    assert not journey.messages.busy, "a camera says it itself"
     journey.now.source = replace(journey.source, asks_registration=True)
     journey.now.choice = SourceChoice("file", str(take))
     journey.setting_up.check_registration(replace(verdict, findings=()))
-    assert not journey.teller.busy
+    assert not journey.messages.busy
     wanted: list[SourceChoice] = []
     monkeypatch.setattr(journey.setting_up, "open_source", wanted.append)
     journey.setting_up.check_registration(off)
-    assert "11 pixels" in journey.teller.card.what.text()
-    click(qtbot, journey.teller.card.answers[-1])
+    assert "11 pixels" in journey.messages.card.what.text()
+    click(qtbot, journey.messages.card.answers[-1])
     assert wanted == [SourceChoice("file", str(take), registered=False)]
 
 
@@ -372,7 +372,7 @@ def test_a_window_closed_while_recording_keeps_the_session(qtbot: QtBot, open_de
     desktop.journey.live.toggle_recording()
     wait(qtbot, lambda: desktop.journey.live.recorded_s > 1.0)
     desktop.shell.close()
-    card = desktop.journey.teller.card
+    card = desktop.journey.messages.card
     assert card.isVisible(), "it asks first"
     assert desktop.shell.isVisible()
     click(qtbot, card.answers[1])
@@ -397,7 +397,7 @@ def test_a_card_takes_every_key_and_its_first_button_does_what_it_says(
     qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Space)
     wait(qtbot, lambda: journey.live.recorded_s > 0.5)
     shell.close()
-    card = journey.teller.card
+    card = journey.messages.card
     assert card.isVisible()
     whole = journey.live.picture.shows_whole
     for key in (Qt.Key.Key_F7, Qt.Key.Key_F9, Qt.Key.Key_F5, Qt.Key.Key_F1, Qt.Key.Key_Escape):
@@ -415,7 +415,7 @@ def test_a_card_takes_every_key_and_its_first_button_does_what_it_says(
     shell.close()
     journey.live.stop()  # as the end of the source does
     at(qtbot, desktop, "review")
-    assert not journey.teller.busy, "the question has answered itself"
+    assert not journey.messages.busy, "the question has answered itself"
     wait(qtbot, lambda: journey.review.shown)
     qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Escape)
     at(qtbot, desktop, "patients")
@@ -425,15 +425,15 @@ def test_a_message_moves_with_the_screen(qtbot: QtBot, open_desktop: Open, take:
     desktop = open_desktop()
     journey = desktop.journey
     to_live(qtbot, desktop, take)
-    journey.teller.fault(DiskFull("x"))
+    journey.messages.fault(DiskFull("x"))
     journey.live.toggle_recording()
     wait(qtbot, lambda: journey.live.recorded_s > 0.5)
     journey.live.stop()
     at(qtbot, desktop, "review")
-    assert journey.teller.card.isVisible()
-    assert "disk" in journey.teller.card.what.text()
-    journey.teller.card.answers[-1].click()
-    assert not journey.teller.busy
+    assert journey.messages.card.isVisible()
+    assert "disk" in journey.messages.card.what.text()
+    journey.messages.card.answers[-1].click()
+    assert not journey.messages.busy
 
 
 def test_a_hasty_end_asks_and_the_recording_goes_on(
@@ -446,7 +446,7 @@ def test_a_hasty_end_asks_and_the_recording_goes_on(
     journey.live.toggle_recording()
     wait(qtbot, lambda: journey.live.recorded_s > 0.3)
     journey.live.toggle_recording()
-    card = journey.teller.card
+    card = journey.messages.card
     assert card.isVisible()
     assert journey.live.recording_state == "recording"
     qtbot.keyClick(card.answers[-1], Qt.Key.Key_Return)
@@ -466,8 +466,8 @@ def test_a_recording_does_not_begin_on_a_full_disk(
     usage = shutil.disk_usage(desktop.library.folder)
     monkeypatch.setattr(measuring.shutil, "disk_usage", lambda _: usage._replace(free=20_000_000))
     journey.live.toggle_recording()
-    wait(qtbot, journey.teller.card.isVisible)
-    assert "20 MB free" in journey.teller.card.what.text()
+    wait(qtbot, journey.messages.card.isVisible)
+    assert "20 MB free" in journey.messages.card.what.text()
     assert journey.live.recording_state == "off"
     assert list(desktop.library.folder.rglob("*.h5*")) == []
 
@@ -499,10 +499,10 @@ def test_stopping_at_once_stores_nothing_and_says_so(qtbot: QtBot, open_desktop:
     journey.live.toggle_recording()
     wait(qtbot, lambda: journey.live._count is not None)
     journey.live.toggle_recording()
-    wait(qtbot, journey.teller.card.isVisible)
+    wait(qtbot, journey.messages.card.isVisible)
     assert desktop.library.sessions(PRACTICE_PATIENT) == []
     assert list(desktop.library.folder.rglob("*.h5*")) == []
-    click(qtbot, journey.teller.card.answers[0])
+    click(qtbot, journey.messages.card.answers[0])
     at(qtbot, desktop, "patients")
 
 
@@ -565,10 +565,10 @@ def test_a_camera_that_is_not_there_is_told_with_what_to_do(
     journey.camera.set_camera_ready(True)
     click(qtbot, journey.camera.sources.option("camera"))
     click(qtbot, journey.camera.primary)
-    wait(qtbot, journey.teller.card.isVisible)
-    assert "camera" in journey.teller.card.what.text()
-    assert journey.teller.card.todo.text().startswith("Plug")
-    click(qtbot, journey.teller.card.answers[-1])
+    wait(qtbot, journey.messages.card.isVisible)
+    assert "camera" in journey.messages.card.what.text()
+    assert journey.messages.card.todo.text().startswith("Plug")
+    click(qtbot, journey.messages.card.answers[-1])
     assert journey.place == "camera"
     assert journey.source is None
 
@@ -584,11 +584,11 @@ def test_a_lost_camera_stops_the_eye_and_goes_by_itself_when_it_is_back(
     journey.live.toggle_recording()
     wait(qtbot, lambda: journey.live.recorded_s > 0.5)
     source.measuring.feed.notice(CameraLost("Xtion", "unplugged"))
-    wait(qtbot, journey.teller.card.isVisible)
-    assert "sends no more pictures" in journey.teller.card.what.text()
-    assert "stored" in journey.teller.card.safe_detail.text()
+    wait(qtbot, journey.messages.card.isVisible)
+    assert "sends no more pictures" in journey.messages.card.what.text()
+    assert "stored" in journey.messages.card.safe_detail.text()
     source.measuring.feed.notice(CameraReturned("Xtion", "3 s"))
-    wait(qtbot, lambda: not journey.teller.card.isVisible())
+    wait(qtbot, lambda: not journey.messages.card.isVisible())
     journey.live.toggle_recording()
     path = reviewed(qtbot, desktop)
     with h5py.File(path) as file:

@@ -45,11 +45,11 @@ def test_esc_closes_any_sheet_and_leaves_its_screen(qtbot: QtBot, open_desktop: 
 
 def test_esc_answers_no_message(qtbot: QtBot, open_desktop: Open) -> None:
     desktop = open_desktop()
-    desktop.journey.teller.fault(DiskFull("x"))
+    desktop.journey.messages.fault(DiskFull("x"))
     press_escape(qtbot, desktop)
-    assert desktop.journey.teller.card.isVisible()
-    desktop.journey.teller.card.answers[-1].click()
-    assert not desktop.journey.teller.busy
+    assert desktop.journey.messages.card.isVisible()
+    desktop.journey.messages.card.answers[-1].click()
+    assert not desktop.journey.messages.busy
 
 
 def test_every_label_follows_a_change_of_colours_also_on_screens_not_opened_yet(

@@ -118,7 +118,7 @@ def test_a_killed_looking_back_costs_the_session_nothing_else(qtbot: QtBot, desk
     assert session.smoothed is None
     assert np.mean(session.status == 0) > 0.8
     assert [event.kind for event in session.events] == [NOT_LOOKED_BACK]
-    assert not journey.teller.busy
+    assert not journey.messages.busy
 
 
 def looked_back_as_tracking_it_again(path: Path, again: Path) -> None:

@@ -28,7 +28,7 @@ class Reporter:
         self._said: set[str] = set()
         desktop.journey.live.stopped.connect(self._stored)
         desktop.journey.report.saved.connect(lambda path: self.say(f"saved {path}"))
-        desktop.journey.teller.told.connect(lambda fault: self.say(f"fault {fault!r}"))
+        desktop.journey.messages.told.connect(lambda fault: self.say(f"fault {fault!r}"))
         self._timer = QTimer(desktop.shell)
         self._timer.timeout.connect(self._look)
         self._timer.start(LOOK_MS)

@@ -7,12 +7,11 @@ from datetime import timedelta
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QObject, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.by_hand import ByHand
-from carpus.app.desktop.now_open import NowOpen
 from carpus.app.desktop.printing import write_tables
 from carpus.core.by_hand.values import HandValue, counted
 from carpus.core.library.library import Library
@@ -20,11 +19,12 @@ from carpus.core.records.log import read_log
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.progress import progress
 from carpus.ui.background import Background
+from carpus.ui.by_hand.flow import ByHandFlow
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.ports import PatientRow
 from carpus.ui.report.pdf import progress_report, session_report, write_progress_report, write_session_report
-from carpus.ui.setup.choice import SourceChoice
 from carpus.ui.theme import Theme
+from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import NOW, FakeSessions, hand_values
 from tests.ui.test_report_pdf import words_of
 
@@ -117,26 +117,6 @@ def test_enter_goes_on_nonsense_is_refused_and_the_unusual_is_asked_about(screen
     assert screen.focusWidget() is screen.form.rows["PIP3_FLEXION"].fields[0][1]
 
 
-class Told:
-    """A window that answers every question with its second answer."""
-
-    busy = False
-
-    def __init__(self) -> None:
-        self.asked: list[str] = []
-        self.place = "progress"
-
-    def ask(self, question: object, answers: list[object], **_: object) -> None:
-        self.asked.append(question.happened)  # type: ignore[attr-defined]
-        answers[0].action()  # type: ignore[attr-defined]
-
-    def fault(self, fault: Exception) -> None:
-        raise fault
-
-    def go(self, place: str) -> None:
-        self.place = place
-
-
 @pytest.fixture
 def background() -> Iterator[Background]:
     made = Background()
@@ -152,23 +132,18 @@ def library(tmp_path: Path) -> Iterator[Library]:
 
 
 def test_what_is_saved_is_in_the_register_and_in_the_log(
-    screen: ByHandScreen, library: Library, background: Background, qtbot: QtBot
+    theme: Theme, library: Library, background: Background, qtbot: QtBot
 ) -> None:
     patient = library.patients.add(PatientEntry("Linden 42", "left"))
-    told, now, left = Told(), NowOpen(choice=SourceChoice("camera")), []
+    told, window = Told("progress", answer=0), QWidget()
+    qtbot.addWidget(window)
+    context = a_context(theme, window, told, background, library=library)
+    now = context.now
     now.patient = PatientRow(patient, "Linden 42", "left")
-    owner = QObject()
-    flow = ByHand(
-        owner,
-        screen,
-        told,
-        told,
-        now,
-        library,
-        background,
-        initials=lambda: "MK",
-        back=lambda: left.append(1),  # type: ignore[arg-type]
-    )
+    flow = ByHandFlow(context)
+    screen = flow.screen
+    qtbot.addWidget(screen)
+    screen.show()
     flow.show()
     qtbot.waitUntil(lambda: told.place == "by_hand", timeout=60_000)
     assert screen.side == "left"
@@ -183,8 +158,8 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     assert screen.form.rows["FLEXION"].last.text() == "changed"
     assert "170° active · MK" in screen.form.rows["FLEXION"].last.toolTip()
     assert told.asked == ["Unusual: check, or keep it"]
-    flow.leave()
-    assert left == [1]
+    flow.up()
+    assert told.shown == [("progress", patient)]
     typed(screen, "FLEXION", "70")
     heron = library.patients.add(PatientEntry("Heron 17", "right"))
     for person, name, written in ((heron, "Heron 17", ""), (patient, "Linden 42", "70")):
@@ -192,8 +167,9 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
         flow.show()
         qtbot.waitUntil(lambda person=person: screen.record.patient_id == person, timeout=60_000)
         assert screen.form.rows["FLEXION"].fields[0][1].text() == written, name
-    flow.leave()
+    flow.up()
     assert told.asked[1:] == ["Leave without saving?"]
+    assert not told.faults
     assert [entry.did for entry in read_log(library.store)] == ["entered_by_hand"] * 2
 
 

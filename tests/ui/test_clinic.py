@@ -13,12 +13,12 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from carpus.app import compose
-from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.settings import RecordingSettings, Settings
 from carpus.core.library.library import Library
 from carpus.ui.clinic.screen import ClinicScreen
 from carpus.ui.clinic.words import write_clinic_page
 from carpus.ui.keys import Keys
+from carpus.ui.last_places import LastPlaces
 from carpus.ui.theme import Theme
 from tests.records.samples import LINDEN, T0, record
 from tests.ui.fakes import clinic
@@ -101,15 +101,15 @@ def test_in_the_window_from_the_patients_to_who_is_due_and_back(
         desktop.show()
         qtbot.mouseClick(journey.patients.clinic_button, Qt.MouseButton.LeftButton)
         qtbot.waitUntil(lambda: journey.place == "clinic", timeout=60_000)
-        assert journey.clinic.due.rows[0][-1] == "2 days overdue"
+        assert journey.clinic.screen.due.rows[0][-1] == "2 days overdue"
         page = tmp_path / "clinic.pdf"
         monkeypatch.setattr(LastPlaces, "ask_where_to_save", lambda *_: page)
-        journey.clinic.save.click()
-        qtbot.waitUntil(lambda: journey.teller.busy, timeout=60_000)
+        journey.clinic.screen.save.click()
+        qtbot.waitUntil(lambda: journey.messages.busy, timeout=60_000)
         assert page.is_file(), "and it is said"
         qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
-        assert not journey.teller.busy
-        qtbot.keyClick(journey.clinic.due.buttons[0], Qt.Key.Key_Return)
+        assert not journey.messages.busy
+        qtbot.keyClick(journey.clinic.screen.due.buttons[0], Qt.Key.Key_Return)
         assert journey.place == "patients"
         assert journey.patients.card.isVisible()
     finally:

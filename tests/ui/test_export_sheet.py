@@ -11,13 +11,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.last_places import LastPlaces
 from carpus.app.desktop.printing import Printing
 from carpus.app.desktop.report_forms import ReportForms
 from carpus.core.formats.formats import FORMATS
 from carpus.core.records.store import Store
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
+from carpus.ui.last_places import LastPlaces
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.theme import Theme
 

@@ -6,14 +6,12 @@ import re
 import shutil
 import subprocess
 from pathlib import Path
-from typing import get_args
 
 import pytest
 from PySide6.QtCore import QUrl
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.places import ASIDE, Place
 from carpus.core.errors import OutputNotWritable
 from carpus.core.hand.protocols import HAND21
 from carpus.ui.hand_drawing import PLACES
@@ -62,19 +60,12 @@ def test_every_picture_is_there_and_none_is_left_over() -> None:
         assert QImage(guide.picture_path(name)).width() >= 1000
 
 
-def test_every_screen_has_its_page() -> None:
-    places = set(get_args(Place)) - {"help"}
-    assert set(guide.PAGE_OF_PLACE) == places
-    assert set(ASIDE) - places == {"help"}
-    assert set(guide.PAGE_OF_PLACE.values()) <= set(guide.PAGES)
-
-
 def test_f1_opens_the_page_links_lead_on_and_pictures_are_shown(qtbot: QtBot, theme: Theme) -> None:
     screen = HelpScreen(theme, Keys())
     qtbot.addWidget(screen)
     screen.resize(1280, 744)
     screen.show()
-    screen.show_page_of("camera")
+    screen.show_page("camera")
     assert screen.pages["camera"].isChecked()
     assert "70 to 80 cm" in screen.text.toPlainText()
     screen.text.anchorClicked.emit(QUrl("correct"))

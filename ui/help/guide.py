@@ -1,4 +1,4 @@
-"""The guide: pages in resources/guide, which page belongs to which place, and a page as HTML in the theme's colours."""
+"""The guide: pages in resources/guide, and a page as HTML in the theme's colours."""
 
 from __future__ import annotations
 
@@ -19,14 +19,6 @@ PAGES = (
 )  # fmt: skip
 """In the order of the guide."""
 KEYS_PAGE = "keys"
-PAGE_OF_PLACE = {
-    "patients": "session", "exercise": "exercises", "camera": "camera", "markers": "calibration", "live": "measuring",
-    "sessions": "sessions", "review": "figures", "progress": "figures", "report": "figures",
-    "by_hand": "figures", "correct": "correct",
-    "agreement": "checking", "beside": "sessions", "retest": "checking", "board": "cameracheck", "card": "cameracheck",
-    "clinic": "data", "settings": "data",
-}  # fmt: skip
-"""What F1 opens on each screen."""
 _MARK = re.compile(r"\*\*(.+?)\*\*")
 _LINK = re.compile(r"\[(.+?)\]\((\w+)\.md\)")
 _PICTURE = re.compile(r"!\[(.*)\]\((.+)\)")

@@ -89,10 +89,6 @@ class HelpScreen(QWidget):
         self._index.setFixedWidth(self._theme.px(272))
         self.show_page(self.page)
 
-    def show_page_of(self, place: str) -> None:
-        """The page of the screen that a person comes from."""
-        self.show_page(guide.PAGE_OF_PLACE.get(place, guide.PAGES[0]))
-
     def show_page(self, name: str) -> None:
         """Show a page from its beginning."""
         self.page = name

@@ -2,55 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from datetime import date
+from collections.abc import Sequence
 
-from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import Qt, Signal
 
-from carpus.app.desktop.last_places import LastPlaces
-from carpus.app.desktop.ways import Tell, Way
 from carpus.core.agreement.restated import Restated
 from carpus.core.agreement.retest import StudyFigures, write_study
 from carpus.core.agreement.retest_plan import RetestPlan
 from carpus.core.durable import replace_file
-from carpus.core.library.library import Library
 from carpus.core.library.retest_people import RetestPeople
 from carpus.core.words import Words
 from carpus.ui import terms
-from carpus.ui.background import Background
+from carpus.ui.flow import Context, Flow
 from carpus.ui.messages.stop_card import Answer
 from carpus.ui.retest.people_sheet import PeopleSheet
 from carpus.ui.retest.screen import RetestScreen
-from carpus.ui.theme import Theme
 
 
-class Retesting(QObject):
+class RetestFlow(Flow):
     """``measure`` carries a person to be measured now; ``in_force`` that the clinic's limits are others now."""
+
+    place, guide = "retest", "checking"
+    screen: RetestScreen
 
     measure = Signal(str)
     in_force = Signal()
 
-    def __init__(
-        self,
-        window: QWidget,
-        screen: RetestScreen,
-        way: Way,
-        tell: Tell,
-        library: Library,
-        places: LastPlaces,
-        background: Background,
-        *,
-        theme: Theme,
-        today: Callable[[], date] = date.today,
-    ) -> None:
-        super().__init__(window)
-        self._window, self._screen, self._way, self._tell, self._library = window, screen, way, tell, library
-        self._places, self._background, self._today = places, background, today
-        self._people = RetestPeople(library)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context, RetestScreen(context.theme, context.keys))
+        screen = self.screen
+        self._people = RetestPeople(context.library)
         self._exercise = ""
         self._asked = 0
-        self.sheet = PeopleSheet(window, theme)
+        self.sheet = PeopleSheet(context.shell, context.theme)
         self.sheet.chosen.connect(self._choose)
         screen.people.connect(self._ask_people)
         screen.exercise_chosen.connect(self._take_exercise)
@@ -58,37 +42,38 @@ class Retesting(QObject):
         screen.use.connect(self._ask_use)
         screen.save.connect(self._save)
 
+    def title(self) -> str:
+        """It is of no patient."""
+        return self.tr("Test and retest")
+
     def show(self) -> None:
         """The study as it stands now."""
-        self._way.go("retest")
+        self.context.way.go("retest")
         self._read()
 
     def _read(self) -> None:
-        wanted, people, today = self._exercise, self._people, self._today()
+        wanted, people, today = self._exercise, self._people, self.context.today()
         self._asked += 1
-        self._screen.reading()
+        self.screen.reading()
 
         def read() -> tuple[Sequence[str], RetestPlan]:
             exercises = people.exercises()
             exercise = wanted if wanted in exercises else next(iter(exercises), "WRIST_FE")
             return exercises, people.plan(exercise, today)
 
-        self._background.run(read, self._shown, self._tell.fault, self)
+        self.run(read, self._shown)
 
     def _shown(self, found: tuple[Sequence[str], RetestPlan]) -> None:
         exercises, plan = found
         self._exercise = plan.exercise
-        self._screen.show_exercises(exercises, plan.exercise)
-        self._screen.show_plan(plan, self._library.error_limits)
-        if self._way.place == "retest":
-            self._screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
+        self.screen.show_exercises(exercises, plan.exercise)
+        self.screen.show_plan(plan, self.context.library.error_limits)
+        if self.context.way.place == "retest":
+            self.screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
         study, asked = plan.study, self._asked
         if study is not None and study.found and not study.simulated:
-            self._background.run(
-                lambda: self._people.patients(study),
-                lambda found: self._restate(study, asked, list(found), 0, ()),
-                self._tell.fault,
-                self,
+            self.run(
+                lambda: self._people.patients(study), lambda found: self._restate(study, asked, list(found), 0, ())
             )
 
     def _restate(
@@ -102,14 +87,12 @@ class Retesting(QObject):
         """What the limits would change, patient by patient: between two of them other work has its turn."""
         if asked != self._asked:
             return  # another study is shown by now
-        self._screen.show_restated(found, done, len(patients))
-        if done < len(patients) and self._way.place == "retest":
+        self.screen.show_restated(found, done, len(patients))
+        if done < len(patients) and self.context.way.place == "retest":
             patient_id, pseudonym = patients[done]
-            self._background.run(
+            self.run(
                 lambda: self._people.restated(patient_id, pseudonym, study),
                 lambda more: self._restate(study, asked, patients, done + 1, (*found, *more)),
-                self._tell.fault,
-                self,
             )
 
     def _take_exercise(self, exercise: str) -> None:
@@ -120,16 +103,16 @@ class Retesting(QObject):
         self.sheet.begin(self._people.candidates(), self._people.chosen())
 
     def _choose(self, patient_ids: Sequence[str]) -> None:
-        self._background.run(lambda: self._people.choose(patient_ids), lambda _: self._read(), self._tell.fault, self)
+        self.run(lambda: self._people.choose(patient_ids), lambda _: self._read())
 
     def _ask_use(self) -> None:
-        study = self._screen.plan.study
-        if study is None or self._screen.plan.blocked:
+        study = self.screen.plan.study
+        if study is None or self.screen.plan.blocked:
             return
         what = self.tr("Use these limits for {exercise}, from {count} people?").format(
             exercise=terms.exercise_name(study.exercise), count=study.people
         )
-        self._tell.ask(
+        self.context.messages.ask(
             Words(
                 what,
                 self.tr("Sessions stay as they are; reports already made keep their limits."),
@@ -143,24 +126,22 @@ class Retesting(QObject):
         )
 
     def _use(self) -> None:
-        study, today = self._screen.plan.study, self._today()
+        study, today = self.screen.plan.study, self.context.today()
         if study is not None:
-            self._background.run(
-                lambda: self._people.store(study, today), lambda _: self._stored(), self._tell.fault, self
-            )
+            self.run(lambda: self._people.store(study, today), lambda _: self._stored())
 
     def _stored(self) -> None:
         self.in_force.emit()
         self._read()
 
     def _save(self) -> None:
-        study = self._screen.plan.study
+        study = self.screen.plan.study
         if study is None:
             return
         title, kinds = self.tr("Save table"), "CSV (*.csv)"
-        path = self._places.ask_where_to_save(self._window, "exports", "retest.csv", title, kinds)
+        path = self.ask_where_to_save("exports", "retest.csv", title, kinds)
         if path is not None:
-            self._background.run(
+            self.run(
                 lambda: replace_file(path, lambda part: write_study([study], part)),
-                lambda _: None, self._tell.fault, self,
+                lambda _: None
             )  # fmt: skip

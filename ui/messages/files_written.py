@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from PySide6.QtCore import QUrl
 from PySide6.QtGui import QDesktopServices
 
-from carpus.app.desktop.ways import Tell
 from carpus.core.words import Words
+from carpus.ui.messages.messages import Messages
 from carpus.ui.messages.stop_card import Answer
 from carpus.ui.translate import tr
 
@@ -28,7 +28,7 @@ def shown(names: Sequence[str]) -> str:
     return ", ".join([*listed, *(["…"] if len(names) > MOST_NAMES else [])])
 
 
-def tell_written(tell: Tell, folder: str, names: Sequence[str]) -> None:
+def tell_written(tell: Messages, folder: str, names: Sequence[str]) -> None:
     """Say what went where, and offer to open the folder."""
     count = len(names)
     what = tr("1 file was written.") if count == 1 else tr("{count} files were written.")

@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import Signal
 
-from carpus import __version__
-from carpus.app.desktop.files_written import tell_written
-from carpus.app.desktop.last_places import LastPlaces
-from carpus.app.desktop.now_open import NowOpen
-from carpus.app.desktop.places import Place
-from carpus.app.desktop.viewing import KeptSessions
-from carpus.app.desktop.ways import Tell, Way
 from carpus.core.provenance import with_revision
 from carpus.core.records.values import SessionEntry
 from carpus.ui import numbers, terms
@@ -22,38 +14,28 @@ from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.beside.shown import Shown
 from carpus.ui.beside.tables import write_tables
+from carpus.ui.flow import Context, Flow
+from carpus.ui.messages.files_written import tell_written
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.sessions.sheets import ChooseSheet
-from carpus.ui.theme import Theme
 
 
-class Beside(QObject):
+class BesideFlow(Flow):
     """``report_wanted`` carries a page to be shown; ``tabled`` the paths written and the sessions that went into them.
     ``back_to`` is where one came from."""
+
+    place, guide, tab = "beside", "sessions", "review"
+    screen: BesideScreen
 
     report_wanted = Signal(object)
     tabled = Signal(object, object)
 
-    def __init__(
-        self,
-        window: QWidget,
-        screen: BesideScreen,
-        way: Way,
-        tell: Tell,
-        now: NowOpen,
-        stored: KeptSessions,
-        places: LastPlaces,
-        background: Background,
-        *,
-        theme: Theme,
-        therapist: Callable[[], str],
-    ) -> None:
-        super().__init__(window)
-        self._window, self._screen, self._way = window, screen, way
-        self._tell, self._now, self._stored, self._places = tell, now, stored, places
-        self._background, self._therapist = background, therapist
-        self.back_to: Place = "sessions"
-        self.sheet = ChooseSheet(window, theme)
+    def __init__(self, context: Context) -> None:
+        self._background = Background()  # its own: what the list still reads holds up no picture
+        super().__init__(context, BesideScreen(context.theme, context.keys, self._background, context.library))
+        screen, tell = self.screen, context.messages
+        self.back_to = "sessions"
+        self.sheet = ChooseSheet(context.shell, context.theme)
         self.sheet.chosen.connect(self._take_other)
         screen.told.connect(tell.fault)
         screen.report.connect(self._print)
@@ -62,22 +44,47 @@ class Beside(QObject):
 
     def show(self, one: str, other: str) -> None:
         """Show two sessions; Back leads to where one is now."""
-        if self._way.place != "beside":
-            self.back_to = self._way.place
-        patient = self._now.patient
-        self._screen.begin((one, other), patient.side if patient is not None else "")
-        self._way.go("beside")
+        if self.context.way.place != "beside":
+            self.back_to = self.context.way.place
+        patient = self.context.now.patient
+        self.screen.begin((one, other), patient.side if patient is not None else "")
+        self.context.way.go("beside")
+
+    def up(self) -> None:
+        """Where one came from."""
+        patient = self.context.now.patient
+        if self.back_to == "review" or patient is None:
+            self.to_session()
+        else:
+            self.context.way.show("sessions", patient.patient_id)
+
+    def leave(self) -> None:
+        """Another screen is shown."""
+        self.screen.end()
+
+    def close(self) -> None:
+        """The window closes."""
+        self.screen.end()
+        self._background.wait()
+
+    def sign_lines(self) -> list[str]:
+        """Which of the two is simulated."""
+        shown = self.screen.shown
+        both = None if shown is None or self.context.now.is_practice else shown.both
+        simulated = both is not None and (both.first.simulated or both.second.simulated)
+        return [self.tr("Simulated hand: this is not a patient’s, and does not count.")] if simulated else []
 
     def _print(self, now: Shown) -> None:
-        pseudonym = self._now.name or now.both.first.subject_id
-        made_by = with_revision(__version__)
-        self.report_wanted.emit(BesideReport(now, self._screen.quantity, pseudonym, self._therapist(), made_by))
+        pseudonym = self.context.now.name or now.both.first.subject_id
+        made_by = with_revision(self.context.version)
+        therapist = self.context.report.therapist
+        self.report_wanted.emit(BesideReport(now, self.screen.quantity, pseudonym, therapist, made_by))
 
     # --- another session in place of the second ------------------------------------------------------------
     def _ask_other(self) -> None:
-        patient = self._now.patient
-        entries = self._stored.sessions(patient.patient_id) if patient is not None and patient.patient_id else ()
-        first, second = self._screen.ids
+        patient = self.context.now.patient
+        entries = self.context.library.sessions(patient.patient_id) if patient and patient.patient_id else ()
+        first, second = self.screen.ids
         others = [entry for entry in entries if entry.session_id not in (first, second)]
         what = {entry.session_id: _entry_words(entry) for entry in entries}
         self.sheet.begin(
@@ -89,27 +96,22 @@ class Beside(QObject):
 
     def _take_other(self, session_id: str) -> None:
         if session_id and session_id != "None":
-            self.show(self._screen.ids[0], session_id)
+            self.show(self.screen.ids[0], session_id)
 
     # --- tables -------------------------------------------------------------------------------------------
     def _export(self, now: Shown) -> None:
         """Ask for a name and write the differences and the curves as CSV."""
         title, kinds = self.tr("Save tables"), "CSV (*.csv)"
-        path = self._places.ask_where_to_save(self._window, "exports", "side-by-side.csv", title, kinds)
+        path = self.ask_where_to_save("exports", "side-by-side.csv", title, kinds)
         if path is not None:
             target = path if path.suffix else path.with_suffix(".csv")
             replaces = target.exists()
             sessions = [now.both.first.session_id, now.both.second.session_id]
-            self._background.run(
-                lambda: write_tables(target, now, replaces=replaces),
-                lambda paths: self._written(paths, sessions),
-                self._tell.fault,
-                self,
-            )
+            self.run(lambda: write_tables(target, now, replaces=replaces), lambda paths: self._written(paths, sessions))
 
     def _written(self, paths: Sequence[Path], sessions: Sequence[str]) -> None:
         self.tabled.emit(paths, sessions)
-        tell_written(self._tell, str(paths[0].parent), [path.name for path in paths])
+        tell_written(self.context.messages, str(paths[0].parent), [path.name for path in paths])
 
 
 def _entry_words(entry: SessionEntry) -> str:

@@ -3,18 +3,12 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Protocol
 
-from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QFileDialog
 
-from carpus import __version__
-from carpus.app.desktop.files_written import tell_written
-from carpus.app.desktop.last_places import LastPlaces
-from carpus.app.desktop.now_open import NowOpen
-from carpus.app.desktop.ways import Tell, Way
 from carpus.core.agreement.compared_files import Result, compare_files, write_files
 from carpus.core.agreement.reference import (
     ANGLE_FILES,
@@ -28,48 +22,29 @@ from carpus.core.agreement.watch import Stopped, WorkWatch
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.sites import PALM_MARKERS, WRIST_ANGLES
 from carpus.core.records.values import SessionEntry
-from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.ui import numbers, terms
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet, missing
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
+from carpus.ui.flow import Context, Flow
+from carpus.ui.messages.files_written import tell_written
 from carpus.ui.ports import ReferenceChoice
 from carpus.ui.report.agreement_plot import write_plots
-from carpus.ui.theme import Theme
 
 
-class Comparable(Protocol):
-    """The stored sessions, as far as a comparison reads them."""
-
-    def entry(self, session_id: str) -> SessionEntry: ...
-
-    def results(self, patient_id: str) -> Sequence[SessionEntry]: ...
-
-    def choices(self, session_id: str) -> RepetitionChoices: ...
-
-
-class Comparing(QObject):
+class AgreementFlow(Flow):
     """``saved`` carries the paths written and the sessions that went into them."""
+
+    place, guide, tab = "agreement", "checking", "review"
+    while_aside = True
+    screen: AgreementScreen
 
     saved = Signal(object, object)
     _stepped = Signal(int, int)
 
-    def __init__(
-        self,
-        window: QWidget,
-        screen: AgreementScreen,
-        way: Way,
-        tell: Tell,
-        now: NowOpen,
-        stored: Comparable,
-        places: LastPlaces,
-        *,
-        theme: Theme,
-        limit_deg: Callable[[], float],
-    ) -> None:
-        super().__init__(window)
-        self._window, self._screen, self._way, self._tell, self._now = window, screen, way, tell, now
-        self._stored, self._places, self._limit_deg = stored, places, limit_deg
+    def __init__(self, context: Context) -> None:
+        super().__init__(context, AgreementScreen(context.theme, context.keys))
+        screen = self.screen
         self._background = Background()  # its own: a long comparison holds up nothing else
         self._stop = threading.Event()
         self._session_id = ""
@@ -77,8 +52,8 @@ class Comparing(QObject):
         self._choice = ReferenceChoice("")
         self._outline: ReferenceOutline | None = None
         self._result: Result | None = None
-        self.reference = ReferenceSheet(window, theme)
-        self.columns = ColumnsSheet(window, theme)
+        self.reference = ReferenceSheet(context.shell, context.theme)
+        self.columns = ColumnsSheet(context.shell, context.theme)
         self.reference.file_wanted.connect(self._ask_file)
         self.reference.session_wanted.connect(self._take_session)
         self.columns.wanted.connect(self._start)
@@ -86,7 +61,7 @@ class Comparing(QObject):
         screen.columns.connect(self._ask_columns)
         screen.stop.connect(self._stop.set)
         screen.save.connect(self._save)
-        screen.told.connect(tell.fault)
+        screen.told.connect(context.messages.fault)
         self._stepped.connect(screen.bar.show_progress, Qt.ConnectionType.QueuedConnection)
 
     @property
@@ -98,11 +73,15 @@ class Comparing(QObject):
         """Compare a session; what it was compared with before is shown again."""
         if session_id != self._session_id or self._result is None:
             self._session_id, self._result = session_id, None
-            self._screen.begin()
-        self._screen.chart.start_folder = self._places.folder("exports")
-        self._way.go("agreement")
+            self.screen.begin()
+        self.screen.chart.start_folder = self.context.places.folder("exports")
+        self.context.way.go("agreement")
         if self._result is None:
             self._ask()
+
+    def up(self) -> None:
+        """To the session."""
+        self.to_session()
 
     def leave(self) -> None:
         """The screen is left: what runs is given up."""
@@ -119,11 +98,11 @@ class Comparing(QObject):
 
     def _others(self) -> list[tuple[str, str]]:
         """The patient's other results, those of the same recording first."""
-        patient = self._now.patient
+        patient = self.context.now.patient
         if patient is None or not patient.patient_id:
             return []
-        own = self._stored.entry(self._session_id)
-        others = [one for one in self._stored.results(patient.patient_id) if one.session_id != self._session_id]
+        own = self.context.library.entry(self._session_id)
+        others = [one for one in self.context.library.results(patient.patient_id) if one.session_id != self._session_id]
         others = [one for one in others if one.hand == own.hand]
         others.sort(key=lambda one: one.recording_id != own.recording_id)
         return [(one.session_id, self._words_of(one, own)) for one in others]
@@ -133,7 +112,7 @@ class Comparing(QObject):
         return f"{words} · {self.tr('same recording')}" if entry.recording_id == own.recording_id else words
 
     def _take_session(self, session_id: str) -> None:
-        entry = self._stored.entry(session_id)
+        entry = self.context.library.entry(session_id)
         name = self.tr("the session of {when}").format(when=numbers.report_date(entry.recorded))
         self._outline = None
         self._start(ReferenceChoice(name, str(entry.path), session_id))
@@ -141,8 +120,8 @@ class Comparing(QObject):
     def _ask_file(self) -> None:
         endings = " ".join(f"*{end}" for end in (*POINT_FILES, *ANGLE_FILES, *TABLE_FILES, *SESSION_FILES[:1]))
         words = self.tr("Other measurements ({endings})").format(endings=endings)
-        start = self._places.folder("exports")
-        path, _ = QFileDialog.getOpenFileName(self._window, self.tr("Another measurement"), start, words)
+        start = self.context.places.folder("exports")
+        path, _ = QFileDialog.getOpenFileName(self.context.shell, self.tr("Another measurement"), start, words)
         if path:
             self._take_file(Path(path))
 
@@ -156,7 +135,7 @@ class Comparing(QObject):
             else:
                 self._start(choice)
 
-        self._background.run(lambda: outline_of(path), known, self._tell.fault, self)
+        self._background.run(lambda: outline_of(path), known, self.context.messages.fault, self)
 
     def _ask_columns(self) -> None:
         if self._outline is not None:
@@ -165,7 +144,7 @@ class Comparing(QObject):
     def _ours(self, outline: ReferenceOutline) -> Sequence[str]:
         if outline.kind == "points":
             return PALM_MARKERS
-        protocol = exercise_named(self._stored.entry(self._session_id).exercise).protocol
+        protocol = exercise_named(self.context.library.entry(self._session_id).exercise).protocol
         return ("time", *WRIST_ANGLES, *protocol.joint_names(True))
 
     # --- the work -----------------------------------------------------------------------------------------
@@ -174,33 +153,33 @@ class Comparing(QObject):
         self._stop.set()  # of what may still run
         self._choice, self._result = choice, None
         self._number += 1
-        number, limit_deg, stop = self._number, self._limit_deg(), threading.Event()
+        number, limit_deg, stop = self._number, self.context.report.agreement_limit_deg, threading.Event()
         self._stop = stop
         session_id = self._session_id
-        self._screen.running(choice.name)
-        self._screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
+        self.screen.running(choice.name)
+        self.screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
 
         def work() -> Result:
             return compare_files(
-                self._stored.entry(session_id).path, Path(choice.path), columns=choice.columns,
-                markers=choice.markers, radians=choice.radians, choices=self._stored.choices(session_id),
+                self.context.library.entry(session_id).path, Path(choice.path), columns=choice.columns,
+                markers=choice.markers, radians=choice.radians, choices=self.context.library.choices(session_id),
                 watch=WorkWatch(self._stepped.emit, stop.is_set),
             )  # fmt: skip
 
         def done(result: Result) -> None:
             if number == self._number:
                 self._result = result
-                self._screen.show_compared(result.compared, choice.name, limit_deg, may_map=self._may_map())
-                if self._way.place == "agreement":
-                    self._screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
+                self.screen.show_compared(result.compared, choice.name, limit_deg, may_map=self._may_map())
+                if self.context.way.place == "agreement":
+                    self.screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
 
         def failed(fault: Exception) -> None:
             if number != self._number:
                 return
-            self._screen.begin(may_map=self._may_map())
-            self._screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
+            self.screen.begin(may_map=self._may_map())
+            self.screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
             if not isinstance(fault, Stopped):
-                self._tell.fault(fault)
+                self.context.messages.fault(fault)
 
         self._background.run(work, done, failed, self)
 
@@ -213,20 +192,22 @@ class Comparing(QObject):
         result = self._result
         if result is None:
             return
-        start = self._places.folder("exports")
-        folder = QFileDialog.getExistingDirectory(self._window, self.tr("Save tables and plots into a folder"), start)
+        start = self.context.places.folder("exports")
+        folder = QFileDialog.getExistingDirectory(
+            self.context.shell, self.tr("Save tables and plots into a folder"), start
+        )
         if not folder:
             return
-        self._places.keep("exports", folder)
+        self.context.places.keep("exports", folder)
         sessions = [one for one in (self._session_id, self._choice.session_id) if one]
-        limit_deg = self._screen.limit_deg
+        limit_deg = self.screen.limit_deg
 
         def write() -> list[Path]:
-            files = write_files(result, Path(folder), __version__)
+            files = write_files(result, Path(folder), self.context.version)
             return [*files, *write_plots(result.compared, Path(folder), result.stem, limit_deg)]
 
-        self._background.run(write, lambda paths: self._written(paths, sessions), self._tell.fault, self)
+        self._background.run(write, lambda paths: self._written(paths, sessions), self.context.messages.fault, self)
 
     def _written(self, paths: Sequence[Path], sessions: Sequence[str]) -> None:
         self.saved.emit(paths, sessions)
-        tell_written(self._tell, str(paths[0].parent), [path.name for path in paths])
+        tell_written(self.context.messages, str(paths[0].parent), [path.name for path in paths])

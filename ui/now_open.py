@@ -2,13 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
-from carpus.app.desktop.sources import OpenSource
 from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
-from carpus.ui.ports import PatientRow
+from carpus.ui.ports import Calibrator, PatientRow
 from carpus.ui.setup.choice import SourceChoice, SourceKind
 from carpus.ui.translate import tr
+
+if TYPE_CHECKING:  # it reads and writes files
+    from carpus.core.pipeline.measuring import SourceMeasuring
+
+
+@dataclass(frozen=True, slots=True)
+class OpenSource:
+    """A source with its calibrator; ``measuring`` owns it and closes it.
+
+    ``asks_registration``: nothing says whether the depth of this recording lies on its colours.
+    ``rests``: whether the simulated hand lies still because its movement is not drawn yet.
+    """
+
+    calibrator: Calibrator
+    measuring: SourceMeasuring
+    asks_registration: bool = False
+    rests: Callable[[], bool] = lambda: False
 
 
 @dataclass(slots=True, eq=False)

@@ -2,60 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
-from PySide6.QtCore import QObject, Qt
+from PySide6.QtCore import Qt
 
-from carpus.app.desktop.now_open import NowOpen
-from carpus.app.desktop.ways import Tell, Way
 from carpus.core.by_hand.values import HandValue
-from carpus.core.library.library import Library
 from carpus.core.types import Side
 from carpus.core.words import Words
-from carpus.ui.background import Background
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
+from carpus.ui.flow import Context, Flow
 from carpus.ui.messages.stop_card import Answer
 
 
-class ByHand(QObject):
-    """``back`` leads to where the form was asked for."""
+class ByHandFlow(Flow):
+    """The form for today, and what of it is not kept yet."""
 
-    def __init__(
-        self,
-        parent: QObject,
-        screen: ByHandScreen,
-        way: Way,
-        tell: Tell,
-        now: NowOpen,
-        library: Library,
-        background: Background,
-        *,
-        initials: Callable[[], str],
-        back: Callable[[], None],
-    ) -> None:
-        super().__init__(parent)
-        self._screen, self._way, self._tell, self._now, self._library = screen, way, tell, now, library
-        self._background, self._initials, self._back = background, initials, back
+    place, guide, tab = "by_hand", "figures", "progress"
+    screen: ByHandScreen
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context, ByHandScreen(context.theme, context.today))
         self._aside: dict[str, Sequence[HandValue]] = {}
-        screen.save.connect(self._ask_to_save)
-        screen.done.connect(self.leave)
+        self.screen.save.connect(self._ask_to_save)
+        self.screen.done.connect(self.up)
 
     def show(self) -> None:
         """The form of the patient who is open, for today; with what was written and not kept, if it was left so."""
-        patient, screen = self._now.patient, self._screen
+        patient, screen = self.context.now.patient, self.screen
         if patient is not None and screen.record.patient_id == patient.patient_id and screen.has_unsaved:
-            self._way.go("by_hand")
+            self.context.way.go("by_hand")
             return
         self._read(again=False)
 
-    def leave(self) -> None:
+    def up(self) -> None:
         """Back to the progress; what is written and not saved is asked about first."""
-        if not self._screen.has_unsaved:
+        if not self.screen.has_unsaved:
             self._back()
             return
-        self._tell.ask(
+        self.context.messages.ask(
             Words(
                 self.tr("Leave without saving?"),
                 self.tr("Values are written that are not kept yet."),
@@ -68,15 +54,22 @@ class ByHand(QObject):
             icon="file-text",
         )
 
+    def _back(self) -> None:
+        patient = self.context.now.patient
+        if patient is not None:
+            self.context.way.show("progress", patient.patient_id)
+        else:
+            self.to_patient()
+
     def _let_go(self) -> None:
-        self._screen.show_record(self._screen.record)
+        self.screen.show_record(self.screen.record)
         self._back()
 
     def _read(self, *, again: bool) -> None:
-        patient, library = self._now.patient, self._library
+        patient, library = self.context.now.patient, self.context.library
         if patient is None:
             return
-        patient_id, initials = patient.patient_id, self._initials()
+        patient_id, initials = patient.patient_id, self.context.report.therapist
         side: Side = "left" if patient.side == "left" else "right"
 
         def read() -> HandRecord:
@@ -84,22 +77,22 @@ class ByHand(QObject):
             return HandRecord(patient_id, side, tuple(library.by_hand(patient_id)), tuple(figures), initials)
 
         def shown(record: HandRecord) -> None:
-            if self._now.patient is None or self._now.patient.patient_id != patient_id:
+            if self.context.now.patient is None or self.context.now.patient.patient_id != patient_id:
                 return
             self._lay_aside(patient_id)
-            self._screen.show_record(record, again=again)
+            self.screen.show_record(record, again=again)
             if not again:
-                self._screen.write_again(self._aside.pop(patient_id, ()))
-                self._way.go("by_hand")
-                self._screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
+                self.screen.write_again(self._aside.pop(patient_id, ()))
+                self.context.way.go("by_hand")
+                self.screen.first().setFocus(Qt.FocusReason.OtherFocusReason)
 
-        self._background.run(read, shown, self._tell.fault, self)
+        self.run(read, shown)
 
     def _lay_aside(self, patient_id: str) -> None:
         """What is written of another patient and not kept waits until that patient's form is opened again."""
-        before = self._screen.record.patient_id
+        before = self.screen.record.patient_id
         with suppress(ValueError):  # what cannot be kept was marked red all the time
-            if before != patient_id and (values := self._screen.unsaved()):
+            if before != patient_id and (values := self.screen.unsaved()):
                 self._aside[before] = values
 
     def _ask_to_save(self, values: Sequence[HandValue], doubts: Sequence[str]) -> None:
@@ -108,7 +101,7 @@ class ByHand(QObject):
         if not doubts:
             self._save(values)
             return
-        self._tell.ask(
+        self.context.messages.ask(
             Words(
                 self.tr("Unusual: check, or keep it"),
                 "; ".join(doubts),
@@ -122,14 +115,9 @@ class ByHand(QObject):
         )
 
     def _save(self, values: Sequence[HandValue]) -> None:
-        patient = self._now.patient
+        patient = self.context.now.patient
         if patient is None:
             return
-        patient_id, by = patient.patient_id, self._initials()
+        patient_id, by = patient.patient_id, self.context.report.therapist
         signed = [replace(one, by=by) for one in values]
-        self._background.run(
-            lambda: self._library.enter_by_hand(patient_id, signed),
-            lambda _: self._read(again=True),
-            self._tell.fault,
-            self,
-        )
+        self.run(lambda: self.context.library.enter_by_hand(patient_id, signed), lambda _: self._read(again=True))

@@ -32,7 +32,7 @@ class _Message:
     alarm: bool = True
 
 
-class Teller(QObject):
+class Messages(QObject):
     """Shows one card at a time, oldest first; the same words are not queued twice. ``told`` carries each fault."""
 
     told = Signal(object)

@@ -1,0 +1,57 @@
+"""What a flow is tried with: a context without a window around it."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+from PySide6.QtWidgets import QWidget
+
+from carpus.core.results.report_form import ReportSettings
+from carpus.ui.background import Background
+from carpus.ui.flow import Context
+from carpus.ui.keys import Keys
+from carpus.ui.now_open import NowOpen
+from carpus.ui.setup.choice import SourceChoice
+from carpus.ui.theme import Theme
+from tests.ui.fakes import NOW
+
+
+class Told:
+    """Messages, and a way, that take down what a person would see; ``answer`` is the number of the one given."""
+
+    busy = False
+
+    def __init__(self, place: str = "patients", answer: int | None = None) -> None:
+        self.place, self._answer = place, answer
+        self.asked: list[str] = []
+        self.faults: list[Exception] = []
+        self.shown: list[tuple[object, ...]] = []
+
+    def put(self, flow: object) -> None:
+        """Nobody looks it up."""
+
+    def go(self, place: str) -> None:
+        self.place = place
+
+    def show(self, place: str, *given: object) -> None:
+        self.shown.append((place, *given))
+
+    def ask(self, question: Any, answers: Any, **_: object) -> None:
+        self.asked.append(question.happened)
+        if self._answer is not None:
+            answers[self._answer].action()
+
+    def fault(self, fault: Exception) -> None:
+        self.faults.append(fault)
+
+
+def a_context(theme: Theme, window: QWidget, told: Told, background: Background, **given: object) -> Context:
+    """A context of ``told`` for way and messages; what else a flow needs is ``given`` by its name there."""
+    usual = {
+        "shell": window, "theme": theme, "keys": Keys({}), "background": background, "messages": told, "way": told,
+        "now": NowOpen(choice=SourceChoice("camera")), "report": ReportSettings("MK"), "today": NOW.date,
+        "version": "1.2.3",
+        "is_demo": False,
+    }  # fmt: skip
+    return cast("Context", SimpleNamespace(**(usual | given)))

@@ -1,0 +1,204 @@
+"""What a screen declares and does (:class:`Flow`), what all screens share (:class:`Context`), and the one that moves
+between them (:class:`Navigator`)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import date
+from pathlib import Path
+from typing import Any, TypeVar
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QWidget
+
+from carpus.core.library.library import Library
+from carpus.core.results.report_form import ReportSettings
+from carpus.ui.background import Background
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.keys import Keys
+from carpus.ui.last_places import Kind, LastPlaces
+from carpus.ui.messages.messages import Messages
+from carpus.ui.now_open import NowOpen
+from carpus.ui.shell import Shell
+from carpus.ui.theme import Theme
+
+T = TypeVar("T")
+STEPS = ("exercise", "camera", "markers", "live")
+"""The set-up, in order; the top bar counts them."""
+TABS = ("sessions", "review", "progress", "report")
+"""The views of an open patient, in the order of the tabs."""
+ASIDE = ("help", "settings")
+"""Places beside the way: from them one comes back to where one was."""
+
+
+@dataclass(slots=True, eq=False)
+class Context:
+    """What the screens share. A screen makes itself what it alone needs."""
+
+    shell: Shell
+    theme: Theme
+    keys: Keys
+    library: Library
+    background: Background
+    messages: Messages
+    way: Navigator
+    now: NowOpen
+    places: LastPlaces
+    report: ReportSettings
+    """As chosen now."""
+    today: Callable[[], date]
+    """The day now: the program may stand open for days."""
+    version: str
+    """Of Carpus, for what is written."""
+    is_demo: bool = False
+
+
+class Flow(QObject):
+    """One screen: where it stands, and what is done on it. Made once, it enters itself into the table of places."""
+
+    place: str
+    """Its name for the others: ``context.way.show("clinic")``."""
+    guide: str = "session"
+    """The page of the guide that F1 opens on it."""
+    tab: str = ""
+    """Where it lies under a tab of an open patient without being one: that tab's place."""
+    while_aside: bool = False
+    """Whether it goes on behind help and settings."""
+    screen: QWidget
+
+    def __init__(self, context: Context, screen: QWidget) -> None:
+        super().__init__(context.shell)
+        self.context, self.screen = context, screen
+        context.way.put(self)
+
+    def show(self, *_: Any, **__: Any) -> None:
+        """Bring it up; a screen that shows something certain says here what it must be told."""
+        self.context.way.go(self.place)
+
+    def title(self) -> str:
+        """What the top bar says; who is open, where a screen is of nobody else."""
+        return self.context.now.name
+
+    def first(self) -> QWidget:
+        """What gets the keyboard: what the screen itself names, or all of it."""
+        named: Callable[[], QWidget] | None = getattr(self.screen, "first", None)
+        return named() if named is not None else self.screen
+
+    def up(self) -> None:
+        """One step back from here."""
+        self.to_patient()
+
+    def to_patient(self) -> None:
+        """Back to the list, with who is open."""
+        row = self.context.now.patient
+        self.context.way.show("patients", row.patient_id if row is not None else "")
+
+    def to_session(self) -> None:
+        """Back to the session that was looked at."""
+        if self.context.now.session_id:
+            self.context.way.show("review", self.context.now.session_id)
+        else:
+            self.to_patient()
+
+    def leave(self) -> None:
+        """Another screen is shown: what must not go on ends."""
+
+    def close(self) -> None:
+        """The window closes: what runs ends, and is waited for."""
+
+    def sign_lines(self) -> list[str]:
+        """What must not be forgotten of what is on the screen."""
+        return []
+
+    def run(
+        self,
+        work: Callable[[], T],
+        done: Callable[[T], None] = lambda _: None,
+        failed: Callable[[Exception], None] | None = None,
+    ) -> None:
+        """Work beside the window; its fault is told, unless ``failed`` does something else."""
+        self.context.background.run(work, done, failed or self.context.messages.fault, self)
+
+    def ask_where_to_save(self, kind: Kind, name: str, title: str, kinds: str) -> Path | None:
+        """A file to write, None when the person changed their mind."""
+        return self.context.places.ask_where_to_save(self.context.shell, kind, name, title, kinds)
+
+
+class Navigator(QObject):
+    """The table of places, and the way between them: ``leaving`` with the new place before it is shown, ``arrived``
+    after."""
+
+    leaving = Signal(str)
+    arrived = Signal(str)
+
+    def __init__(self, shell: Shell, is_asked: Callable[[], bool], is_recording: Callable[[], bool]) -> None:
+        super().__init__(shell)
+        self._shell, self._is_asked, self._is_recording = shell, is_asked, is_recording
+        self.flows: dict[str, Flow] = {}
+        """By their places."""
+        self._place = "patients"
+        self._before_aside = "patients"
+        self._came: dict[str, str] = {}
+
+    @property
+    def place(self) -> str:
+        """Where the person is."""
+        return self._place
+
+    @property
+    def behind(self) -> str:
+        """Where the person is, or was before help or settings."""
+        return self._before_aside if self._place in ASIDE else self._place
+
+    @property
+    def here(self) -> Flow:
+        """The screen that is shown."""
+        return self.flows[self._place]
+
+    def put(self, flow: Flow) -> None:
+        """Enter a screen into the table."""
+        self.flows[flow.place] = flow
+
+    def show(self, place: str, *given: object) -> None:
+        """Bring up a screen as it does it itself, with what it must be told."""
+        self.flows[place].show(*given)
+
+    def go(self, place: str) -> None:
+        """Change to a screen as it is; for its own flow."""
+        old, new = self.flows.get(self._place), self.flows[place]
+        if old is not None and place != self._place and not (old.while_aside and place in ASIDE):
+            old.leave()
+        if place != self._place and self._place not in ASIDE:
+            self._came[place] = self._place
+        self._place = place
+        self.leaving.emit(place)
+        self._shell.show_screen(new.screen, new.first())
+        self.arrived.emit(place)
+
+    def came_from(self, place: str) -> str:
+        """From where a place was last gone to, help and settings aside."""
+        return self._came.get(place, "patients")
+
+    def may_aside(self) -> bool:
+        """Whether help and settings can be opened now: not from each other, a recording, or a question."""
+        return not (self._place in ASIDE or self._is_recording() or self._is_asked())
+
+    def aside(self, place: str) -> None:
+        """Help or settings, from which one comes back; not over a running recording."""
+        if not self.may_aside():
+            return
+        self._before_aside = self._place
+        self.go(place)
+
+    def back(self) -> None:
+        """One step back; what covers the screen goes first, and nothing leaves a message or a running recording."""
+        if self._is_asked():
+            return
+        sheets = [sheet for sheet in self._shell.findChildren(Sheet) if sheet.isVisible()]
+        if sheets:
+            sheets[-1].leave()
+        elif self._place in ASIDE:
+            self.go(self._before_aside)
+        elif not (self._place == "live" and self._is_recording()):
+            self.flows[self._place].up()
