@@ -1,4 +1,4 @@
-"""What a screen declares and does (:class:`Flow`), what all screens share (:class:`Context`), and the one that moves
+"""What a screen declares and does (:class:`Flow`), what all share (:class:`ScreenContext`), and the one that moves
 between them (:class:`Navigator`)."""
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ ASIDE = ("help", "settings")
 
 
 @dataclass(slots=True, eq=False)
-class Context:
+class ScreenContext:
     """What the screens share. A screen makes itself what it alone needs."""
 
     shell: Shell
@@ -67,7 +67,7 @@ class Flow(QObject):
     """Whether it goes on behind help and settings."""
     screen: QWidget
 
-    def __init__(self, context: Context, screen: QWidget) -> None:
+    def __init__(self, context: ScreenContext, screen: QWidget) -> None:
         super().__init__(context.shell)
         self.context, self.screen = context, screen
         context.way.put(self)

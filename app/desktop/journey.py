@@ -51,7 +51,7 @@ from carpus.ui.check_card.standing_words import bar_words, card_words, session_w
 from carpus.ui.clinic.flow import ClinicFlow
 from carpus.ui.correct.results_sheet import ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
-from carpus.ui.flow import STEPS, TABS, Context, Flow, Navigator
+from carpus.ui.flow import STEPS, TABS, Flow, Navigator, ScreenContext
 from carpus.ui.help.screen import HelpScreen
 from carpus.ui.icons import State
 from carpus.ui.keys import Keys
@@ -112,7 +112,7 @@ class _Stop(Flow):
 
     def __init__(
         self,
-        context: Context,
+        context: ScreenContext,
         place: str,
         screen: QWidget,
         guide: str = "session",
@@ -166,7 +166,7 @@ class Journey(QObject):
         self.opener = Opener(parts.sources)
         self.messages = messages = Messages(shell.stage, theme, parts.phrasebook)
         self.way = Navigator(shell, lambda: messages.busy, lambda: self.live.recording_state != "off")
-        self.context = Context(
+        self.context = ScreenContext(
             shell, theme, keys, parts.library, self.background, messages, self.way, self.now,
             LastPlaces(parts.library.store), parts.settings.report, parts.today, __version__, parts.is_demo,
         )  # fmt: skip

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.core.results.report_form import ReportSettings
 from carpus.ui.background import Background
-from carpus.ui.flow import Context
+from carpus.ui.flow import ScreenContext
 from carpus.ui.keys import Keys
 from carpus.ui.now_open import NowOpen
 from carpus.ui.setup.choice import SourceChoice
@@ -46,7 +46,7 @@ class Told:
         self.faults.append(fault)
 
 
-def a_context(theme: Theme, window: QWidget, told: Told, background: Background, **given: object) -> Context:
+def a_context(theme: Theme, window: QWidget, told: Told, background: Background, **given: object) -> ScreenContext:
     """A context of ``told`` for way and messages; what else a flow needs is ``given`` by its name there."""
     usual = {
         "shell": window, "theme": theme, "keys": Keys({}), "background": background, "messages": told, "way": told,
@@ -54,4 +54,4 @@ def a_context(theme: Theme, window: QWidget, told: Told, background: Background,
         "version": "1.2.3",
         "is_demo": False,
     }  # fmt: skip
-    return cast("Context", SimpleNamespace(**(usual | given)))
+    return cast("ScreenContext", SimpleNamespace(**(usual | given)))

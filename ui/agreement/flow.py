@@ -26,7 +26,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet, missing
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
-from carpus.ui.flow import Context, Flow
+from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.files_written import tell_written
 from carpus.ui.ports import ReferenceChoice
 from carpus.ui.report.agreement_plot import write_plots
@@ -42,7 +42,7 @@ class AgreementFlow(Flow):
     saved = Signal(object, object)
     _stepped = Signal(int, int)
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, AgreementScreen(context.theme, context.keys))
         screen = self.screen
         self._background = Background()  # its own: a long comparison holds up nothing else

@@ -14,7 +14,7 @@ from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.beside.shown import Shown
 from carpus.ui.beside.tables import write_tables
-from carpus.ui.flow import Context, Flow
+from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.files_written import tell_written
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.sessions.sheets import ChooseSheet
@@ -30,7 +30,7 @@ class BesideFlow(Flow):
     report_wanted = Signal(object)
     tabled = Signal(object, object)
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: ScreenContext) -> None:
         self._background = Background()  # its own: what the list still reads holds up no picture
         super().__init__(context, BesideScreen(context.theme, context.keys, self._background, context.library))
         screen, tell = self.screen, context.messages

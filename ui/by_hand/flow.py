@@ -12,7 +12,7 @@ from carpus.core.by_hand.values import HandValue
 from carpus.core.types import Side
 from carpus.core.words import Words
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
-from carpus.ui.flow import Context, Flow
+from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.stop_card import Answer
 
 
@@ -22,7 +22,7 @@ class ByHandFlow(Flow):
     place, guide, tab = "by_hand", "figures", "progress"
     screen: ByHandScreen
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, ByHandScreen(context.theme, context.today))
         self._aside: dict[str, Sequence[HandValue]] = {}
         self.screen.save.connect(self._ask_to_save)

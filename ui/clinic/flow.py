@@ -10,7 +10,7 @@ from carpus.core.records.clinic_week import clinic_week
 from carpus.core.records.values import ClinicWeek
 from carpus.ui.clinic.screen import ClinicScreen
 from carpus.ui.clinic.words import write_clinic_page
-from carpus.ui.flow import Context, Flow
+from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.files_written import tell_written
 
 
@@ -20,7 +20,7 @@ class ClinicFlow(Flow):
     place, guide = "clinic", "data"
     screen: ClinicScreen
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, ClinicScreen(context.theme, context.keys))
         screen = self.screen
         screen.week.connect(lambda day: self._read(day, screen.show_week))

@@ -13,7 +13,7 @@ from carpus.core.durable import replace_file
 from carpus.core.library.retest_people import RetestPeople
 from carpus.core.words import Words
 from carpus.ui import terms
-from carpus.ui.flow import Context, Flow
+from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.stop_card import Answer
 from carpus.ui.retest.people_sheet import PeopleSheet
 from carpus.ui.retest.screen import RetestScreen
@@ -28,7 +28,7 @@ class RetestFlow(Flow):
     measure = Signal(str)
     in_force = Signal()
 
-    def __init__(self, context: Context) -> None:
+    def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, RetestScreen(context.theme, context.keys))
         screen = self.screen
         self._people = RetestPeople(context.library)
