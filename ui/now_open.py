@@ -53,5 +53,10 @@ class NowOpen:
     def name(self) -> str:
         """What the patient is called: the practice patient in the person's language, however the folder has it."""
         if self.is_practice:
-            return tr("Practice patient")
+            return practice_name()
         return self.patient.pseudonym if self.patient is not None else ""
+
+
+def practice_name() -> str:
+    """What the practice patient is called."""
+    return tr("Practice patient")
