@@ -29,7 +29,6 @@ from carpus.app.desktop.journey import Journey, Parts
 from carpus.app.desktop.locking import Locking
 from carpus.app.desktop.no_folder import NoFolder
 from carpus.app.desktop.patients import PatientShelf
-from carpus.app.desktop.phrases import WordTable
 from carpus.app.desktop.practice import practice_beginning, practice_take
 from carpus.app.desktop.preferences import PreferenceKeeper
 from carpus.app.desktop.record_lists import RecordLists
@@ -48,6 +47,7 @@ from carpus.core.library.set_up import SetUp
 from carpus.core.private import make_private
 from carpus.ui import language
 from carpus.ui.check_card.standing_words import card_words
+from carpus.ui.fault_words import fault_words
 from carpus.ui.fonts import load_fonts
 from carpus.ui.icons import program_icon
 from carpus.ui.keys import Keys
@@ -249,7 +249,6 @@ def compose(
         library,
         PatientShelf(library),
         sources,
-        WordTable(),
         settings,
         is_demo,
         date.today if today is None else lambda: today,
@@ -289,7 +288,7 @@ def compose(
         place = journey.patients.notice_place
         journey.messages.strip(place, words, tr("Re&view it"), partial(journey.review_recovered, found))
     for fault in (*told, *faults):
-        said = WordTable().fault(fault)
+        said = fault_words(fault)
         journey.messages.strip(
             journey.patients.notice_place,
             said,
@@ -329,7 +328,7 @@ def _safekeeping(
         keep_years=lambda years: keeper.keep(records=replace(settings.records, retention_years=years)),
     )  # fmt: skip
     locking = Locking(
-        journey, shell, theme, library, WordTable(), key=Keys(settings.screen.keys)["lock"],
+        journey, shell, theme, library, key=Keys(settings.screen.keys)["lock"],
         minutes=settings.lock.after_min, is_busy=is_recording,
         keep_minutes=lambda minutes: keeper.keep(lock=LockSettings(minutes)),
     )  # fmt: skip
@@ -349,7 +348,7 @@ def _dressed(qt: QApplication, settings: Settings) -> Theme:
 def ask_for_folder(qt: QApplication, settings: Settings, fault: CarpusFault) -> Path | None:
     """Tell why the data folder cannot be used; the folder the person chose instead, None to end."""
     theme = _dressed(qt, settings)
-    return NoFolder(theme, WordTable().fault(fault), Path.home()).ask()
+    return NoFolder(theme, fault_words(fault), Path.home()).ask()
 
 
 def with_kept_folder(settings: Settings, folder: Path, settings_folder: Path | None = None) -> Settings:

@@ -11,7 +11,7 @@ from datetime import date, datetime
 from typing import Literal, Protocol
 
 from carpus.core.by_hand.values import HandValue
-from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
+from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.library.set_up import SetUp
@@ -23,7 +23,6 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import AngleOrder, Session
 from carpus.core.spot_answer import SpotAnswer
 from carpus.core.types import ByteImage, FloatArray, Frame, Side, TrackedFrame
-from carpus.core.words import Words
 
 
 # --- patients ---------------------------------------------------------------------------------------------
@@ -257,15 +256,6 @@ class Measuring(Protocol):
     def stop_recording(self) -> str: ...
 
     def close(self) -> None: ...
-
-
-# --- words for what goes wrong ----------------------------------------------------------------------------
-class Phrasebook(Protocol):
-    """The one table from fault to words (:mod:`core.words`), as the screens use it."""
-
-    def fault(self, fault: Exception) -> Words: ...
-
-    def finding(self, finding: CalibrationFinding) -> Words: ...
 
 
 # --- calibration ------------------------------------------------------------------------------------------

@@ -9,15 +9,14 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject
 
-from carpus.app.desktop.phrases import shortened
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.pipeline.live_values import LiveCounters
 from carpus.core.results.figures import SessionFigures
 from carpus.ui import numbers, terms
+from carpus.ui.fault_words import finding_words, shortened
 from carpus.ui.flow import STEPS, TABS, Navigator
 from carpus.ui.icons import State
 from carpus.ui.now_open import NowOpen
-from carpus.ui.ports import Phrasebook
 from carpus.ui.shell import Shell
 
 MOST_NAME = 24
@@ -46,7 +45,6 @@ class Bar(QObject):
         way: Navigator,
         camera_there: Callable[[], bool],
         review: OnReview,
-        phrasebook: Phrasebook,
         *,
         is_demo: bool,
         care: Callable[[], tuple[State, str] | None] = lambda: None,
@@ -55,7 +53,7 @@ class Bar(QObject):
         self._shell, self._now, self._way = shell, now, way
         self._again = (-1, 0)
         self._care = care
-        self._camera_there, self._review, self._phrasebook, self._is_demo = camera_there, review, phrasebook, is_demo
+        self._camera_there, self._review, self._is_demo = camera_there, review, is_demo
 
     def show(self) -> None:
         """All of it, for the place."""
@@ -99,7 +97,7 @@ class Bar(QObject):
         if place == "review" and figures is not None and figures.not_counted:
             lines.append(self.tr("This session does not count."))
         if findings:
-            said = " ".join(self._phrasebook.finding(finding).happened for finding in findings)
+            said = " ".join(finding_words(finding).happened for finding in findings)
             lines.append(self.tr("Measured although doubtful: {findings}").format(findings=said))
         return [*lines, *self._way.here.sign_lines()]
 

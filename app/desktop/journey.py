@@ -62,7 +62,7 @@ from carpus.ui.messages.messages import Messages
 from carpus.ui.messages.strip import NoticeStrip
 from carpus.ui.now_open import NowOpen, OpenSource
 from carpus.ui.patients.screen import PatientsScreen
-from carpus.ui.ports import PatientRow, PatientStore, Phrasebook
+from carpus.ui.ports import PatientRow, PatientStore
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.screen import ReportScreen
@@ -87,7 +87,6 @@ class Parts:
     library: Library
     patients: PatientStore
     sources: Sources
-    phrasebook: Phrasebook
     settings: Settings
     is_demo: bool
     today: Callable[[], date]
@@ -164,7 +163,7 @@ class Journey(QObject):
         self.now = NowOpen(choice=SourceChoice("practice" if parts.is_demo else "camera"))
         self.background = Background()
         self.opener = Opener(parts.sources)
-        self.messages = messages = Messages(shell.stage, theme, parts.phrasebook)
+        self.messages = messages = Messages(shell.stage, theme)
         self.way = Navigator(shell, lambda: messages.busy, lambda: self.live.recording_state != "off")
         self.context = ScreenContext(
             shell, theme, keys, parts.library, self.background, messages, self.way, self.now,
@@ -183,7 +182,7 @@ class Journey(QObject):
         self.patients = PatientsScreen(theme, self._parts.patients, self._parts.today)
         self.exercise = ExerciseScreen(theme)
         self.camera = CameraScreen(theme, is_demo=self.is_demo)
-        self.markers = MarkersScreen(theme, keys, background, self._parts.phrasebook)
+        self.markers = MarkersScreen(theme, keys, background)
         self.live = LiveScreen(theme, keys, background)
         self.review = ReviewScreen(theme, keys, background, library)
         self.sessions = SessionsScreen(theme, background, StoredSessions(library), keys)
@@ -240,7 +239,7 @@ class Journey(QObject):
             initials=lambda: self.settings.report.therapist,
         )  # fmt: skip
         self.bar = Bar(
-            self._shell, now, self.way, lambda: self.watch.there, self.review, self._parts.phrasebook,
+            self._shell, now, self.way, lambda: self.watch.there, self.review,
             is_demo=is_demo, care=self._care_words,
         )  # fmt: skip
 

@@ -16,7 +16,7 @@ from carpus.core.finding import Finding
 from carpus.core.library.library import Library
 from carpus.core.safekeeping.pin import Pin
 from carpus.ui.background import Background
-from carpus.ui.ports import Phrasebook
+from carpus.ui.fault_words import fault_words
 from carpus.ui.records.cards import LockCard
 from carpus.ui.records.idle import Idle
 from carpus.ui.records.lock_sheet import LockSheet
@@ -41,7 +41,6 @@ class Locking(QObject):
         shell: Shell,
         theme: Theme,
         library: Library,
-        phrasebook: Phrasebook,
         *,
         key: str,
         minutes: int,
@@ -49,7 +48,7 @@ class Locking(QObject):
         is_busy: Callable[[], bool],
     ) -> None:
         super().__init__(journey)
-        self._journey, self._shell, self._library, self._phrasebook = journey, shell, library, phrasebook
+        self._journey, self._shell, self._library = journey, shell, library
         self._minutes, self._keep_minutes, self._is_busy = minutes, keep_minutes, is_busy
         self.pin = Pin(library.folder)
         self.sheet = LockSheet(shell, theme)
@@ -127,7 +126,7 @@ class Locking(QObject):
         try:
             tried = self.pin.try_it(typed)
         except CarpusFault as fault:
-            words = self._phrasebook.fault(fault)
+            words = fault_words(fault)
             self.sheet.say(f"{words.happened} {words.do}")
             if not isinstance(fault, PinUncheckable):
                 self.sheet.pause(WAIT_MS // 1000)  # what cannot be counted is not tried without end

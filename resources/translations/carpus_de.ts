@@ -7487,6 +7487,18 @@
         <source>Catching up: {seconds} s left</source>
         <translation>Wird aufgeholt: noch {seconds} s</translation>
     </message>
+    <message>
+        <source>Something happened that Carpus does not know.</source>
+        <translation type="unfinished">Etwas ist geschehen, das Carpus nicht kennt.</translation>
+    </message>
+    <message>
+        <source>Everything stored before is safe.</source>
+        <translation type="unfinished">Alles vorher Gespeicherte ist sicher.</translation>
+    </message>
+    <message>
+        <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
+        <translation type="unfinished">Gehen Sie zurück und versuchen Sie es noch einmal. Kommt es wieder, starten Sie Carpus neu und melden Sie es.</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -12968,15 +12980,15 @@ Umschalt+F8 von der Seite</translation>
     <name>WordTable</name>
     <message>
         <source>Something happened that Carpus does not know.</source>
-        <translation>Etwas ist geschehen, das Carpus nicht kennt.</translation>
+        <translation type="vanished">Etwas ist geschehen, das Carpus nicht kennt.</translation>
     </message>
     <message>
         <source>Everything stored before is safe.</source>
-        <translation>Alles vorher Gespeicherte ist sicher.</translation>
+        <translation type="vanished">Alles vorher Gespeicherte ist sicher.</translation>
     </message>
     <message>
         <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
-        <translation>Gehen Sie zurück und versuchen Sie es noch einmal. Kommt es wieder, starten Sie Carpus neu und melden Sie es.</translation>
+        <translation type="vanished">Gehen Sie zurück und versuchen Sie es noch einmal. Kommt es wieder, starten Sie Carpus neu und melden Sie es.</translation>
     </message>
 </context>
 <context>

@@ -7487,6 +7487,18 @@
         <source>Catching up: {seconds} s left</source>
         <translation>Recupero: ancora {seconds} s</translation>
     </message>
+    <message>
+        <source>Something happened that Carpus does not know.</source>
+        <translation type="unfinished">È successo qualcosa che Carpus non conosce.</translation>
+    </message>
+    <message>
+        <source>Everything stored before is safe.</source>
+        <translation type="unfinished">Tutto ciò che era già salvato è al sicuro.</translation>
+    </message>
+    <message>
+        <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
+        <translation type="unfinished">Tornare indietro e riprovare. Se si ripete, riavviare Carpus e segnalarlo.</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -12968,15 +12980,15 @@ Maiusc+F8 di lato</translation>
     <name>WordTable</name>
     <message>
         <source>Something happened that Carpus does not know.</source>
-        <translation>È successo qualcosa che Carpus non conosce.</translation>
+        <translation type="vanished">È successo qualcosa che Carpus non conosce.</translation>
     </message>
     <message>
         <source>Everything stored before is safe.</source>
-        <translation>Tutto ciò che era già salvato è al sicuro.</translation>
+        <translation type="vanished">Tutto ciò che era già salvato è al sicuro.</translation>
     </message>
     <message>
         <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
-        <translation>Tornare indietro e riprovare. Se si ripete, riavviare Carpus e segnalarlo.</translation>
+        <translation type="vanished">Tornare indietro e riprovare. Se si ripete, riavviare Carpus e segnalarlo.</translation>
     </message>
 </context>
 <context>

@@ -48,7 +48,6 @@ from carpus.ui.ports import (
     StoredMoment,
     StoredResult,
     VerdictLimits,
-    Words,
 )
 from carpus.ui.report.home_page import HomeReport, HomeTask, OwnWay
 from carpus.ui.report.pdf import session_report
@@ -597,26 +596,6 @@ class FakeCalibrator:
 
     def begin(self, calibration: Calibration) -> None:
         self.begun = calibration
-
-
-class FakePhrasebook:
-    """Words that a test can recognise."""
-
-    def fault(self, fault: Exception) -> Words:
-        return Words(f"{type(fault).__name__} happened.", "Your data are safe.", "Do something.")
-
-    def finding(self, finding: CalibrationFinding) -> Words:
-        words = {
-            "swapped": Words(
-                "Index and middle knuckle are swapped.",
-                "Nothing has been recorded, so nothing is lost.",
-                "Swap the two names, or click both markers again.",
-            ),
-            "tilt": Words(
-                "The camera looks at the hand from the side.", "", "Turn the camera until it looks straight down."
-            ),
-        }
-        return words.get(finding.kind, Words(f"{finding.kind}.", "", f"Mend {finding.kind}."))
 
 
 class FakeSessions:

@@ -17,7 +17,6 @@ import numpy as np
 from PySide6.QtCore import QEvent, QLocale
 from PySide6.QtWidgets import QApplication, QWidget
 
-from carpus.app.desktop.phrases import WordTable
 from carpus.core.agreement.reference import ReferenceOutline
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import DiskFull
@@ -30,7 +29,7 @@ from carpus.core.results.report_form import Letterhead, ReportForm
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session
 from carpus.core.types import Side
-from carpus.core.words import Words, finding_words
+from carpus.core.words import Words
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
@@ -43,6 +42,7 @@ from carpus.ui.clinic.screen import ClinicScreen
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
+from carpus.ui.fault_words import fault_words
 from carpus.ui.fonts import load_fonts
 from carpus.ui.help.screen import HelpScreen
 from carpus.ui.keys import Keys
@@ -86,7 +86,6 @@ from tests.ui.fakes import (
     FakeCorrections,
     FakeFeed,
     FakeMeasuring,
-    FakePhrasebook,
     FakeSessions,
     FakeShelf,
     FakeStore,
@@ -145,13 +144,6 @@ CHECKS = (
 )  # fmt: skip
 SheetT = TypeVar("SheetT", bound=Sheet)
 ScreenT = TypeVar("ScreenT", bound=QWidget)
-
-
-class Phrases(FakePhrasebook):
-    """The real words for findings."""
-
-    def finding(self, finding: CalibrationFinding) -> Words:
-        return finding_words(finding)
 
 
 class Gallery:
@@ -317,7 +309,7 @@ class Gallery:
 
     def _markers(self, clicks: int, *findings: CalibrationFinding) -> tuple[MarkersScreen, FakeCalibrator]:
         self.place(steps=2)
-        screen = MarkersScreen(self.theme, self.keys, self.background, Phrases())
+        screen = MarkersScreen(self.theme, self.keys, self.background)
         calibrator = FakeCalibrator()
         calibrator.findings = findings
         self.show(screen, screen.picture)
@@ -344,7 +336,7 @@ class Gallery:
 
     def _proposed(self, doubtful: tuple[str, ...] = (), not_found: tuple[str, ...] = ()) -> MarkersScreen:
         self.place(steps=2)
-        screen = MarkersScreen(self.theme, self.keys, self.background, Phrases())
+        screen = MarkersScreen(self.theme, self.keys, self.background)
         calibrator = FakeCalibrator("fist", protocol="hand21")
         calibrator.doubtful, calibrator.not_found = doubtful, not_found
         self.show(screen, screen.picture)
@@ -488,7 +480,7 @@ class Gallery:
             screen._measuring.feed.recording = False  # type: ignore[union-attr, misc]
             screen._show_buttons()
             card = StopCard(screen.stage, self.theme)
-            words = WordTable().fault(DiskFull("session.h5", "no space left"))
+            words = fault_words(DiskFull("session.h5", "no space left"))
             answers = [Answer("To the patients", lambda: None, "P"), Answer("Go on measuring", lambda: None, "Space")]
             card.show_words(words, answers, icon="hard-drive")
             self.settle()

@@ -18,13 +18,13 @@ from carpus.ui.markers.clicking import Clicking
 from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.ports import ProposedMarker
 from carpus.ui.theme import Theme
-from tests.ui.fakes import FakeCalibrator, FakePhrasebook
+from tests.ui.fakes import FakeCalibrator
 from tests.ui.geometry import painted_texts
 
 
 @pytest.fixture
 def screen(qtbot: QtBot, theme: Theme) -> MarkersScreen:
-    screen = MarkersScreen(theme, Keys(), Background(), FakePhrasebook())
+    screen = MarkersScreen(theme, Keys(), Background())
     qtbot.addWidget(screen)
     screen.resize(1280, 720)
     screen.show()

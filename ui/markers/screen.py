@@ -19,6 +19,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.key_caps import KeyCaps
 from carpus.ui.controls.text import MEDIUM, REGULAR, StateText, Text, heading
+from carpus.ui.fault_words import finding_words
 from carpus.ui.hand_drawing import HandDrawing, MarkerState
 from carpus.ui.keys import Keys, bind
 from carpus.ui.marker_words import click_instruction, marker_place
@@ -31,7 +32,7 @@ from carpus.ui.markers.start_angle import StartAngleSheet
 from carpus.ui.markers.straight import StraightFingers
 from carpus.ui.markers.verdict import DISC_DOUBTED, NAMES_WRONG, VerdictPanel, headline, rows_before, rows_of
 from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM
-from carpus.ui.ports import Calibrator, Judged, Phrasebook, ProposedMarker
+from carpus.ui.ports import Calibrator, Judged, ProposedMarker
 from carpus.ui.theme import MARGIN_PX, Theme
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
 from carpus.ui.tour.order import Work
@@ -56,9 +57,9 @@ class MarkersScreen(QWidget):
     told = Signal(object)
     judged = Signal(object)
 
-    def __init__(self, theme: Theme, keys: Keys, background: Background, phrasebook: Phrasebook) -> None:
+    def __init__(self, theme: Theme, keys: Keys, background: Background) -> None:
         super().__init__()
-        self._theme, self._background, self._phrasebook = theme, background, phrasebook
+        self._theme, self._background = theme, background
         self._calibrator: Calibrator | None = None
         self.clicking: Clicking | None = None
         self._judged: Judged | None = None
@@ -657,7 +658,7 @@ class MarkersScreen(QWidget):
             verdict.findings,
             key=lambda finding: (finding.blocks, finding.kind in NAMES_WRONG, finding.kind in DISC_DOUBTED),
         )
-        said = self._phrasebook.finding(first)
+        said = finding_words(first)
         self.step.show_state(state, words, token="bad" if state == "bad" else "warn")
         self.title.setText(said.happened.rstrip("."))
         self.place.setText(" ".join(part for part in (said.safe, said.do) if part))

@@ -14,9 +14,9 @@ from carpus.core.errors import CameraLost
 from carpus.core.library.library import Recovered
 from carpus.core.words import Words
 from carpus.ui import numbers
+from carpus.ui.fault_words import fault_words
 from carpus.ui.messages.stop_card import Answer, StopCard
 from carpus.ui.messages.strip import NoticeStrip
-from carpus.ui.ports import Phrasebook
 from carpus.ui.theme import Theme
 
 log = logging.getLogger(__name__)
@@ -37,10 +37,9 @@ class Messages(QObject):
 
     told = Signal(object)
 
-    def __init__(self, host: QWidget, theme: Theme, phrasebook: Phrasebook) -> None:
+    def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host)
-        self._theme, self._phrasebook = theme, phrasebook
-        self._host = host
+        self._theme, self._host = theme, host
         self.card = self._card_on(host)
         self._waiting: list[_Message] = []
         self._shown: _Message | None = None
@@ -80,7 +79,7 @@ class Messages(QObject):
         self.told.emit(fault)
         icon = "unplug" if isinstance(fault, CameraLost) else ""
         answers = answers or (Answer(self.tr("Go on"), lambda: None),)
-        message = _Message(self._phrasebook.fault(fault), tuple(answers), icon, detail, safe_detail)
+        message = _Message(fault_words(fault), tuple(answers), icon, detail, safe_detail)
         known = [self._shown, *self._waiting]
         if any(other is not None and other.words == message.words for other in known):
             return
