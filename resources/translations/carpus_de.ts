@@ -7489,15 +7489,15 @@
     </message>
     <message>
         <source>Something happened that Carpus does not know.</source>
-        <translation type="unfinished">Etwas ist geschehen, das Carpus nicht kennt.</translation>
+        <translation>Etwas ist geschehen, das Carpus nicht kennt.</translation>
     </message>
     <message>
         <source>Everything stored before is safe.</source>
-        <translation type="unfinished">Alles vorher Gespeicherte ist sicher.</translation>
+        <translation>Alles vorher Gespeicherte ist sicher.</translation>
     </message>
     <message>
         <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
-        <translation type="unfinished">Gehen Sie zurück und versuchen Sie es noch einmal. Kommt es wieder, starten Sie Carpus neu und melden Sie es.</translation>
+        <translation>Gehen Sie zurück und versuchen Sie es noch einmal. Kommt es wieder, starten Sie Carpus neu und melden Sie es.</translation>
     </message>
 </context>
 <context>

@@ -7489,15 +7489,15 @@
     </message>
     <message>
         <source>Something happened that Carpus does not know.</source>
-        <translation type="unfinished">È successo qualcosa che Carpus non conosce.</translation>
+        <translation>È successo qualcosa che Carpus non conosce.</translation>
     </message>
     <message>
         <source>Everything stored before is safe.</source>
-        <translation type="unfinished">Tutto ciò che era già salvato è al sicuro.</translation>
+        <translation>Tutto ciò che era già salvato è al sicuro.</translation>
     </message>
     <message>
         <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
-        <translation type="unfinished">Tornare indietro e riprovare. Se si ripete, riavviare Carpus e segnalarlo.</translation>
+        <translation>Tornare indietro e riprovare. Se si ripete, riavviare Carpus e segnalarlo.</translation>
     </message>
 </context>
 <context>
