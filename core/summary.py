@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from carpus.core.calibration.result import finding_sentence
 from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import CAMERA_FILE
 from carpus.core.capture.files.tum import TumFolder
@@ -24,7 +25,6 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import has_raw
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray, TrackStatus
-from carpus.core.words import finding_sentence
 
 _USUAL_M = 0.7
 """Camera to hand."""

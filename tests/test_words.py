@@ -13,18 +13,10 @@ import pytest
 
 import carpus.core
 from carpus.core import errors
-from carpus.core.calibration.result import CalibrationFinding, FindingKind
+from carpus.core.calibration.result import FINDINGS, CalibrationFinding, FindingKind, finding_sentence, finding_words
 from carpus.core.errors import CarpusFault
 from carpus.core.hand.protocols import HAND21, WRIST6
-from carpus.core.words import (
-    FINDINGS,
-    finding_sentence,
-    finding_words,
-    marker_in_words,
-    markers_in_words,
-    one_sentence,
-    words_of,
-)
+from carpus.core.words import marker_in_words, markers_in_words, one_sentence, words_of
 
 FORBIDDEN = re.compile(
     r"\b(error|errors|invalid|fail|fails|failed|failure|exception|fatal|abort|aborted|illegal|null|None|nan|wrong)\b",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import PureWindowsPath
 
 from carpus.core import words
+from carpus.core.calibration import result
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import CarpusFault
 from carpus.core.words import Words
@@ -27,7 +28,7 @@ def fault_words(fault: Exception) -> Words:
 
 def finding_words(finding: CalibrationFinding) -> Words:
     """What is not as it should be at calibration, and how to mend it."""
-    return words.finding_words(finding, say, lambda value: numbers.figures(value, 3))
+    return result.finding_words(finding, say, lambda value: numbers.figures(value, 3))
 
 
 def shortened(name: str, most: int = MOST_LETTERS) -> str:

@@ -18,7 +18,7 @@ from carpus.app.batch.places import Place
 from carpus.app.settings import load_settings
 from carpus.app.sources import open_recording
 from carpus.core.calibration.clicks import read_clicks
-from carpus.core.calibration.result import Verdict
+from carpus.core.calibration.result import Verdict, finding_sentence
 from carpus.core.capture.identity import Recorded
 from carpus.core.errors import CarpusFault, IntrinsicsAssumed, OutputBusy, OutputNotWritable
 from carpus.core.pipeline.told_settings import differences, settings_told
@@ -29,7 +29,7 @@ from carpus.core.session import heartbeat
 from carpus.core.session.disk import is_being_written, target_of_part
 from carpus.core.session.reader import read_session
 from carpus.core.types import TrackStatus
-from carpus.core.words import finding_sentence, one_sentence
+from carpus.core.words import one_sentence
 
 Result = Literal["tracked", "kept", "fault"]
 BUSY_S, BUSY_STEP_S = 600.0, 1.0

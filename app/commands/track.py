@@ -18,7 +18,7 @@ from carpus.app.commands.kept import note
 from carpus.app.commands.progress import bar, tell
 from carpus.app.settings import load_settings
 from carpus.core.calibration.clicks import read_clicks
-from carpus.core.calibration.result import Clicks, Verdict
+from carpus.core.calibration.result import Clicks, Verdict, finding_sentence
 from carpus.core.capture.identity import Recorded
 from carpus.core.capture.paced import PacedSource
 from carpus.core.dates import iso
@@ -33,7 +33,6 @@ from carpus.core.pipeline.track import TrackReport, TrackSettings, retrack_sessi
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.summary import range_lines
 from carpus.core.tracking.settings import Profile
-from carpus.core.words import finding_sentence
 
 EXAMPLE = """carpus track out/demo --calibration out/demo/calibration.json --output out/demo.h5
 carpus track recordings --output sessions"""

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
 from carpus.core.hand.back_surface import BackSurface
 from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.phrase import Phrase, phrase
 from carpus.core.types import FloatArray, Side
+from carpus.core.words import Say, Words, marker_in_words, markers_in_words, on_one_line
 
 FindingKind = Literal[
     "click_on_no_marker",
@@ -122,3 +126,121 @@ class Calibration:
     def straight_fingers(self) -> tuple[bool, ...]:
         """Thumb to little: False for a finger that could not lie straight at the neutral pose."""
         return self.clicks.straight_fingers or ALL_STRAIGHT
+
+
+_HAND = phrase("hand")
+_FINGERS = {
+    "1": phrase("thumb"), "2": phrase("index finger"), "3": phrase("middle finger"), "4": phrase("ring finger"),
+    "5": phrase("little finger"),
+}  # fmt: skip
+FINDINGS: dict[str, tuple[Phrase, Phrase]] = {
+    "click_on_no_marker": (
+        phrase("No blue marker at the {markers}."),
+        phrase("Click nearer to the marker, or check the light."),
+    ),
+    "two_clicks_on_one": (
+        phrase("The clicks for the {markers} are on one marker."),
+        phrase("Click each of the two on its own marker."),
+    ),
+    "swapped": (
+        phrase("{markers} look swapped."),
+        phrase("Swap the two names, or click both markers again."),
+    ),
+    "misnamed": (
+        phrase("The {markers} does not lie on the line of its finger."),
+        phrase("Look at the lines on the picture, and give the marker its right name."),
+    ),
+    "shifted": (
+        phrase("The names look shifted: the marker clicked as {first} is the {second}."),
+        phrase("Click all markers again, each under its own name."),
+    ),
+    "wrong_side": (
+        phrase("This looks like the other hand."),
+        phrase("Choose the other side, or click the markers again."),
+    ),
+    "no_depth": (
+        phrase("The camera measures no depth at the {markers}."),
+        phrase("Move the hand a little, and keep sunlight and shine off the marker."),
+    ),
+    "residual": (
+        phrase("The marker of the {markers} is {value} mm off its place (up to {limit} mm is good)."),
+        phrase("Click it again in its middle, and keep the hand still."),
+    ),
+    "hand_length": (
+        phrase("The hand measures {value} mm ({limit} mm is the limit)."),
+        phrase("Check that every marker is clicked under its own name."),
+    ),
+    "other_spot": (
+        phrase("Another blue spot fits the {markers} better."),
+        phrase("Take the spot with the question mark, if it is the disc."),
+    ),
+    "spare_spot": (
+        phrase("There is one more blue spot on the hand than there are names."),
+        phrase("Cover the spot with the question mark, or give it its name."),
+    ),
+    "near_spot": (
+        phrase("Another blue spot lies close to the {markers}: it may be the disc."),
+        phrase("Click the {markers} again in its middle, or cover the other spot."),
+    ),
+    "no_palm": (
+        phrase("No hand has this shape: the {markers} does not lie where the other discs expect it."),
+        phrase("Check that a disc was clicked there, and not another blue spot."),
+    ),
+    "other_length": (
+        phrase("The hand measures {value} mm, and {limit} mm last time."),
+        phrase("Check the patient, the side, and that every marker is clicked under its own name."),
+    ),
+    "tilt": (
+        phrase("The hand is tilted {value}° to the camera (up to {limit}° is good)."),
+        phrase("Turn the back of the hand to the camera."),
+    ),
+    "distance": (
+        phrase("The hand is {value} m from the camera ({limit} m or more is good)."),
+        phrase("Move the camera further from the hand."),
+    ),
+    "moved": (
+        phrase("The hand moved in the first half second."),
+        phrase("Keep the hand still and take the first picture again."),
+    ),
+    "few_frames": (
+        phrase("The hand was still for {value} pictures only ({limit} or more are good)."),
+        phrase("Keep the hand still for half a second."),
+    ),
+    "depth_off": (
+        phrase("Depth and colour do not lie on each other at the {markers} ({value} {unit}, up to {limit} is good)."),
+        phrase("Switch on registration in the camera, or track without depth."),
+    ),
+}
+"""What is not as it should be, and how to mend it, for every kind of finding of calibration."""
+
+
+def finding_words(
+    finding: CalibrationFinding, say: Say = str, written: Callable[[float], str] = "{:.3g}".format
+) -> Words:
+    """What a finding says and how to mend it; ``say`` says a phrase in another language, ``written`` writes figures."""
+    headline, remedy = map(say, FINDINGS[finding.kind])
+    if math.isnan(finding.value) and " (" in headline:
+        headline = headline[: headline.index(" (")] + "."
+    text = headline.format(
+        markers=_exchanged_in_words(finding, say) or markers_in_words(finding.markers, say) or say(_HAND),
+        first=marker_in_words(finding.markers[0], say) if finding.markers else "",
+        second=marker_in_words(finding.markers[1], say) if len(finding.markers) > 1 else "",
+        value=written(finding.value),
+        limit=written(finding.limit),
+        unit=finding.unit,
+    )
+    return Words(text[0].upper() + text[1:], "", remedy)
+
+
+def _exchanged_in_words(finding: CalibrationFinding, say: Say) -> str:
+    """``middle finger and ring finger`` where all names of two fingers stand in for each other."""
+    if finding.kind != "swapped" or len(finding.markers) <= 2:
+        return ""
+    firsts = (finding.markers[0], finding.markers[len(finding.markers) // 2])
+    return say(phrase("{one} and {other}", one=_FINGERS[firsts[0][-1]], other=_FINGERS[firsts[1][-1]]))
+
+
+def finding_sentence(finding: CalibrationFinding) -> str:
+    """What it says and how to mend it on one line."""
+    words = finding_words(finding)
+    return on_one_line(words.happened, words.do)

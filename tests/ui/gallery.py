@@ -18,7 +18,7 @@ from PySide6.QtCore import QEvent, QLocale
 from PySide6.QtWidgets import QApplication, QWidget
 
 from carpus.core.agreement.reference import ReferenceOutline
-from carpus.core.calibration.result import CalibrationFinding
+from carpus.core.calibration.result import CalibrationFinding, finding_words
 from carpus.core.errors import DiskFull
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.library.exercise_sets import USUAL_SETS
