@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 
 from carpus.core.capture.devices.cameras import CAMERAS, check_address
 from carpus.core.errors import CameraUnknown
-from carpus.core.known_names import known_names, nearest
+from carpus.core.names import known_names, nearest
 
 
 class CommandParser(argparse.ArgumentParser):

@@ -40,11 +40,11 @@ from carpus.app.settings import DATA_VARIABLE, LockSettings, Settings, keep_pref
 from carpus.app.settings import settings_folder as own_settings_folder
 from carpus.app.stop_signals import on_stop
 from carpus.core.capture.source import FrameSource
+from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, OutputNotWritable
-from carpus.core.library.library import Library
-from carpus.core.library.records import Records
-from carpus.core.library.set_up import SetUp
-from carpus.core.private import make_private
+from carpus.core.records.keeping import Records
+from carpus.core.records.library import Library
+from carpus.core.records.set_up import SetUp
 from carpus.ui import language
 from carpus.ui.check_card.standing_words import card_words
 from carpus.ui.fault_words import fault_words

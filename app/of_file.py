@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from carpus.app.settings import load_sound_settings, sessions_folder
-from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
 

@@ -30,7 +30,6 @@ from carpus.core.calibration.clicks import read_clicks, write_clicks
 from carpus.core.calibration.naming import NamingSettings, propose_names
 from carpus.core.calibration.result import Clicks
 from carpus.core.camera import DEFAULT_CAMERA, Camera
-from carpus.core.check_card.trust import camera_of
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CalibrationImpossible, RecordingEmpty, SettingsInvalid
 from carpus.core.formats.csv_tables import repetition_table, tables
@@ -42,6 +41,7 @@ from carpus.core.hand.protocols import protocol_named
 from carpus.core.hand.sites import SITES
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, pipeline_of, track_recording
+from carpus.core.results.camera_said import camera_of
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.session import reader

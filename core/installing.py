@@ -1,10 +1,26 @@
-"""The one place that says how what is missing is installed, from source and in the packed program, which has no pip."""
+"""What an examination of this computer found, and the one place that says how what is missing is installed: from
+source, and in the packed program, which has no pip."""
 
 from __future__ import annotations
 
 import sys
+from dataclasses import dataclass
+from typing import Literal
 
 from carpus.core.phrase import Phrase, phrase
+
+State = Literal["good", "warning", "bad"]
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """One need. ``found`` is the fact; ``remedy`` what to do, empty when nothing is to be done."""
+
+    name: str
+    state: State
+    found: str
+    remedy: str = ""
+
 
 CAMERAS_EXTRA = "carpus-cameras-extra"
 """The second Debian package."""

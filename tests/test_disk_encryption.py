@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from carpus.core.disk_encryption import (
+from carpus.core.disks import (
     bitlocker_state,
     disk_encryption_finding,
     disk_state,

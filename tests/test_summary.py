@@ -11,11 +11,11 @@ import pytest
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.hand.protocols import HAND21
 from carpus.core.results.figures import session_figures
+from carpus.core.results.session_lines import duration_text, range_lines, recording_summary, session_summary
 from carpus.core.session.reader import read_session
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import motion_of
 from carpus.core.session.writer import SessionWriter
-from carpus.core.summary import duration_text, range_lines, recording_summary, session_summary
 from carpus.core.types import TrackStatus
 from tests.capture.test_tum import write_recording
 from tests.moments import with_moment

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
-from carpus.core.library.library import Library
+from carpus.core.records.library import Library
 from carpus.core.results.report_form import ReportSettings
 from carpus.ui.background import Background
 from carpus.ui.controls.sheet import Sheet

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.ui.ports import Calibrator, PatientRow
 from carpus.ui.setup.choice import SourceChoice, SourceKind
 from carpus.ui.translate import tr

@@ -10,19 +10,18 @@ from dataclasses import dataclass, field
 from datetime import date, datetime
 from typing import Literal, Protocol
 
-from carpus.core.by_hand.values import HandValue
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.marker_protocol import MarkerProtocol
-from carpus.core.library.set_up import SetUp
+from carpus.core.measures.by_hand import HandValue
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, StartMode, TrackedView
+from carpus.core.records.set_up import SetUp
 from carpus.core.records.values import AffectedSide, Dominance, Onset, PatientEntry
 from carpus.core.results.camera_said import CameraSaid
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import AngleOrder, Session
-from carpus.core.spot_answer import SpotAnswer
-from carpus.core.types import ByteImage, FloatArray, Frame, Side, TrackedFrame
+from carpus.core.types import ByteImage, FloatArray, Frame, Side, SpotAnswer, TrackedFrame
 
 
 # --- patients ---------------------------------------------------------------------------------------------

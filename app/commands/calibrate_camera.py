@@ -14,8 +14,8 @@ from carpus.app.command_line import number
 from carpus.app.commands.progress import bar, tell
 
 if TYPE_CHECKING:
-    from carpus.core.camera_calibration.board import Board
-    from carpus.core.camera_calibration.gather import Gathering
+    from carpus.core.calibration.camera.board import Board
+    from carpus.core.calibration.camera.gather import Gathering
     from carpus.core.capture.source import FrameSource
 
 EXAMPLE = """carpus calibrate-camera --board board.pdf
@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _print_board(arguments: argparse.Namespace) -> int:
-    from carpus.core.camera_calibration.board import BOARDS, board_sheet
+    from carpus.core.calibration.camera.board import BOARDS, board_sheet
     from carpus.core.errors import OutputExists
 
     if arguments.board.exists():
@@ -73,9 +73,9 @@ def _print_board(arguments: argparse.Namespace) -> int:
 
 
 def _calibrate(arguments: argparse.Namespace) -> int:
-    from carpus.core.camera_calibration.calibrate import calibrate_camera, calibration_lines
-    from carpus.core.camera_calibration.gather import Gathering
-    from carpus.core.camera_calibration.keep import keep_calibration, stored_of, write_calibration
+    from carpus.core.calibration.camera.calibrate import calibrate_camera, calibration_lines
+    from carpus.core.calibration.camera.gather import Gathering
+    from carpus.core.calibration.camera.keep import keep_calibration, stored_of, write_calibration
     from carpus.core.capture.calibrated import SERIAL
     from carpus.core.capture.given_name import is_nameless, keep_name
     from carpus.core.dates import is_moment
@@ -132,7 +132,7 @@ def _source(recording: Path | None) -> FrameSource:
 
 
 def _boards(arguments: argparse.Namespace) -> list[Board]:
-    from carpus.core.camera_calibration.board import BOARDS
+    from carpus.core.calibration.camera.board import BOARDS
 
     boards = [board for name, board in BOARDS.items() if arguments.pattern in (None, name)]
     if arguments.square_mm is None:

@@ -43,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
             return 2
         if arguments.card.exists():
             raise OutputExists(arguments.card)
-        from carpus.core.check_card.card import card_sheets
+        from carpus.core.calibration.card.card import card_sheets
         from carpus.ui.report.pdf import write_sheets
 
         write_sheets(arguments.card, card_sheets(arguments.paper), "Carpus check card")
@@ -56,10 +56,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _check(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
-    from carpus.core.capture.calibrated import SERIAL
-    from carpus.core.capture.given_name import is_nameless, keep_name
-    from carpus.core.check_card.card import FIGURES
-    from carpus.core.check_card.chart import (
+    from carpus.core.calibration.card.card import FIGURES
+    from carpus.core.calibration.card.chart import (
         add_check,
         before,
         chart_path,
@@ -68,7 +66,9 @@ def _check(arguments: argparse.Namespace) -> int:
         sentence_of,
         verdict_of,
     )
-    from carpus.core.check_card.measure import measure_card
+    from carpus.core.calibration.card.measure import measure_card
+    from carpus.core.capture.calibrated import SERIAL
+    from carpus.core.capture.given_name import is_nameless, keep_name
     from carpus.core.dates import is_moment, iso
 
     data_folder = load_settings().data_folder

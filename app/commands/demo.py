@@ -8,7 +8,7 @@ from pathlib import Path
 from carpus.app.commands import desktop
 from carpus.app.commands.progress import bar
 from carpus.app.settings import load_settings
-from carpus.core.private import make_private
+from carpus.core.durable import make_private
 
 EXAMPLE = "carpus demo --data-folder out/practice"
 

@@ -11,9 +11,9 @@ from pathlib import Path
 
 from carpus.app.commands.kept import note_in
 from carpus.app.settings import load_sound_settings
+from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, FolderInUse
-from carpus.core.library.set_up import PRACTICE_PATIENT
-from carpus.core.private import make_private
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.staging import remove_left_behind
 from carpus.core.words import one_sentence
 

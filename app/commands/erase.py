@@ -11,10 +11,10 @@ from carpus.app.commands.progress import tell
 from carpus.app.of_file import data_folder_of
 from carpus.app.settings import load_sound_settings, sessions_folder
 from carpus.core.errors import FolderMissing, PatientUnknown, RecordingMissing
-from carpus.core.known_names import known_names
-from carpus.core.library.library import Library
-from carpus.core.library.records import Records
+from carpus.core.names import known_names
 from carpus.core.records.erasure import ErasurePlan
+from carpus.core.records.keeping import Records
+from carpus.core.records.library import Library
 from carpus.core.records.store import is_kept_in
 from carpus.core.session.reader import read_outline
 

@@ -15,7 +15,7 @@ from carpus.app.commands.kept import note_exported
 from carpus.app.commands.progress import bar
 from carpus.core.errors import OutputExists, SessionsMissing
 from carpus.core.formats.formats import FORMATS
-from carpus.core.known_names import known_names
+from carpus.core.names import known_names
 from carpus.core.words import one_sentence
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from carpus.app.commands.progress import tell
 from carpus.app.of_file import read_choices
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import RecordingMissing
+from carpus.core.results.session_lines import recording_summary, session_summary, source_summary
 from carpus.core.session.reader import read_session
-from carpus.core.summary import recording_summary, session_summary, source_summary
 
 EXAMPLE = "carpus info session.h5"
 

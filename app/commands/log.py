@@ -9,8 +9,8 @@ from pathlib import Path
 
 from carpus.app.commands.progress import tell
 from carpus.app.settings import load_sound_settings, sessions_folder
+from carpus.core.durable import private
 from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, RegisterDamaged
-from carpus.core.private import private
 
 MOST_WAIT_S = 15.0
 """For the clinic's server."""

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from carpus import __version__
 from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, PatientUnknown, SessionsMissing
-from carpus.core.known_names import known_names
 from carpus.core.measures.error_limits import ErrorLimits
+from carpus.core.names import known_names
 from carpus.core.words import one_sentence
 
 EXAMPLE = """carpus progress "Fern 12"
@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
     rows = [row for one in figures for row in measure_rows(one, names[id(one)])]
     for path in arguments.output:
         if path.suffix.lower() == ".pdf":
-            from carpus.core.library.clinic_form import form_in
+            from carpus.core.records.clinic_form import form_in
             from carpus.ui.report.pdf import ensure_application, write_progress_report
 
             application = ensure_application()
@@ -81,8 +81,8 @@ def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type:
     """Sessions of a patient that can be read, with their figures. Raises :class:`PatientUnknown` or
     :class:`SessionsMissing` for none."""
     from carpus.app.of_file import read_choices
-    from carpus.core.check_card.trust import folder_with_checks, with_trust
-    from carpus.core.results.figures import session_figures
+    from carpus.core.results.camera_said import folder_with_checks
+    from carpus.core.results.figures import session_figures, with_trust
     from carpus.core.session.reader import read_outline, read_session
 
     out = []

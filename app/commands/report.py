@@ -37,7 +37,7 @@ def run(arguments: argparse.Namespace) -> int:
     chosen = settings.report
     order, therapist = arguments.angle_order or chosen.angle_order, chosen.therapist
     sessions = [in_order(read_session(path), order) for path in arguments.sessions]
-    from carpus.core.library.clinic_form import form_in
+    from carpus.core.records.clinic_form import form_in
 
     form = form_in(settings.data_folder)
     if arguments.paper:
@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
     # Qt is loaded only now: a wrong file is told without it.
     from carpus.app.of_file import read_choices, read_comment
     from carpus.core.agreement.limits_file import read_limits
-    from carpus.core.check_card.trust import camera_of, folder_with_checks
+    from carpus.core.results.camera_said import camera_of, folder_with_checks
     from carpus.core.results.figures import session_figures
     from carpus.core.results.progress import newest_results
     from carpus.ui.report.pdf import ensure_application, write_progress_report, write_session_report

@@ -13,7 +13,7 @@ from carpus.app.commands.kept import note_in
 from carpus.app.commands.progress import bar
 from carpus.app.settings import settings_folder
 from carpus.core.errors import BackupMissing
-from carpus.core.known_names import known_names
+from carpus.core.names import known_names
 
 if TYPE_CHECKING:
     from carpus.core.records.backup import Backup, Content

@@ -12,7 +12,7 @@ from carpus.app.command_line import count, number
 from carpus.app.commands.progress import bar
 from carpus.core.depth_sensor import SENSORS
 from carpus.core.hand.protocols import protocol_names
-from carpus.core.known_names import known_names
+from carpus.core.names import known_names
 from carpus.core.simulation.motions import MOTIONS
 from carpus.core.simulation.spec import HABITS, NONE, WORN, RecordingSpec
 

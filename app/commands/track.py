@@ -30,8 +30,8 @@ from carpus.core.papers.settings import PaperSettings
 from carpus.core.pipeline.live import Listener
 from carpus.core.pipeline.told_settings import Told, differences, settings_told
 from carpus.core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
+from carpus.core.results.session_lines import range_lines
 from carpus.core.session.reader import read_outline, read_session
-from carpus.core.summary import range_lines
 from carpus.core.tracking.settings import Profile
 
 EXAMPLE = """carpus track out/demo --calibration out/demo/calibration.json --output out/demo.h5

@@ -13,8 +13,8 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from carpus import __version__
 from carpus.app.settings import BackupSettings
+from carpus.core.disks import on_same_disk
 from carpus.core.errors import BackupMissing
-from carpus.core.library.library import Library
 from carpus.core.records.backup import (
     Backup,
     Content,
@@ -27,10 +27,10 @@ from carpus.core.records.backup import (
     restore,
     thin_out,
 )
+from carpus.core.records.library import Library
 from carpus.core.records.of_clinic import LastBackup, last_backup, note_backup
 from carpus.core.records.sealed import ENDING, open_sealed, seal_backup
 from carpus.core.records.staging import Staged
-from carpus.core.safekeeping.same_disk import on_same_disk
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.background import Background

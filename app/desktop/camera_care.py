@@ -8,7 +8,7 @@ from datetime import datetime
 from PySide6.QtCore import QObject, Signal
 
 from carpus.app.desktop.care_cameras import CareCameras
-from carpus.core.check_card.standing import Standing
+from carpus.core.calibration.card.standing import Standing
 from carpus.ui.background import Background
 
 

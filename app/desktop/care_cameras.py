@@ -6,14 +6,14 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus.app.settings import Settings
-from carpus.core.camera_calibration.board import Board
+from carpus.core.calibration.camera.board import Board
+from carpus.core.calibration.card.ages import known_serials
+from carpus.core.calibration.card.standing import Standing, standing_of
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.devices.cameras import open_camera
 from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.source import FrameSource, Notice
-from carpus.core.check_card.ages import known_serials
-from carpus.core.check_card.standing import Standing, standing_of
 
 PRACTICE_FOLDER = "practice"
 """Inside the data folder: what is known of the simulated camera, which no session of a real one ever reads."""

@@ -14,13 +14,13 @@ from PySide6.QtWidgets import QWidget
 from carpus.app.desktop.calibrating import lost_words
 from carpus.app.desktop.camera_at_hand import CameraAtHand, Look
 from carpus.app.desktop.naming import Naming
-from carpus.core.camera_calibration.sheet import PAPER_MM
+from carpus.core.calibration.camera.sheet import PAPER_MM
+from carpus.core.calibration.card.card import card_sheets
+from carpus.core.calibration.card.chart import add_check, chart_path, check_of, read_checks
+from carpus.core.calibration.card.measure import CardWatch
+from carpus.core.calibration.card.standing import standing_of
 from carpus.core.capture.calibrated import SERIAL
 from carpus.core.capture.source import FrameSource, Notice, SourceInfo
-from carpus.core.check_card.card import card_sheets
-from carpus.core.check_card.chart import add_check, chart_path, check_of, read_checks
-from carpus.core.check_card.measure import CardWatch
-from carpus.core.check_card.standing import standing_of
 from carpus.core.dates import is_moment, iso
 from carpus.core.durable import replace_file
 from carpus.core.pipeline.channels import Newest

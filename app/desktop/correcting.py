@@ -11,8 +11,8 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 
 from carpus import __version__
-from carpus.core.library.corrections import Corrections, Difference, Waiting, difference
 from carpus.core.pipeline.correction import correct_in_process, not_held, task_of
+from carpus.core.records.corrections import Corrections, Difference, Waiting, difference
 from carpus.core.results.figures import session_figures
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.corrected import corrections_in

@@ -9,10 +9,10 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.patient_view import PatientViewing
 from carpus.core.errors import CarpusFault
-from carpus.core.library.exercise_sets import USUAL_SETS, ExerciseSet, next_part
-from carpus.core.library.kept_sets import keep_sets, read_sets
-from carpus.core.library.library import Library
-from carpus.core.library.set_up import SetUp
+from carpus.core.records.exercise_sets import USUAL_SETS, ExerciseSet, next_part
+from carpus.core.records.kept_sets import keep_sets, read_sets
+from carpus.core.records.library import Library
+from carpus.core.records.set_up import SetUp
 from carpus.ui import numbers
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen

@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.formats.film import UNFINISHED, write_film, write_picture
-from carpus.core.library.library import Library
+from carpus.core.records.library import Library
 from carpus.ui.background import Background
 from carpus.ui.last_places import LastPlaces
 from carpus.ui.messages.files_written import tell_written

@@ -38,9 +38,9 @@ from carpus.app.desktop.viewing import Viewing, ViewScreens
 from carpus.app.settings import Settings
 from carpus.core.capture.calibrated import SERIAL
 from carpus.core.errors import CarpusFault
-from carpus.core.library.corrections import Corrections
-from carpus.core.library.library import Library, Recovered
-from carpus.core.library.set_up import SetUp
+from carpus.core.records.corrections import Corrections
+from carpus.core.records.library import Library, Recovered
+from carpus.core.records.set_up import SetUp
 from carpus.ui.agreement.flow import AgreementFlow
 from carpus.ui.background import Background
 from carpus.ui.beside.flow import BesideFlow

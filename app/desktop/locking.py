@@ -10,11 +10,11 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QApplication
 
-from carpus.core.disk_encryption import disk_encryption_finding, disk_state
+from carpus.core.disks import disk_encryption_finding, disk_state
 from carpus.core.errors import CarpusFault, PinUncheckable
-from carpus.core.finding import Finding
-from carpus.core.library.library import Library
-from carpus.core.safekeeping.pin import Pin
+from carpus.core.installing import Finding
+from carpus.core.records.library import Library
+from carpus.core.records.pin import Pin
 from carpus.ui.background import Background
 from carpus.ui.fault_words import fault_words
 from carpus.ui.records.cards import LockCard

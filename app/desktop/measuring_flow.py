@@ -7,8 +7,8 @@ import logging
 from PySide6.QtCore import QObject, Signal
 
 from carpus.core.errors import CameraLost
-from carpus.core.library.set_up import SetUp
 from carpus.core.pipeline.live_values import LiveEvent
+from carpus.core.records.set_up import SetUp
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.flow import Navigator

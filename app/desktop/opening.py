@@ -7,7 +7,7 @@ import threading
 from PySide6.QtCore import QObject, Signal
 
 from carpus.app.desktop.sources import NobodyWaitsError, Sources
-from carpus.core.library.set_up import SetUp
+from carpus.core.records.set_up import SetUp
 from carpus.ui.background import Background
 from carpus.ui.now_open import OpenSource
 from carpus.ui.setup.choice import SourceChoice

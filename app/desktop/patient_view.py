@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QWidget
 
-from carpus.core.library.set_up import SetUp
+from carpus.core.records.set_up import SetUp
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.patient.guide import Guide, GuideScene

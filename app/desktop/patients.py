@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from carpus.core.errors import SessionUnreadable
-from carpus.core.library.library import Library
-from carpus.core.library.records import Records
-from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.records import of_clinic
+from carpus.core.records.keeping import Records
+from carpus.core.records.library import Library
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import PatientEntry, PatientRecord
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import compare, compare_rows, unfair_reasons

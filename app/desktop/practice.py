@@ -14,7 +14,7 @@ from typing import Any
 
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource
-from carpus.core.library.set_up import SetUp
+from carpus.core.records.set_up import SetUp
 from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.spec import RecordingSpec
 

@@ -21,10 +21,9 @@ from carpus.app.settings import (
     StreamSettings,
     keep_preferences,
 )
-from carpus.core.bundled_parts import licence_texts
+from carpus.core.about import licence_texts, newest_version
 from carpus.core.errors import CarpusFault
 from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits
-from carpus.core.newer_version import newest_version
 from carpus.core.results.report_form import ReportSettings
 from carpus.ui.background import Background
 from carpus.ui.ports import Preferences

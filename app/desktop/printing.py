@@ -15,10 +15,10 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from carpus import __version__
-from carpus.core.by_hand.values import COLUMNS, HandValue, rows_of
+from carpus.core.durable import private
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.formats.new_output import plain_cell
-from carpus.core.private import private
+from carpus.core.measures.by_hand import COLUMNS, HandValue, rows_of
 from carpus.core.records.values import HomePlan
 from carpus.core.results.camera_said import CameraSaid
 from carpus.core.results.figures import SessionFigures

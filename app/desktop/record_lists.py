@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.erasing import Erasing
-from carpus.core.library.records import Archived, Records
+from carpus.core.records.keeping import Archived, Records
 from carpus.core.records.log import LoggedDeed
 from carpus.core.records.retention import RETENTION_YEARS, Due
 from carpus.ui import numbers, terms

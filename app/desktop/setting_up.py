@@ -14,7 +14,7 @@ from carpus.app.desktop.practice import PRACTICE_REPETITIONS
 from carpus.core.calibration.result import Verdict
 from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.hand.exercises import EXERCISES
-from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.records.values import SessionEntry
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.goals import Goals

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from carpus.core.errors import SessionUnreadable
-from carpus.core.library.library import Library
-from carpus.core.library.records import Records
-from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.records.keeping import Records
+from carpus.core.records.library import Library
 from carpus.core.records.log import fingerprint
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import SessionEntry
 from carpus.ui.check_card.standing_words import unsure_name
 from carpus.ui.ports import SessionLine

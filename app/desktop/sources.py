@@ -22,10 +22,10 @@ from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.paced import PacedSource, PracticeSource
 from carpus.core.capture.source import FrameSource, is_simulated
 from carpus.core.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
-from carpus.core.library.set_up import SetUp
 from carpus.core.pipeline.live import Listener, LiveSession
 from carpus.core.pipeline.measuring import SessionPlaces, SourceMeasuring
 from carpus.core.pipeline.track import TrackSettings
+from carpus.core.records.set_up import SetUp
 from carpus.core.types import Frame
 from carpus.ui.now_open import OpenSource
 from carpus.ui.setup.choice import SourceChoice

@@ -25,7 +25,7 @@ from carpus.app.desktop.sources import RECENT_FRAMES
 from carpus.app.settings import FirstStartSettings, ScreenSettings, Settings
 from carpus.app.stop_signals import on_stop
 from carpus.core.errors import CalibrationImpossible
-from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.results.figures import SessionFigures
 from carpus.core.simulation.recording import SimulatedPictures, clicks_of, is_cached
 from carpus.core.types import FloatArray

@@ -12,8 +12,8 @@ from carpus.app.desktop.preferences import PreferenceKeeper
 from carpus.app.desktop.touring import Tour
 from carpus.app.settings import FirstStartSettings
 from carpus.core.capture.doctor import examine_at_start
-from carpus.core.finding import Finding
-from carpus.core.library.library import Library
+from carpus.core.installing import Finding
+from carpus.core.records.library import Library
 from carpus.ui.background import Background
 from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, load_fonts
 from carpus.ui.messages.strip import NoticeStrip

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from carpus.core.library.library import Library
+from carpus.core.records.library import Library
 from carpus.core.records.of_sessions import MadeKind
 
 if TYPE_CHECKING:

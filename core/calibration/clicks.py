@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from carpus.core.calibration.result import ALL_STRAIGHT, Clicks
+from carpus.core.durable import private
 from carpus.core.errors import ClickOutsidePicture, ClicksUnreadable, OutputExists, OutputNotWritable, ProtocolUnknown
 from carpus.core.hand.protocols import protocol_named
 from carpus.core.phrase import phrase
-from carpus.core.private import private
 from carpus.core.types import FloatArray, Side
 
 _MOST_BYTES = 1_000_000

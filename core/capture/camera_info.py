@@ -12,9 +12,9 @@ import yaml
 from carpus.core.camera import COEFFICIENTS, DEFAULT_CAMERA, Camera, DistortionModel
 from carpus.core.dates import is_moment
 from carpus.core.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, sensor_of
+from carpus.core.durable import private
 from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
 from carpus.core.phrase import phrase
-from carpus.core.private import private
 from carpus.core.types import SIMULATED
 
 CAMERA_FILE = "camera_info.yaml"

@@ -24,7 +24,7 @@ from carpus.core.capture.devices.cameras import CAMERAS, camera_kind, kind_of, k
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.capture.source import SourceInfo
-from carpus.core.disk_encryption import disk_encryption_finding, disk_state
+from carpus.core.disks import disk_encryption_finding, disk_state
 from carpus.core.errors import (
     CameraBusy,
     CameraLost,
@@ -35,8 +35,7 @@ from carpus.core.errors import (
     ExtraMissing,
     OtherCamera,
 )
-from carpus.core.finding import Finding
-from carpus.core.installing import how_to_install, is_packed
+from carpus.core.installing import Finding, how_to_install, is_packed
 from carpus.core.kernels.choice import NUMPY, VARIABLE, in_c
 from carpus.core.phrase import phrase
 from carpus.core.types import Frame

@@ -9,14 +9,14 @@ from datetime import date
 from pathlib import Path
 from typing import NamedTuple
 
-from carpus.core.by_hand.values import HandValue, of_session
-from carpus.core.check_card.trust import camera_of
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.formats.deidentify import Deidentification
 from carpus.core.formats.formats import FORMATS, Writer
 from carpus.core.formats.new_output import new_text
 from carpus.core.formats.provenance import LEGAL, provenance
 from carpus.core.formats.take import Take, about
+from carpus.core.measures.by_hand import HandValue, of_session
+from carpus.core.results.camera_said import camera_of
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.session.reader import read_outline, read_session

@@ -6,11 +6,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from carpus.core.by_hand.values import COLUMNS, rows_of
 from carpus.core.formats.csv_tables import repetition_table
 from carpus.core.formats.new_output import new_json
 from carpus.core.formats.take import ANGLES_MEAN, Take
 from carpus.core.hand.exercises import SIDES, Movement
+from carpus.core.measures.by_hand import COLUMNS, rows_of
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.norms import Norm, total_norm, wrist_norm

@@ -13,8 +13,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, Any
 
+from carpus.core.durable import private
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
-from carpus.core.private import private
 
 HALF = ".half"
 _CALCULATED = tuple("=+-@\t\r\n")

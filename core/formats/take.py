@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carpus.core.by_hand.values import HandValue
 from carpus.core.formats.even import EvenTimes, even_times, rate_of
+from carpus.core.measures.by_hand import HandValue
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.repetition_rows import on_clock
 from carpus.core.session.values import Event, Session

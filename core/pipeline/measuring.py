@@ -24,7 +24,6 @@ from carpus.core.capture.identity import recorded_at, recording_id
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.dates import iso
 from carpus.core.errors import DiskFull, EndStalled, ExtraMissing, NotLookedBack, RecordingEmpty
-from carpus.core.library.set_up import MARKERS_SUFFIX, SetUp
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.around_hand import AroundHand, HandArea
 from carpus.core.pipeline.channels import ChannelFull, NeverDrop
@@ -34,13 +33,13 @@ from carpus.core.pipeline.looking_back import LookingBack
 from carpus.core.pipeline.pieces import TrackedHand
 from carpus.core.pipeline.said_again import NOT_LOOKED_BACK
 from carpus.core.pipeline.track import Learnt, TrackSettings, build_pipeline, learnt_from, parameters_json, source_facts
+from carpus.core.records.set_up import MARKERS_SUFFIX, SetUp
 from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import Fallback, SessionWriter
-from carpus.core.spot_answer import SPOT_SAID, SpotAnswer
 from carpus.core.tracking.smoother_record import KeptSteps
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import ByteImage, FloatArray, Frame, TrackedFrame
+from carpus.core.types import SPOT_SAID, ByteImage, FloatArray, Frame, SpotAnswer, TrackedFrame
 from carpus.core.words import one_sentence
 
 log = logging.getLogger(__name__)

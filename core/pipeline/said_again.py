@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from carpus.core.session.values import Event, Session
-from carpus.core.spot_answer import SPOT_SAID, SpotAnswer
+from carpus.core.types import SPOT_SAID, SpotAnswer
 
 NOT_LOOKED_BACK = "not_looked_back"
 """The event of a session that is stored as tracked, though looking back was asked for."""

@@ -36,10 +36,9 @@ from carpus.core.session.plausible import check_calibration
 from carpus.core.session.reader import has_raw, read_detections, read_session
 from carpus.core.session.values import SET_UP, Event, Session, motion_of, new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.spot_answer import SpotAnswer
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import SIMULATED, FloatArray, Frame, Moment, TrackedFrame, TrackStatus
+from carpus.core.types import SIMULATED, FloatArray, Frame, Moment, SpotAnswer, TrackedFrame, TrackStatus
 
 T = TypeVar("T")
 

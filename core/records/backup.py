@@ -23,7 +23,7 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path, PureWindowsPath
 from typing import Any, BinaryIO
 
-from carpus.core.durable import sync_folder, write_fault
+from carpus.core.durable import make_private, private, sync_folder, write_fault
 from carpus.core.errors import (
     BackupIncomplete,
     BackupPlaceUnsuited,
@@ -34,7 +34,6 @@ from carpus.core.errors import (
     OutputExists,
 )
 from carpus.core.phrase import phrase
-from carpus.core.private import make_private, private
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.staging import Staged, hold, remove_left_behind
 from carpus.core.records.store import SESSIONS_FOLDER

@@ -13,9 +13,9 @@ from typing import Any
 from sqlalchemy import Connection, create_engine, event, inspect, select
 from sqlalchemy.exc import DBAPIError
 
+from carpus.core.durable import make_private_file
 from carpus.core.errors import DiskFull, OutputNotWritable, RegisterBusy, RegisterDamaged, RegisterUnreadable
 from carpus.core.phrase import phrase
-from carpus.core.private import make_private_file
 from carpus.core.records.schema import METADATA, OUTBOX, SESSION, SHARED, SQLITE_LOG, VERSION
 
 STORE_FILE = "records.sqlite3"

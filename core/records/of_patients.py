@@ -11,9 +11,8 @@ from typing import Any
 
 from sqlalchemy import Row, select
 
-from carpus.core.by_hand.measures import MEASURES
-from carpus.core.by_hand.values import HandValue
 from carpus.core.dates import day_of
+from carpus.core.measures.by_hand import MEASURES, HandValue
 from carpus.core.records.changes import RowChange, kept, new
 from carpus.core.records.schema import GOAL, HOME_PLAN, MEASURED
 from carpus.core.records.store import Store, new_id

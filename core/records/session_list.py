@@ -14,11 +14,10 @@ from typing import Any
 
 from sqlalchemy import Row, delete, select
 
-from carpus.core.durable import write_fault
+from carpus.core.durable import make_private, write_fault
 from carpus.core.errors import CarpusFault, FolderMissing, OutputNotWritable, SessionUnreadable, ShareEmpty
 from carpus.core.names import folded
 from carpus.core.phrase import phrase
-from carpus.core.private import make_private
 from carpus.core.records import changes
 from carpus.core.records.changes import NOWHERE, PRACTICE, changed, kept, new
 from carpus.core.records.patients import Patients, columns

@@ -16,8 +16,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import IO, Self
 
-from carpus.core.durable import sync_folder, write_fault
-from carpus.core.private import make_private, private
+from carpus.core.durable import make_private, private, sync_folder, write_fault
 
 MARK, LOCK, WHOLE = ".restoring-", ".lock", b"whole"
 

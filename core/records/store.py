@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from sqlalchemy import Delete, Insert, Row, Select, Update, select
 
+from carpus.core.durable import make_private, make_private_file
 from carpus.core.errors import (
     CarpusFault,
     ErasureUnfinished,
@@ -24,7 +25,6 @@ from carpus.core.errors import (
     ServerGone,
 )
 from carpus.core.phrase import phrase
-from carpus.core.private import make_private, make_private_file
 from carpus.core.records.changes import PRACTICE, Change, is_practice, make, new
 from carpus.core.records.database import STORE_FILE, Database, rescue, set_aside
 from carpus.core.records.outbox import forget, is_shared, lay_out

@@ -13,6 +13,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
+from pathlib import Path
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.hand.exercises import Exercise, Movement
 from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
 from carpus.core.measures.repetitions import Uncounted, what_was_not_counted
-from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said
+from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said, with_checks
 from carpus.core.results.further_measures import FurtherMeasure, further_measures
 from carpus.core.results.norms import GradedTotal, graded_totals
 from carpus.core.results.quality import Quality, quality_of
@@ -213,3 +214,11 @@ def _why_none(seen: SeenSession, trained: Trained | None) -> Uncounted | None:
     if trained is not None:
         return what_was_not_counted(trained.seen, trained.found)
     return "nothing_seen" if seen.exercise.angle is not None or seen.exercise.joint in seen.tracks else None
+
+
+def with_trust(figures: SessionFigures, data_folder: Path | None) -> SessionFigures:
+    """The same figures with what the checks say of their camera."""
+    if figures.simulated:
+        return figures
+    camera = with_checks(figures.camera, figures.when, data_folder)
+    return figures if camera == figures.camera else replace(figures, camera=camera)

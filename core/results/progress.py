@@ -9,9 +9,9 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.by_hand.values import HandValue
 from carpus.core.hand.exercises import Movement
 from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.measures.by_hand import HandValue
 from carpus.core.measures.change import ARC_LIMIT_FACTOR, TOTAL_ACTIVE_MOTION, MeasuredMean, Obstacle, change_between
 from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD

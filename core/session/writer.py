@@ -17,7 +17,7 @@ import numpy as np
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
-from carpus.core.durable import sync_folder, write_fault
+from carpus.core.durable import copy_open_file, is_still_there, sync_folder, write_fault
 from carpus.core.errors import (
     CarpusFault,
     DiskFull,
@@ -29,7 +29,6 @@ from carpus.core.errors import (
     TimesUnordered,
 )
 from carpus.core.phrase import phrase
-from carpus.core.private import copy_open_file, is_still_there
 from carpus.core.session import schema
 from carpus.core.session.disk import allow_written_bytes, free_name, part_path, publish, reserve
 from carpus.core.session.heartbeat import Heartbeat

@@ -23,8 +23,8 @@ from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType
 from carpus.core.capture.files.raw_pictures import encode_color
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.video_mode import PixelFormat
+from carpus.core.durable import private
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
-from carpus.core.private import private
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import ByteImage, DepthImage, Frame

@@ -12,11 +12,8 @@ from functools import cache
 import cv2
 import numpy as np
 
-from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.camera_calibration.board import Board, Pattern, board_sheet
-from carpus.core.capture.calibrated import SERIAL
-from carpus.core.capture.source import SourceInfo
-from carpus.core.check_card.card import (
+from carpus.core.calibration.camera.board import Board, Pattern, board_sheet
+from carpus.core.calibration.card.card import (
     CARD_CORNER_MM,
     FOOT_CORNER_MM,
     SLOPE_DEG,
@@ -26,6 +23,9 @@ from carpus.core.check_card.card import (
     card_sheet,
     wedge_sheet,
 )
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.capture.calibrated import SERIAL
+from carpus.core.capture.source import SourceInfo
 from carpus.core.simulation.printed_sheets import LENS, PX_PER_MM, Placed, Studio, poses, texture_of
 from carpus.core.types import SIMULATED, FloatArray, Frame
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from carpus.core.calibration.camera.sheet import Disc, PrintedSheet, SheetBox
 from carpus.core.camera import Camera
-from carpus.core.camera_calibration.sheet import Disc, PrintedSheet, SheetBox
 from carpus.core.simulation.appearance import appearance_of, linear
 from carpus.core.simulation.depth_kinds import depth_pictures
 from carpus.core.simulation.scene import Scene

@@ -14,8 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carpus.core.spot_answer import SpotAnswer
-from carpus.core.types import BoolArray, Detections, FloatArray
+from carpus.core.types import BoolArray, Detections, FloatArray, SpotAnswer
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,6 @@ import numpy as np
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
-from carpus.core.spot_answer import SpotAnswer
 from carpus.core.tracking.frame_result import FrameResults
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan, as_ideal
@@ -24,7 +23,7 @@ from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.smoother_record import KeptSteps, SmoothedHand, SmootherRecord
 from carpus.core.tracking.track_manager import TrackManager, turned_rad
-from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
+from carpus.core.types import Detections, FloatArray, Moment, SpotAnswer, TrackedFrame, TrackStatus
 
 
 class Tracker:

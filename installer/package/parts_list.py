@@ -16,7 +16,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from carpus.core.bundled_parts import BundledPart, bundled_parts, licence_texts
+from carpus.core.about import BundledPart, bundled_parts, licence_texts
 
 COMMON = Path("/usr/share/common-licenses")
 

@@ -8,15 +8,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.calibration.camera.board import BOARDS, Pattern, board_sheet
+from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera
+from carpus.core.calibration.camera.gather import Gathering
+from carpus.core.calibration.camera.guidance import ASKED_VIEWS
+from carpus.core.calibration.card.measure import measure_card
+from carpus.core.calibration.card.reading import CardReading
 from carpus.core.camera import DEFAULT_CAMERA, Camera
-from carpus.core.camera_calibration.board import BOARDS, Pattern, board_sheet
-from carpus.core.camera_calibration.calibrate import CameraCalibration, calibrate_camera
-from carpus.core.camera_calibration.gather import Gathering
-from carpus.core.camera_calibration.guidance import ASKED_VIEWS
 from carpus.core.capture.calibrated import correction_table
 from carpus.core.capture.camera_info import StoredCalibration
-from carpus.core.check_card.measure import measure_card
-from carpus.core.check_card.reading import CardReading
 from carpus.core.depth_sensor import AZURE_KINECT, D435
 from carpus.core.errors import BoardViewsAlike
 from carpus.core.simulation.practice_camera import card_scene

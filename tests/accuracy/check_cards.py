@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carpus.core.check_card.measure import LOOK_EVERY_S, measure_card
-from carpus.core.check_card.reading import CHECK_S, CardReading
+from carpus.core.calibration.card.measure import LOOK_EVERY_S, measure_card
+from carpus.core.calibration.card.reading import CHECK_S, CardReading
 from carpus.core.depth_sensor import SENSORS
 from carpus.core.simulation.practice_camera import card_scene
 from carpus.core.simulation.printed_sheets import LENS, Studio

@@ -26,8 +26,8 @@ from carpus.core.agreement.restated import as_if_complete, restated
 from carpus.core.agreement.retest import retest, studies
 from carpus.core.agreement.retest_plan import plan_of
 from carpus.core.errors import SettingsInvalid
-from carpus.core.library.library import Library
 from carpus.core.measures.error_limits import ErrorLimits, MeasuredLimit, RetestStudy
+from carpus.core.records.library import Library
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.progress import compare

@@ -13,10 +13,10 @@ import h5py
 import pytest
 
 from carpus.core.errors import CarpusFault, FilesSetApart, RegisterMissing, RegisterSetAside, SessionUnreadable
-from carpus.core.library import library as library_module
-from carpus.core.library.library import Library
+from carpus.core.records import library as library_module
 from carpus.core.records import session_list
 from carpus.core.records.database import STORE_FILE
+from carpus.core.records.library import Library
 from carpus.core.records.seen_files import remembered
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.writer import SessionWriter

@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app import compose
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
-from carpus.core.library.library import Library
+from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.values import PatientEntry
 from tests.agreement.test_retest import written

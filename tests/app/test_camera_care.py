@@ -16,12 +16,12 @@ from pytestqt.qtbot import QtBot
 from carpus.app.compose import Desktop, application, compose
 from carpus.app.desktop import care_cameras
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.core.calibration.camera import guidance
+from carpus.core.calibration.card import measure
+from carpus.core.calibration.card.chart import add_check, chart_path, read_checks
 from carpus.core.camera import Camera
-from carpus.core.camera_calibration import guidance
 from carpus.core.capture.calibrated import stored_calibration
 from carpus.core.capture.source import FrameSource, Notice
-from carpus.core.check_card import measure
-from carpus.core.check_card.chart import add_check, chart_path, read_checks
 from carpus.core.errors import CameraLost
 from carpus.core.simulation import practice_camera
 from carpus.ui.messages.stop_card import StopCard

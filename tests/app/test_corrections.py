@@ -17,11 +17,11 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop import correcting
 from carpus.app.desktop.shelf import StoredSessions
-from carpus.core.library.corrections import Corrections, Waiting, difference
-from carpus.core.library.library import Library
-from carpus.core.library.records import Records
-from carpus.core.library.set_up import MARKERS_SUFFIX
 from carpus.core.pipeline.correction import CorrectionTask, correct, task_of
+from carpus.core.records.corrections import Corrections, Waiting, difference
+from carpus.core.records.keeping import Records
+from carpus.core.records.library import Library
+from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices

@@ -13,7 +13,7 @@ from carpus.app import compose
 from carpus.app.compose import Desktop
 from carpus.app.desktop.sources import Sources
 from carpus.app.settings import RecordingSettings, Settings
-from carpus.core.library.library import Library
+from carpus.core.records.library import Library
 from tests.records.samples import HERON, LINDEN, T0, record
 
 

@@ -11,8 +11,8 @@ import numpy as np
 from carpus.app.desktop.patients import PatientShelf, _results
 from carpus.app.desktop.unattended import lines_of
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.library.library import Library
-from carpus.core.library.set_up import MARKERS_SUFFIX
+from carpus.core.records.library import Library
+from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures
 from tests.app.test_library import set_up, store

@@ -17,10 +17,10 @@ from carpus.app.desktop.shelf import StoredSessions
 from carpus.app.of_file import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.errors import OutputNotWritable
-from carpus.core.library.library import Library
-from carpus.core.library.records import Records
-from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.records.keeping import Records
+from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices

@@ -19,9 +19,9 @@ from carpus.app.desktop.shelf import StoredSessions
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, SessionUnreadable
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.library.library import Library
-from carpus.core.library.records import Records
-from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.records.keeping import Records
+from carpus.core.records.library import Library
+from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session

@@ -25,10 +25,9 @@ from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json, r
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.spot_answer import SPOT_SAID, SpotAnswer
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, Frame
+from carpus.core.types import SPOT_SAID, Detections, Frame, SpotAnswer
 from tests.pipeline.live_fakes import HeldSource, wait_until
 from tests.session.samples import make_header
 from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration

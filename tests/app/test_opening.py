@@ -15,7 +15,7 @@ from carpus.core.capture.paced import PracticeSource
 from carpus.core.capture.source import is_simulated
 from carpus.core.errors import CarpusFault, DiskFull
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.library.set_up import SetUp
+from carpus.core.records.set_up import SetUp
 from carpus.core.simulation import recording
 from carpus.core.simulation.recording import SimulatedPictures
 from tests.capture.test_practice import Take

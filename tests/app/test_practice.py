@@ -12,9 +12,9 @@ from carpus.app.desktop.practice import practice_spec
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.protocols import HAND21
-from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.measures.reach import find_reaches
 from carpus.core.measures.signals import even_signal, low_pass
+from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth

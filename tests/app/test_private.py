@@ -17,7 +17,7 @@ from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import RecordingUnreadable, SettingsInvalid
 from carpus.core.formats.new_output import new_table, plain_cell
-from carpus.core.library.library import Library
+from carpus.core.records.library import Library
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter

@@ -16,11 +16,11 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app import compose
 from carpus.app.settings import BackupSettings, RecordingSettings, RecordsSettings, ScreenSettings, Settings
-from carpus.core.library.library import Library
 from carpus.core.records.backup import backups
+from carpus.core.records.library import Library
 from carpus.core.records.log import fingerprint, read_log
+from carpus.core.records.pin import Pin
 from carpus.core.records.values import PatientEntry
-from carpus.core.safekeeping.pin import Pin
 from carpus.ui.messages.strip import NoticeStrip
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces

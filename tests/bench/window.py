@@ -26,7 +26,7 @@ from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.recording import CLICKS_FILE, cached_recording

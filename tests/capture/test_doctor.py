@@ -18,7 +18,7 @@ from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.doctor import examine
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import CameraBusy, DriverMissing
-from carpus.core.finding import Finding
+from carpus.core.installing import Finding
 from carpus.core.types import Frame
 
 

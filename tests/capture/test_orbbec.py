@@ -35,7 +35,7 @@ from carpus.core.errors import (
     DriverMissing,
     OtherCamera,
 )
-from carpus.core.finding import Finding
+from carpus.core.installing import Finding
 from carpus.core.words import one_sentence
 from tests.capture import orbbec_stand_in
 from tests.capture.orbbec_stand_in import BENT, DEPTH_FX, EDGE_PX, NEAR_MM, SERIAL, SHIFT_MM, StandInList

@@ -23,7 +23,7 @@ import pytest
 
 from carpus import __version__
 from carpus.app.commands import COMMANDS
-from carpus.core.bundled_parts import bundled_parts, licence_texts
+from carpus.core.about import bundled_parts, licence_texts
 from carpus.core.installing import CAMERAS_EXTRA
 from carpus.ui.icons import program_icon
 

@@ -13,7 +13,7 @@ from types import ModuleType
 import pytest
 
 from carpus import __version__
-from carpus.core.newer_version import is_newer, newest_version
+from carpus.core.about import is_newer, newest_version
 
 ROOT = Path(__file__).parents[2]
 GOOD = "# Changelog\n\n## [Unreleased]\n\n## [1.2.0] - 2026-11-22\n\n### Added\n- Something.\n\n"

@@ -8,7 +8,7 @@ from pathlib import Path
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource
-from carpus.core.library.set_up import SetUp
+from carpus.core.records.set_up import SetUp
 from carpus.core.simulation.motions import STILL_S
 from carpus.core.simulation.recording import CLICKS_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec

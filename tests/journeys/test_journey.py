@@ -26,8 +26,8 @@ from carpus.core.capture.camera_info import sidecar_path
 from carpus.core.capture.devices import xtion
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
-from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.pipeline import measuring
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
 from carpus.core.session.writer import SessionWriter

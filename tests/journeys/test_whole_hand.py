@@ -18,9 +18,9 @@ from carpus.app.compose import Desktop, application, compose
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.sites import joint_angle_names
-from carpus.core.library.set_up import PRACTICE_PATIENT
 from carpus.core.pipeline.said_again import NOT_LOOKED_BACK
 from carpus.core.pipeline.track import retrack_session
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import TRUTH_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec

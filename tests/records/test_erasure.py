@@ -14,18 +14,18 @@ import h5py
 import pytest
 from sqlalchemy import select, update
 
-from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished, FolderMissing, OutputNotWritable, SessionChanged
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.library.corrections import Corrections
-from carpus.core.library.kept_sets import keep_set_up
-from carpus.core.library.library import Library
-from carpus.core.library.set_up import SetUp
+from carpus.core.measures.by_hand import HandValue
 from carpus.core.records import database, erasure, of_clinic, of_patients, of_sessions
 from carpus.core.records.changes import new
+from carpus.core.records.corrections import Corrections
+from carpus.core.records.kept_sets import keep_set_up
+from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.retention import due, kept_until
 from carpus.core.records.schema import PATIENT, SESSION
+from carpus.core.records.set_up import SetUp
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline, read_session, verify

@@ -15,8 +15,8 @@ from sqlalchemy.exc import DatabaseError
 
 from carpus.app.__main__ import main
 from carpus.core.errors import LogUnguarded, OutputNotWritable, ServerGone
-from carpus.core.library.library import Library
 from carpus.core.records.database import STORE_FILE
+from carpus.core.records.library import Library
 from carpus.core.records.log import Log, fingerprint, read_log
 from carpus.core.records.schema import DEED
 from carpus.core.records.store import Store

@@ -20,7 +20,6 @@ import pytest
 from sqlalchemy import select, update
 
 from carpus.app.settings import default_data_folder
-from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import (
     CarpusFault,
     ChangedMeanwhile,
@@ -33,11 +32,12 @@ from carpus.core.errors import (
     RegisterUnreadable,
     SessionUnreadable,
 )
-from carpus.core.library.kept_sets import read_sets
+from carpus.core.measures.by_hand import HandValue
 from carpus.core.names import name_of
 from carpus.core.records import of_clinic, of_patients, of_sessions, schema
 from carpus.core.records.changes import PRACTICE, new
 from carpus.core.records.database import STORE_FILE, set_aside
+from carpus.core.records.kept_sets import read_sets
 from carpus.core.records.log import read_log
 from carpus.core.records.of_clinic import diagnoses, list_diagnosis
 from carpus.core.records.patients import WORDS, columns, suggest_pseudonym

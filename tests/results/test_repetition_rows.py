@@ -25,10 +25,10 @@ from carpus.core.results.repetition_rows import (
     on_clock,
     repetitions_of,
 )
+from carpus.core.results.session_lines import repetition_lines
 from carpus.core.session import schema
 from carpus.core.session.reader import read_session, verify
 from carpus.core.session.values import RepetitionRow, Session
-from carpus.core.summary import repetition_lines
 from tests.formats.takes import stopping
 from tests.ui.fakes import session as simulated
 

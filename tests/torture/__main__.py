@@ -26,7 +26,7 @@ MOST_S, MOST_BYTES = 2.0, 1_000_000_000
 START = """
 import sys, time
 from pathlib import Path
-from carpus.core.library.library import Library
+from carpus.core.records.library import Library
 begin = time.monotonic()
 library = Library(Path(sys.argv[1]))
 recovered, faults = library.recover()

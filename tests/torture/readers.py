@@ -141,7 +141,7 @@ def _read(kind: str, path: Path) -> None:
         if faults:
             raise faults[0]
     else:
-        from carpus.core.library.library import Library
+        from carpus.core.records.library import Library
 
         data = path.parent / f"{path.stem} data"
         data.mkdir(exist_ok=True)

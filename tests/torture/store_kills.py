@@ -14,8 +14,8 @@ import numpy as np
 from sqlalchemy import create_engine, text
 from sqlalchemy.pool import NullPool
 
-from carpus.core.library.library import Library
 from carpus.core.records import erasure, of_sessions
+from carpus.core.records.library import Library
 from tests.records.postgres import Cluster
 from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, traces
 from tests.torture.kills import ROOT

@@ -21,8 +21,8 @@ from pathlib import Path
 from sqlalchemy import create_engine, select
 from sqlalchemy.pool import NullPool
 
-from carpus.core.by_hand.values import HandValue
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, ChangeRefused, PseudonymTaken
+from carpus.core.measures.by_hand import HandValue
 from carpus.core.records import of_patients, of_sessions
 from carpus.core.records.changes import PRACTICE
 from carpus.core.records.schema import COMMENT, COPIED, CORRECTION, MEASURED, OUTBOX, PATIENT, SESSION

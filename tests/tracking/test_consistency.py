@@ -7,11 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.spot_answer import SpotAnswer
 from carpus.core.tracking.consistency import ConsistencySettings, ConsistencyTest, passed_over
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import TrackedFrame
+from carpus.core.types import SpotAnswer, TrackedFrame
 from tests.tracking.hands import CAMERA, MCP3, angles_deg, blobs, calibration, discs_cam_m, swing, truth_deg
 
 DT_S = 1.0 / 30.0

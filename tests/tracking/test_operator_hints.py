@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.spot_answer import SpotAnswer
 from carpus.core.tracking.operator_hints import Hinted, HintSettings, OperatorHints
-from carpus.core.types import Detections, FloatArray
+from carpus.core.types import Detections, FloatArray, SpotAnswer
 
 OWN = HintSettings()
 MARKERS = ("WRIST", "MCP3")

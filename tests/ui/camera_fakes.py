@@ -8,18 +8,18 @@ from functools import cache
 
 import numpy as np
 
+from carpus.core.calibration.camera.board import CHESSBOARD, board_sheet
+from carpus.core.calibration.camera.calibrate import CameraCalibration
+from carpus.core.calibration.camera.depth import DepthCheck
+from carpus.core.calibration.camera.effect import CELLS, Effect
+from carpus.core.calibration.camera.gather import Gathering
+from carpus.core.calibration.camera.guidance import next_step, target_outline
+from carpus.core.calibration.camera.solve import Intrinsics
+from carpus.core.calibration.camera.views import FIELDS, Judgement
+from carpus.core.calibration.card.card import FIGURES
+from carpus.core.calibration.card.chart import CardCheck, verdict_of
+from carpus.core.calibration.card.measure import CardWatch
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.camera_calibration.board import CHESSBOARD, board_sheet
-from carpus.core.camera_calibration.calibrate import CameraCalibration
-from carpus.core.camera_calibration.depth import DepthCheck
-from carpus.core.camera_calibration.effect import CELLS, Effect
-from carpus.core.camera_calibration.gather import Gathering
-from carpus.core.camera_calibration.guidance import next_step, target_outline
-from carpus.core.camera_calibration.solve import Intrinsics
-from carpus.core.camera_calibration.views import FIELDS, Judgement
-from carpus.core.check_card.card import FIGURES
-from carpus.core.check_card.chart import CardCheck, verdict_of
-from carpus.core.check_card.measure import CardWatch
 from carpus.core.simulation.practice_camera import card_scene
 from carpus.core.simulation.printed_sheets import LENS, Studio, poses, texture_of
 from carpus.core.types import Frame

@@ -18,13 +18,13 @@ from carpus.core.agreement.restated import Restated
 from carpus.core.agreement.retest import Retest, StudyFigures
 from carpus.core.agreement.retest_plan import Mounting, Person, RetestPlan
 from carpus.core.agreement.statistics import agreement
-from carpus.core.by_hand.values import HandValue
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.exercises import Movement, exercise_named
 from carpus.core.hand.sites import WRIST_ANGLES, joint_angle_names
-from carpus.core.library.set_up import PRACTICE_PATIENT, SetUp
+from carpus.core.measures.by_hand import HandValue
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
+from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.records.values import ClinicWeek, Counted, DueTest, PatientEntry
 from carpus.core.results.camera_said import CameraSaid, camera_said
 from carpus.core.results.figures import SessionFigures, session_figures
@@ -33,8 +33,7 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.spot_answer import SpotAnswer
-from carpus.core.types import ByteImage, Detections, Frame, Moment, Side, TrackedFrame, TrackStatus
+from carpus.core.types import ByteImage, Detections, Frame, Moment, Side, SpotAnswer, TrackedFrame, TrackStatus
 from carpus.ui.ports import (
     MOST_ROWS,
     FoundMarker,

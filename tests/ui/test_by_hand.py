@@ -13,8 +13,8 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.printing import write_tables
-from carpus.core.by_hand.values import HandValue, counted
-from carpus.core.library.library import Library
+from carpus.core.measures.by_hand import HandValue, counted
+from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.progress import progress

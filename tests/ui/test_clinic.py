@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app import compose
 from carpus.app.settings import RecordingSettings, Settings
-from carpus.core.library.library import Library
+from carpus.core.records.library import Library
 from carpus.ui.clinic.screen import ClinicScreen
 from carpus.ui.clinic.words import write_clinic_page
 from carpus.ui.keys import Keys

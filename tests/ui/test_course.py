@@ -10,7 +10,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.by_hand.values import HandValue
+from carpus.core.measures.by_hand import HandValue
 from carpus.core.results.progress import progress
 from carpus.ui.plot import course
 from carpus.ui.plot.course_view import ProgressChart

@@ -16,11 +16,11 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core import so3
-from carpus.core.check_card.chart import CardCheck, add_check, chart_path
-from carpus.core.check_card.trust import camera_of, with_trust
+from carpus.core.calibration.card.chart import CardCheck, add_check, chart_path
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.repetitions import Uncounted
-from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.camera_said import camera_of
+from carpus.core.results.figures import SessionFigures, session_figures, with_trust
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.progress import progress
 from carpus.core.results.seen import joint_curves, session_curves

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.core.agreement.limits_file import LIMITS_FILE, store_limits
 from carpus.core.errors import SettingsInvalid
-from carpus.core.library.library import Library
 from carpus.core.measures.error_limits import ErrorLimits, MeasuredLimit, RetestStudy
+from carpus.core.records.library import Library
 from carpus.core.results.figures import session_figures
 from carpus.ui.controls.text import Text
 from carpus.ui.ports import Preferences

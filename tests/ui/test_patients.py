@@ -10,7 +10,7 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtWidgets import QPushButton
 from pytestqt.qtbot import QtBot
 
-from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, room_left, spread, with_spread
 from carpus.ui.patients.listing import cells
 from carpus.ui.patients.screen import PatientsScreen

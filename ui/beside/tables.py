@@ -7,9 +7,9 @@ import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from carpus.core.durable import private
 from carpus.core.errors import OutputNotWritable
 from carpus.core.formats.new_output import plain_cell
-from carpus.core.private import private
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.ranges import RangeRow
 from carpus.core.results.side_by_side import ComparedRange, SideBySide

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from PySide6.QtWidgets import QVBoxLayout
 
-from carpus.core.by_hand.values import HandChange, Key
+from carpus.core.measures.by_hand import HandChange, Key
 from carpus.ui.by_hand.names import change_words, full_name, verdict_words
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text

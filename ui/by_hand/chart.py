@@ -8,8 +8,7 @@ from datetime import datetime
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QSizePolicy
 
-from carpus.core.by_hand.measures import HandMeasure
-from carpus.core.by_hand.values import HandValue
+from carpus.core.measures.by_hand import HandMeasure, HandValue
 from carpus.ui.by_hand.names import measure_name
 from carpus.ui.plot.by_hand import paint_course
 from carpus.ui.plot.still import StillPlot

@@ -8,8 +8,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QLineEdit
 
-from carpus.core.by_hand.measures import HandMeasure
-from carpus.core.by_hand.values import is_unusual
+from carpus.core.measures.by_hand import HandMeasure, is_unusual
 from carpus.ui import numbers
 from carpus.ui.by_hand.names import unit_name, value_words
 from carpus.ui.controls.field import lay_inside

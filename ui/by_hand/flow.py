@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from PySide6.QtCore import Qt
 
-from carpus.core.by_hand.values import HandValue
+from carpus.core.measures.by_hand import HandValue
 from carpus.core.types import Side
 from carpus.core.words import Words
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord

@@ -10,8 +10,18 @@ from datetime import date
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QLineEdit, QWidget
 
-from carpus.core.by_hand.measures import MEASURES, HandMeasure, Way
-from carpus.core.by_hand.values import MOST_WHERE, HandValue, Key, before, newest, on_day, replaced
+from carpus.core.measures.by_hand import (
+    MEASURES,
+    MOST_WHERE,
+    HandMeasure,
+    HandValue,
+    Key,
+    Way,
+    before,
+    newest,
+    on_day,
+    replaced,
+)
 from carpus.core.results.ranges import RangeRow
 from carpus.core.types import Side
 from carpus.ui import numbers, terms

@@ -5,8 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from carpus.core.by_hand.measures import MEASURES, HandMeasure, measure_named
-from carpus.core.by_hand.values import HandChange, HandValue, Key, change_of, course_of
+from carpus.core.measures.by_hand import (
+    MEASURES,
+    HandChange,
+    HandMeasure,
+    HandValue,
+    Key,
+    change_of,
+    course_of,
+    measure_named,
+)
 from carpus.ui import numbers, terms
 from carpus.ui.marker_words import long_finger_name
 from carpus.ui.translate import say, tr

@@ -10,8 +10,7 @@ from PySide6.QtCore import QDate, Qt, Signal
 from PySide6.QtGui import QKeySequence, QResizeEvent, QShortcut
 from PySide6.QtWidgets import QBoxLayout, QComboBox, QDateEdit, QHBoxLayout, QVBoxLayout, QWidget
 
-from carpus.core.by_hand.measures import MEASURES, HandMeasure, measure_named
-from carpus.core.by_hand.values import HandValue, Key, counted
+from carpus.core.measures.by_hand import MEASURES, HandMeasure, HandValue, Key, counted, measure_named
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.ranges import RangeRow
 from carpus.core.types import Side

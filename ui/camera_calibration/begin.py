@@ -7,8 +7,8 @@ from typing import cast
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QVBoxLayout, QWidget
 
-from carpus.core.camera_calibration.board import Pattern
-from carpus.core.camera_calibration.sheet import RULER_MM, Paper
+from carpus.core.calibration.camera.board import Pattern
+from carpus.core.calibration.camera.sheet import RULER_MM, Paper
 from carpus.ui.camera_calibration.values import BoardChoice
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card

@@ -7,7 +7,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from carpus.core.camera_calibration.views import FIELDS
+from carpus.core.calibration.camera.views import FIELDS
 from carpus.core.types import FloatArray
 from carpus.ui.fonts import MEDIUM, REGULAR, font
 from carpus.ui.plot.axes import hatch

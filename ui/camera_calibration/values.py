@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from carpus.core.camera_calibration.board import BOARDS, Board, Pattern
-from carpus.core.camera_calibration.calibrate import CameraCalibration
-from carpus.core.camera_calibration.effect import Effect
-from carpus.core.camera_calibration.guidance import GuidanceStep, Look
-from carpus.core.camera_calibration.sheet import RULER_MM, Paper
-from carpus.core.camera_calibration.views import Judgement
+from carpus.core.calibration.camera.board import BOARDS, Board, Pattern
+from carpus.core.calibration.camera.calibrate import CameraCalibration
+from carpus.core.calibration.camera.effect import Effect
+from carpus.core.calibration.camera.guidance import GuidanceStep, Look
+from carpus.core.calibration.camera.sheet import RULER_MM, Paper
+from carpus.core.calibration.camera.views import Judgement
 from carpus.core.types import FloatArray, Frame
 
 

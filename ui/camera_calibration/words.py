@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from carpus.core.camera_calibration.depth import MOST_APART_PX, DepthCheck
-from carpus.core.camera_calibration.effect import FLEXION_DEG, HAND_LENGTH_M
-from carpus.core.camera_calibration.guidance import GuidanceStep, Lack
-from carpus.core.camera_calibration.sharpness import MOST_EDGE_PX
-from carpus.core.camera_calibration.solve import FAIR_PX, GOOD_PX
-from carpus.core.camera_calibration.views import (
+from carpus.core.calibration.camera.depth import MOST_APART_PX, DepthCheck
+from carpus.core.calibration.camera.effect import FLEXION_DEG, HAND_LENGTH_M
+from carpus.core.calibration.camera.guidance import GuidanceStep, Lack
+from carpus.core.calibration.camera.sharpness import MOST_EDGE_PX
+from carpus.core.calibration.camera.solve import FAIR_PX, GOOD_PX
+from carpus.core.calibration.camera.views import (
     FEWEST_FIELDS,
     FEWEST_SIDES,
     FIELDS,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from carpus.core.check_card.chart import CardCheck, Verdict
+from carpus.core.calibration.card.chart import CardCheck, Verdict
 from carpus.core.types import FloatArray
 
 

@@ -10,8 +10,7 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.camera import Camera
-from carpus.core.spot_answer import SpotAnswer
-from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
+from carpus.core.types import FloatArray, SpotAnswer, TrackedFrame, TrackStatus
 from carpus.core.words import marker_in_words
 from carpus.ui.live.light import AMBER_AFTER_S, Lamp
 from carpus.ui.translate import say, tr

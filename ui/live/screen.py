@@ -13,10 +13,10 @@ from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.hand.protocols import PROTOCOLS
-from carpus.core.library.exercise_sets import next_part
-from carpus.core.library.set_up import SetUp
 from carpus.core.measures.validity import LARGEST_SD_RAD
 from carpus.core.pipeline.live_values import LiveCounters, StartMode, TrackedView
+from carpus.core.records.exercise_sets import next_part
+from carpus.core.records.set_up import SetUp
 from carpus.core.results.repetition_rows import ACTIVE, PASSIVE
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.background import Background

@@ -12,7 +12,7 @@ from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPainterPath, QPaintE
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
-from carpus.core.library.set_up import SetUp
+from carpus.core.records.set_up import SetUp
 from carpus.ui import numbers
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.icons import paint_icon, paint_state

@@ -9,7 +9,7 @@ from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelInde
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPainterPath, QPen, QResizeEvent
 from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
-from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.ui import numbers, terms
 from carpus.ui.controls.text import ElidedText
 from carpus.ui.fonts import MEDIUM, font

@@ -10,7 +10,7 @@ from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import PatientEntry
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button

@@ -11,8 +11,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
 
-from carpus.core.by_hand.measures import HandMeasure
-from carpus.core.by_hand.values import HandValue
+from carpus.core.measures.by_hand import HandMeasure, HandValue
 from carpus.ui import numbers
 from carpus.ui.by_hand.names import measure_name, value_words
 from carpus.ui.fonts import SEMIBOLD, font

@@ -11,7 +11,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
 
-from carpus.core.check_card.chart import CardCheck, Verdict, usual_of, verdict_of
+from carpus.core.calibration.card.chart import CardCheck, Verdict, usual_of, verdict_of
 from carpus.ui import numbers
 from carpus.ui.icons import octagon
 from carpus.ui.plot.axes import Panel, Scale

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter
 
-from carpus.core.check_card.chart import CardCheck
+from carpus.core.calibration.card.chart import CardCheck
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.card import PlotCard

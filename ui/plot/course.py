@@ -10,9 +10,8 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
-from carpus.core.by_hand.measures import measure_named
-from carpus.core.by_hand.values import HandValue
 from carpus.core.hand.exercises import EXERCISES, Movement
+from carpus.core.measures.by_hand import HandValue, measure_named
 from carpus.core.results.goals import row_aimed_at
 from carpus.core.results.norms import total_norm, wrist_norm
 from carpus.core.results.progress import Progress

@@ -12,9 +12,9 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRectF, QSize
 from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
 
+from carpus.core.durable import private
 from carpus.core.errors import OutputNotWritable
 from carpus.core.formats.new_output import plain_cell
-from carpus.core.private import private
 from carpus.ui.plot.style import PlotStyle, paper_style
 from carpus.ui.theme import LIGHT
 

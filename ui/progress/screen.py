@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QVBoxLayout, QWidget
 
-from carpus.core.by_hand.values import HandValue, counted
+from carpus.core.measures.by_hand import HandValue, counted
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Comparison, Progress, other_hand_of, progress
 from carpus.ui import numbers, terms

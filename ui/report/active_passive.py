@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import compress
 
-from carpus.core.by_hand.measures import MEASURES
-from carpus.core.by_hand.values import HandValue
+from carpus.core.measures.by_hand import MEASURES, HandValue
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Comparison, compare_rows
 from carpus.core.results.ranges import RangeRow, RowKey, is_total

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
-from carpus.core.check_card.card import FIGURES
-from carpus.core.check_card.chart import USUAL_OF, CardCheck, Verdict, sentence_of, verdict_of
+from carpus.core.calibration.card.card import FIGURES
+from carpus.core.calibration.card.chart import USUAL_OF, CardCheck, Verdict, sentence_of, verdict_of
 from carpus.ui import numbers
 from carpus.ui.check_card.words import figure_name
 from carpus.ui.fonts import MEDIUM, SEMIBOLD

@@ -11,10 +11,10 @@ from pathlib import Path
 from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QSizeF
 from PySide6.QtGui import QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter
 
-from carpus.core.by_hand.values import HandValue, of_session
-from carpus.core.camera_calibration.sheet import PrintedSheet
+from carpus.core.calibration.camera.sheet import PrintedSheet
+from carpus.core.durable import private
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
-from carpus.core.private import private
+from carpus.core.measures.by_hand import HandValue, of_session
 from carpus.core.provenance import said_in, with_revision
 from carpus.core.results.camera_said import CameraSaid
 from carpus.core.results.figures import SessionFigures, data_digest, session_figures

@@ -10,8 +10,8 @@ from datetime import date
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPen
 
-from carpus.core.by_hand.values import HandValue
 from carpus.core.hand.exercises import AXIS_TICK_DEG, SIDES
+from carpus.core.measures.by_hand import HandValue
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.motion_curves import MotionCurves
 from carpus.core.results.norms import wrist_norm

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
-from carpus.core.camera_calibration.sheet import Disc, PrintedSheet, SheetBox, SheetLine, SheetText
+from carpus.core.calibration.camera.sheet import Disc, PrintedSheet, SheetBox, SheetLine, SheetText
 from carpus.ui.fonts import REGULAR, SEMIBOLD
 from carpus.ui.report.page import Page
 from carpus.ui.translate import say

@@ -10,7 +10,7 @@ from carpus.core.agreement.restated import Restated
 from carpus.core.agreement.retest import StudyFigures, write_study
 from carpus.core.agreement.retest_plan import RetestPlan
 from carpus.core.durable import replace_file
-from carpus.core.library.retest_people import RetestPeople
+from carpus.core.records.retest_people import RetestPeople
 from carpus.core.words import Words
 from carpus.ui import terms
 from carpus.ui.flow import Flow, ScreenContext

@@ -12,8 +12,8 @@ from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
 
-from carpus.core.by_hand.values import HandValue, of_session
 from carpus.core.hand.exercises import FLEXION, SIDES
+from carpus.core.measures.by_hand import HandValue, of_session
 from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.hand_cutout import drawn_angle

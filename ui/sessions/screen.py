@@ -7,7 +7,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.hand.exercises import exercise_named, exercises_of
-from carpus.core.library.set_up import PRACTICE_PATIENT
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button

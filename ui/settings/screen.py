@@ -21,8 +21,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from carpus.core.about import is_newer
 from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits
-from carpus.core.newer_version import is_newer
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card

@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
 
 from carpus.core.hand.exercises import Exercise
-from carpus.core.library.set_up import SetUp
+from carpus.core.records.set_up import SetUp
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.default_answer import ENTER

@@ -12,8 +12,8 @@ from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 from carpus.core.hand.exercises import SIDES, Exercise, exercise_named, exercises_of
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.protocols import PROTOCOLS, protocol_named
-from carpus.core.library.exercise_sets import ExerciseSet, begun
-from carpus.core.library.set_up import SetUp
+from carpus.core.records.exercise_sets import ExerciseSet, begun
+from carpus.core.records.set_up import SetUp
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.goals import GoalProposal, Goals, proposals
 from carpus.core.types import Side

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLineEdit, QV
 
 from carpus.core.hand.exercises import exercise_named, exercises_of
 from carpus.core.hand.protocols import protocol_named
-from carpus.core.library.exercise_sets import (
+from carpus.core.records.exercise_sets import (
     MOST_NAME,
     MOST_PARTS,
     MOST_REPETITIONS,
@@ -20,7 +20,7 @@ from carpus.core.library.exercise_sets import (
     ExerciseSet,
     new_set_id,
 )
-from carpus.core.library.set_up import CoursePart
+from carpus.core.records.set_up import CoursePart
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.column import scrolled

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from carpus.core.library.exercise_sets import ExerciseSet
-from carpus.core.library.set_up import Course, CoursePart
+from carpus.core.records.exercise_sets import ExerciseSet
+from carpus.core.records.set_up import Course, CoursePart
 from carpus.ui import terms
 from carpus.ui.translate import say, tr
 

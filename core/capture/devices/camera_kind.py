@@ -9,7 +9,7 @@ from typing import Protocol
 from carpus.core.camera import Camera
 from carpus.core.capture.devices.usb_devices import UsbCamera, usb_cameras
 from carpus.core.capture.source import FrameSource, Notice
-from carpus.core.finding import Finding
+from carpus.core.installing import Finding
 
 
 class LiveCamera(FrameSource, Protocol):

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from carpus.core.capture.source import Notice, ignore
 from carpus.core.errors import CameraUnknown
-from carpus.core.known_names import known_names
+from carpus.core.names import known_names
 
 if TYPE_CHECKING:
     from carpus.core.camera import Camera

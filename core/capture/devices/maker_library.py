@@ -9,8 +9,7 @@ from concurrent.futures.process import BrokenProcessPool
 from importlib.metadata import PackageNotFoundError, version
 
 from carpus.core.errors import DriverMissing
-from carpus.core.finding import Finding
-from carpus.core.installing import how_to_install
+from carpus.core.installing import Finding, how_to_install
 from carpus.core.phrase import phrase
 
 

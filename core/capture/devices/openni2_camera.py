@@ -32,7 +32,7 @@ from carpus.core.capture.source import Notice, ignore
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
 from carpus.core.depth_sensor import PRIMESENSE
 from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CameraUnsuited, DriverFailed, DriverMissing
-from carpus.core.finding import Finding
+from carpus.core.installing import Finding
 from carpus.core.phrase import phrase
 
 

@@ -38,7 +38,7 @@ from carpus.core.capture.source import Notice, ignore
 from carpus.core.capture.video_mode import Sensor
 from carpus.core.depth_sensor import ASSUMED, AZURE_KINECT, D435, D455, DepthSensor
 from carpus.core.errors import DriverMissing
-from carpus.core.finding import Finding
+from carpus.core.installing import Finding
 from carpus.core.phrase import phrase
 
 LIGHT_SHARE = 0.9

@@ -39,7 +39,7 @@ from carpus.core.capture.source import Notice, ignore
 from carpus.core.capture.video_mode import Sensor
 from carpus.core.depth_sensor import ASSUMED, D415, D435, D455, DepthSensor
 from carpus.core.errors import DriverFailed, ExtraMissing, RecordingDamaged, RecordingUnsupported
-from carpus.core.finding import Finding
+from carpus.core.installing import Finding
 from carpus.core.phrase import phrase
 
 WAITING_FRAMES = 8

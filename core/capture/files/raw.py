@@ -29,6 +29,7 @@ from carpus.core.camera import COEFFICIENTS, Camera
 from carpus.core.capture.files.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
 from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.depth_sensor import ASSUMED_SENSOR, sensor_of
+from carpus.core.durable import copy_open_file, is_still_there, private
 from carpus.core.errors import (
     DiskFull,
     OutputExists,
@@ -39,7 +40,6 @@ from carpus.core.errors import (
     RecordingUnreadable,
 )
 from carpus.core.phrase import phrase
-from carpus.core.private import copy_open_file, is_still_there, private
 from carpus.core.types import ByteImage, Frame
 
 SUFFIX = ".carpusraw"

@@ -22,8 +22,8 @@ from carpus.core.capture.files.tum import (
     SIMULATED_REMARK,
 )
 from carpus.core.capture.source import SourceInfo, is_simulated
+from carpus.core.durable import private
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
-from carpus.core.private import private
 from carpus.core.types import DepthImage, Frame
 
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)

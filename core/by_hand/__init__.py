@@ -1,1 +1,0 @@
-"""What a person measures by hand beside Carpus: goniometer, force, size, scores."""

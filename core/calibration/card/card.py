@@ -1,0 +1,154 @@
+"""The check card: three discs on the flat sheet, three on a folded roof of 30 degrees that stands on it.
+
+Steeper faces are left out: a camera with a light pattern reads them badly, and so would say nothing of itself.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from carpus.core.calibration.camera.sheet import PAPER_MM, Disc, Mark, Paper, PrintedSheet, SheetLine, SheetText, ruler
+from carpus.core.phrase import phrase
+from carpus.core.types import FloatArray
+
+BLUE = "#2648A5"
+DISC_RADIUS_MM = 6.0
+HEIGHT_MM = 30.0
+SLOPE_DEG = 30.0
+SLOPE_MM, FOOT_MM = 2.0 * HEIGHT_MM, 2.0 * math.sqrt(3.0) * HEIGHT_MM
+"""Sides of the wedge: two faces at 30 degrees, and its foot."""
+WIDTH_MM = 50.0
+DISCS = ("A", "B", "C", "D", "E", "F")
+_BEND_DEG = 50.0
+_ON_SLOPE_MM = (12.0, 50.0)
+"""Places of D and E up the first face."""
+FOOT_CORNER_MM = (40.0, 8.0)
+"""Corner of the wedge's foot from disc A: its low edge begins there."""
+_TAB_MM = 12.0
+
+
+@dataclass(frozen=True, slots=True)
+class CardFigure:
+    """Something on the card that is known: between which discs, and its true value in degrees or millimetres."""
+
+    name: str
+    kind: Literal["angle", "length"]
+    true: float
+
+
+FIGURES = (
+    CardFigure("Wedge 30°", "angle", 30.0),
+    CardFigure("Over the ridge 50°", "angle", _BEND_DEG),
+    CardFigure("Flat 90°", "angle", 90.0),
+    CardFigure("80 mm across", "length", 80.0),
+    CardFigure("120 mm along", "length", 120.0),
+    CardFigure("25 mm high", "length", 25.0),
+)
+
+
+def disc_places_m() -> FloatArray:
+    """The six discs (6, 3) as :data:`DISCS`, metres: x across and y down the sheet from A, z up out of it."""
+    middle = FOOT_CORNER_MM[0] + 0.5 * WIDTH_MM
+    slope = math.radians(SLOPE_DEG)
+    d, e = ((middle, FOOT_CORNER_MM[1] + s * math.cos(slope), s * math.sin(slope)) for s in _ON_SLOPE_MM)
+    ridge, down = FOOT_CORNER_MM[1] + SLOPE_MM * math.cos(slope), _down_mm()
+    f = (middle, ridge + down * math.cos(slope), HEIGHT_MM - down * math.sin(slope))
+    return np.array([(0.0, 0.0, 0.0), (80.0, 0.0, 0.0), (0.0, 120.0, 0.0), d, e, f]) / 1e3
+
+
+def _down_mm() -> float:
+    """Place of F down from the ridge: from D over E to F it bends by the known angle."""
+    slope, fall = math.radians(SLOPE_DEG), math.tan(math.radians(_BEND_DEG - SLOPE_DEG))
+    before = SLOPE_MM - _ON_SLOPE_MM[1]
+    return before * (math.sin(slope) + fall * math.cos(slope)) / (math.sin(slope) - fall * math.cos(slope))
+
+
+def figures_of(places_m: FloatArray) -> FloatArray:
+    """The card's figures (6,) as measured, in degrees and millimetres, from places (6, 3) in any axes."""
+    a, b, c, d, e, f = places_m
+    up = np.cross(b - a, c - a)
+    up = up / np.linalg.norm(up)
+    if (e - a) @ up < 0.0:
+        up = -up
+    slope = math.degrees(math.asin(float(np.clip((e - d) @ up / np.linalg.norm(e - d), -1.0, 1.0))))
+    lengths = (np.linalg.norm(b - a), np.linalg.norm(c - a), (e - a) @ up)
+    return np.array([slope, _between(e - d, f - e), _between(b - a, c - a), *(1e3 * float(one) for one in lengths)])
+
+
+def _between(one: FloatArray, other: FloatArray) -> float:
+    share = float(one @ other / (np.linalg.norm(one) * np.linalg.norm(other)))
+    return math.degrees(math.acos(float(np.clip(share, -1.0, 1.0))))
+
+
+def card_sheets(paper: Paper) -> tuple[PrintedSheet, PrintedSheet]:
+    """The card, and the wedge to cut out and fold."""
+    return card_sheet(paper), wedge_sheet(paper)
+
+
+CARD_CORNER_MM = (62.0, 60.0)
+"""Disc A on the sheet."""
+
+
+def card_sheet(paper: Paper) -> PrintedSheet:
+    """The flat sheet."""
+    width_mm, height_mm = PAPER_MM[paper]
+    x0, y0 = CARD_CORNER_MM
+    flat = disc_places_m()[:3, :2] * 1e3
+    discs = [Disc(x0 + float(x), y0 + float(y), DISC_RADIUS_MM, BLUE) for x, y in flat]
+    left, top = x0 + FOOT_CORNER_MM[0], y0 + FOOT_CORNER_MM[1]
+    right, bottom = left + WIDTH_MM, top + FOOT_MM
+    corners = [(left, top), (right, top), (right, bottom), (left, bottom)]
+    foot = [SheetLine(one, other, dashed=True) for one, other in zip(corners, corners[1:] + corners[:1], strict=True)]
+    said = [
+        SheetText(phrase("Carpus check card"), 20.0, 20.0, 14.0, bold=True),
+        SheetText(phrase("1. Print both pages at 100 % on plain white paper. Check the rulers: 100 mm."), 20.0, 28.0),
+        SheetText(
+            phrase("2. Glue this page flat on stiff card. Fold the wedge and glue it onto the dashed field."),
+            20.0,
+            33.0,
+        ),
+        SheetText(
+            phrase("3. Lay it flat under the camera, about 60 cm away, and run the check for 30 seconds."), 20.0, 38.0
+        ),
+        SheetText(phrase("the wedge’s side with two discs here"), left + 1.0, top + 5.0, 7.0),
+        SheetText(phrase("its side with one disc here"), left + 4.0, bottom - 2.5, 7.0),
+    ]
+    return PrintedSheet(width_mm, height_mm, (*discs, *foot, *said, *ruler(20.0, height_mm - 14.0)))
+
+
+WEDGE_CORNER_MM = (80.0, 22.0)
+"""Upper left corner of the slope on the sheet."""
+
+
+def wedge_sheet(paper: Paper) -> PrintedSheet:
+    """The wedge, unfolded: both faces, foot and a tab, a flap on either side of the foot."""
+    width_mm, height_mm = PAPER_MM[paper]
+    left, top = WEDGE_CORNER_MM
+    right, middle = left + WIDTH_MM, left + 0.5 * WIDTH_MM
+    folds = [top + SLOPE_MM, top + 2.0 * SLOPE_MM, top + 2.0 * SLOPE_MM + FOOT_MM]
+    end = folds[-1] + _TAB_MM
+    marks: list[Mark] = [Disc(middle, top + s, DISC_RADIUS_MM, BLUE) for s in _ON_SLOPE_MM]
+    marks.append(Disc(middle, folds[0] + _down_mm(), DISC_RADIUS_MM, BLUE))
+    marks += [SheetLine((left, y), (right, y), dashed=True) for y in folds]
+    marks += [SheetLine((left, top), (right, top)), SheetLine((left + 4.0, end), (right - 4.0, end))]
+    for edge, outwards in ((left, -1.0), (right, 1.0)):
+        apex = (edge + outwards * HEIGHT_MM, folds[1] + 0.5 * FOOT_MM)
+        marks += [
+            SheetLine((edge, top), (edge, folds[1])),
+            SheetLine((edge, folds[1]), (edge, folds[2]), dashed=True),
+            SheetLine((edge, folds[1]), apex),
+            SheetLine(apex, (edge, folds[2])),
+            SheetLine((edge, folds[2]), (edge - outwards * 4.0, end)),
+        ]
+    said = [
+        SheetText(phrase("Wedge: cut along the lines, fold back along the dashes"), 20.0, 16.0, 11.0, bold=True),
+        SheetText("30°", left + 3.0, folds[0] - 3.0, 8.0),
+        SheetText("30°", left + 3.0, folds[0] + 5.0, 8.0),
+        SheetText(phrase("foot: glue onto the card"), left + 3.0, folds[1] + 0.5 * FOOT_MM, 8.0),
+        SheetText(phrase("glue under the low edge"), left + 6.0, end - 3.0, 8.0),
+    ]
+    return PrintedSheet(width_mm, height_mm, (*marks, *said, *ruler(20.0, height_mm - 14.0)))

@@ -1,1 +1,0 @@
-"""The data folder: patients, sessions, what lies beside them, how each was set up."""

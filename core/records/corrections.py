@@ -1,0 +1,167 @@
+"""Sessions tracked again with corrected markers: tried in a folder of their own, taken into the list when wanted."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.durable import make_private
+from carpus.core.errors import OutputNotWritable, SessionUnreadable
+from carpus.core.records.library import Library
+from carpus.core.records.session_list import TRIALS_FOLDER
+from carpus.core.records.set_up import MARKERS_SUFFIX
+from carpus.core.records.values import SessionEntry
+from carpus.core.results.repetition_rows import PASSIVE, repetitions_of
+from carpus.core.results.seen import best_motion
+from carpus.core.session.disk import free_name
+from carpus.core.session.reader import read_detections, read_outline, read_session
+from carpus.core.session.values import DetectionTable, Session
+from carpus.core.types import ByteImage, FloatArray
+
+SESSION_SUFFIX = ".h5"
+
+
+@dataclass(frozen=True, slots=True)
+class Waiting:
+    """A new result that nobody has decided about yet: of which session, and where it lies."""
+
+    session_id: str
+    trial: Path
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """How a new result differs: of ``common`` pictures that both know, ``changed`` differ by more than
+    :data:`NOTICED_RAD` in some angle of the wrist or a finger; the most is ``most_rad`` at ``at_s``; ``found`` have an
+    angle now that had none."""
+
+    common: int
+    changed: int
+    most_rad: float
+    at_s: float
+    found: int
+
+
+NOTICED_RAD = np.radians(2.0)
+
+
+class Corrections:
+    """Where a new result lies until a person wants it."""
+
+    def __init__(self, library: Library) -> None:
+        self._library = library
+        self._table: tuple[Path, DetectionTable] | None = None
+
+    def clear_unfinished(self) -> None:
+        """Before anything is tracked again: what is left of a result that was not finished goes."""
+        for path in self._folder.glob("*"):
+            if path.suffix != SESSION_SUFFIX:
+                with suppress(OSError):
+                    path.unlink()
+
+    def waiting(self) -> Sequence[Waiting]:
+        """The new results that wait for a decision, the oldest first. One of a session that is no more is deleted."""
+        found: list[tuple[str, Waiting]] = []
+        for path in sorted(self._folder.glob(f"*{SESSION_SUFFIX}")):
+            try:
+                header = read_outline(path).header
+                self._library.entry(header.origin)
+            except SessionUnreadable:
+                with suppress(OSError):
+                    path.unlink()
+                continue
+            found.append((header.created, Waiting(header.origin, path)))
+        return [one for _, one in sorted(found, key=lambda one: (one[0], one[1].trial))]
+
+    @property
+    def _folder(self) -> Path:
+        return self._library.folder / TRIALS_FOLDER
+
+    def trial_path(self, session_id: str) -> Path:
+        """Where the new result of a session is made."""
+        make_private(self._folder)
+        return free_name(self._folder / self._library.entry(session_id).path.name)
+
+    def origin_of(self, session_id: str) -> Path:
+        """The file that is corrected."""
+        return self._library.entry(session_id).path
+
+    def moment(self, session_id: str, row: int) -> tuple[ByteImage | None, FloatArray]:
+        """The picture of a row, None where none were kept, and the middles (S, 2) of its blue spots."""
+        path = self._library.entry(session_id).path
+        if self._table is None or self._table[0] != path:
+            self._table = (path, read_detections(path))
+        return self._library.picture(session_id, row), self._table[1].of_frame(row).pixel
+
+    def results(self, session_id: str) -> Sequence[SessionEntry]:
+        """All results of the recording of a session, the first one first."""
+        return self._library.results_of(session_id)
+
+    def both(self, session_id: str, trial: Path) -> tuple[Session, Session]:
+        """The session and its new result, to be looked at beside each other."""
+        return read_session(self._library.entry(session_id).path), read_session(trial)
+
+    def use(self, session_id: str, trial: Path) -> str:
+        """Take a new result into the patient's list, where it counts from now on; its identity. The old one stays."""
+        library, entry = self._library, self._library.entry(session_id)
+        target = free_name(entry.path)
+        try:
+            trial.rename(target)
+            beside = entry.path.with_suffix(MARKERS_SUFFIX)
+            if beside.is_file():
+                shutil.copyfile(beside, target.with_suffix(MARKERS_SUFFIX))
+                target.with_suffix(MARKERS_SUFFIX).chmod(0o600)
+        except OSError as cause:
+            raise OutputNotWritable(target, cause.strerror or "") from cause
+        new = library.index.enter(target, library.owner(session_id), entry.by)
+        if new.exercise != entry.exercise:
+            library.index.rename_exercise(new.session_id, entry.exercise)
+        with suppress(SessionUnreadable):
+            choices = library.choices(session_id)
+            moved = {number: why for number, why in choices.left_out.items() if why in (PASSIVE, "")}
+            if moved:  # who moved the hand is true of the same moments
+                moved = _found_again(moved, library.session(session_id), library.session(new.session_id))
+            if choices.not_counted or moved:  # the rest speaks of repetitions that are found anew
+                library.keep_choices(new.session_id, replace(choices, left_out=moved, edges_s={}))
+        return new.session_id
+
+    def drop(self, trial: Path) -> None:
+        """Nobody wants it."""
+        trial.unlink(missing_ok=True)
+
+
+def _found_again(said: Mapping[int, str], old: Session, new: Session) -> dict[int, str]:
+    """What was said of repetitions, by the numbers of those of a new result that have their middle in them."""
+    before = repetitions_of(old).rows
+    return {
+        number: why
+        for number, row in enumerate(repetitions_of(new).rows)
+        for earlier, why in said.items()
+        if earlier < len(before) and before[earlier].start_s <= 0.5 * (row.start_s + row.end_s) <= before[earlier].end_s
+    }
+
+
+def difference(old: Session, new: Session) -> Difference:
+    """How two results of one recording differ, as they are drawn."""
+    before, after = best_motion(old), best_motion(new)
+    wrist_before, wrist_after = before.angles_rad, after.angles_rad
+    known_before, known_after = np.isfinite(wrist_before).all(axis=1), np.isfinite(wrist_after).all(axis=1)
+    both = np.asarray(known_before & known_after)
+    size = np.where(both[:, None], np.abs(wrist_after - wrist_before), 0.0).max(axis=1)
+    found = known_after & ~known_before
+    if before.joint_angles_rad.shape[1] and before.joint_angles_rad.shape == after.joint_angles_rad.shape:
+        fingers = np.abs(after.joint_angles_rad - before.joint_angles_rad)
+        size = np.maximum(size, np.where(np.isfinite(fingers), fingers, 0.0).max(axis=1))
+        found |= (np.isfinite(after.joint_angles_rad) & ~np.isfinite(before.joint_angles_rad)).any(axis=1)
+        both |= np.isfinite(fingers).any(axis=1)
+    worst = int(size.argmax()) if len(size) else 0
+    start_s = float(old.timestamp_s[0]) if len(size) else 0.0
+    at_s = float(old.timestamp_s[worst]) - start_s if len(size) else 0.0
+    return Difference(
+        int(both.sum()), int((size > NOTICED_RAD).sum()), float(size.max(initial=0.0)), at_s, int(found.sum())
+    )

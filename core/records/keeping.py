@@ -1,0 +1,115 @@
+"""Erasing, archiving, what is due and the log, of the whole data folder."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from datetime import date, datetime
+
+from carpus.core.errors import SessionUnreadable
+from carpus.core.phrase import phrase
+from carpus.core.records import erasure
+from carpus.core.records.erasure import ErasurePlan
+from carpus.core.records.library import Library
+from carpus.core.records.log import LoggedDeed, fingerprint, read_log
+from carpus.core.records.retention import Due, due
+from carpus.core.records.set_up import PRACTICE_PATIENT
+
+
+@dataclass(frozen=True, slots=True)
+class Archived:
+    """A patient or a session in the archive: ``identity`` brings it back; ``recorded`` None for a patient;
+    ``patient_id`` whose it is."""
+
+    identity: str
+    pseudonym: str
+    since: datetime
+    sessions: int
+    patient_id: str
+    recorded: datetime | None = None
+    session_id: str = ""
+
+
+class Records:
+    """Plans are made first and shown; what a plan says is what goes."""
+
+    def __init__(self, library: Library) -> None:
+        self._library, self._store = library, library.store
+
+    def plan_session(self, session_id: str) -> ErasurePlan:
+        """What goes with a session. Raises :class:`SessionUnreadable` for one that is not there."""
+        try:
+            return erasure.plan_session(self._store, session_id)
+        except KeyError:
+            raise SessionUnreadable(session_id, phrase("not in the list of patients")) from None
+
+    def plan_patient(self, patient_id: str) -> ErasurePlan:
+        """What goes with a patient. Raises :class:`SessionUnreadable` for one that is not there."""
+        try:
+            return erasure.plan_patient(self._store, patient_id)
+        except KeyError:
+            raise SessionUnreadable(patient_id, phrase("not in the list of patients")) from None
+
+    def values_by_hand(self, patient_id: str) -> int:
+        """How many values a person has measured go with a patient."""
+        return len(self._library.by_hand(patient_id))
+
+    def erase(self, plan: ErasurePlan) -> int:
+        """Do what a plan says. Raises what :func:`erasure.erase` does."""
+        for one in plan.results:
+            self._library.forget_figures(one.session_id)
+        self._library.forget_pictures()
+        return erasure.erase(self._store, plan, self._library.log)
+
+    def archive_session(self, session_id: str) -> None:
+        """Out of every list and count."""
+        self._library.index.archive(session_id)
+        self._library.note_session("archived", session_id)
+
+    def archive_patient(self, patient_id: str) -> None:
+        """Out of every list and count."""
+        self._library.patients.archive(patient_id)
+        self._library.note_patient("archived", patient_id)
+
+    def bring_back(self, identity: str) -> None:
+        """A patient or a session, by :attr:`Archived.identity`."""
+        if identity in self._library.patients.archived():
+            self._library.patients.bring_back(identity)
+            self._library.note_patient("brought_back", identity)
+        else:
+            self._library.index.bring_back(identity)
+            self._library.note_session("brought_back", identity)
+
+    def archived(self) -> list[Archived]:
+        """What can be brought back, last archived first."""
+        library, found = self._library, []
+        for patient_id, since in library.patients.archived().items():
+            entries = library.index.of_patient(patient_id, archived=True)
+            pseudonym = library.patients.one(patient_id).entry.pseudonym
+            found.append(Archived(patient_id, pseudonym, since, len({one.recording_id for one in entries}), patient_id))
+        for entry, owner, since in library.index.archived():
+            if owner:
+                pseudonym, session_id = library.patients.one(owner).entry.pseudonym, entry.session_id
+                found.append(Archived(session_id, pseudonym, since, 1, owner, entry.recorded, session_id))
+        return sorted(found, key=lambda one: one.since, reverse=True)
+
+    def due(self, years: int, today: date) -> list[Due]:
+        """Patients of whom nothing need be kept any more."""
+        return due(self._store, years, today)
+
+    def log(self) -> tuple[LoggedDeed, ...]:
+        """The log of what was done; that it was read is in it too, after what is returned."""
+        found = read_log(self._store)
+        self._library.note("read_log")
+        return found
+
+    def names(self) -> dict[str, str]:
+        """Pseudonyms of the patients, and of those whose sessions there are, by what stands for them in the log: of who
+        was erased there is none."""
+        known = {}
+        for record in self._library.patients.listed(archived=True):
+            pseudonym = record.entry.pseudonym
+            known[fingerprint(record.patient_id)] = pseudonym
+            for entry in self._library.index.of_patient(record.patient_id, archived=True):
+                known[fingerprint(entry.session_id)] = f"{pseudonym}, {entry.recorded:%Y-%m-%d %H:%M}"
+        known[fingerprint(PRACTICE_PATIENT)] = "practice"
+        return known

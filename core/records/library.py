@@ -1,0 +1,524 @@
+"""The data folder: the store of what people type, the session files, and what lies beside them."""
+
+from __future__ import annotations
+
+import threading
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.agreement.limits_file import read_limits
+from carpus.core.calibration.result import ALL_STRAIGHT
+from carpus.core.capture.files.picture_file import read_color
+from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
+from carpus.core.capture.files.raw import RawRecording
+from carpus.core.capture.files.raw_pictures import decode_color
+from carpus.core.durable import make_private
+from carpus.core.errors import (
+    CarpusFault,
+    FilesSetApart,
+    FolderMissing,
+    OutputNotWritable,
+    RecordingMoved,
+    SessionUnreadable,
+)
+from carpus.core.formats.export import Wanted, export_sessions
+from carpus.core.hand.exercises import exercise_named
+from carpus.core.measures.by_hand import HandValue
+from carpus.core.measures.error_limits import DEFAULT_LIMITS
+from carpus.core.phrase import phrase
+from carpus.core.records import of_clinic, of_patients, of_sessions
+from carpus.core.records.changes import changed, is_identity
+from carpus.core.records.coming_home import bring_home, fallback_place
+from carpus.core.records.erasure import finish_erasing
+from carpus.core.records.kept_sets import keep_set_up, last_set_up
+from carpus.core.records.log import By, Deed, Fact, Kind, Log, was_erased
+from carpus.core.records.of_sessions import MOST_CHARACTERS, Comment, MadeKind
+from carpus.core.records.patients import Patients
+from carpus.core.records.schema import PATIENT
+from carpus.core.records.session_list import FilesOfSessions, ListedSessions, free_path, look_for_share
+from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
+from carpus.core.records.store import Store
+from carpus.core.records.values import HomePlan, SessionEntry, entry_of, newest_results
+from carpus.core.results.angle_order import in_order
+from carpus.core.results.camera_said import CameraSaid, camera_of
+from carpus.core.results.figures import SessionFigures, session_figures, with_trust
+from carpus.core.results.goals import Goals
+from carpus.core.results.progress import NAMES_DOUBTED
+from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.session.reader import has_raw, read_outline, read_raw_color, read_session
+from carpus.core.session.recovery import recover_folder
+from carpus.core.session.values import AngleOrder, Session
+from carpus.core.types import ByteImage, Side
+
+KEPT_PICTURES = 2
+"""Files of pictures that stay open: two sessions are looked at beside each other."""
+MOST_TOLD = 3
+"""Files that are told one by one when the program starts; more are told together."""
+
+
+@dataclass(frozen=True, slots=True)
+class Recovered:
+    """A session that had been cut short and has been finished; ``kept_s`` of it are there."""
+
+    patient_id: str
+    session_id: str
+    pseudonym: str
+    when: datetime
+    kept_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class LookedAt:
+    """A session file that was handed over; ``patient_id`` is empty where nobody here has it."""
+
+    patient_id: str
+    session_id: str
+    subject_id: str
+    side: Side
+
+
+class Library:
+    """Everything that is stored. May be used from several threads.
+
+    What is done with patients' sessions stands in the log with the initials of ``who`` does it; where it cannot be
+    written, ``log_fault`` is told. The practice patient is nobody, and in no log.
+    """
+
+    def __init__(
+        self,
+        folder: Path,
+        practice_name: str = "Practice patient",
+        *,
+        by: By = "window",
+        url: str = "",
+        sessions: Path | None = None,
+    ) -> None:
+        self.folder = folder
+        self.who: Callable[[], str] = lambda: ""
+        self._told: list[CarpusFault] = []
+        self.log_fault: Callable[[CarpusFault], None] = lambda fault: self._told.append(fault)
+        self.error_limits = DEFAULT_LIMITS
+        """The clinic's own from its test and retest, as far as it has any."""
+        try:
+            self.error_limits = read_limits(folder)
+        except CarpusFault as fault:
+            self._told.append(fault)
+        self.store = Store(folder, sessions, url, lambda fault: self.log_fault(fault))
+        self.log = Log(self.store, by, lambda: self.who())
+        self.patients, self.index = Patients(self.store), ListedSessions(self.store)
+        self._files = FilesOfSessions(self.store)
+        if self.patients.one(PRACTICE_PATIENT).entry.pseudonym != practice_name:
+            self.store.do([changed(PATIENT, PRACTICE_PATIENT, pseudonym=practice_name)])
+        self._lock = threading.Lock()
+        self._elsewhere: dict[str, SessionEntry] = {}
+        self._figures: dict[Path, tuple[RepetitionChoices, SessionFigures]] = {}
+        self._pictures: list[KeptPictures] = []
+        self._shown: dict[str, int] = {}
+        self.angle_order: Callable[[], AngleOrder] = lambda: "zyx"
+        """In which order the wrist's angles are read in the window; files keep the papers'."""
+        finish_erasing(self.store, self.log)
+
+    def note_session(self, did: Deed, session_id: str, **facts: Fact) -> None:
+        """Take down what was done with a session."""
+        with suppress(KeyError):  # of a folder that went away: noted when it comes home
+            if self.index.owner(session_id) != PRACTICE_PATIENT:
+                self._note(did, "session", session_id, **facts)
+
+    def note_patient(self, did: Deed, patient_id: str, **facts: Fact) -> None:
+        """Take down what was done with a patient, or with all sessions of one."""
+        if patient_id != PRACTICE_PATIENT:
+            self._note(did, "patient", patient_id, **facts)
+
+    def note(self, did: Deed, **facts: Fact) -> None:
+        """Take down what was done with the program or with everything."""
+        self._note(did, "program", "", **facts)
+
+    def _note(self, did: Deed, kind: Kind, identity: str, **facts: Fact) -> None:
+        try:
+            self.log.note(did, kind, identity, **facts)
+        except CarpusFault as fault:  # what was done is done; that it stands in no log is said
+            self.log_fault(fault)
+
+    def close(self) -> None:
+        """May be called twice."""
+        self.store.close()
+
+    def pseudonyms(self) -> Sequence[str]:
+        """Every pseudonym and name there is, for what must not hold them."""
+        with suppress(CarpusFault):
+            entries = [record.entry for record in self.patients.listed(archived=True)]
+            return [
+                text
+                for entry in entries
+                for text in (entry.pseudonym, entry.pseudonym.replace(" ", "-"), entry.name)
+                if text
+            ]
+        return ()
+
+    # --- sessions -----------------------------------------------------------------------------------------
+    def sessions(self, patient_id: str) -> Sequence[SessionEntry]:
+        """A patient's sessions, newest first: of a recording that was tracked more than once the newest result."""
+        return newest_results(self.results(patient_id))
+
+    def results(self, patient_id: str) -> Sequence[SessionEntry]:
+        """Every session file of a patient, also the earlier results of a recording that was tracked again."""
+        return self.index.of_patient(patient_id)
+
+    def by_hand(self, patient_id: str) -> Sequence[HandValue]:
+        """Everything that was ever measured by hand of a patient, in the order in which it was entered."""
+        return of_patients.by_hand(self.store, patient_id)
+
+    def enter_by_hand(self, patient_id: str, values: Sequence[HandValue]) -> None:
+        """Keep what was measured by hand; what was entered before for the same stays readable."""
+        of_patients.enter_by_hand(self.store, patient_id, values)
+        self.note_patient("entered_by_hand", patient_id, values=len(values))
+
+    def sessions_alike(self, patient_id: str, set_up: SetUp) -> Sequence[SessionEntry]:
+        """Those with the discs of a set-up on the same hand, newest first."""
+        own = (set_up.side, set_up.exercise.protocol)
+        entries = self.sessions(patient_id)
+        return [entry for entry in entries if (entry.hand, exercise_named(entry.exercise).protocol) == own]
+
+    def entry(self, session_id: str) -> SessionEntry:
+        """One session by its identity. Raises :class:`SessionUnreadable` for one that is not there."""
+        if session_id in self._elsewhere:
+            return self._elsewhere[session_id]
+        with suppress(KeyError):
+            return self.index.one(session_id)
+        raise SessionUnreadable(session_id, phrase("not in the list of patients"))
+
+    def owner(self, session_id: str) -> str:
+        """Whose session it is; empty for nobody's."""
+        with suppress(KeyError):
+            return self.index.owner(session_id)
+        return ""
+
+    def last_patient(self) -> str:
+        """Who was measured last, also on a simulated camera; empty for nobody."""
+        return self.index.last_owner()
+
+    def new_path(self, set_up: SetUp) -> Path:
+        """A free path for a session that begins now: on this computer while a share is away, which is told."""
+        about = set_up.pseudonym, set_up.exercise.id, set_up.side, datetime.now().astimezone()
+        try:
+            return self.index.new_path(set_up.patient_id, *about)
+        except (FolderMissing, OutputNotWritable) as fault:
+            if not self.store.on_share:
+                raise
+            path = free_path(self.fallback_folder(set_up.patient_id), *about)
+            self.log_fault(RecordingMoved(path, fault.detail or phrase("not there now")))
+            return path
+
+    def entered(self, set_up: SetUp, path: Path) -> str:
+        """Take a finished session into the store, and remember how it was set up."""
+        if path.is_relative_to(fallback_place(self.folder)):  # the store is where the data folder is: gone
+            return self._enter_elsewhere(path)
+        keep_set_up(self.store, set_up)
+        session_id = self.index.enter(path, set_up.patient_id, self.who()).session_id
+        self.note_session("recorded", session_id)
+        return session_id
+
+    def _enter_elsewhere(self, path: Path) -> str:
+        """Remember a session of a data folder that went away, until the program ends; then it is brought home."""
+        entry = entry_of(path, read_outline(path))
+        self._elsewhere[entry.session_id] = entry
+        return entry.session_id
+
+    def look_at(self, path: Path) -> LookedAt:
+        """A session by its file, wherever that lies. One that no list knows belongs to nobody, and is remembered until
+        the program ends; its file stays where it is. Raises what reading the file raises."""
+        outline = read_outline(path)
+        header = outline.header
+        with suppress(KeyError):
+            return LookedAt(self.index.owner(header.session_id), header.session_id, header.subject_id, header.hand)
+        self._elsewhere[header.session_id] = entry_of(path, outline)
+        return LookedAt("", header.session_id, header.subject_id, header.hand)
+
+    def fallback_folder(self, patient_id: str) -> Path:
+        """Where a patient's recording goes on when the data folder goes away."""
+        folder = fallback_place(self.folder) / patient_id
+        make_private(folder)
+        return folder
+
+    def last_hand_length_mm(self, set_up: SetUp, *, simulated: bool) -> float:
+        """Length of this hand of the patient as the last session of the kind measured it; NaN before the first."""
+        for entry in self.sessions(set_up.patient_id):
+            if entry.hand != set_up.side:
+                continue
+            with suppress(SessionUnreadable):
+                session = read_session(entry.path)
+                verdict = session.calibration.verdict
+                # Another length that was accepted is the hand's from now on; only wrong names measured no hand.
+                doubted = any(
+                    finding.kind in NAMES_DOUBTED for finding in verdict.findings if finding.kind != "other_length"
+                )
+                if session.header.simulated == simulated and not doubted and np.isfinite(verdict.hand_length_mm):
+                    return verdict.hand_length_mm
+        return float("nan")
+
+    def last_straight_fingers(self, set_up: SetUp) -> tuple[bool, ...]:
+        """What the last session with these discs said of the hand's fingers, thumb to little; straight before one."""
+        if set_up.protocol.has_fingers:
+            for entry in self.sessions_alike(set_up.patient_id, set_up):
+                with suppress(SessionUnreadable):
+                    return read_session(entry.path).calibration.straight_fingers
+        return ALL_STRAIGHT
+
+    def cut_short(self) -> None:
+        """Finish what a fault left behind, as far as possible."""
+        with suppress(CarpusFault):
+            self.recover()
+
+    def recover(self) -> tuple[Sequence[Recovered], Sequence[CarpusFault]]:
+        """Finish interrupted sessions; take these, and files that were copied in, into the store."""
+        faults = [*self._told, *self.store.told]
+        self._told, self.store.told = [], []
+        if not self.store.sessions_folder.is_dir():  # a share: it is neither made nor taken for empty
+            return [], [*faults, FolderMissing(self.store.sessions_folder)]
+        try:
+            look_for_share(self.store)
+        except FolderMissing as fault:
+            return [], [*faults, fault]
+        if self.store.knows_all():  # who was erased meanwhile is brought back by nothing
+            faults += bring_home(self.folder, self._folder_of)
+        recovery = recover_folder(self.store.sessions_folder, given_up=self._files.given_up())
+        apart = [*self._files.first_told(recovery.faults), *self._files.take_in().faults]
+        found: list[Recovered] = []
+        for path in recovery.recovered:
+            outline = read_outline(path)
+            header = outline.header
+            self.note_session("recovered", header.session_id)
+            owner = self.owner(header.session_id)
+            pseudonym = self.patients.one(owner).entry.pseudonym if owner else header.subject_id
+            found.append(Recovered(owner, header.session_id, pseudonym, header.when, outline.duration_s))
+        if len(apart) > MOST_TOLD:
+            names = ", ".join(Path(fault.subject).name for fault in apart[:MOST_TOLD])
+            apart = [FilesSetApart(f"{names}, …", phrase("{count} files", count=len(apart)))]
+        return found, [*faults, *apart]
+
+    def _folder_of(self, patient_id: str, subject_id: str) -> Path | None:
+        """Where recordings of a patient lie, or of a pseudonym; None for a patient who was erased."""
+        owner = PRACTICE_PATIENT if subject_id == PRACTICE_PATIENT else self.patients.called(subject_id)
+        if is_identity(patient_id):
+            if was_erased(self.store, patient_id):
+                return None
+            owner = patient_id
+        return self.store.sessions_folder / (owner or "unknown")
+
+    # --- what is read of a session ------------------------------------------------------------------------
+    def session(self, session_id: str) -> Session:
+        """A whole session, of the exercise that it is in the list with, its angles in the order that is chosen."""
+        return in_order(self._stored(session_id), self.angle_order())
+
+    def _stored(self, session_id: str) -> Session:
+        entry = self.entry(session_id)
+        return _as_listed(read_session(entry.path), entry)
+
+    def forget_figures(self, session_id: str) -> None:
+        """What was worked out of a session is worked out anew."""
+        self._figures = {path: known for path, known in self._figures.items() if known[1].session_id != session_id}
+
+    def forget_pictures(self) -> None:
+        """Let go of the files whose pictures were shown last."""
+        with self._lock:
+            self._pictures = []
+
+    def picture(self, session_id: str, row: int) -> ByteImage | None:
+        """The colour picture of a row where pictures were kept, in the session or beside it."""
+        path = self._path_with_pictures(session_id)
+        with self._lock:
+            kept = next((one for one in self._pictures if one.path == path), None)
+            if kept is None:
+                kept = KeptPictures(path)
+                self._pictures = [kept, *self._pictures][:KEPT_PICTURES]
+            return kept.color(row)
+
+    def results_of(self, session_id: str) -> Sequence[SessionEntry]:
+        """Every result of the recording of a session, the first one first."""
+        if session_id in self._elsewhere:
+            return [self._elsewhere[session_id]]
+        with suppress(KeyError):
+            return self.index.results_of(session_id)
+        raise SessionUnreadable(session_id, phrase("not in the list of patients"))
+
+    def _path_with_pictures(self, session_id: str) -> Path:
+        """The session itself, or the result of the same recording beside which the pictures were kept."""
+        own = self.entry(session_id).path
+        for path in (own, *(entry.path for entry in self.results_of(session_id))):
+            if path.with_suffix(RAW_SUFFIX).exists() or has_raw(path):
+                return path
+        return own
+
+    def choices(self, session_id: str) -> RepetitionChoices:
+        """What a person left out or moved."""
+        found, self._shown[session_id] = of_sessions.choices(self.store, session_id)
+        return found
+
+    def keep_choices(self, session_id: str, choices: RepetitionChoices) -> None:
+        """Store it in place of what was read last. Raises :class:`ChangedMeanwhile` where that is not what holds."""
+        before, version = of_sessions.choices(self.store, session_id)
+        self._shown[session_id] = of_sessions.keep_choices(
+            self.store, session_id, choices, self._shown.get(session_id, version)
+        )
+        if before.not_counted == choices.not_counted:
+            self.note_session("changed", session_id)
+        else:
+            self.note_session("set_aside" if choices.not_counted else "taken_back", session_id)
+
+    def recipients(self) -> Sequence[str]:
+        """To whom letters were written, the last used first."""
+        return of_clinic.recipients(self.store)
+
+    def remember_recipient(self, address: str) -> None:
+        """Take down to whom a letter goes."""
+        of_clinic.remember_recipient(self.store, address)
+
+    def comments(self, session_id: str) -> Sequence[Comment]:
+        """All that the therapist wrote of a session, oldest first."""
+        return of_sessions.comments(self.store, session_id)
+
+    def comment(self, session_id: str) -> str:
+        """What holds of it; empty where nothing was written."""
+        return of_sessions.latest(self.comments(session_id))
+
+    def keep_comment(self, session_id: str, text: str) -> None:
+        """Add a comment, which holds from now on; what was written before stays readable."""
+        text = text.strip()[:MOST_CHARACTERS]
+        if text != self.comment(session_id):
+            of_sessions.add_comment(self.store, session_id, text, self.who())
+            self.note_session("changed", session_id)
+
+    def figures(self, entry: SessionEntry) -> SessionFigures:
+        """Figures of a session with its choices, computed once, and with what is known of its camera by now."""
+        choices, order = of_sessions.choices(self.store, entry.session_id)[0], self.angle_order()
+        known = self._figures.get(entry.path)
+        if known is None or known[0] != choices or known[1].angle_order != order:
+            session = in_order(_as_listed(read_session(entry.path), entry), order)
+            known = (choices, session_figures(session, choices, self.error_limits))
+            self._figures[entry.path] = known
+        return with_trust(known[1], self.folder)
+
+    def camera(self, session: Session) -> CameraSaid:
+        """What a session and the checks since say of its camera."""
+        return camera_of(session, self.folder)
+
+    def figures_of(self, session_id: str) -> SessionFigures:
+        """As :meth:`figures`, by the session's identity."""
+        return self.figures(self.entry(session_id))
+
+    def limits_changed(self) -> None:
+        """The clinic has measured its own error limits: from now on everything is judged by them."""
+        self.error_limits = read_limits(self.folder)
+        self._figures = {}
+        self.note("changed", limits=len(self.error_limits.studies))
+
+    def history(self, patient_id: str) -> Sequence[SessionFigures]:
+        """Figures of all sessions of a patient that can be read."""
+        out = []
+        results = Counter(entry.recording_id for entry in self.results(patient_id))
+        for entry in self.sessions(patient_id):
+            with suppress(SessionUnreadable):  # its file is gone or damaged; opening it alone tells
+                out.append(replace(self.figures(entry), earlier_results=results[entry.recording_id] - 1))
+        return out
+
+    def export(
+        self,
+        session_id: str,
+        folder: str,
+        formats: Sequence[str] = ("csv",),
+        progress: Callable[[int, int], None] | None = None,
+        cancelled: Callable[[], bool] = lambda: False,
+        deidentified: bool = False,
+        software_version: str = "",
+    ) -> Sequence[str]:
+        """Write a session as open formats into a folder, as it is listed and with a person's choices; the names of the
+        files. Raises what kept it from being written."""
+        path = self.entry(session_id).path
+        wanted = Wanted(
+            path, lambda: (self._stored(session_id), self.choices(session_id)), tuple(self._by_hand_of(session_id))
+        )
+        done = export_sessions(
+            [wanted],
+            Path(folder),
+            formats,
+            software_version=software_version,
+            deidentified=deidentified,
+            progress=progress,
+            cancelled=cancelled,
+        )
+        if not deidentified:  # what nobody can be found by is not tied to anybody by the list of patients either
+            self.made(done.files, "export", [session_id])
+        else:
+            self.note_session("exported", session_id, files=len(done.files), deidentified=1)
+        for refused in done.refused:
+            raise refused.fault
+        return [str(path.relative_to(folder)) for path in done.files]
+
+    def _by_hand_of(self, session_id: str) -> Sequence[HandValue]:
+        """What was measured by hand of the patient of a session; nothing of nobody's."""
+        return self.by_hand(self.owner(session_id))
+
+    def made(self, paths: Sequence[Path], kind: MadeKind, session_ids: Iterable[str]) -> None:
+        """Take down files that were made from sessions, so that they are named when one of these is erased."""
+        known = [one for one in session_ids if one not in self._elsewhere]
+        of_sessions.remember_made(self.store, paths, kind, known)
+        for session_id in known:
+            self.note_session("reported" if kind == "report" else "exported", session_id, files=len(paths))
+
+    def marker_picture(self, patient_id: str, set_up: SetUp | None = None) -> ByteImage | None:
+        """The markers as they were stuck last time, or when last on the hand and of the protocol of a set-up."""
+        for entry in self.sessions(patient_id) if set_up is None else self.sessions_alike(patient_id, set_up):
+            if entry.simulated and patient_id != PRACTICE_PATIENT:
+                continue  # nobody's hand
+            path = entry.path.with_suffix(MARKERS_SUFFIX)
+            if path.exists():
+                with suppress(CarpusFault):
+                    return read_color(path)
+        return None
+
+    def last_set_up(self, patient_id: str) -> SetUp | None:
+        """How the last session was set up, None before the first."""
+        return last_set_up(self.store, patient_id)
+
+    def home_plan(self, patient_id: str) -> HomePlan | None:
+        """What a patient was last given to do at home."""
+        return of_patients.home_plan(self.store, patient_id)
+
+    def keep_home_plan(self, patient_id: str, plan: HomePlan) -> None:
+        """Remember what a patient is given to do at home."""
+        of_patients.keep_home_plan(self.store, patient_id, plan)
+
+    def goals(self, patient_id: str) -> Goals:
+        """The targets that were last set for each exercise and hand of a patient."""
+        return of_patients.goals(self.store, patient_id)
+
+
+class KeptPictures:
+    """Pictures kept in a session file, or in a raw recording beside it."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        raw = path.with_suffix(RAW_SUFFIX)
+        self._beside = RawRecording(raw) if raw.exists() else None
+        self._inside = self._beside is None and has_raw(path)
+        self._times_s = read_session(path).timestamp_s if self._beside is not None else np.empty(0)
+
+    def color(self, row: int) -> ByteImage | None:
+        """The colour picture of a row, None when it was not kept."""
+        if self._beside is not None:
+            return self._beside.color_at(float(self._times_s[row]))
+        data = read_raw_color(self.path, row) if self._inside else b""
+        return decode_color(data) if data else None
+
+
+def _as_listed(session: Session, entry: SessionEntry) -> Session:
+    """The session with the exercise that a person said it was; its file is never changed."""
+    if session.header.exercise == entry.exercise:
+        return session
+    return replace(session, header=replace(session.header, exercise=entry.exercise))

@@ -1,0 +1,112 @@
+"""The PIN of the lock: kept as Argon2id, tried so often and then after a pause.
+
+It hides names, pictures and figures from those who pass by. It protects no file: whoever reads the data folder with
+another program needs no PIN, and whoever may write there can take the PIN away.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from carpus.core.durable import private, write_fault
+from carpus.core.errors import PinUncheckable
+
+PIN_FILE = "pin.json"
+LEAST_SIGNS, MOST_SIGNS = 4, 64
+TRIES = 5
+PAUSE = timedelta(minutes=1)
+
+
+@dataclass(frozen=True, slots=True)
+class Tried:
+    """What came of a PIN: ``opened``, or ``left`` tries before a pause, or ``pause_s`` until the next one."""
+
+    opened: bool
+    left: int = TRIES
+    pause_s: float = 0.0
+
+
+class Pin:
+    """The PIN of one data folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self._path = folder / PIN_FILE
+
+    @property
+    def is_set(self) -> bool:
+        """Whether there is one. A file that cannot be read is one that nobody knows: it stays locked."""
+        return self._path.exists()
+
+    def set(self, pin: str) -> None:
+        """Set or change it. ValueError for one that is too short or too long; raises :class:`OutputNotWritable`,
+        :class:`PinUncheckable`."""
+        argon2 = _argon2()
+        if not LEAST_SIGNS <= len(pin) <= MOST_SIGNS:
+            raise ValueError(f"{len(pin)} signs")
+        self._write({"pin": str(argon2.PasswordHasher().hash(pin)), "refused": 0, "since": ""})
+
+    def take_away(self) -> None:
+        """No PIN any more."""
+        try:
+            self._path.unlink(missing_ok=True)
+        except OSError as cause:
+            raise write_fault(self._path, cause) from cause
+
+    def try_it(self, pin: str, now: datetime | None = None) -> Tried:
+        """Whether it is the one; counted where it is not, also over the end of the program. During a pause nothing is
+        tried. Raises :class:`OutputNotWritable` where a wrong one could not be counted, :class:`PinUncheckable`."""
+        argon2 = _argon2()
+        when = now or datetime.now(UTC)
+        kept = self._read()
+        refused, since = kept["refused"], kept["since"]
+        if refused >= TRIES and since is not None:
+            waited = when - since
+            if timedelta(0) <= waited < PAUSE:
+                return Tried(False, 0, float(math.ceil((PAUSE - waited).total_seconds())))
+            refused = 0
+        try:
+            opened = bool(argon2.PasswordHasher().verify(kept["pin"], pin))
+        except (argon2.exceptions.VerificationError, argon2.exceptions.InvalidHashError):
+            opened = False
+        told = {"pin": kept["pin"], "refused": 0 if opened else refused + 1, "since": when.isoformat()}
+        if not opened or kept["refused"]:
+            self._write(told)
+        if opened:
+            return Tried(True)
+        left = TRIES - refused - 1
+        return Tried(False, left, 0.0 if left else PAUSE.total_seconds())
+
+    def _read(self) -> dict[str, Any]:
+        try:
+            told = json.loads(self._path.read_text(encoding="utf-8"))
+            since = datetime.fromisoformat(told["since"]) if told["since"] else None
+            refused = told["refused"]
+            if isinstance(refused, bool) or not isinstance(refused, int) or (since and since.tzinfo is None):
+                raise ValueError("no count")
+            return {"pin": str(told["pin"]), "refused": max(0, refused), "since": since}
+        except (OSError, ValueError, KeyError, TypeError, RecursionError):
+            return {"pin": "", "refused": 0, "since": None}
+
+    def _write(self, told: dict[str, Any]) -> None:
+        part = self._path.with_name(f".{PIN_FILE}.new")
+        try:
+            with open(part, "w", encoding="utf-8", opener=private) as file:
+                json.dump(told, file)
+            part.replace(self._path)
+        except OSError as cause:
+            raise write_fault(self._path, cause) from cause
+
+
+def _argon2() -> ModuleType:
+    """Loaded when a PIN is used, not when the program starts; without it nothing is opened, and that is said."""
+    try:
+        import argon2
+    except ImportError as cause:  # also where its compiled part does not fit the computer
+        raise PinUncheckable("argon2", str(cause)) from cause
+    return argon2

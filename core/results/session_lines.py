@@ -1,0 +1,309 @@
+"""What a session or a recording holds, as plain lines for ``carpus info``."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.calibration.result import finding_sentence
+from carpus.core.camera import Camera
+from carpus.core.capture.camera_info import CAMERA_FILE
+from carpus.core.capture.files.tum import TumFolder
+from carpus.core.capture.source import SourceInfo, is_simulated
+from carpus.core.depth_sensor import ASSUMED, DepthSensor
+from carpus.core.hand.exercises import SIDES
+from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.results.camera_said import camera_of
+from carpus.core.results.figures import session_figures
+from carpus.core.results.ranges import is_total
+from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.session.reader import has_raw
+from carpus.core.session.values import Session
+from carpus.core.types import FloatArray, TrackStatus
+
+_USUAL_M = 0.7
+"""Camera to hand."""
+LIMITED = ", limited by the camera's view"
+FREE_MOVEMENT = "FREE"
+_WRIST_DIRECTIONS = {
+    "deviation": ("ulnar", "radial"),
+    "flexion": ("extension", "flexion"),
+    "pronosupination": ("pronation", "supination"),
+}
+"""Words for the negative and the positive side of each wrist angle."""
+
+
+def session_summary(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
+    """Everything a person asks of a session file, the identity first and the settings last."""
+    header, quality = session.header, session.quality
+    lines = [
+        _line("Session", str(session.path)),
+        _line("Identity", f"{header.session_id}, written by Carpus {header.software_version}"),
+        _line("Patient", f"{header.subject_id or 'not given'}, {header.hand} hand"),
+        _line("Exercise", header.exercise or "not given"),
+        _line("Recorded", header.recorded or "not known"),
+        _line("Created", header.created),
+        _line("Recording", header.recording_id),
+        _line("Markers", f"{header.protocol.name}: {' '.join(header.protocol.markers)}"),
+        *([_line("Source", "simulated: nobody's movement was measured")] if header.simulated else []),
+        _line("Complete", _completeness(session)),
+        *_frames(session.timestamp_s, np.maximum(quality.dropped_before, 0)),
+        _line("Tracking", _shares(session)),
+        *_ranges(session, choices),
+        *repetition_lines(session, choices),
+        *_calibration(session),
+        _line("Camera", camera_text(session.camera) + _calibrated(header.parameters)),
+        _line("Sensor", sensor_text(session.camera.sensor)),
+        _line("Smoothed", "yes" if session.smoothed is not None else "no"),
+        _line("Pictures", "kept" if has_raw(session.path) else "not kept"),
+        _line("Events", _events(session)),
+        *_provenance(session),
+        _line("Settings", "carpus info --json FILE shows them"),
+    ]
+    if header.origin:
+        lines.append(_line("Origin", f"tracked again from {header.origin}"))
+    return lines
+
+
+def recording_summary(folder: Path, recording: TumFolder) -> list[str]:
+    """Frames, gaps, depth and camera of a TUM folder, from its lists and its first picture."""
+    times = np.array([stored.timestamp_s for stored in recording.stored])
+    dropped = np.array([stored.dropped_before for stored in recording.stored])
+    with_depth = sum(stored.depth is not None for stored in recording.stored)
+    camera = recording.info.camera
+    return [
+        _line("Recording", f"{folder}, a TUM RGB-D folder"),
+        *([_line("Source", "simulated")] if is_simulated(recording.info) else []),
+        *_frames(times, dropped),
+        _line("Depth", f"{with_depth} of {len(times)} frames have a depth picture"),
+        _line("Camera", camera_text(camera, f"no {CAMERA_FILE}")),
+        _line("Sensor", sensor_text(camera.sensor)),
+    ]
+
+
+def source_summary(path: Path, info: SourceInfo) -> list[str]:
+    """What a recording says of itself without being played: frames, rate, depth, camera, settings."""
+    count = "not known before it is played" if info.frame_count is None else str(info.frame_count)
+    return [
+        _line("Recording", str(path)),
+        _line("Frames", f"{count}, {info.nominal_fps:.1f} a second"),
+        _line("Depth", "yes" if info.has_depth else "no"),
+        _line("Camera", camera_text(info.camera)),
+        _line("Sensor", sensor_text(info.sensor)),
+        *(_line(name.replace("_", " ").capitalize(), value) for name, value in sorted(info.settings.items())),
+    ]
+
+
+def duration_text(duration_s: float) -> str:
+    """Minutes and seconds.
+
+    >>> duration_text(83.24)
+    '01:23.2'
+    """
+    minutes, seconds = divmod(round(duration_s, 1), 60.0)
+    return f"{int(minutes):02d}:{seconds:04.1f}"
+
+
+def camera_text(camera: Camera, without_file: str = "no camera file") -> str:
+    """Size and intrinsics, and where they come from."""
+    sources = {
+        "file": "from a calibration",
+        "calibration": "from the camera's own calibration",
+        "driver": "from the driver's field of view",
+        "factory": "from the maker's calibration",
+    }
+    source = sources.get(camera.origin, f"usual values, {without_file}")
+    numbers = f"fx {camera.fx_px:.2f}, fy {camera.fy_px:.2f}, cx {camera.cx_px:.2f}, cy {camera.cy_px:.2f}"
+    distortion = ", distorted" if camera.is_distorted else ""
+    return f"{camera.width_px} x {camera.height_px} pixels, {numbers}{distortion} ({source})"
+
+
+def sensor_text(sensor: DepthSensor) -> str:
+    """Which depth sensor, and how sure one of its readings is."""
+    sd_mm = 1e3 * float(sensor.reading_sd_m(np.array(_USUAL_M)))
+    assumed = ", assumed: nobody said which" if sensor.origin == ASSUMED else ""
+    return f"{sensor.name}, {sensor.kind}, a reading at {_USUAL_M * 100:.0f} cm within {sd_mm:.1f} mm{assumed}"
+
+
+def _line(title: str, text: str) -> str:
+    return f"{title:<12} {text}"
+
+
+def _calibrated(parameters: str) -> str:
+    """When the camera was calibrated with a board and how old that was, where the session was measured with it.
+
+    >>> _calibrated('{"source": {"calibrated": "2026-11-20T08:00:00+00:00", "calibration_age_days": "2.0"}}')
+    '; calibrated 2026-11-20, 2 days before'
+    """
+    try:
+        source = json.loads(parameters)["source"]
+        return f"; calibrated {source['calibrated'][:10]}, {float(source['calibration_age_days']):.0f} days before"
+    except (ValueError, KeyError, TypeError):
+        return ""
+
+
+def _completeness(session: Session) -> str:
+    if not session.complete:
+        return "no: still being recorded or cut short (carpus recover finishes it)"
+    if session.recovered:
+        return (
+            f"cut short and recovered {session.recovered}; at most the last second is missing; more only where the"
+            " figures came late"
+        )
+    return "yes"
+
+
+def _frames(timestamp_s: FloatArray, dropped: np.ndarray) -> list[str]:
+    count = len(timestamp_s)
+    if count < 2:
+        return [_line("Frames", str(count))]
+    duration_s = float(timestamp_s[-1] - timestamp_s[0])
+    rate = f"{1.0 / float(np.median(np.diff(timestamp_s))):.1f} a second"
+    missing, places = int(dropped.sum()), int(np.count_nonzero(dropped))
+    gaps = f"{_counted(missing, 'frame')} missing in {_counted(places, 'place')}" if missing else "none"
+    return [_line("Frames", f"{count} in {duration_text(duration_s)}, {rate}"), _line("Gaps", gaps)]
+
+
+def _counted(number: int, thing: str) -> str:
+    return f"{number} {thing}" + ("" if number == 1 else "s")
+
+
+def _shares(session: Session) -> str:
+    count = max(len(session), 1)
+    frames = {status: np.count_nonzero(session.status == status) for status in TrackStatus}
+    if not frames[TrackStatus.DOUBTFUL]:
+        del frames[TrackStatus.DOUBTFUL]
+    return ", ".join(f"{status.name.lower()} {100.0 * number / count:.1f} %" for status, number in frames.items())
+
+
+def range_lines(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
+    """Range of each wrist angle, in the same figures as review, report and export: of the trained one the mean of its
+    repetitions, else over the whole recording."""
+    figures = session_figures(session, choices)
+    header = replace(session.header, exercise=FREE_MOVEMENT)
+    whole = session_figures(replace(session, header=header)) if figures.exercise.counts else figures
+    lines = []
+    for angle, name in enumerate(WRIST_ANGLES):
+        of = figures if figures.exercise.angle == angle else whole
+        rows = {row.movement: row for row in of.rows if row.angle == angle}
+        if "arc" not in rows:
+            lines.append(f"  {name:<18} not measured")
+            continue
+        positive, negative = SIDES[angle]
+        arc = rows["arc"].mean_deg
+        # Without repetitions a side that was never reached has no row: it lies as far back as the arc says.
+        low = -rows[negative].mean_deg if negative in rows else None
+        high = rows[positive].mean_deg if positive in rows else arc + (low or 0.0)
+        low = high - arc if low is None else low
+        text = f"from {_side(name, low)} to {_side(name, high)}, arc {arc:.1f}°"
+        if of.counted:
+            text += ", of 1 repetition" if of.counted == 1 else f", mean of {of.counted} repetitions"
+        lines.append(f"  {name:<18} {text}" + (LIMITED if rows["arc"].limited else ""))
+    return lines
+
+
+def repetition_lines(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
+    """One line for each repetition, as the review counts it; none where nothing is counted."""
+    lines = []
+    for number, one in enumerate(session_figures(session, choices).repetitions, 1):
+        if (row := one.row) is None:
+            continue
+        least = "at least " if row.at_least else ""
+        start, end = (f"{time_s:.2f}" if math.isfinite(time_s) else "?" for time_s in (row.start_s, row.end_s))
+        parts = [f"{start} to {end} s"]
+        if math.isfinite(row.arc_rad):
+            parts.append(f"arc {least}{math.degrees(row.arc_rad):.1f} deg")
+        if math.isfinite(row.peak_speed_rad_s):
+            parts.append(f"peak {math.degrees(row.peak_speed_rad_s):.0f} deg/s")
+        if math.isfinite(row.sparc):
+            parts.append(f"SPARC {row.sparc:.2f}")
+        if row.pauses > 0:
+            parts.append(f"{row.pauses:.0f} stops of {row.pause_s:.1f} s in all")
+        parts += [] if row.counted else [f"not counted: {row.reason.replace('_', ' ')}"]
+        lines.append(_line("Repetition" if number == 1 else "", f"{number}: {', '.join(parts)}"))
+    return lines
+
+
+def _ranges(session: Session, choices: RepetitionChoices | None) -> list[str]:
+    """Ranges of the wrist's angles, then of the joints."""
+    return ["Range of motion", *range_lines(session, choices), *_joint_ranges(session, choices)]
+
+
+def _joint_ranges(session: Session, choices: RepetitionChoices | None) -> list[str]:
+    """Of the whole hand: every joint over the frames in which it was seen, and the total of every finger."""
+    if not session.header.joint_names:
+        return []
+    figures = session_figures(session, choices)
+    ends = {(row.joint, row.movement): row.mean_deg for row in figures.joint_rows}
+    over = "mean of the repetitions, " if figures.counted else ""
+    lines = [f"Joints of the fingers, {over}while they were seen (TAM: total active motion)"]
+    for row in figures.joint_rows:
+        if row.movement != "arc":
+            continue
+        if not row.count:
+            lines.append(f"  {row.joint:<18} never seen")
+            continue
+        low, high = ends[row.joint, "extension"], ends[row.joint, "flexion"]
+        text = f"arc {row.mean_deg:.1f}°, seen {100.0 * row.seen_share:.0f} %"
+        if is_total(row.joint):
+            text = f"{row.mean_deg:.1f}°: bending {high:.1f}° less {low:.1f}° to straight"
+        else:
+            text = f"from {low:.1f}° to {high:.1f}°, {text}"
+        text += ", end joint not measured" if row.inferred else ""
+        lines.append(f"  {row.joint:<18} {text}" + (LIMITED if row.limited else ""))
+    return lines
+
+
+def _side(name: str, angle_deg: float) -> str:
+    negative, positive = _WRIST_DIRECTIONS[name]
+    return f"{abs(angle_deg):.1f}° {positive if angle_deg >= 0.0 else negative}"
+
+
+def _calibration(session: Session) -> list[str]:
+    calibration = session.calibration
+    verdict = calibration.verdict
+    facts = [
+        (verdict.hand_length_mm, f"hand {verdict.hand_length_mm:.0f} mm"),
+        (verdict.distance_m, f"{verdict.distance_m:.2f} m from the camera"),
+        (verdict.tilt_deg, f"tilted {verdict.tilt_deg:.0f}°"),
+    ]
+    residual_mm = verdict.residual_mm[np.isfinite(verdict.residual_mm)]
+    if residual_mm.size:
+        facts.append((0.0, f"markers within {residual_mm.max():.1f} mm"))
+    known = [text for value, text in facts if np.isfinite(value)]
+    if verdict.frames_used:
+        known.append(f"from {verdict.frames_used} still pictures")
+    lines = [_line("Calibration", ", ".join(known) or "not described")]
+    lines += [f"  doubtful: {finding_sentence(finding)}" for finding in verdict.findings]
+    start_deg = np.degrees(calibration.start_angles_rad)
+    if np.any(np.isfinite(start_deg) & (start_deg != 0.0)):
+        given = ", ".join(_side(name, float(angle)) for name, angle in zip(WRIST_ANGLES, start_deg, strict=True))
+        lines.append(f"  Start angles as given by the therapist: {given}.")
+    return lines
+
+
+def _provenance(session: Session) -> list[str]:
+    """By which revision, of which recording, with which settings; what an older session does not say is left out."""
+    parameters = json.loads(session.header.parameters)
+    parts = [parameters.get(name) if isinstance(parameters, dict) else None for name in ("provenance", "source")]
+    said, source = (part if isinstance(part, dict) else {} for part in parts)
+    camera = camera_of(session)
+    calibrated = camera.calibrated and f"{camera.calibrated}, {camera.age_days:.0f} days before"
+    facts = (
+        ("Calibrated", calibrated or (camera.serial and "not with a board")),
+        ("Not sure", camera.not_sure and f"{camera.not_sure}: a check of this camera near this session was out"),
+        ("Revision", said.get("revision")),
+        ("Of", source.get("sha256") and f"a recording with SHA-256 {source['sha256']}"),
+        ("Set", said.get("settings_sha256") and f"by settings with SHA-256 {said['settings_sha256']}"),
+    )
+    return [_line(title, str(text)) for title, text in facts if text]
+
+
+def _events(session: Session) -> str:
+    counts = Counter(event.kind for event in session.events)
+    return ", ".join(f"{count} {kind}" for kind, count in counts.items()) or "none"

@@ -1,0 +1,33 @@
+"""A board shown to the simulator's camera, rendered once for all tests here."""
+
+from __future__ import annotations
+
+import pytest
+
+from carpus.core.calibration.camera.board import CHESSBOARD, board_sheet
+from carpus.core.calibration.camera.gather import Gathering
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.simulation.printed_sheets import Studio, poses, texture_of
+from carpus.core.types import Frame
+from tests.calibration.camera.printed import ShownSheets
+
+
+@pytest.fixture(scope="package")
+def studio() -> Studio:
+    return Studio(seed=11, depth_scale_error=0.02)
+
+
+@pytest.fixture(scope="package")
+def shown(studio: Studio) -> list[Frame]:
+    """All that a person showed of the chessboard, a picture a second."""
+    texture = texture_of(board_sheet(CHESSBOARD, "a4"))
+    return list(ShownSheets(studio, [[placed] for placed in poses(texture)]).frames())
+
+
+@pytest.fixture(scope="package")
+def gathered(shown: list[Frame]) -> Gathering:
+    """What is kept of it."""
+    out = Gathering(DEFAULT_CAMERA)
+    for frame in shown:
+        out.add(frame)
+    return out

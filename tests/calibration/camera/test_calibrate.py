@@ -1,0 +1,280 @@
+"""The calibration finds the simulated camera: its lens, its depth, and says when the pictures are not enough."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+import pytest
+
+from carpus.core.calibration.camera.board import BOARDS, CHARUCO, CHESSBOARD, EDGE_MM, Board, board_sheet
+from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera, calibration_lines
+from carpus.core.calibration.camera.effect import HAND_LENGTH_M, effect_of
+from carpus.core.calibration.camera.find_board import LEAST_CORNERS, FoundBoard, find_board
+from carpus.core.calibration.camera.gather import Gathering
+from carpus.core.calibration.camera.guidance import ASKED_VIEWS, GuidanceStep, next_step, target_outline
+from carpus.core.calibration.camera.sheet import PAPER_MM, Paper, SheetBox, SheetLine, SheetText
+from carpus.core.calibration.camera.views import FEWEST_VIEWS, SIDES, BoardView, is_new, judge, view_of
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
+from carpus.core.simulation.practice_camera import BOARD_DISTANCES_M, DIFFERENT
+from carpus.core.simulation.printed_sheets import LENS, PX_PER_MM, Studio, held, poses, texture_of
+from carpus.core.simulation.sensor import depth_scale
+from carpus.core.types import Frame
+from tests.calibration.camera.printed import ShownSheets
+
+
+@pytest.fixture(scope="package")
+def made(gathered: Gathering) -> CameraCalibration:
+    return calibrate_camera(gathered.views, DEFAULT_CAMERA, "studio")
+
+
+def check_lens(made: CameraCalibration, middle_px: float) -> None:
+    camera = made.intrinsics.camera
+    assert camera.fx_px == pytest.approx(LENS.fx_px, rel=0.003)
+    assert camera.fy_px == pytest.approx(LENS.fy_px, rel=0.003)
+    assert camera.cx_px == pytest.approx(LENS.cx_px, abs=middle_px)
+    assert camera.cy_px == pytest.approx(LENS.cy_px, abs=middle_px)
+    # Everywhere in the picture, the bend of the lens included.
+    u, v = np.meshgrid(np.linspace(20, 620, 9), np.linspace(20, 460, 7))
+    pixel = np.stack((u.ravel(), v.ravel()), axis=-1)
+    rays = [lens.back_project(lens.undistort(pixel), np.ones(len(pixel))) for lens in (camera, LENS)]
+    turned = np.linalg.lstsq(rays[0], rays[1], rcond=None)[0]  # the whole camera turned is no fault of the lens
+    assert np.abs(rays[0] @ turned - rays[1]).max() * LENS.fx_px < 1.0
+
+
+def test_the_lens_is_found_within_three_in_a_thousand(made: CameraCalibration) -> None:
+    check_lens(made, middle_px=0.003 * 640)
+    assert made.intrinsics.error_px < 0.3
+    assert abs(made.intrinsics.camera.fx_px - LENS.fx_px) < 4.0 * made.intrinsics.focal_sd_px
+
+
+def test_the_scale_of_depth_is_found_within_two_in_a_thousand(made: CameraCalibration, studio: Studio) -> None:
+    true = depth_scale(studio.spec)
+    assert abs(true - 1.0) > 0.004, "the simulated unit must be off, or nothing is found"
+    depth = made.depth
+    assert depth is not None
+    assert depth.scale == pytest.approx(true, abs=0.002)
+    assert abs(depth.scale - true) < 4.0 * depth.scale_sd
+    assert depth.is_registered
+    assert np.linalg.norm(depth.apart_px) < 0.5
+
+
+def test_depth_beside_the_colours_and_a_shift_are_told(gathered: Gathering) -> None:
+    def moved(view: BoardView) -> BoardView:
+        assert view.depth_raw is not None
+        depth = np.roll(view.depth_raw, 3, axis=1)
+        far = np.where(depth > 0, depth + round(0.006 / view.depth_unit_m), 0).astype(np.uint16)
+        return replace(view, depth_raw=far)
+
+    before = calibrate_camera(gathered.views, DEFAULT_CAMERA, "studio").depth
+    after = calibrate_camera([moved(view) for view in gathered.views], DEFAULT_CAMERA, "studio").depth
+    assert before is not None
+    assert after is not None
+    np.testing.assert_allclose(after.apart_px - before.apart_px, [-3.0, 0.0], atol=0.5)
+    assert not after.is_registered
+    assert after.offset_m == pytest.approx(0.006, abs=0.0025)
+
+
+def test_a_charuco_board_does_too() -> None:
+    texture = texture_of(board_sheet(CHARUCO, "letter"))
+    source = ShownSheets(Studio(seed=4), [[one] for one in poses(texture, distances_m=(0.44, 0.5, 0.6))])
+    gathering = Gathering(source.info.camera)
+    for frame in source.frames():
+        gathering.add(frame)
+    found = calibrate_camera(gathering.views, DEFAULT_CAMERA, "studio")
+    assert "ChArUco" in found.board
+    check_lens(found, middle_px=0.005 * 640)
+
+
+def test_it_is_said_in_words(made: CameraCalibration) -> None:
+    said = "\n".join(calibration_lines(made))
+    assert "px (good: below 0.3 px)" in said
+    assert "too long" in said or "too short" in said
+    assert "chessboard 10 x 7" in said
+
+
+def test_no_board_is_said(made: CameraCalibration) -> None:
+    with pytest.raises(BoardMissing):
+        calibrate_camera([], DEFAULT_CAMERA, "studio")
+
+
+def test_too_few_views_are_refused(gathered: Gathering) -> None:
+    with pytest.raises(BoardViewsAlike, match=f"{FEWEST_VIEWS} needed"):
+        calibrate_camera(gathered.views[: FEWEST_VIEWS - 1], DEFAULT_CAMERA, "studio")
+
+
+def test_views_that_are_not_tilted_are_refused(gathered: Gathering) -> None:
+    straight = [replace(view, nearer=None) for view in gathered.views]
+    with pytest.raises(BoardViewsAlike, match="tilted"):
+        calibrate_camera(straight, DEFAULT_CAMERA, "studio")
+
+
+def test_views_of_one_part_of_the_picture_are_refused(gathered: Gathering) -> None:
+    corner = [replace(view, found=replace(view.found, pixel=view.found.pixel * 0.4)) for view in gathered.views]
+    with pytest.raises(BoardViewsAlike, match="fields"):
+        calibrate_camera(corner, DEFAULT_CAMERA, "studio")
+
+
+def test_a_bent_board_is_refused(gathered: Gathering) -> None:
+    def bent(view: BoardView) -> BoardView:
+        off = 8.0 * np.sin(view.found.corner * 2.1)[:, None] * [1.0, -1.0]
+        return replace(view, found=replace(view.found, pixel=view.found.pixel + off))
+
+    with pytest.raises(BoardUnfit):
+        calibrate_camera([bent(view) for view in gathered.views], DEFAULT_CAMERA, "studio")
+
+
+def test_what_to_do_next_is_where_nothing_has_been_and_all_of_the_board_fits_there(gathered: Gathering) -> None:
+    first = next_step(judge([], 640, 480))
+    assert first.kind == "place"
+    for judgement in (judge(gathered.views[:1], 640, 480), judge(gathered.views[:6], 640, 480)):
+        step = next_step(judgement, gathered.views[0].found)
+        if step.field is not None:
+            assert judgement.corners_in_field[step.field] == judgement.corners_in_field.min()
+    for field in ((0, 0), (0, 5), (3, 0), (3, 5), (1, 2)):
+        for side in SIDES:
+            outline = target_outline(GuidanceStep("place", field, side), CHESSBOARD, DEFAULT_CAMERA)
+            assert outline is not None
+            assert outline.min() > 0.0
+            assert (outline.max(axis=0) < [640, 480]).all()
+    upright = replace(judge(gathered.views, 640, 480), sides=frozenset({"left"}))
+    assert next_step(upright) == GuidanceStep("tilt", side="right")
+    assert next_step(replace(judge(gathered.views, 640, 480), views=ASKED_VIEWS["chessboard"])).kind == "done"
+
+
+def test_a_picture_that_is_not_kept_says_why(shown: list[Frame]) -> None:
+    def look(*frames: Frame) -> list[str]:
+        gathering = Gathering(DEFAULT_CAMERA)
+        out = []
+        for k, frame in enumerate(frames):
+            told = gathering.look(replace(frame, timestamp_s=0.2 * k))
+            assert told is not None
+            out.append(told.lack if told.lack or told.kept else "?")
+        return out
+
+    def with_color(frame: Frame, color: np.ndarray) -> Frame:
+        return replace(frame, color_rgb=np.ascontiguousarray(color))
+
+    blurred = with_color(shown[0], cv2.blur(shown[0].color_rgb, (9, 1)))
+    dark = with_color(shown[0], shown[0].color_rgb // 8)
+    assert look(shown[0], shown[0], shown[1]) == ["", "known", "moving"]
+    assert look(blurred) == ["blurred"]
+    assert look(with_color(dark, np.zeros_like(dark.color_rgb))) == ["dark"]
+    gathering = Gathering(DEFAULT_CAMERA)
+    gathering.take()
+    assert gathering.add(blurred), "by hand it counts"
+    gathering.undo()
+    gathering.add(replace(shown[1], timestamp_s=shown[0].timestamp_s + 9.0))
+    assert len(gathering.views) == 1
+
+
+def test_the_map_has_every_corner_that_the_guidance_counted(made: CameraCalibration, gathered: Gathering) -> None:
+    """Also of pictures that were left out of the fit in the end."""
+    fit = made.intrinsics
+    few = replace(fit, used=fit.used[:2], board_turn=fit.board_turn[:2], board_shift_m=fit.board_shift_m[:2])
+    effect = effect_of(replace(made, intrinsics=few), gathered.views)
+    pixel = np.concatenate([view.found.pixel for view in gathered.views])
+    across = (pixel[:, 0] * 13 / made.before.width_px).astype(int).clip(0, 12)
+    down = (pixel[:, 1] * 9 / made.before.height_px).astype(int).clip(0, 8)
+    there = np.zeros((9, 13), dtype=bool)
+    there[down, across] = True
+    np.testing.assert_array_equal(np.isfinite(effect.map_px).all(axis=-1), there)
+
+
+def test_the_effect_on_a_hand_is_told(made: CameraCalibration, gathered: Gathering, studio: Studio) -> None:
+    effect = effect_of(made, gathered.views)
+    assert np.nanmax(np.abs(effect.map_px)) < 0.5
+    assert effect.before_px > made.intrinsics.error_px
+    # Focal length too short and depth too long both make a hand too long, by their shares together.
+    long = HAND_LENGTH_M * 1e3 * (depth_scale(studio.spec) * LENS.fy_px / DEFAULT_CAMERA.fy_px - 1.0)
+    assert effect.length_more_mm == pytest.approx(long, abs=0.6)
+    assert abs(effect.angle_more_deg) < 1.5
+    assert made.is_usable
+    lens = replace(made.before, distortion=(0.15, -0.1, 0.002, 0.0, 0.0), distortion_model="inverse_brown_conrady")
+    views = []
+    for view in gathered.views:
+        board = view.found.board
+        flat = board.corners_m[view.found.corner] - board.outline_m.mean(axis=0)
+        pixel = lens.distort(lens.project(flat + np.array([0.02, 0.0, 0.7])))
+        views.append(replace(view, found=replace(view.found, pixel=pixel)))
+    assert effect_of(replace(made, before=lens), views).before_px < 1e-2, "its own lens explains its pictures"
+
+
+def test_the_next_step_names_what_is_missing(gathered: Gathering) -> None:
+    assert judge([], 640, 480).next_step
+    without = [view for view in gathered.views if view.nearer != "left" and view.nearer != "right"]
+    few = judge(without, 640, 480)
+    assert few.sides <= {"top", "bottom"}
+    assert "Tilt the board: left edge nearer" in few.next_step
+    assert gathered.judgement.next_step == ""
+
+
+def test_the_nearer_side_is_the_nearer_side(studio: Studio) -> None:
+    texture = texture_of(board_sheet(CHESSBOARD, "a4"))
+    placed = held(texture, (0.0, 0.0, 0.55), 30.0, 90.0, 0.0)
+    gathering = Gathering(DEFAULT_CAMERA)
+    assert gathering.add(studio.frame([placed], 0, 0.0))
+    left, right = (placed.rotation[2] @ [x, 0.1, 0.0] + placed.shift_m[2] for x in (0.0, 0.29))
+    assert gathering.views[0].nearer == ("left" if left < right else "right")
+    assert gathering.views[0].tilt_deg == pytest.approx(30.0, abs=2.0)
+
+
+def test_a_moving_board_is_not_kept(studio: Studio) -> None:
+    texture = texture_of(board_sheet(CHESSBOARD, "a4"))
+    gathering = Gathering(DEFAULT_CAMERA)
+    for k, x in enumerate((-0.05, 0.0, 0.0)):
+        kept = gathering.add(studio.frame([held(texture, (x, 0.0, 0.55), 5.0, 0.0, 0.0)], k, 0.2 * k))
+        assert kept == (k != 1), "the first, of which nobody knows, and the still one"
+
+
+@pytest.mark.parametrize("board", BOARDS.values(), ids=list(BOARDS))
+@pytest.mark.parametrize("paper", PAPER_MM)
+def test_the_board_fits_the_paper_with_a_white_border(board: Board, paper: Paper) -> None:
+    sheet = board_sheet(board, paper)
+    boxes = [mark for mark in sheet.marks if isinstance(mark, SheetBox)]
+    foot_mm = max(box.top_mm + box.height_mm for box in boxes)
+    assert min(box.left_mm for box in boxes) >= EDGE_MM
+    assert min(box.top_mm for box in boxes) >= EDGE_MM
+    assert max(box.left_mm + box.width_mm for box in boxes) <= sheet.width_mm - EDGE_MM
+    for mark in sheet.marks:  # ruler and words: beside the board, not on it, and where every printer prints
+        if isinstance(mark, SheetLine):
+            (left, top), (right, bottom) = mark.from_mm, mark.to_mm
+        elif isinstance(mark, SheetText):
+            em_mm = mark.size_pt * 0.3528
+            left, right = mark.x_mm, mark.x_mm + 0.6 * em_mm * len(mark.text)
+            top, bottom = mark.y_mm - 0.75 * em_mm, mark.y_mm + 0.25 * em_mm
+        else:
+            continue
+        assert foot_mm + 1.0 < top <= bottom <= sheet.height_mm - EDGE_MM
+        assert EDGE_MM <= left <= right <= sheet.width_mm - EDGE_MM
+
+
+@pytest.mark.parametrize("board", BOARDS.values(), ids=list(BOARDS))
+def test_what_is_printed_is_what_is_looked_for(board: Board) -> None:
+    picture = (texture_of(board_sheet(board, "a4"))[::8, ::8] * 255).clip(0, 255).astype(np.uint8)
+    large = picture.repeat(3, axis=0).repeat(3, axis=1)
+    found = find_board(large, [board])
+    assert found is not None
+    assert len(found.corner) == board.corner_count
+
+
+@pytest.mark.parametrize("board", [CHESSBOARD, CHARUCO], ids=lambda board: board.pattern)
+def test_the_simulated_board_is_shown_in_as_many_ways_as_are_asked_for(board: Board) -> None:
+    """Corners alone, not drawn: a pose that has been there before is not kept, and the showing would never end."""
+    sheet = board_sheet(board, "a4")
+    texture = np.zeros((round(sheet.height_mm * PX_PER_MM), round(sheet.width_mm * PX_PER_MM), 3), dtype=np.float32)
+    corner_m = np.array([0.5 * (sheet.width_mm - 1e3 * board.columns * board.square_m), 20.0, 0.0]) / 1e3
+    kept: list[BoardView] = []
+    for lap in range(3):
+        for placed in poses(texture, DIFFERENT, BOARD_DISTANCES_M[board.pattern], lap):
+            pixel = LENS.project((board.corners_m + corner_m) @ placed.rotation.T + placed.shift_m)
+            inside = ((pixel > 4.0) & (pixel < [636.0, 476.0])).all(axis=1)
+            if not inside.all() and (board.pattern == "chessboard" or np.count_nonzero(inside) < LEAST_CORNERS):
+                continue
+            found = FoundBoard(board, np.flatnonzero(inside), pixel[inside])
+            view = view_of(found, DEFAULT_CAMERA, None, 1e-3)
+            if view is not None and is_new(found, kept):
+                kept.append(view)
+    assert len(kept) >= ASKED_VIEWS[board.pattern]

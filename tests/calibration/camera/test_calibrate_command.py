@@ -1,0 +1,219 @@
+"""``carpus calibrate-camera``: the board as PDF, a recording to a camera file, and what later recordings make of it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from carpus.app.__main__ import main
+from carpus.app.settings import load_settings
+from carpus.app.sources import open_recording
+from carpus.core.calibration.camera.calibrate import calibrate_camera
+from carpus.core.calibration.camera.gather import Gathering
+from carpus.core.calibration.camera.keep import stored_of
+from carpus.core.camera import DEFAULT_CAMERA
+from carpus.core.capture.calibrated import (
+    CalibratedSource,
+    calibration_files,
+    correction_table,
+    new_calibration_path,
+    stored_calibration,
+    with_stored_calibration,
+)
+from carpus.core.capture.camera_info import CameraInfo, StoredCalibration, read_camera_info, write_camera_info
+from carpus.core.capture.files.raw import RawWriter
+from carpus.core.capture.files.raw_tum import TumWriter
+from carpus.core.capture.source import SourceInfo
+from carpus.core.errors import CameraFileUnreadable
+from carpus.core.pipeline.track import source_facts
+from carpus.core.simulation.oni_writer import write_oni
+from carpus.core.simulation.printed_sheets import LENS, Studio
+from carpus.core.simulation.sensor import depth_scale
+from carpus.core.types import Frame
+from tests.calibration.camera.printed import ShownSheets
+
+SERIAL = "1206-77"
+
+
+@pytest.fixture(scope="module")
+def recording(shown: list[Frame], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The board as the live camera's raw recording has it."""
+    path = tmp_path_factory.mktemp("board") / "board.carpusraw"
+    with RawWriter(path, SourceInfo("camera", DEFAULT_CAMERA, True, None, 1.0, {"serial": SERIAL})) as writer:
+        for frame in shown:
+            writer.append_frame(frame)
+    return path
+
+
+def stored(data_folder: Path, serial: str, day: int, scale: float = 1.0, offset_m: float = 0.0) -> None:
+    when = datetime(2026, 11, day, 9, tzinfo=UTC)
+    path = new_calibration_path(data_folder, serial, when)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    kept = StoredCalibration(serial, when.isoformat(), scale, offset_m, 0.2, 20)
+    write_camera_info(path, LENS, calibration=kept)
+
+
+@pytest.mark.usefixtures("qapp")
+@pytest.mark.parametrize(("paper", "size_mm"), [("a4", (297.0, 210.0)), ("letter", (279.4, 215.9))])
+@pytest.mark.parametrize("pattern", ["chessboard", "charuco"])
+def test_the_board_is_a_page_of_that_size(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], paper: str, size_mm: tuple[float, float], pattern: str
+) -> None:
+    pdf = tmp_path / "board.pdf"
+    assert main(["calibrate-camera", "--board", str(pdf), "--paper", paper, "--pattern", pattern]) == 0
+    box = re.search(rb"/MediaBox \[0 0 ([\d.]+) ([\d.]+)\]", pdf.read_bytes())
+    assert box is not None
+    np.testing.assert_allclose([float(one) * 25.4 / 72.0 for one in box.groups()], size_mm, atol=0.4)
+    assert "100 %" in capsys.readouterr().out
+    assert main(["calibrate-camera", "--board", str(pdf)]) == 1
+    assert "There is a file already" in capsys.readouterr().err
+
+
+def test_printing_and_measuring_at_once_is_wrong_usage(tmp_path: Path) -> None:
+    assert main(["calibrate-camera", str(tmp_path), "--board", str(tmp_path / "b.pdf")]) == 2
+
+
+def test_a_recording_becomes_a_camera_file_that_the_next_recording_uses(
+    recording: Path, studio: Studio, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    output = tmp_path / "camera_info.yaml"
+    assert main(["calibrate-camera", str(recording), "--output", str(output)]) == 0
+    said = capsys.readouterr().out
+    assert f"Kept for camera {SERIAL}" in said
+    info = read_camera_info(output)
+    assert info.camera.fx_px == pytest.approx(LENS.fx_px, rel=0.003)
+    assert info.registered is True
+    assert info.calibration is not None
+    assert info.calibration.depth_scale == pytest.approx(depth_scale(studio.spec), abs=0.002)
+
+    folder = load_settings().data_folder
+    again = open_recording(recording, data_folder=folder)
+    assert again.info.camera.fx_px == info.camera.fx_px
+    facts = source_facts(again.info)
+    assert facts["intrinsics"] == "calibration"
+    assert facts["calibrated"] == info.calibration.calibrated
+    assert float(facts["calibration_age_days"]) == pytest.approx(0.0, abs=0.1)
+    # what was corrected already is not corrected twice by a second calibration
+    assert open_recording(recording).info.camera.origin != "calibration"
+
+
+def test_two_calibrations_within_a_second_are_both_kept_and_the_later_one_counts(tmp_path: Path) -> None:
+    for scale in (1.01, 1.02, 1.03):
+        stored(tmp_path, "9", 3, scale)
+    kept = calibration_files(tmp_path, "9")
+    assert len(kept) == 3
+    newest = stored_calibration(tmp_path, "9")
+    assert newest is not None
+    assert newest.calibration is not None
+    assert newest.calibration.depth_scale == 1.03
+
+
+def test_a_folder_of_pictures_and_an_oni_file_of_the_board_say_the_same(
+    shown: list[Frame], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    info = SourceInfo("camera", DEFAULT_CAMERA, True, None, 1.0)
+    with TumWriter(tmp_path / "tum", info) as writer:
+        for frame in shown:
+            writer.append_frame(frame)
+    in_mm = [replace(frame, depth_raw=(frame.depth_raw / np.uint16(5)).round().astype(np.uint16), depth_unit_m=1e-3)
+             for frame in shown if frame.depth_raw is not None]  # fmt: skip
+    write_oni(tmp_path / "board.oni", in_mm, DEFAULT_CAMERA, fps=1)
+    found = []
+    for name in ("tum", "board.oni"):
+        output = tmp_path / f"{name}.yaml"
+        assert main(["calibrate-camera", str(tmp_path / name), "--output", str(output), "--serial", "9"]) == 0
+        found.append(read_camera_info(output))
+    for info_of in found:
+        assert info_of.camera.fx_px == pytest.approx(LENS.fx_px, rel=0.003)
+        assert info_of.calibration is not None
+        assert info_of.calibration.serial == "9"
+    assert main(["calibrate-camera", str(tmp_path / "tum")]) == 1
+    assert "--serial" in capsys.readouterr().err
+
+
+def test_depth_that_was_corrected_already_counts_in(gathered: Gathering) -> None:
+    made = calibrate_camera(gathered.views, DEFAULT_CAMERA, "studio")
+    assert made.depth is not None
+    settings = {"depth_scale_corrected": "1.01", "depth_offset_corrected_mm": "2.0"}
+    again = stored_of(made, SERIAL, datetime(2026, 11, 20, tzinfo=UTC), settings)
+    assert again.depth_scale == pytest.approx(1.01 * made.depth.scale)
+    assert again.depth_offset_m == pytest.approx(0.002 + 1.01 * made.depth.offset_m)
+
+
+def test_an_output_that_is_there_is_kept(recording: Path, tmp_path: Path) -> None:
+    output = tmp_path / "camera_info.yaml"
+    output.write_text("mine")
+    assert main(["calibrate-camera", str(recording), "--output", str(output)]) == 1
+    assert output.read_text() == "mine"
+
+
+def test_a_recording_without_a_board_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "empty.carpusraw"
+    source = ShownSheets(Studio(), [[], []])
+    with RawWriter(path, source.info) as writer:
+        for frame in source.frames():
+            writer.append_frame(frame)
+    assert main(["calibrate-camera", str(path)]) == 1
+    said = capsys.readouterr().err.splitlines()
+    assert len(said) == 1
+    assert "printed board is not to be seen" in said[0]
+
+
+def test_the_newest_of_the_right_camera_is_used(tmp_path: Path) -> None:
+    stored(tmp_path, SERIAL, 3, scale=1.01)
+    stored(tmp_path, SERIAL, 9, scale=1.02)
+    stored(tmp_path, SERIAL + "-b", 12, scale=1.03)
+    found = stored_calibration(tmp_path, SERIAL)
+    assert found is not None
+    assert found.calibration is not None
+    assert found.calibration.depth_scale == 1.02
+    assert len(calibration_files(tmp_path, SERIAL)) == 2
+    calibration_files(tmp_path, SERIAL)[-1].write_text("torn")
+    older = stored_calibration(tmp_path, SERIAL)
+    assert older is not None
+    assert older.calibration is not None
+    assert older.calibration.depth_scale == 1.01
+
+
+@pytest.mark.parametrize("origin", ["file", "calibration"])
+def test_a_source_with_intrinsics_of_its_own_keeps_them(tmp_path: Path, origin: str) -> None:
+    stored(tmp_path, SERIAL, 3)
+    source = ShownSheets(Studio(), [[]], SERIAL)
+    assert isinstance(with_stored_calibration(source, tmp_path), CalibratedSource)
+    camera = LENS if origin == "file" else with_stored_calibration(source, tmp_path).info.camera
+    source.info = type(source.info)("x", camera, True, 1, 30.0, source.info.settings)
+    assert with_stored_calibration(source, tmp_path) is source
+
+
+def test_depth_is_put_right_to_a_tenth_of_a_millimetre() -> None:
+    made = StoredCalibration(SERIAL, "2026-11-20T08:00:00+00:00", 1.02, 0.004)
+    table = correction_table(made, 0.001)
+    true_m = np.array([0.45, 0.6, 1.0, 3.0])
+    measured = np.round((1.02 * true_m + 0.004) * 1000).astype(int)
+    np.testing.assert_allclose(table[measured] * 1e-4, true_m, atol=0.55e-3)
+    assert table[0] == 0
+
+
+def test_a_session_says_how_old_the_calibration_was_when_the_hand_moved(tmp_path: Path) -> None:
+    made = StoredCalibration(SERIAL, "2026-11-10T08:00:00+00:00", 1.0, 0.0, 0.2, 20)
+    source = ShownSheets(Studio(), [[]], SERIAL)
+    info = source.info
+    source.info = type(info)("x", info.camera, True, 1, 30.0, info.settings, recorded="2026-11-20T20:00:00+00:00")
+    seen = CalibratedSource(source, CameraInfo(DEFAULT_CAMERA, calibration=made))
+    assert seen.info.settings["calibration_age_days"] == "10.5"
+    assert seen.info.settings["calibrated"] == made.calibrated
+
+
+@pytest.mark.parametrize("line", ["depth_scale: 7.0", "depth_scale: many", "depth_offset_m: .nan"])
+def test_a_kept_calibration_that_cannot_be_is_refused(tmp_path: Path, line: str) -> None:
+    stored(tmp_path, SERIAL, 3, scale=1.01, offset_m=0.002)
+    path = calibration_files(tmp_path, SERIAL)[0]
+    name = line.split(":")[0]
+    path.write_text(re.sub(rf"{name}: [-\d.]+", line, path.read_text()))
+    with pytest.raises(CameraFileUnreadable):
+        read_camera_info(path)

@@ -1,0 +1,250 @@
+"""The check card: what it knows is measured, a camera that is off is told, and the chart knows what is usual."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from carpus.app.__main__ import main
+from carpus.app.settings import load_settings
+from carpus.core.calibration.camera.sheet import PAPER_MM, Disc, Paper, SheetLine, SheetText
+from carpus.core.calibration.card.ages import camera_ages
+from carpus.core.calibration.card.card import FIGURES, card_sheets, disc_places_m, figures_of
+from carpus.core.calibration.card.chart import (
+    IN_A_ROW,
+    CardCheck,
+    add_check,
+    chart_path,
+    read_checks,
+    sentence_of,
+    usual_of,
+    verdict_of,
+)
+from carpus.core.calibration.card.measure import CardWatch, measure_card
+from carpus.core.calibration.card.reading import CardReading
+from carpus.core.calibration.card.standing import standing_of
+from carpus.core.camera import Camera
+from carpus.core.capture.calibrated import new_calibration_path
+from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
+from carpus.core.capture.files.raw import RawWriter
+from carpus.core.capture.source import SourceInfo
+from carpus.core.errors import CardMissing
+from carpus.core.results.camera_said import unsure_of
+from carpus.core.simulation.practice_camera import card_scene
+from carpus.core.simulation.printed_sheets import LENS, Studio
+from carpus.core.types import Frame
+
+NOW = datetime(2026, 11, 20, 9, tzinfo=UTC)
+
+
+@pytest.fixture(scope="module")
+def shown() -> list[Frame]:
+    """The card as a camera with a right depth sees it, every half second."""
+    studio, scene = Studio(seed=8, depth_scale_error=0.0), card_scene()
+    return [studio.frame(scene, k, 100.0 + 0.5 * k) for k in range(8)]
+
+
+def stretched(frames: Sequence[Frame], share: float) -> list[Frame]:
+    """The same with depth off by a share."""
+    return [replace(frame, depth_unit_m=frame.depth_unit_m * share) for frame in frames]
+
+
+def check(day: int, angle: float = 0.6, length: float = 0.8, scale: float = 1.0, calibrated: str = "x") -> CardCheck:
+    when = (NOW + timedelta(days=day)).isoformat()
+    return CardCheck(when, "77", angle, length, scale, tuple(one.true for one in FIGURES), (0.1,) * 6, calibrated)
+
+
+def test_the_places_of_the_discs_have_the_figures_of_the_card() -> None:
+    np.testing.assert_allclose(figures_of(disc_places_m()), [one.true for one in FIGURES], atol=1e-9)
+    turned = disc_places_m() @ np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0]
+    np.testing.assert_allclose(figures_of(turned), [one.true for one in FIGURES], atol=1e-6)
+
+
+def test_a_right_camera_is_within_its_limits(shown: list[Frame]) -> None:
+    reading = measure_card(shown, LENS, "card")
+    assert reading.pictures == len(shown)
+    assert reading.angles_hold
+    assert reading.lengths_hold
+    assert reading.scale == pytest.approx(1.0, abs=0.003)
+    assert reading.distance_m == pytest.approx(0.59, abs=0.03)
+
+
+def test_before_a_live_camera_only_steady_pictures_count(shown: list[Frame]) -> None:
+    watch = CardWatch(LENS, steady=True)
+    seen = [watch.look(frame) for frame in shown[:3]]
+    assert [look.pictures for look in seen if look is not None] == [1, 2, 3]
+    last = seen[-1]
+    assert last is not None
+    assert last.pixel is not None
+    assert last.seconds == pytest.approx(1.0)
+    blank = replace(shown[0], timestamp_s=101.5, color_rgb=np.full_like(shown[0].color_rgb, 200))
+    gone = watch.look(blank)
+    assert gone is not None
+    assert (gone.pixel, gone.seconds) == (None, pytest.approx(1.0))
+    away = replace(shown[3], timestamp_s=102.0, depth_unit_m=shown[3].depth_unit_m * 1.1)
+    moved = watch.look(away)
+    assert moved is not None
+    assert (moved.moved, moved.pictures, moved.seconds) == (True, 1, 0.0)
+    with pytest.raises(CardMissing):
+        watch.reading("card")
+
+
+@pytest.mark.parametrize("share", [0.98, 1.02])
+def test_a_camera_whose_depth_is_two_percent_off_is_told(shown: list[Frame], share: float) -> None:
+    reading = measure_card(stretched(shown, share), LENS, "card")
+    assert reading.scale == pytest.approx(share, abs=0.004)
+    assert not reading.lengths_hold
+    assert reading.angles_hold, "a pure scale leaves angles right"
+
+
+def test_a_wrong_focal_length_is_told_too(shown: list[Frame]) -> None:
+    wide = Camera(1.05 * LENS.fx_px, 1.05 * LENS.fy_px, LENS.cx_px, LENS.cy_px, distortion=LENS.distortion)
+    assert not measure_card(shown, wide, "card").lengths_hold
+
+
+def test_without_the_whole_card_nothing_is_measured(shown: list[Frame]) -> None:
+    hidden = [replace(frame, color_rgb=frame.color_rgb[::1].copy()) for frame in shown]
+    for frame in hidden:
+        frame.color_rgb[:200] = 230
+    with pytest.raises(CardMissing, match=f"0 of {len(shown)}"):
+        measure_card(hidden, LENS, "card")
+
+
+@pytest.mark.parametrize("paper", PAPER_MM)
+def test_card_and_wedge_fit_the_paper_and_fold_up(paper: Paper) -> None:
+    for sheet in card_sheets(paper):
+        discs = [mark for mark in sheet.marks if isinstance(mark, Disc)]
+        assert len(discs) == 3
+        lines = [end for mark in sheet.marks if isinstance(mark, SheetLine) for end in (mark.from_mm, mark.to_mm)]
+        assert min(min(end) for end in lines) > 5.0
+        assert max(x for x, _ in lines) < sheet.width_mm - 5.0
+        assert max(y for _, y in lines) < sheet.height_mm - 5.0
+        assert any(isinstance(mark, SheetText) and "100 mm" in mark.text for mark in sheet.marks)
+
+
+def test_usual_is_what_the_first_checks_were() -> None:
+    first = [check(k, 0.5 + 0.1 * (k % 3)) for k in range(7)]
+    assert usual_of(first[:3], "x") is None
+    usual = usual_of(first, "x")
+    assert usual is not None
+    assert usual.band[0, 0] < 0.5 < 0.7 < usual.band[0, 1] < 1.2
+    assert verdict_of(first, check(8, 0.6)) == "right"
+    assert verdict_of(first, check(8, 1.6)) == "unusual"
+    assert verdict_of(first, check(8, 0.6, calibrated="another")) == "right", "usual begins anew"
+    assert verdict_of(first, check(8, 2.1)) == "out"
+    assert verdict_of(first, check(8, scale=1.013)) == "out"
+    assert verdict_of([], check(0, length=2.6)) == "out"
+
+
+def test_a_drift_inside_the_band_is_unusual() -> None:
+    first = [check(k, 0.5 + 0.1 * (k % 3), scale=1.0 + 0.0004 * (k % 3 - 1)) for k in range(7)]
+    drift = [check(8 + k, scale=1.0008) for k in range(IN_A_ROW)]
+    verdicts = [verdict_of([*first, *drift[:k]], one) for k, one in enumerate(drift)]
+    assert verdicts == ["right"] * (IN_A_ROW - 1) + ["unusual"]
+
+
+def test_the_sentence_says_what_is_off() -> None:
+    assert sentence_of(check(0), "right").startswith("The camera measures right: 0.6° and 0.8 mm off")
+    assert "all lengths are 2.0 % too long" in sentence_of(check(0, length=2.5, scale=1.02), "out")
+    assert "angles are 2.4° off" in sentence_of(check(0, angle=2.4), "out")
+
+
+def test_the_chart_survives_a_torn_line(tmp_path: Path) -> None:
+    path = chart_path(tmp_path, "77")
+    add_check(path, check(0))
+    with path.open("ab") as file:
+        file.write(b"[" * 100_000 + b'\n{"when": "2026-11-2')
+    add_check(path, check(1))
+    assert read_checks(path) == [check(0), check(1)]
+    assert path.stat().st_mode & 0o077 == 0
+
+
+def test_the_doctor_names_the_age_of_calibration_and_check(tmp_path: Path) -> None:
+    assert [finding.state for finding in camera_ages(tmp_path, NOW)] == ["warning"]
+    path = new_calibration_path(tmp_path, "77", NOW)
+    path.parent.mkdir()
+    write_camera_info(path, LENS, calibration=StoredCalibration("77", NOW.isoformat(), 1.0, 0.0, 0.2, 20))
+    (never,) = camera_ages(tmp_path, NOW + timedelta(days=2))
+    assert (never.state, never.found) == ("warning", "calibrated 2 days ago, never checked")
+    add_check(chart_path(tmp_path, "77"), check(3))
+    (good,) = camera_ages(tmp_path, NOW + timedelta(days=5))
+    assert (good.name, good.state, good.remedy) == ("Camera 77", "good", "")
+    assert good.found == "calibrated 5 days ago, checked 2 days ago, right (0.6°, 0.8 mm off at most)"
+    (old,) = camera_ages(tmp_path, NOW + timedelta(days=11))
+    assert old.state == "warning"
+    assert "older than 7 days" in old.remedy
+    add_check(chart_path(tmp_path, "77"), check(12, scale=1.02))
+    (out,) = camera_ages(tmp_path, NOW + timedelta(days=12))
+    assert out.state == "bad"
+    since = NOW + timedelta(days=12, hours=1)
+    made = StoredCalibration("77", since.isoformat(), 1.0, 0.0, 0.2, 20)
+    write_camera_info(new_calibration_path(tmp_path, "77", since), LENS, calibration=made)
+    (later,) = camera_ages(tmp_path, since)
+    assert (later.state, later.remedy) == ("warning", "Run: carpus check-card: it was calibrated since.")
+
+
+def test_where_a_camera_stands_and_which_sessions_are_not_sure(tmp_path: Path) -> None:
+    nothing = standing_of(tmp_path, "77", NOW)
+    assert not any((nothing.is_old, nothing.is_out, nothing.is_unusual))
+    for day, scale in ((0, 1.0), (4, 1.02)):
+        add_check(chart_path(tmp_path, "77"), check(day, scale=scale))
+    now = standing_of(tmp_path, "77", NOW + timedelta(days=12))
+    assert (now.is_out, now.is_old, round(now.checked_days)) == (True, True, 8)
+    path = new_calibration_path(tmp_path, "77", NOW + timedelta(days=5))
+    when = (NOW + timedelta(days=5)).isoformat()
+    write_camera_info(path, LENS, calibration=StoredCalibration("77", when, 1.02, 0.0, 0.2, 20))
+    assert not standing_of(tmp_path, "77", NOW + timedelta(days=12)).is_out, "something was done about it"
+    checks = read_checks(chart_path(tmp_path, "77"))
+    assert unsure_of(checks, NOW - timedelta(days=1), "x") == (False, False)
+    assert unsure_of(checks, NOW + timedelta(days=1), "x") == (True, False)
+    assert unsure_of(checks, NOW + timedelta(days=1), "another") == (False, False)
+    again = replace(checks[-1], when=(NOW + timedelta(days=4, minutes=2)).isoformat(), scale=1.0)
+    assert unsure_of([*checks, again], NOW + timedelta(days=1), "x") == (False, False), (
+        "checked once more, it was right"
+    )
+    later = replace(again, when=(NOW + timedelta(days=5)).isoformat())
+    assert unsure_of([*checks, later], NOW + timedelta(days=1), "x") == (True, False)
+    twice = replace(checks[-1], when=(NOW + timedelta(days=4, minutes=1)).isoformat())
+    assert unsure_of([*checks, twice, again], NOW + timedelta(days=1), "x") == (True, False), "out twice was out"
+
+
+@pytest.mark.usefixtures("qapp")
+def test_the_command_prints_checks_keeps_and_reports(
+    shown: list[Frame], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pdf = tmp_path / "card.pdf"
+    assert main(["check-card", "--card", str(pdf)]) == 0
+    assert len(re.findall(rb"/Type /Page\b", pdf.read_bytes())) == 2
+    for k, share in enumerate((1.0, 1.0, 1.02)):
+        path = tmp_path / f"{k}.carpusraw"
+        info = SourceInfo("Xtion", LENS, True, None, 2.0, {"serial": "77"}, recorded=check(k).when)
+        with RawWriter(path, info) as writer:
+            for frame in stretched(shown, share):
+                writer.append_frame(frame)
+        capsys.readouterr()
+        assert main(["check-card", str(path), "--output", str(tmp_path / f"{k}.pdf")]) == int(share != 1.0)
+        said = capsys.readouterr()
+        assert ("measures right" in said.out) == (share == 1.0)
+        assert ("calibrate the camera" in said.err) == (share != 1.0)
+        assert (tmp_path / f"{k}.pdf").read_bytes().startswith(b"%PDF")
+    kept = read_checks(chart_path(load_settings().data_folder, "77"))
+    assert [one.lengths_hold for one in kept] == [True, True, False]
+    assert main(["check-card", str(path)]) == 1, "still out"
+    assert len(read_checks(chart_path(load_settings().data_folder, "77"))) == 3, "the same recording counts once"
+
+
+def test_printing_and_measuring_at_once_is_wrong_usage(tmp_path: Path) -> None:
+    assert main(["check-card", str(tmp_path), "--card", str(tmp_path / "c.pdf")]) == 2
+
+
+def test_a_reading_knows_its_largest_errors() -> None:
+    measured = np.array([30.5, 48.0, 90.1, 80.4, 119.0, 25.2])
+    reading = CardReading(measured, np.zeros(6), 1.0, 0.6, 9, 9)
+    assert reading.angle_error_deg == pytest.approx(2.0)
+    assert reading.length_error_mm == pytest.approx(1.0)

@@ -1,0 +1,65 @@
+"""The PIN: kept as a hash, counted, paused, and never opened by a damaged file."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import pytest
+
+from carpus.core.records.pin import PIN_FILE, Pin
+
+NOW = datetime(2026, 11, 20, 9, 0, tzinfo=UTC)
+
+
+@pytest.fixture
+def pin(tmp_path: Path) -> Pin:
+    pin = Pin(tmp_path)
+    assert not pin.is_set
+    pin.set("4821")
+    return pin
+
+
+def test_only_its_hash_is_kept(pin: Pin, tmp_path: Path) -> None:
+    content = (tmp_path / PIN_FILE).read_text()
+    assert "4821" not in content
+    assert "$argon2id$" in content
+    assert (tmp_path / PIN_FILE).stat().st_mode & 0o777 == 0o600
+    assert pin.is_set
+    assert pin.try_it("4821", NOW).opened
+
+
+def test_wrong_ones_are_counted_and_then_there_is_a_pause(pin: Pin, tmp_path: Path) -> None:
+    said = [Pin(tmp_path).try_it("0000", NOW) for _ in range(5)]  # each as after a start
+    assert [one.left for one in said] == [4, 3, 2, 1, 0]
+    assert not any(one.opened for one in said)
+    assert said[-1].pause_s == 60.0
+    paused = pin.try_it("4821", NOW + timedelta(seconds=20))
+    assert (paused.opened, paused.pause_s) == (False, 40.0)
+    assert pin.try_it("4821", NOW + timedelta(seconds=60)).opened
+    assert pin.try_it("0000", NOW + timedelta(seconds=61)).left == 4, "the right one forgives"
+
+
+def test_a_clock_set_back_does_not_lock_for_ever(pin: Pin) -> None:
+    for _ in range(5):
+        pin.try_it("0000", NOW)
+    assert pin.try_it("4821", NOW - timedelta(hours=5)).opened
+
+
+@pytest.mark.parametrize("content", ["", "{}", '{"pin": "", "refused": 0, "since": ""}', '{"pin": 3}', "[" * 5000])
+def test_a_damaged_file_opens_nothing(pin: Pin, tmp_path: Path, content: str) -> None:
+    (tmp_path / PIN_FILE).write_text(content)
+    assert pin.is_set
+    assert not pin.try_it("4821", NOW).opened
+    assert not pin.try_it("", NOW).opened
+
+
+def test_it_is_changed_and_taken_away(pin: Pin) -> None:
+    for short in ("", "123", "1" * 65):
+        with pytest.raises(ValueError):
+            pin.set(short)
+    pin.set("a longer one")
+    assert not pin.try_it("4821", NOW).opened
+    assert pin.try_it("a longer one", NOW).opened
+    pin.take_away()
+    assert not pin.is_set
