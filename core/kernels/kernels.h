@@ -170,4 +170,11 @@ KERNEL int best_posture(
     int postures, int blobs, const double disc[postures * 9], const double point[blobs * 3], double near2,
     double nearness, double score[1], int64_t best[1], int64_t used[3], int64_t found[1]);
 
+/* skin.c */
+KERNEL int skin_traced(
+    int cones, const double cone[cones * 18], const int32_t box[cones * 4], const int32_t part_of[cones],
+    const double reach[7], int top, int left, int height, int width, const float x[width], const float y[height],
+    double start, double fx, float depth[height * width], float coverage[height * width],
+    float normal[height * width * 3], uint8_t part[height * width]);
+
 #endif

@@ -1,16 +1,18 @@
 """Where camera rays meet the skin: sphere tracing of the smooth union of :mod:`core.simulation.skin`.
 
-Plain NumPy on rectangles of the picture: each cone is evaluated only where its bounding sphere can be seen.
+Each cone is evaluated only where its bounding sphere can be seen: row by row in C, or in NumPy on rectangles.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
+from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
+from carpus.core.kernels.choice import in_c
 from carpus.core.simulation.skin import BLEND_M, FINGER_BLEND_M, Cones, Part
 from carpus.core.types import FloatArray
 
@@ -87,30 +89,33 @@ def box_around(camera: Camera, center_m: FloatArray, radius_m: FloatArray, margi
     )
 
 
+def _numbers(cones: Cones) -> FloatArray:
+    """What a picture needs of each cone, (P, 18): its axes (3, 3) in rows, where ``a_m`` lies along them, length, half
+    width and by how much that widens, radius, taper, and how far the normal leans."""
+    along = cones.b_m - cones.a_m
+    length = np.linalg.norm(along, axis=1)
+    along = along / length[:, None]
+    lateral = cones.lateral - np.vecdot(cones.lateral, along)[:, None] * along
+    lateral /= np.linalg.norm(lateral, axis=1)[:, None]
+    axes = np.stack((along, lateral, np.cross(along, lateral)), axis=1)
+    taper = (cones.radius_a_m - cones.radius_b_m) / length
+    widening = (cones.width_b_m - cones.width_a_m) / length
+    sizes = (length, cones.width_a_m, widening, cones.radius_a_m, taper, taper / np.sqrt(1.0 - taper * taper))
+    return np.hstack((axes.reshape(-1, 9), np.vecdot(axes, cones.a_m[:, None]), np.column_stack(sizes)))
+
+
 class _SeenCone:
     """One cone prepared for a picture: the ray's components along its axes, over its box."""
 
-    def __init__(self, cones: Cones, i: int, x: FloatImage, y: FloatImage, box: Box) -> None:
-        axis = cones.b_m[i] - cones.a_m[i]
-        self.length = np.float32(np.linalg.norm(axis))
-        axis = axis / self.length
-        lateral = cones.lateral[i] - (cones.lateral[i] @ axis) * axis
-        lateral = lateral / np.linalg.norm(lateral)
-        axes = (axis, lateral, np.cross(axis, lateral))
+    def __init__(self, numbers: FloatArray, part: Part, x: FloatImage, y: FloatImage, box: Box) -> None:
+        self.axes, self.origin = numbers[:9].reshape(3, 3), numbers[9:12]
         rows, columns = box.slices
         self.ray = [
-            (np.float32(e[0]) * x[None, columns] + (np.float32(e[1]) * y[rows, None] + np.float32(e[2]))) for e in axes
+            (np.float32(e[0]) * x[None, columns] + (np.float32(e[1]) * y[rows, None] + np.float32(e[2])))
+            for e in self.axes
         ]
-        self.axes = np.array(axes)
-        self.origin = self.axes @ cones.a_m[i]
-        self.width = np.float32(cones.width_a_m[i])
-        self.widening = np.float32((cones.width_b_m[i] - cones.width_a_m[i]) / float(self.length))
-        self.radius = np.float32(cones.radius_a_m[i])
-        taper = (cones.radius_a_m[i] - cones.radius_b_m[i]) / float(self.length)
-        self.taper = np.float32(taper)
-        self.lean = np.float32(taper / np.sqrt(1.0 - taper * taper))
-        self.box = box
-        self.part = Part(int(cones.part[i]))
+        self.length, self.width, self.widening, self.radius, self.taper, self.lean = numbers[12:].astype(np.float32)
+        self.box, self.part = box, part
 
     def distance(self, z: FloatImage, offset_m: FloatArray) -> FloatImage:
         """Signed distance at depth z (over the box) along each ray, displaced by ``offset_m`` (3,) in camera axes;
@@ -157,27 +162,51 @@ def trace(camera: Camera, cones: Cones) -> TracedSurface | None:
     """The skin as the camera sees it; None when none of it is in the picture."""
     x = ((np.arange(camera.width_px) - camera.cx_px) / camera.fx_px).astype(np.float32)
     y = ((np.arange(camera.height_px) - camera.cy_px) / camera.fy_px).astype(np.float32)
-    seen: list[_SeenCone] = []
-    whole = Box(0, 0, 0, 0)
-    part_box: dict[Part, Box] = {}
-    for i in range(len(cones)):
-        width = max(cones.width_a_m[i], cones.width_b_m[i])
-        margin = max(BLEND_M.values())
-        radius = np.array([cones.radius_a_m[i], cones.radius_b_m[i]]) + width + margin
-        box = box_around(camera, np.array([cones.a_m[i], cones.b_m[i]]), radius)
-        if box.is_empty:
-            continue
-        seen.append(_SeenCone(cones, i, x, y, box))
-        whole = whole.around(box)
-        part = seen[-1].part
-        part_box[part] = part_box.get(part, Box(0, 0, 0, 0)).around(box)
-    if not seen:
+    reach = np.maximum(cones.radius_a_m + cones.width_a_m, cones.radius_b_m + cones.width_b_m)
+    near_m = max(float((np.minimum(cones.a_m[:, 2], cones.b_m[:, 2]) - reach).min()), 0.1)
+    places = _places(camera, cones)
+    if not places:
         return None
+    whole = reduce(Box.around, places.values())
+    numbers = _numbers(cones)[list(places)]
+    parts = [Part(int(cones.part[i])) for i in places]
+    if (kernels := in_c()) is None:
+        seen = [_SeenCone(numbers[k], parts[k], x, y, box) for k, box in enumerate(places.values())]
+        return _traced(seen, whole, x, y, near_m, camera.fx_px)
+    rows, columns = whole.slices
+    shape = whole.bottom - whole.top, whole.right - whole.left
+    depth, coverage = np.empty(shape, dtype=np.float32), np.empty(shape, dtype=np.float32)
+    normal, part_image = np.empty((*shape, 3), dtype=np.float32), np.empty(shape, dtype=np.uint8)
+    kernels.skin_traced(
+        len(parts), numbers, np.array([astuple(box) for box in places.values()], dtype=np.int32),
+        np.array(parts, dtype=np.int32), np.array([BLEND_M.get(part, FINGER_BLEND_M) for part in Part]),
+        whole.top, whole.left, *shape, x[columns], y[rows], near_m, camera.fx_px, depth, coverage, normal, part_image,
+    )  # fmt: skip
+    return TracedSurface(whole, depth, coverage, normal, part_image)
+
+
+def _places(camera: Camera, cones: Cones) -> dict[int, Box]:
+    """Where in the picture each cone may be seen, by its row; without those that cannot."""
+    out: dict[int, Box] = {}
+    for i in range(len(cones)):
+        wider = max(cones.width_a_m[i], cones.width_b_m[i]) + max(BLEND_M.values())
+        radius = np.array([cones.radius_a_m[i], cones.radius_b_m[i]]) + wider
+        box = box_around(camera, np.array([cones.a_m[i], cones.b_m[i]]), radius)
+        if not box.is_empty:
+            out[i] = box
+    return out
+
+
+def _traced(
+    seen: list[_SeenCone], whole: Box, x: FloatImage, y: FloatImage, near_m: float, fx_px: float
+) -> TracedSurface:
+    """The union of all cones along the rays x, y of ``whole``, from depth ``near_m`` on."""
+    part_box: dict[Part, Box] = {}
+    for cone in seen:
+        part_box[cone.part] = part_box.get(cone.part, Box(0, 0, 0, 0)).around(cone.box)
     rows, columns = whole.slices
     per_length = 1.0 / np.sqrt(1.0 + x[None, columns] ** 2 + y[rows, None] ** 2)
-    reach = np.maximum(cones.radius_a_m + cones.width_a_m, cones.radius_b_m + cones.width_b_m)
-    near_m = float((np.minimum(cones.a_m[:, 2], cones.b_m[:, 2]) - reach).min())
-    z = np.full(per_length.shape, max(near_m, 0.1), dtype=np.float32)
+    z = np.full(per_length.shape, near_m, dtype=np.float32)
     best = np.full(z.shape, _FAR_M, dtype=np.float32)
     depth = z.copy()
     stretch = np.ones_like(z)
@@ -194,7 +223,7 @@ def trace(camera: Camera, cones: Cones) -> TracedSurface | None:
             stretch = np.float32(1.0) / np.clip(approach, _SLOWEST_APPROACH, np.float32(1.0))
         z = z + distance * stretch * per_length
         before = distance
-    pixel_m = depth / np.float32(camera.fx_px)
+    pixel_m = depth / np.float32(fx_px)
     coverage = np.clip(1.0 - best / (0.8 * pixel_m), 0.0, 1.0, dtype=np.float32)
     normal = np.stack([_union(seen, part_box, whole, depth, offset) for offset in np.eye(3) * _PROBE_M], axis=-1)
     normal -= _union(seen, part_box, whole, depth, np.zeros(3))[..., None]
