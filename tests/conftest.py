@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import fcntl
 import multiprocessing
 import os
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,8 @@ from tqdm import tqdm
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QApplication
+
+    from carpus.core.simulation.spec import RecordingSpec
 
 # Before anything imports NumPy or Qt: two BLAS pools stall each other, and there is no screen to open windows on.
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -97,6 +100,23 @@ def own_folders(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Mo
         folder.mkdir(mode=0o700)
         monkeypatch.setenv(name, str(folder))
     return home
+
+
+@pytest.fixture(scope="session")
+def rendered(tmp_path_factory: pytest.TempPathFactory) -> Callable[[RecordingSpec], Path]:
+    """The folder with the simulated recording of a spec, rendered once for all tests and processes of the run."""
+    from carpus.core.simulation.recording import cached_recording
+
+    run = tmp_path_factory.getbasetemp()
+    folder = (run.parent if "PYTEST_XDIST_WORKER" in os.environ else run) / "rendered"
+    folder.mkdir(exist_ok=True)
+
+    def recording(spec: RecordingSpec) -> Path:
+        with (folder / f"{spec.cache_key}.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)  # another process renders it already
+            return cached_recording(spec, cache=folder)
+
+    return recording
 
 
 @pytest.fixture

@@ -12,6 +12,7 @@ import pytest
 from carpus.app.__main__ import main
 from carpus.core.provenance import revision, sha256_of_recording, sha256_of_settings
 from carpus.core.session.reader import read_session
+from tests.rendered import FLEXION, Rendered
 
 ROOT = Path(__file__).parents[1]
 
@@ -40,9 +41,8 @@ def test_a_recordings_hash_is_of_its_lists_and_pictures_alone(tmp_path: Path) ->
     assert sha256_of_recording(tmp_path / "rgb" / "1.png") == hashlib.sha256(b"one").hexdigest()
 
 
-def test_a_session_says_what_it_is_of(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    folder, output = tmp_path / "recording", tmp_path / "s.h5"
-    assert main(["simulate", "--output", str(folder), "--seconds", "0.4", "--seed", "3"]) == 0
+def test_a_session_says_what_it_is_of(rendered: Rendered, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder, output = rendered(FLEXION), tmp_path / "s.h5"
     track = ["track", str(folder), "--calibration", str(folder / "calibration.json"), "--output", str(output)]
     assert main(track) == 0
     told = json.loads(read_session(output).header.parameters)

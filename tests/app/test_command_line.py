@@ -31,8 +31,9 @@ from carpus.core.session.recovery import interrupted_sessions
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.oni_writer import in_millimetres, write_oni
-from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
+from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE
 from carpus.core.simulation.spec import RecordingSpec
+from tests.rendered import FLEXION, Rendered
 from tests.session.samples import CAMERA, make_calibration
 
 ROOT = Path(__file__).parents[2]
@@ -40,10 +41,8 @@ COMMAND = (sys.executable, "-m", "carpus")
 
 
 @pytest.fixture(scope="module")
-def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("recording") / "wrist"
-    simulate(RecordingSpec(seed=2, seconds=0.5), folder)
-    return folder
+def recording(rendered: Rendered) -> Path:
+    return rendered(FLEXION)
 
 
 @pytest.fixture

@@ -17,16 +17,14 @@ from carpus.app.python_face import ProposedClicks
 from carpus.core.errors import CalibrationImpossible, SettingsInvalid
 from carpus.core.hand.protocols import protocol_named
 from carpus.core.session.reader import read_session
+from tests.rendered import REPEATED_FLEXION, Rendered
 
 ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    out = tmp_path_factory.mktemp("face") / "recording"
-    truth = carpus.simulate(out, motion="flexion", seconds=2.5, speed_hz=1.2, range_share=0.6, seed=4)
-    assert len(truth.time_s) == 75
-    return out
+def folder(rendered: Rendered) -> Path:
+    return rendered(REPEATED_FLEXION)
 
 
 def test_frames_come_as_values_and_agree_with_the_truth(folder: Path) -> None:

@@ -15,8 +15,7 @@ import pytest
 from carpus.app.__main__ import main
 from carpus.app.settings import StreamSettings, keep_preferences, load_settings
 from carpus.core.session.reader import read_session
-from carpus.core.simulation.recording import simulate
-from carpus.core.simulation.spec import RecordingSpec
+from tests.rendered import FLEXION, Rendered
 
 SETTINGS = "[lab]\nKnownPeers = {127.0.0.1}\nSessionID = stream-command\n[multicast]\nResolveScope = machine\n"
 LISTENER = """
@@ -29,9 +28,8 @@ print(json.dumps(samples))
 """
 
 
-def test_another_process_hears_what_is_tracked_at_the_times_of_the_pictures(tmp_path: Path) -> None:
-    folder, output = tmp_path / "recording", tmp_path / "session.h5"
-    simulate(RecordingSpec(seed=2, motion="flexion", seconds=0.8), folder)
+def test_another_process_hears_what_is_tracked_at_the_times_of_the_pictures(rendered: Rendered, tmp_path: Path) -> None:
+    folder, output = rendered(FLEXION), tmp_path / "session.h5"
     (tmp_path / "lsl_api.cfg").write_text(SETTINGS, encoding="utf-8")
     environment = {**os.environ, "LSLAPICFG": str(tmp_path / "lsl_api.cfg")}
     listener = subprocess.Popen(

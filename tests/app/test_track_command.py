@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import shutil
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -22,10 +23,9 @@ from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.simulation.recording import simulate
-from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.settings import TrackerSettings
+from tests.rendered import FLEXION, Rendered
 from tests.session.samples import CAMERA, make_calibration
 
 
@@ -156,11 +156,11 @@ def test_when_the_hand_moved_is_asked_or_taken_from_the_file_and_said(
     options: tuple[str, ...],
     day: datetime | None,
     doubted: bool,
+    rendered: Rendered,
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    folder = tmp_path / "r"
-    simulate(RecordingSpec(seed=2, motion="rest", seconds=0.8), folder)
+    folder = Path(shutil.copytree(rendered(FLEXION), tmp_path / "r"))
     times = [line.split()[0] for line in (folder / "rgb.txt").read_text("utf-8").splitlines() if line[0] != "#"]
     for name in ("rgb.txt", "depth.txt"):  # as a camera's own clock has it
         lines = (folder / name).read_text(encoding="utf-8").splitlines()

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -26,11 +27,11 @@ from carpus.app.batch.work import Outcome, Task
 from carpus.core.errors import SchedulerUnreachable
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.reader import read_session
-from carpus.core.simulation.recording import simulate
-from carpus.core.simulation.spec import RecordingSpec
+from tests.rendered import DEVIATION, FLEXION, LEFT_DEVIATION, REPEATED_FLEXION, Rendered
 
 ROOT = Path(__file__).parents[2]
-COUNT = 4
+RECORDINGS = (FLEXION, REPEATED_FLEXION, DEVIATION, LEFT_DEVIATION)
+COUNT = len(RECORDINGS)
 LOCAL = """
 from distributed import LocalCluster
 if __name__ == "__main__":
@@ -66,10 +67,10 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 
 @pytest.fixture(scope="module")
-def recordings(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def recordings(rendered: Rendered, tmp_path_factory: pytest.TempPathFactory) -> Path:
     root = tmp_path_factory.mktemp("recordings")
-    for seed in range(COUNT):
-        simulate(RecordingSpec(seed=seed, seconds=0.7), root / f"r{seed}")
+    for number, spec in enumerate(RECORDINGS):
+        shutil.copytree(rendered(spec), root / f"r{number}")
     return root
 
 

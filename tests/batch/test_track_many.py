@@ -19,17 +19,16 @@ from carpus.core.formats import measures_files
 from carpus.core.results.figures import session_figures
 from carpus.core.results.measures_table import SessionFigure
 from carpus.core.session.reader import read_session
-from carpus.core.simulation.recording import CLICKS_FILE, simulate
-from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.recording import CLICKS_FILE
+from tests.rendered import DEVIATION, FLEXION, Rendered
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def made(rendered: Rendered, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Two recordings, and one whose clicks are no clicks."""
     root = tmp_path_factory.mktemp("many")
-    simulate(RecordingSpec(seed=1, seconds=1.0, motion="deviation", speed_hz=1.2), root / "anna" / "first")
-    simulate(RecordingSpec(seed=2, seconds=0.8), root / "second")
-    shutil.copytree(root / "second", root / "third")
+    for place, spec in (("anna/first", DEVIATION), ("second", FLEXION), ("third", FLEXION)):
+        shutil.copytree(rendered(spec), root / place)
     (root / "third" / CLICKS_FILE).write_text("{}")
     return root
 

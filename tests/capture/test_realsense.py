@@ -43,6 +43,7 @@ from carpus.core.errors import (
 from carpus.core.words import one_sentence
 from tests.capture import realsense_stand_in
 from tests.capture.realsense_stand_in import DEPTH_FX, EDGE_PX, FX, HEIGHT, NEAR_MM, SHIFT_M, WIDTH
+from tests.rendered import FLEXION, Rendered
 
 FRAMES = 24
 EDGE_X = (EDGE_PX - 0.5 - (WIDTH - 1) / 2) / DEPTH_FX
@@ -56,37 +57,40 @@ def record_take(take: Path, path: Path) -> None:
 
 
 @pytest.fixture(scope="module")
-def take(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A simulated recording, and the same as the maker's library stores it."""
-    folder = tmp_path_factory.mktemp("realsense")
-    carpus.simulate(folder, protocol="wrist6", motion="flexion", seed=3, seconds=FRAMES / 30.0 + 0.1)
+def folder(rendered: Rendered) -> Path:
+    return rendered(FLEXION)
+
+
+@pytest.fixture(scope="module")
+def take(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The simulated recording as the maker's library stores it."""
+    path = tmp_path_factory.mktemp("realsense") / "take.db3"
     with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as other:
-        other.submit(record_take, folder, folder / "take.db3").result()
-    return folder
+        other.submit(record_take, folder, path).result()
+    return path
 
 
-def test_a_recording_is_tracked_as_the_folder_it_was_made_of(take: Path) -> None:
-    path = take / "take.db3"
-    source = open_recording(path)
+def test_a_recording_is_tracked_as_the_folder_it_was_made_of(take: Path, folder: Path) -> None:
+    source = open_recording(take)
     assert isinstance(source, RealSenseRecording)
     info = source.info
     assert (info.frame_count, info.has_depth, info.nominal_fps) == (FRAMES, True, 30.0)
     assert (info.camera.origin, info.camera.distortion_model) == ("factory", "plumb_bob")
     assert (info.settings["serial"], info.settings["clock"]) == ("815412070123", "camera")
     assert info.sensor.kind == "active stereo"
-    folder = TumFolder(take)
-    for stored, made in zip(source.frames(), folder.frames(), strict=False):
+    made_of = TumFolder(folder)
+    for stored, made in zip(source.frames(), made_of.frames(), strict=False):
         assert stored.timestamp_s == pytest.approx(made.timestamp_s, abs=1e-5)
         assert np.array_equal(stored.color_rgb, made.color_rgb)
         assert stored.depth_raw is not None
         assert made.depth_raw is not None
         off_m = np.abs(stored.depth_raw * stored.depth_unit_m - made.depth_raw * made.depth_unit_m)
         assert off_m.max() < 0.6e-3
-    folder.close()
+    made_of.close()
     assert len(list(source.frames())) == FRAMES, "a second walk"
     source.close()
     assert list(source.frames()) == []
-    tracked = list(carpus.track(path, take / "calibration.json"))
+    tracked = list(carpus.track(take, folder / "calibration.json"))
     assert [frame.status for frame in tracked] == ["tracked"] * FRAMES
 
 
@@ -98,7 +102,7 @@ def test_what_is_no_recording_is_told(tmp_path: Path, name: str, content: bytes)
 
 
 def test_a_recording_cut_short_is_told(take: Path, tmp_path: Path) -> None:
-    whole = (take / "take.db3").read_bytes()
+    whole = take.read_bytes()
     (tmp_path / "half.db3").write_bytes(whole[: len(whole) // 2])
     with pytest.raises(RecordingDamaged):
         list(open_recording(tmp_path / "half.db3").frames())

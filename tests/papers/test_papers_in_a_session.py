@@ -11,16 +11,14 @@ import pytest
 
 from carpus.app.__main__ import main
 from carpus.core.session.reader import read_session
-from carpus.core.simulation.recording import CLICKS_FILE, simulate
-from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.types import FloatArray, TrackStatus
+from tests.rendered import LEFT_DEVIATION, Rendered
 
 
 @pytest.fixture(scope="module")
-def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("recording") / "wrist"
-    simulate(RecordingSpec(seed=5, motion="deviation", seconds=1.2, speed_hz=0.9, hand="left"), folder)
-    return folder
+def recording(rendered: Rendered) -> Path:
+    return rendered(LEFT_DEVIATION)
 
 
 def tracked(recording: Path, output: Path, *options: str) -> Path:

@@ -12,44 +12,42 @@ from scipy.spatial.transform import Rotation
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.pipeline.track import TrackSettings, track_recording
-from carpus.core.simulation.recording import CLICKS_FILE, simulate
+from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import SoftTissue
+from tests.rendered import LEFT_DEVIATION, REPEATED_FLEXION, Rendered
 
 # Discs that glide over the bones leave the axis of W2 by what they glided: only on stiff skin does the axis run through
 # them, which is what shows that it was stored in the axes that the file says.
 STIFF = TrackSettings(
     tracker=TrackerSettings(
         tissue=SoftTissue(
-            knuckle_along_m=1e-7,
-            knuckle_across_m=1e-7,
-            knuckle_up_m=1e-7,
-            wrist_along_m=1e-7,
-            wrist_across_m=1e-7,
-            wrist_up_m=1e-7,
+            **{f"{place}_{way}_m": 1e-7 for place in ("knuckle", "wrist") for way in ("along", "across", "up")}
         )
     )
 )
 
 
+HAND = RecordingSpec(seed=11, protocol="hand21", motion="flexion", seconds=2.2, fps=15.0, speed_hz=0.7)
+
+
 @pytest.mark.parametrize(
-    ("protocol", "hand", "motion", "start_deg", "settings"),
+    ("spec", "start_deg", "settings"),
     [
-        ("wrist6", "left", "mixed", (0.0, 0.0, 0.0), STIFF),
-        ("wrist6", "right", "flexion", (4.0, -20.0, 8.0), STIFF),
-        ("hand21", "right", "flexion", (0.0, 0.0, 0.0), STIFF),
-        ("wrist6", "right", "flexion", (0.0, 0.0, 0.0), TrackSettings()),
+        (LEFT_DEVIATION, (0.0, 0.0, 0.0), STIFF),
+        (REPEATED_FLEXION, (4.0, -20.0, 8.0), STIFF),
+        (HAND, (0.0, 0.0, 0.0), STIFF),
+        (REPEATED_FLEXION, (0.0, 0.0, 0.0), TrackSettings()),
     ],
+    ids=["left", "started bent", "hand", "soft"],
 )
 def test_stored_pose_of_w0_takes_the_wrist_to_where_its_disc_is(
-    protocol: str, hand: str, motion: str, start_deg: tuple[float, ...], settings: TrackSettings, tmp_path: Path
+    spec: RecordingSpec, start_deg: tuple[float, ...], settings: TrackSettings, rendered: Rendered, tmp_path: Path
 ) -> None:
-    seconds = 1.2 if protocol == "wrist6" else 2.2
-    spec = RecordingSpec(seed=11, protocol=protocol, hand=hand, motion=motion, seconds=seconds, speed_hz=0.7)  # type: ignore[arg-type]
-    simulate(spec, tmp_path / "r")
-    clicks = read_clicks(tmp_path / "r" / CLICKS_FILE, 640, 480)
-    source = TumFolder(tmp_path / "r")
+    recording = rendered(spec)
+    clicks = read_clicks(recording / CLICKS_FILE, 640, 480)
+    source = TumFolder(recording)
     start = np.radians(start_deg)
     track_recording(source, clicks, tmp_path / "s.h5", settings, software_version="1", start_angles_rad=start)
     source.close()
@@ -59,7 +57,7 @@ def test_stored_pose_of_w0_takes_the_wrist_to_where_its_disc_is(
         rotation = file["wrist/rotation"][()]
         discs = file["markers/position_camera"][()]
         at = list(file["markers"].attrs["names"]).index
-        joints = file["joints/position"][()] if protocol == "hand21" else None
+        joints = file["joints/position"][()] if spec is HAND else None
     missed_m = np.linalg.norm(position @ to_cam.T + origin - discs[:, at("WRIST")], axis=1)
     assert missed_m.max() < 1e-6
     if settings is not STIFF:

@@ -24,14 +24,13 @@ from carpus.core.pipeline.track import TrackReport, TrackSettings, from_neutral,
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import RawPictures
 from carpus.core.session.writer import SessionWriter
-from carpus.core.simulation.recording import CLICKS_FILE, simulate
-from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.recording import CLICKS_FILE, truth_in
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray, Frame
+from tests.rendered import LEFT_DEVIATION, Rendered
 from tests.session.samples import make_frame
 
-SPEC = RecordingSpec(seed=5, motion="deviation", seconds=1.3, speed_hz=0.9, hand="left", distance_m=0.68)
 VERSION = "1.2.3-test"
 
 
@@ -50,12 +49,11 @@ class Made:
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Made:
-    root = tmp_path_factory.mktemp("track")
-    truth = simulate(SPEC, root / "recording")
-    clicks = read_clicks(root / "recording" / CLICKS_FILE, 640, 480)
-    report = track(root / "recording", clicks, root / "session.h5", exercise="radial and ulnar", subject_id="P-7")
-    return Made(root / "recording", truth, root / "session.h5", report)
+def made(rendered: Rendered, tmp_path_factory: pytest.TempPathFactory) -> Made:
+    folder, session = rendered(LEFT_DEVIATION), tmp_path_factory.mktemp("track") / "session.h5"
+    clicks = read_clicks(folder / CLICKS_FILE, 640, 480)
+    report = track(folder, clicks, session, exercise="radial and ulnar", subject_id="P-7")
+    return Made(folder, truth_in(LEFT_DEVIATION, folder), session, report)
 
 
 def track(folder: Path, clicks: Clicks, output: Path, settings: TrackSettings | None = None, **kwargs) -> TrackReport:  # type: ignore[no-untyped-def]
