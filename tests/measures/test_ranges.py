@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -112,6 +112,16 @@ def test_range_over_repetitions() -> None:
     assert math.degrees(found.minimum.best) == pytest.approx(0.0, abs=0.3)
     assert not found.top_limited
     assert not found.bottom_limited
+
+
+@pytest.mark.parametrize(("share", "measured"), [(0.69, 1), (0.71, 2)])
+def test_a_repetition_seen_for_less_than_seven_tenths_is_not_measured(share: float, measured: int) -> None:
+    value = np.radians(exercise_deg([40.0, 50.0]))
+    angle = even_signal(np.arange(len(value)) / RATE, value)
+    first, second = find_repetitions(angle).repetitions
+    found = motion_range(angle, angle, (first, replace(second, valid_share=share)))
+    assert found.repetitions == measured
+    assert math.degrees(found.arc.best) == pytest.approx(50.0 if measured == 2 else 40.0, abs=0.3)
 
 
 def test_arc_does_not_depend_on_the_neutral_but_the_ends_do() -> None:

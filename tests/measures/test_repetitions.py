@@ -119,6 +119,28 @@ def test_a_hidden_stretch_shows_in_the_repetition_it_hurts() -> None:
     assert shares[:2] + shares[3:] == [1.0] * 5
 
 
+@pytest.mark.parametrize(("share", "counted"), [(0.27, 6), (0.33, 8)])
+def test_a_swing_of_less_than_three_tenths_of_the_usual_one_is_no_repetition(share: float, counted: int) -> None:
+    value = np.concatenate((one_side(60.0, 0.5), one_side(share * 60.0, 0.5, count=2)))
+    assert len(find_repetitions(signal_of(value)).repetitions) == counted
+
+
+@pytest.mark.parametrize(("hidden_s", "counted"), [(0.9, 4), (1.2, 3)])
+def test_nothing_is_counted_across_more_than_a_second_out_of_sight(hidden_s: float, counted: int) -> None:
+    value = one_side(60.0, 0.25, count=4)
+    top = 30 + 120 + 60
+    keep = np.ones(len(value), dtype=bool)
+    keep[top - round(0.5 * hidden_s * RATE) : top + round(0.5 * hidden_s * RATE)] = False
+    found = find_repetitions(signal_of(value, keep))
+    assert len(found.repetitions) == counted
+    assert (len(found.unseen_s), len(found.cut)) == ((0, 0) if counted == 4 else (1, 2))
+
+
+def test_the_noise_of_a_poor_picture_hardly_ever_looks_like_a_repetition() -> None:
+    noisy = [np.random.default_rng(seed).normal(0.0, 6.0, 300) for seed in range(100)]
+    assert sum(bool(find_repetitions(signal_of(value)).repetitions) for value in noisy) <= 10
+
+
 def turns_sample_by_sample(value: FloatArray, least: float) -> list[tuple[bool, float]]:
     """Side and value of every turning point, by looking at every pair of samples."""
     known = value[np.isfinite(value)].tolist()
