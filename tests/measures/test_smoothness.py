@@ -29,6 +29,14 @@ def test_reference_vector() -> None:
     assert log_dimensionless_jerk(speed, 100.0) == pytest.approx(-5.81636, abs=5e-6)
 
 
+@pytest.mark.parametrize(("hz", "counts"), [(8.0, True), (12.0, False)])
+def test_what_shakes_faster_than_ten_hertz_is_no_part_of_the_arc_length(hz: float, counts: bool) -> None:
+    t = np.arange(-1.0, 1.0, 0.01)
+    speed = np.exp(-5.0 * t**2)
+    shaken = speed * (1.0 + 0.3 * np.cos(2.0 * math.pi * hz * t))
+    assert (sparc(shaken, 100.0) < sparc(speed, 100.0) - 0.05) == counts
+
+
 def test_minimum_jerk_at_thirty_frames() -> None:
     assert sparc(min_jerk_speed(1.0, 30.0), 30.0) == pytest.approx(-1.401, abs=0.02)
     assert log_dimensionless_jerk(min_jerk_speed(1.0, 30.0), 30.0) == pytest.approx(-5.25, abs=0.06)
