@@ -21,7 +21,7 @@ lint: setup-test                ## style, types, layers
 	.venv/bin/lint-imports --no-cache
 
 pytest: setup-test
-	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup
+	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup --durations=60
 
 coverage: setup-test            ## how much of the code the tests reach, half as long again as the tests alone
 	$(PY) -m pytest -q -n auto --maxprocesses 4 --dist loadgroup --cov --cov-report=term:skip-covered $(ARGUMENTS)

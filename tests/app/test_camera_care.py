@@ -54,6 +54,7 @@ def hurry(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each picture of the board another pose and long after the last, so that none must be still; few are asked for."""
     monkeypatch.setattr(practice_camera, "FPS", 1.0)
     monkeypatch.setattr(practice_camera, "_STILL_FRAMES", 1)
+    monkeypatch.setattr(practice_camera, "_MOST_PICTURES", 6)
     monkeypatch.setattr(practice_camera, "_between", lambda one, other: other)
     monkeypatch.setitem(guidance.ASKED_VIEWS, "chessboard", FEW)
     monkeypatch.setattr(measure, "CHECK_S", 6.0)

@@ -150,16 +150,16 @@ def test_clicks_from_something_endless(recording: Path, tmp_path: Path, capsys: 
     assert len(said) < 500
 
 
-@pytest.mark.parametrize("stream", [0, 1, 2])
-def test_a_closed_stream_is_no_trouble(stream: int, recording: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("streams", [(0, 1), (2,)])
+def test_a_closed_stream_is_no_trouble(streams: tuple[int, ...], recording: Path, tmp_path: Path) -> None:
     output = tmp_path / "s.h5"
     words = (*COMMAND, "track", str(recording), "--calibration", str(recording / CLICKS_FILE), "--output", str(output))
-    ended = subprocess.run(words, cwd=ROOT, preexec_fn=lambda: os.close(stream), check=False)
+    ended = subprocess.run(words, cwd=ROOT, preexec_fn=lambda: [os.close(one) for one in streams], check=False)
     assert ended.returncode == 0
     assert len(read_session(output)) > 10
 
 
-ASKED = [["info", "SESSION"], ["info", "SESSION", "--json"], ["--version"], ["--help"], ["track", "--help"]]
+ASKED = [["info", "SESSION"], ["info", "SESSION", "--json"], ["--version"], ["track", "--help"]]
 
 
 @pytest.mark.parametrize("asked", ASKED, ids=" ".join)
@@ -215,7 +215,7 @@ def test_stopped_while_rendering_leaves_nothing(number: signal.Signals, tmp_path
 def test_what_a_parent_told_to_ignore_is_ignored(tmp_path: Path) -> None:
     """A rendering in the background outlives the Ctrl+C meant for another job, and the end of its terminal."""
     folder = tmp_path / "rendered"
-    words = (*COMMAND, "simulate", "--output", str(folder), "--seconds", "1")
+    words = (*COMMAND, "simulate", "--output", str(folder), "--seconds", "0.4")
     with subprocess.Popen(words, cwd=ROOT, stderr=PIPE, text=True, preexec_fn=ignore_all) as process:
         while not any(folder.glob("rgb/*.png")):
             assert process.poll() is None

@@ -19,6 +19,7 @@ import pytest
 from carpus.core.capture.files.oni_source import OniSource
 from carpus.core.errors import CarpusFault
 from tests.capture.oni_samples import HEIGHT, WIDTH, records, write_sample
+from tests.torture.mutations import cut, flip, noise, remove, repeat, zeros
 
 COUNT = int(os.environ.get("CARPUS_FUZZ_FILES", "600"))
 NUMBERS = (0, 1, 2, 27, 29, 255, 65_535, 65_536, 5_760_000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF)
@@ -42,38 +43,6 @@ def flip_structure(data: bytearray, rng: np.random.Generator) -> None:
 def number_in_structure(data: bytearray, rng: np.random.Generator) -> None:
     place = int(rng.choice(PLACES))
     data[place : place + 4] = int(rng.choice(NUMBERS)).to_bytes(4, "little")
-
-
-def flip_anywhere(data: bytearray, rng: np.random.Generator) -> None:
-    for place in rng.integers(0, len(data), rng.integers(1, 30)):
-        data[place] ^= 1 << int(rng.integers(8))
-
-
-def noise(data: bytearray, rng: np.random.Generator) -> None:
-    start = int(rng.integers(0, len(data)))
-    size = min(int(rng.integers(1, 4000)), len(data) - start)
-    data[start : start + size] = rng.integers(0, 256, size, np.uint8).tobytes()
-
-
-def zeros(data: bytearray, rng: np.random.Generator) -> None:
-    start = int(rng.integers(0, len(data)))
-    size = min(int(rng.integers(1, 4000)), len(data) - start)
-    data[start : start + size] = bytes(size)
-
-
-def cut(data: bytearray, rng: np.random.Generator) -> None:
-    del data[int(rng.integers(0, len(data))) :]
-
-
-def remove(data: bytearray, rng: np.random.Generator) -> None:
-    start = int(rng.integers(0, len(data)))
-    del data[start : start + int(rng.integers(1, 200))]
-
-
-def repeat(data: bytearray, rng: np.random.Generator) -> None:
-    start = int(rng.integers(0, len(data)))
-    piece = data[start : start + int(rng.integers(1, 2000))]
-    data[start:start] = piece
 
 
 def swap_records(data: bytearray, rng: np.random.Generator) -> None:
@@ -102,7 +71,7 @@ MUTATIONS: tuple[Mutation, ...] = (
     flip_structure,
     number_in_structure,
     number_in_structure,
-    flip_anywhere,
+    flip,
     noise,
     zeros,
     cut,

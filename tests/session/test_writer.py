@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
 
@@ -64,6 +66,24 @@ def test_memory_held_is_bounded_when_the_clock_stands_still(tmp_path: Path, monk
         session.append(make_frame(row))
     assert rows_on_disk(session) == 16
     session.close()
+
+
+def open_below(folder: Path) -> list[str]:
+    """What this process holds open of a folder."""
+    held = []
+    for descriptor in Path("/proc/self/fd").iterdir():
+        with contextlib.suppress(FileNotFoundError):  # the one that reads this list
+            held.append(str(descriptor.readlink()))
+    return [path for path in held if path.startswith(str(folder))]
+
+
+@pytest.mark.parametrize("end", [SessionWriter.close, SessionWriter.abandon, SessionWriter.discard])
+def test_no_file_stays_open(tmp_path: Path, end: Callable[[SessionWriter], None]) -> None:
+    session = create(tmp_path / "s.h5")
+    session.append(make_frame(0))
+    assert open_below(tmp_path)
+    end(session)
+    assert open_below(tmp_path) == []
 
 
 def test_an_existing_file_is_never_touched(tmp_path: Path) -> None:

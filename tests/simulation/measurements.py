@@ -1,7 +1,7 @@
 """Measurements without pictures: true projections and depths with the noise that the detector has on pictures.
 
 Thousands of frames a second, for statistics over many recordings. The constants were fitted to the detector's
-results on rendered pictures by :func:`tests.simulation.noise_fit.fitted_noise`.
+results on rendered pictures.
 """
 
 from __future__ import annotations

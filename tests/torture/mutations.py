@@ -137,7 +137,7 @@ def _damage(path: Path, rng: np.random.Generator) -> None:
     path.write_bytes(data)
 
 
-def _flip(data: bytearray, rng: np.random.Generator) -> None:
+def flip(data: bytearray, rng: np.random.Generator) -> None:
     for place in rng.integers(0, len(data), rng.integers(1, 30)):
         data[place] ^= 1 << int(rng.integers(8))
 
@@ -169,28 +169,28 @@ def _pointer(data: bytearray, rng: np.random.Generator) -> None:
     data[place : place + 8] = int(rng.integers(0, len(data))).to_bytes(8, "little")
 
 
-def _noise(data: bytearray, rng: np.random.Generator) -> None:
+def noise(data: bytearray, rng: np.random.Generator) -> None:
     start = int(rng.integers(0, len(data)))
     size = min(int(rng.integers(1, 4000)), len(data) - start)
     data[start : start + size] = rng.integers(0, 256, size).astype(np.uint8).tobytes()
 
 
-def _zeros(data: bytearray, rng: np.random.Generator) -> None:
+def zeros(data: bytearray, rng: np.random.Generator) -> None:
     start = int(rng.integers(0, len(data)))
     size = min(int(rng.integers(1, 4000)), len(data) - start)
     data[start : start + size] = bytes(size)
 
 
-def _cut(data: bytearray, rng: np.random.Generator) -> None:
+def cut(data: bytearray, rng: np.random.Generator) -> None:
     del data[int(rng.integers(0, len(data))) :]
 
 
-def _remove(data: bytearray, rng: np.random.Generator) -> None:
+def remove(data: bytearray, rng: np.random.Generator) -> None:
     start = int(rng.integers(0, len(data)))
     del data[start : start + int(rng.integers(1, 200))]
 
 
-def _repeat(data: bytearray, rng: np.random.Generator) -> None:
+def repeat(data: bytearray, rng: np.random.Generator) -> None:
     start = int(rng.integers(0, len(data)))
     data[start:start] = data[start : start + int(rng.integers(1, 2000))]
 
@@ -211,7 +211,7 @@ def _line(data: bytearray, rng: np.random.Generator) -> None:
 
 
 BYTE_CHANGES = (
-    _flip,
+    flip,
     _early,
     _early,
     _number,
@@ -220,11 +220,11 @@ BYTE_CHANGES = (
     _swap,
     _pointer,
     _pointer,
-    _noise,
-    _zeros,
-    _cut,
-    _remove,
-    _repeat,
+    noise,
+    zeros,
+    cut,
+    remove,
+    repeat,
 )
 TEXT_CHANGES = (_word, _word, _line)
 
