@@ -1,15 +1,19 @@
-"""What the options of every command have in common: how wrong usage is told, and how values are read."""
+"""What the options of every command have in common: how wrong usage is told, how values are read, how a passphrase is
+asked for."""
 
 from __future__ import annotations
 
 import argparse
+import getpass
 import math
+import sys
 from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
 from carpus.core.capture.devices.cameras import CAMERAS, check_address
-from carpus.core.errors import CameraUnknown
+from carpus.core.errors import CameraUnknown, PassphraseUnfit
 from carpus.core.names import known_names, nearest
+from carpus.core.phrase import phrase
 
 
 class CommandParser(argparse.ArgumentParser):
@@ -78,3 +82,17 @@ def camera_address(text: str) -> str:
 
 
 CAMERA_HELP = f"KIND is {', '.join(CAMERAS)}; WHICH its serial number, or OpenNI2's address"
+
+
+def ask_passphrase(*, least_signs: int = 0) -> str:
+    """For what is to be opened; with ``least_signs`` for what is to be sealed, typed twice. Raises
+    :class:`PassphraseUnfit`."""
+    if not sys.stdin.isatty():
+        typed = sys.stdin.readline().rstrip("\r\n")
+    else:
+        typed = getpass.getpass("Passphrase: ")
+        if least_signs and typed != getpass.getpass("The same again: "):
+            raise PassphraseUnfit("", phrase("the two are not the same"))
+    if len(typed) < max(least_signs, 1):
+        raise PassphraseUnfit("", phrase("too few signs"))
+    return typed

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import datetime
 
-from carpus.core.measures.error_limits import RetestStudy
+from carpus.core.measures.change import RetestStudy
 from carpus.ui import numbers
 from carpus.ui.translate import tr
 

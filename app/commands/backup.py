@@ -8,7 +8,7 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus import __version__
-from carpus.app.asking import ask_passphrase
+from carpus.app.command_line import ask_passphrase
 from carpus.app.commands.kept import note_in
 from carpus.app.commands.progress import bar
 from carpus.app.settings import load_sound_settings, sessions_folder, settings_folder

@@ -94,8 +94,7 @@ def run(arguments: argparse.Namespace) -> int:
         print("carpus compare: a session and its reference are needed, or --study TABLE.csv.", file=sys.stderr)
         return 2
     from carpus.app.of_file import read_choices
-    from carpus.core.agreement.compared_files import compare_files, write_files
-    from carpus.core.agreement.tables import lines
+    from carpus.core.agreement.compared_files import compare_files, lines, write_files
 
     radians: bool | None = None if arguments.unit is None else arguments.unit == "rad"
     columns: Mapping[str, str] = arguments.columns

@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from carpus import __version__
-from carpus.app.asking import ask_passphrase
+from carpus.app.command_line import ask_passphrase
 from carpus.app.commands.kept import note_exported
 from carpus.app.commands.progress import bar
 from carpus.core.errors import OutputExists, SessionsMissing

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from carpus import __version__
 from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, PatientUnknown, SessionsMissing
-from carpus.core.measures.error_limits import ErrorLimits
+from carpus.core.measures.change import ErrorLimits
 from carpus.core.names import known_names
 from carpus.core.words import one_sentence
 
@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
     rows = [row for one in figures for row in measure_rows(one, names[id(one)])]
     for path in arguments.output:
         if path.suffix.lower() == ".pdf":
-            from carpus.core.records.clinic_form import form_in
+            from carpus.core.records.of_clinic import form_in
             from carpus.ui.report.pdf import ensure_application, write_progress_report
 
             application = ensure_application()

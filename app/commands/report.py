@@ -37,7 +37,7 @@ def run(arguments: argparse.Namespace) -> int:
     chosen = settings.report
     order, therapist = arguments.angle_order or chosen.angle_order, chosen.therapist
     sessions = [in_order(read_session(path), order) for path in arguments.sessions]
-    from carpus.core.records.clinic_form import form_in
+    from carpus.core.records.of_clinic import form_in
 
     form = form_in(settings.data_folder)
     if arguments.paper:

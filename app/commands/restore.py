@@ -8,7 +8,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.asking import ask_passphrase
+from carpus.app.command_line import ask_passphrase
 from carpus.app.commands.kept import note_in
 from carpus.app.commands.progress import bar
 from carpus.app.settings import settings_folder

@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.core.agreement.limits_file import store_limits
     from carpus.core.agreement.retest import studies, write_study
-    from carpus.core.measures.error_limits import FEWEST_PEOPLE
+    from carpus.core.measures.change import FEWEST_PEOPLE
 
     figures, raters = _read(arguments.sessions, _raters(arguments.raters))
     found = studies(figures, raters)

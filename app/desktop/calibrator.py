@@ -7,11 +7,10 @@ from typing import Protocol
 
 import numpy as np
 
-from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate
+from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate, compared_with_last_time
 from carpus.core.calibration.candidates import disc_at, marker_candidates, snapped
 from carpus.core.calibration.naming import propose_names
 from carpus.core.calibration.result import ALL_STRAIGHT, Calibration, Clicks
-from carpus.core.calibration.same_hand import compared_with_last_time
 from carpus.core.camera import Camera
 from carpus.core.detection.appearance import expected_radius_px
 from carpus.core.hand.marker_protocol import MarkerProtocol

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from carpus.app.settings import Settings
 from carpus.core.calibration.camera.board import Board
-from carpus.core.calibration.card.ages import known_serials
-from carpus.core.calibration.card.standing import Standing, standing_of
+from carpus.core.calibration.card.standing import Standing, known_serials, standing_of
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.devices.cameras import open_camera

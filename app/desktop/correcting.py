@@ -16,7 +16,7 @@ from carpus.core.records.corrections import Corrections, Difference, Waiting, di
 from carpus.core.results.figures import session_figures
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.corrected import corrections_in
-from carpus.core.session.marker_places import Correction
+from carpus.core.session.marker_doubts import Correction
 from carpus.core.session.values import Session, SessionHeader
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background

@@ -10,8 +10,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.records.erasure import ErasurePlan
-from carpus.core.records.keeping import Records
-from carpus.core.records.retention import kept_until
+from carpus.core.records.keeping import Records, kept_until
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.records.erase_sheet import EraseSheet

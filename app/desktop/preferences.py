@@ -23,7 +23,7 @@ from carpus.app.settings import (
 )
 from carpus.core.about import licence_texts, newest_version
 from carpus.core.errors import CarpusFault
-from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits
+from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.results.report_form import ReportSettings
 from carpus.ui.background import Background
 from carpus.ui.ports import Preferences

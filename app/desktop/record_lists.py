@@ -10,9 +10,8 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.erasing import Erasing
-from carpus.core.records.keeping import Archived, Records
+from carpus.core.records.keeping import RETENTION_YEARS, Archived, Due, Records
 from carpus.core.records.log import LoggedDeed
-from carpus.core.records.retention import RETENTION_YEARS, Due
 from carpus.ui import numbers, terms
 from carpus.ui.records.cards import RecordsCard
 from carpus.ui.records.list_sheets import LogSheet, RecordsSheet

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from PySide6.QtCore import QLocale, QObject
 
 from carpus.core.errors import CarpusFault
-from carpus.core.records.clinic_form import keep_form, read_form
+from carpus.core.records.of_clinic import keep_form, read_form
 from carpus.core.records.store import Store
 from carpus.core.results.report_form import ReportForm, usual_paper
 from carpus.ui.settings.report_card import ReportCard

@@ -1,16 +1,39 @@
-"""Two recordings of one movement in one time: the shift between their clocks, what would do as well, and drift."""
+"""Two recordings of one movement in one time: the shift between their clocks, what would do as well, and drift; long
+work that tells how far it is and can be stopped."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from carpus.core.agreement.watch import UNWATCHED, WorkWatch
 from carpus.core.types import FloatArray
+
+
+class Stopped(Exception):
+    """Somebody stopped the work before it was done; nothing was written."""
+
+
+@dataclass(frozen=True, slots=True)
+class WorkWatch:
+    """``progress`` hears (percent, 100); ``cancelled`` is asked each time, and ends the work by :class:`Stopped`."""
+
+    progress: Callable[[int, int], None] = lambda _done, _total: None
+    cancelled: Callable[[], bool] = lambda: False
+
+    def at(self, share: float) -> None:
+        """So much of all is done."""
+        if self.cancelled():
+            raise Stopped
+        self.progress(round(100.0 * share), 100)
+
+
+UNWATCHED = WorkWatch()
+
 
 STEP_S = 1.0 / 100.0
 """Of the times on which a shift is looked for."""

@@ -9,10 +9,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from carpus.core import so3
-from carpus.core.agreement.clocks import LEAST_OVERLAP_S, STEP_S, ClockCurves, Shift, at_times, best_shift, with_drift
+from carpus.core.agreement.clocks import (
+    LEAST_OVERLAP_S,
+    STEP_S,
+    UNWATCHED,
+    ClockCurves,
+    Shift,
+    WorkWatch,
+    at_times,
+    best_shift,
+    with_drift,
+)
 from carpus.core.agreement.reference import Reference
 from carpus.core.agreement.statistics import FEWEST, Agreement, agreement
-from carpus.core.agreement.watch import UNWATCHED, WorkWatch
 from carpus.core.errors import ReferenceUnsuited
 from carpus.core.hand.clinical_angles import angles_from_rotation, rotation_from_angles
 from carpus.core.hand.sites import PALM_MARKERS, WRIST_ANGLES

@@ -12,7 +12,7 @@ from typing import Any
 
 from carpus.core.errors import OutputNotWritable, SettingsInvalid
 from carpus.core.formats.new_output import new_json
-from carpus.core.measures.error_limits import ErrorLimits, MeasuredLimit, RetestStudy
+from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.phrase import phrase
 
 LIMITS_FILE, FORMAT, FORMAT_VERSION = "error_limits.json", "carpus-error-limits", 1

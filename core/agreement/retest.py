@@ -18,8 +18,7 @@ import scipy
 from carpus.core.agreement.statistics import Interval, icc_2_1, icc_3_1
 from carpus.core.formats.new_output import new_table
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.measures.change import MDC95_FACTOR
-from carpus.core.measures.error_limits import MeasuredLimit, RetestStudy
+from carpus.core.measures.change import MDC95_FACTOR, MeasuredLimit, RetestStudy
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import newest_results, unfair_reasons
 from carpus.core.types import FloatArray

@@ -17,9 +17,8 @@ from typing import Any
 import numpy as np
 
 from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S, Compared, Pairs
-from carpus.core.agreement.compared_files import Result, compare_files
+from carpus.core.agreement.compared_files import HEAD, Result, cell, compare_files, figure_lines, row_of
 from carpus.core.agreement.statistics import Agreement, Between, agreement_of_people, fewest_of_person
-from carpus.core.agreement.tables import HEAD, cell, figure_lines, row_of
 from carpus.core.errors import CarpusFault, ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.formats.new_output import new_json, new_table
 from carpus.core.phrase import phrase

@@ -14,9 +14,7 @@ from carpus.core.calibration.back import surface_of
 from carpus.core.calibration.candidates import is_paper, marker_candidates
 from carpus.core.calibration.finger_order import misnamed
 from carpus.core.calibration.neutral_pose import pose_by_least_squares
-from carpus.core.calibration.odd_disc import odd_disc
-from carpus.core.calibration.palm_names import shifted_names
-from carpus.core.calibration.plausibility import looks_like_other_side, plan_view
+from carpus.core.calibration.palm_names import looks_like_other_side, odd_disc, plan_view, shifted_names
 from carpus.core.calibration.registration import depth_offset_px
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, FindingKind, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
@@ -487,3 +485,22 @@ def _judged(
 def _no_verdict(clicks: Clicks, findings: list[CalibrationFinding]) -> Verdict:
     unknown = np.full(len(clicks.protocol.markers), np.nan)
     return Verdict(unknown, np.nan, np.nan, np.nan, 0, tuple(findings))
+
+
+def compared_with_last_time(
+    outcome: CalibrationOutcome, last_length_mm: float, settings: CalibrationSettings
+) -> CalibrationOutcome:
+    """The outcome, doubted where the hand is not as long as the same hand was; NaN: there is none to compare with."""
+    now_mm = outcome.verdict.hand_length_mm
+    if not (math.isfinite(last_length_mm) and math.isfinite(now_mm)):
+        return outcome
+    if abs(now_mm - last_length_mm) <= settings.most_length_change * last_length_mm:
+        return outcome
+    finding = CalibrationFinding("other_length", (), now_mm, last_length_mm, "mm")
+    verdict: Verdict = replace(outcome.verdict, findings=(*outcome.verdict.findings, finding))
+    calibration = outcome.calibration
+    return replace(
+        outcome,
+        verdict=verdict,
+        calibration=None if calibration is None else replace(calibration, verdict=verdict),
+    )

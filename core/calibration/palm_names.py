@@ -1,19 +1,22 @@
-"""Do the six names of the palm's discs lie where a palm has them? Every other way to give them is tried.
+"""Do the six names of the palm's discs lie where a palm of that hand has them, and is each of them a disc?
 
-Six discs are few: WRIST clicked on the little knuckle and every other name one disc further on is a palm to whoever
-only asks whether two were exchanged, or whether they stay together. Of the 720 ways to give six names only one fits.
+Every other way to give the names is tried. Six discs are few: WRIST clicked on the little knuckle and every other name
+one disc further on is a palm to whoever only asks whether two were exchanged, or whether they stay together. Of the 720
+ways to give six names only one fits.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import permutations
+from itertools import combinations, permutations
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.hand.anatomy import REFERENCE_LENGTH_M, anatomy_from_size
+from carpus.core.hand.kinematics import disc_centres
+from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.types import FloatArray, Side
 
@@ -87,3 +90,121 @@ def _ring_by_ring(right_name: NDArray[np.int64]) -> list[int]:
             out.append(start)
             start = int(right_name[start])
     return out
+
+
+@dataclass(frozen=True, slots=True)
+class SideSettings:
+    """``good_misfit``, as a share of the constellation's size, below which nothing is questioned; the other hand must
+    leave less than the share ``clearly`` of it to be called the likelier one."""
+
+    good_misfit: float = 0.05
+    clearly: float = 0.6
+
+
+@lru_cache(maxsize=4)
+def _average_plan(protocol: MarkerProtocol, side: Side) -> FloatArray:
+    discs = disc_centres(anatomy_from_size(REFERENCE_LENGTH_M), np.zeros(17))[list(protocol.sites)]
+    plan = discs[:, :2].copy()
+    if side == "left":
+        plan[:, 1] = -plan[:, 1]
+    return plan
+
+
+def plan_view(point_cam_m: FloatArray) -> FloatArray:
+    """Points (M, 3) of the camera as a drawing (M, 2) seen from the camera, y up."""
+    return np.stack((point_cam_m[:, 0], -point_cam_m[:, 1]), axis=1)
+
+
+def _best_swap(average: FloatArray, plan: FloatArray) -> float:
+    """Least misfit that exchanging two places of a plan (M, 2) leaves."""
+    best = np.inf
+    for i, j in combinations(range(len(plan)), 2):
+        other = plan.copy()
+        other[[i, j]] = other[[j, i]]
+        best = min(best, misfit(average, other))
+    return best
+
+
+def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray, settings: SideSettings) -> bool:
+    """Whether the constellation is clearly the other hand's, and not this one's with two names swapped."""
+    other: Side = "left" if side == "right" else "right"
+    average = _average_plan(protocol, side)
+    own = misfit(average, plan)
+    mirrored = misfit(_average_plan(protocol, other), plan)
+    return own >= settings.good_misfit and mirrored < settings.clearly * own and mirrored < _best_swap(average, plan)
+
+
+@dataclass(frozen=True, slots=True)
+class OddDiscSettings:
+    """When a disc is odd.
+
+    ``questioned``: misfit, as a share of the palm's size, from which a spot without a name may stand in for a disc;
+    what does must leave less than the share ``clearly`` of it. ``no_palm``: misfit that no palm has: hands differ by up
+    to 0.05, discs stuck 4 mm off by up to 0.12. A spot as near to the palm's discs as ``beside``, a share of its
+    length, lies on the palm: there is one disc too many. More than ``most_spare`` of these are the discs of a whole
+    hand, or a pattern; nobody is asked of each. Spots within ``same_spot_px`` of a disc are that disc; one farther than
+    ``of_the_hand_m`` from the depth of the palm lies on something else. One within ``near_radii`` of a disc's middle,
+    in its radii, may be the disc itself.
+    """
+
+    questioned: float = 0.08
+    clearly: float = 0.6
+    no_palm: float = 0.17
+    beside: float = 0.18
+    most_spare: int = 2
+    same_spot_px: float = 4.0
+    of_the_hand_m: float = 0.06
+    near_radii: float = 1.6
+
+
+@dataclass(frozen=True, slots=True)
+class OddDisc:
+    """``marker`` the row of the palm's disc in question, -1 for none; ``spot`` the row of the spot that may be it, or
+    that is one too many, -1 for none; ``fits`` whether the spot makes a better palm than the disc."""
+
+    marker: int
+    spot: int
+    fits: bool
+
+
+def odd_disc(side: Side, palm_plan: FloatArray, spots_plan: FloatArray, settings: OddDiscSettings) -> OddDisc | None:
+    """What is odd about a palm (6, 2), seen from the camera with y up, among the spots (S, 2) that have no name."""
+    average = average_palm(side)
+    own = misfit(average, palm_plan)
+    best = (own, -1, -1)
+    if own >= settings.questioned:
+        for marker in range(len(palm_plan)):
+            for spot in range(len(spots_plan)):
+                other = palm_plan.copy()
+                other[marker] = spots_plan[spot]
+                best = min(best, (misfit(average, other), marker, spot))
+    if best[0] < settings.clearly * own:
+        return OddDisc(best[1], best[2], fits=True)
+    if own >= settings.no_palm:
+        return OddDisc(_worst(average, palm_plan), -1, fits=False)
+    spare = _beside(palm_plan, spots_plan, settings)
+    if 0 < len(spare) <= settings.most_spare:
+        return OddDisc(-1, int(spare[0]), fits=False)
+    return None
+
+
+def _beside(palm_plan: FloatArray, spots_plan: FloatArray, settings: OddDiscSettings) -> NDArray[np.int64]:
+    if not len(spots_plan):
+        return np.empty(0, dtype=np.int64)
+    length = float(np.linalg.norm(palm_plan[3] - palm_plan[0]))
+    distance = np.linalg.norm(spots_plan[:, None] - palm_plan[None], axis=-1).min(axis=1)
+    inside = np.array([_is_inside(spot, palm_plan) for spot in spots_plan])
+    return np.flatnonzero(inside | (distance < settings.beside * length))
+
+
+def _is_inside(spot: FloatArray, corners: FloatArray) -> bool:
+    """Whether a point lies inside the ring of points: seen from it they go all the way round."""
+    angles = np.sort(np.arctan2(corners[:, 1] - spot[1], corners[:, 0] - spot[0]))
+    gaps = np.diff(np.append(angles, angles[0] + 2.0 * np.pi))
+    return bool(gaps.max() < np.pi)
+
+
+def _worst(average: FloatArray, palm_plan: FloatArray) -> int:
+    """The disc without which the five others make the best palm."""
+    left = [misfit(np.delete(average, k, axis=0), np.delete(palm_plan, k, axis=0)) for k in range(len(palm_plan))]
+    return int(np.argmin(left))

@@ -8,9 +8,7 @@ from carpus.core.calibration.back import BackSettings
 from carpus.core.calibration.candidates import CandidateSettings
 from carpus.core.calibration.finger_order import FingerOrderSettings
 from carpus.core.calibration.naming import NamingSettings
-from carpus.core.calibration.odd_disc import OddDiscSettings
-from carpus.core.calibration.palm_names import PalmNameSettings
-from carpus.core.calibration.plausibility import SideSettings
+from carpus.core.calibration.palm_names import OddDiscSettings, PalmNameSettings, SideSettings
 from carpus.core.calibration.registration import RegistrationSettings
 
 

@@ -26,7 +26,7 @@ from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import Progress, TrackSettings, from_neutral, learnt_from, learnt_in, parameters_json
 from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session.corrected import CORRECTED, said_of
-from carpus.core.session.marker_places import SAME_SPOT_PX, Correction
+from carpus.core.session.marker_doubts import SAME_SPOT_PX, Correction
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import DetectionTable, Session, motion_of, new_header
 from carpus.core.session.writer import SessionWriter

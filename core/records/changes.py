@@ -10,8 +10,8 @@ from __future__ import annotations
 import json
 import re
 import secrets
-from collections.abc import Mapping, Sequence
-from dataclasses import astuple, dataclass, field
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import astuple, dataclass, field, replace
 from typing import Any, Literal
 
 from sqlalchemy import Column, Connection, RowMapping, Table, delete, func, insert, select, update
@@ -19,7 +19,7 @@ from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.exc import IntegrityError
 
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, PseudonymTaken
-from carpus.core.records.schema import PATIENT, SESSION, SHARED, TOMBSTONE
+from carpus.core.records.schema import OUTBOX, OWN, PATIENT, SESSION, SHARED, TOMBSTONE
 
 NOWHERE = "lost/"
 """Begins the path of a session in whose place a file of another lies, and whose own was not found."""
@@ -231,3 +231,33 @@ def _count(connection: Connection, patient_id: str) -> None:
     connection.execute(
         update(PATIENT).where(PATIENT.c.id == patient_id).values(sessions=recordings, results=results, **said)
     )
+
+
+def lay_out(connection: Connection, change: Change, change_id: str) -> None:
+    """Lay a change into the outbox, in the transaction that makes it in the copy."""
+    connection.execute(insert(OUTBOX).values(id=change_id, change=told(change)))
+
+
+def is_shared(connection: Connection) -> bool:
+    """Whether the copy has a server behind it."""
+    return connection.execute(select(OWN.c.value).where(OWN.c.name == "server")).first() is not None
+
+
+def forget(connection: Connection, ids: Collection[str]) -> None:
+    """Take what is to go out of the changes that wait: rows of these identities and what belongs to them. Of a session
+    that stays, since it was given to somebody else, only the former owner goes."""
+    for waiting in connection.execute(select(OUTBOX)).all():
+        change = read_back(waiting.change)
+        left = [one for row in change if (one := _without(row, ids)) is not None]
+        if left != change:
+            these = OUTBOX.c.id == waiting.id
+            rewritten = update(OUTBOX).where(these).values(change=told(left))
+            connection.execute(rewritten if left else delete(OUTBOX).where(these))
+
+
+def _without(row: RowChange, ids: Collection[str]) -> RowChange | None:
+    if row.id in ids or row.values.get("session_id") in ids:
+        return None
+    if row.values.get("patient_id") not in ids:
+        return row
+    return replace(row, values={**row.values, "patient_id": None}) if row.table == SESSION.name else None

@@ -30,13 +30,13 @@ from carpus.core.errors import (
 from carpus.core.formats.export import Wanted, export_sessions
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.measures.by_hand import HandValue
-from carpus.core.measures.error_limits import DEFAULT_LIMITS
+from carpus.core.measures.change import DEFAULT_LIMITS
 from carpus.core.phrase import phrase
 from carpus.core.records import of_clinic, of_patients, of_sessions
 from carpus.core.records.changes import changed, is_identity
 from carpus.core.records.coming_home import bring_home, fallback_place
 from carpus.core.records.erasure import finish_erasing
-from carpus.core.records.kept_sets import keep_set_up, last_set_up
+from carpus.core.records.exercise_sets import keep_set_up, last_set_up
 from carpus.core.records.log import By, Deed, Fact, Kind, Log, was_erased
 from carpus.core.records.of_sessions import MOST_CHARACTERS, Comment, MadeKind
 from carpus.core.records.patients import Patients

@@ -1,21 +1,27 @@
-"""What belongs to the clinic and to no patient: to whom letters are written, the diagnoses to choose from, the back-ups
-that were made, and where on this computer things were last opened and saved."""
+"""What belongs to the clinic and to no patient: its form of reports, to whom letters are written, the diagnoses to
+choose from, the back-ups that were made, and where on this computer things were last opened and saved."""
 
 from __future__ import annotations
 
+import base64
+import json
 import time
 import uuid
 from collections import Counter
 from dataclasses import dataclass
 from datetime import datetime
+from pathlib import Path
+from typing import Any
 
-from sqlalchemy import delete, insert, select
+from sqlalchemy import Row, delete, insert, select
 
+from carpus.core.errors import ChangedMeanwhile
 from carpus.core.names import folded
-from carpus.core.records.changes import dropped, kept, new
-from carpus.core.records.schema import BACKUP, DIAGNOSIS, OWN, PATIENT, RECIPIENT, SESSION
-from carpus.core.records.store import Store, new_id
+from carpus.core.records.changes import changed, dropped, kept, new
+from carpus.core.records.schema import BACKUP, DIAGNOSIS, OWN, PATIENT, RECIPIENT, REPORT_FORM, SESSION
+from carpus.core.records.store import Store, is_kept_in, new_id
 from carpus.core.records.values import moment
+from carpus.core.results.report_form import Letterhead, Paper, ReportForm
 
 MOST_RECIPIENTS = 50
 PLACE = "place "
@@ -87,3 +93,51 @@ def keep_place(store: Store, name: str, place: str) -> None:
     """Remember where."""
     name = f"{PLACE}{name}"
     store.own(delete(OWN).where(OWN.c.name == name), insert(OWN).values(name=name, value=place))
+
+
+_ID = "clinic"
+
+
+def read_form(store: Store, usual: Paper = "a4") -> ReportForm:
+    """The form of a clinic; where there is none, no letterhead and the ``usual`` paper."""
+    row = _row(store)
+    return ReportForm(paper=usual) if row is None else _form(row)
+
+
+def form_in(folder: Path, usual: Paper = "a4") -> ReportForm:
+    """The form of a data folder, for a command."""
+    if not is_kept_in(folder):
+        return ReportForm(paper=usual)
+    with Store(folder) as store:
+        return read_form(store, usual)
+
+
+def keep_form(store: Store, form: ReportForm, before: ReportForm) -> None:
+    """Store it in place of the one that was read ``before``.
+
+    Raises :class:`ChangedMeanwhile` where somebody else changed it, and the faults of writing.
+    """
+    head = form.letterhead
+    values = {
+        "name": head.name, "address": json.dumps(head.address, ensure_ascii=False), "paper": form.paper,
+        "logo": base64.b64encode(head.logo_png).decode("ascii"), "left_out": json.dumps(sorted(form.left_out)),
+        "sentences": json.dumps(form.sentences, ensure_ascii=False),
+    }  # fmt: skip
+    row = _row(store)
+    if row is None:
+        store.do([new(REPORT_FORM, _ID, **values)])
+    elif _form(row) != before:
+        raise ChangedMeanwhile(REPORT_FORM.name)
+    else:
+        store.do([changed(REPORT_FORM, _ID, row.version, **values)])
+
+
+def _row(store: Store) -> Row[Any] | None:
+    return store.row(select(REPORT_FORM).where(REPORT_FORM.c.id == _ID))
+
+
+def _form(row: Row[Any]) -> ReportForm:
+    return ReportForm(
+        Letterhead(row.name, tuple(json.loads(row.address)), base64.b64decode(row.logo)), row.paper,
+        frozenset(json.loads(row.left_out)), tuple(json.loads(row.sentences)),
+    )  # fmt: skip

@@ -26,9 +26,8 @@ from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.exc import DataError, DBAPIError, IntegrityError, InterfaceError, OperationalError
 
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, ChangeRefused, PseudonymGiven, PseudonymTaken, ServerGone
-from carpus.core.records.changes import PRACTICE, Change, RowChange, is_practice, joining, make, read_back
+from carpus.core.records.changes import PRACTICE, Change, RowChange, is_practice, joining, lay_out, make, read_back
 from carpus.core.records.database import Database, up_to_date
-from carpus.core.records.outbox import lay_out
 from carpus.core.records.schema import COPIED, DEED, DELIVERED, OUTBOX, OWN, PATIENT, SEEN, SESSION, SHARED, TOMBSTONE
 
 LOOK_S, RETRY_S, KEEP_DELIVERED_S = 2.0, 5.0, 90 * 86_400.0

@@ -1,4 +1,8 @@
-"""Which sessions there are: found in the store by identity, in the folder by path, and made anew from the files."""
+"""Which sessions there are: found in the store by identity, in the folder by path, and made anew from the files.
+
+A file is read again only when its size or its time has changed. One that cannot be a session is set apart: it stays
+where it is, is named once, and is not opened again while it is the same. A copy of a session that is there already is
+set apart too, so that it counts once."""
 
 from __future__ import annotations
 
@@ -6,13 +10,16 @@ import glob
 import os
 import re
 import shutil
-from collections.abc import Collection, Iterable, Iterator
+import stat
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import Row, delete, select
+from sqlalchemy import Insert, Row, delete, select
+from sqlalchemy.dialects.sqlite import insert
 
 from carpus.core.durable import make_private, write_fault
 from carpus.core.errors import CarpusFault, FolderMissing, OutputNotWritable, SessionUnreadable, ShareEmpty
@@ -22,13 +29,64 @@ from carpus.core.records import changes
 from carpus.core.records.changes import NOWHERE, PRACTICE, changed, kept, new
 from carpus.core.records.patients import Patients, columns
 from carpus.core.records.schema import PATIENT, SEEN, SESSION
-from carpus.core.records.seen_files import COPY, Seen, can_be_stored, files_there, remembered, stored
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import AffectedSide, PatientEntry, Rebuilt, SessionEntry, moment
 from carpus.core.session.disk import free_name
 from carpus.core.session.reader import give, read_outline
 from carpus.core.session.values import SessionOutline
 from carpus.core.types import Side
+
+COPY = "a copy of "
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """A file as it was when it was looked at; ``reason`` why it is no session."""
+
+    size: int
+    changed_ns: int
+    reason: str = ""
+
+    def is_still(self, now: Seen) -> bool:
+        """Whether a file that looks like ``now`` need not be read again."""
+        return (self.size, self.changed_ns) == (now.size, now.changed_ns)
+
+
+def files_there(folder: Path) -> dict[Path, Seen]:
+    """Every file of a folder that is named like a session, as it looks now."""
+    found: dict[Path, Seen] = {}
+    for path in sorted(folder.rglob("*.h5")):
+        try:
+            state = path.lstat()
+        except OSError:
+            continue  # gone meanwhile
+        found[path] = Seen(state.st_size, state.st_mtime_ns, "" if stat.S_ISREG(state.st_mode) else "not a plain file")
+    return found
+
+
+def remembered(store: Store) -> dict[str, Seen]:
+    """What was looked at before, by path."""
+    return {str(row.path): Seen(row.size, row.changed_ns, row.reason) for row in store.rows(select(SEEN))}
+
+
+def stored(seen: Mapping[str, Seen]) -> Sequence[Insert]:
+    """What :meth:`Store.own` does to remember how files looked."""
+    out = []
+    for path, one in seen.items():
+        values = {"size": one.size, "changed_ns": one.changed_ns, "reason": one.reason}
+        made = insert(SEEN).values(path=path, **values)
+        out.append(made.on_conflict_do_update(index_elements=["path"], set_=values))
+    return out
+
+
+def can_be_stored(path: str) -> bool:
+    """Whether the store can hold a file's name; some systems have names that are no text."""
+    try:
+        path.encode("utf-8")
+    except UnicodeEncodeError:
+        return False
+    return "\0" not in path
+
 
 MOST_LETTERS = 40
 """Of a pseudonym in a file's name, which no system lets be as long as one likes."""

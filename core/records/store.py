@@ -25,9 +25,8 @@ from carpus.core.errors import (
     ServerGone,
 )
 from carpus.core.phrase import phrase
-from carpus.core.records.changes import PRACTICE, Change, is_practice, make, new
+from carpus.core.records.changes import PRACTICE, Change, forget, is_practice, is_shared, lay_out, make, new
 from carpus.core.records.database import STORE_FILE, Database, rescue, set_aside
-from carpus.core.records.outbox import forget, is_shared, lay_out
 from carpus.core.records.schema import PATIENT
 from carpus.core.records.staging import hold
 

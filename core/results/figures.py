@@ -19,7 +19,7 @@ import numpy as np
 
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.hand.exercises import Exercise, Movement
-from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
+from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits, RetestStudy
 from carpus.core.measures.repetitions import Uncounted, what_was_not_counted
 from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said, with_checks
 from carpus.core.results.further_measures import FurtherMeasure, further_measures

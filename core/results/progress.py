@@ -12,8 +12,16 @@ import numpy as np
 from carpus.core.hand.exercises import Movement
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.by_hand import HandValue
-from carpus.core.measures.change import ARC_LIMIT_FACTOR, TOTAL_ACTIVE_MOTION, MeasuredMean, Obstacle, change_between
-from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits, RetestStudy
+from carpus.core.measures.change import (
+    ARC_LIMIT_FACTOR,
+    DEFAULT_LIMITS,
+    TOTAL_ACTIVE_MOTION,
+    ErrorLimits,
+    MeasuredMean,
+    Obstacle,
+    RetestStudy,
+    change_between,
+)
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.ranges import RangeRow, RowKey, is_total

@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from datetime import datetime
 
-from carpus.core.session.marker_places import Correction
+from carpus.core.session.marker_doubts import Correction
 from carpus.core.session.values import Session
 
 CORRECTED = "corrected"

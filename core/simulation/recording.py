@@ -31,8 +31,7 @@ from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import ColorSensor
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.trouble import FrameTimes, covered_discs, frame_times
-from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, truth_of
-from carpus.core.simulation.truth_file import read_visible_share, write_truth
+from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, read_visible_share, truth_of, write_truth
 from carpus.core.types import SIMULATED, ByteImage, DepthImage, FloatArray, Frame
 
 CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"

@@ -1,4 +1,4 @@
-"""Noise-free pictures of a scene: linear colour, depth, and how much of each disc is seen."""
+"""Noise-free pictures of a scene: the colours on the skin, linear colour, depth, and how much of each disc is seen."""
 
 from __future__ import annotations
 
@@ -12,14 +12,160 @@ from numpy.typing import NDArray
 from carpus.core.camera import Camera
 from carpus.core.hand.kinematics import SEGMENTS
 from carpus.core.hand.sites import PALM_SITES
-from carpus.core.simulation import paint
 from carpus.core.simulation.appearance import Appearance, appearance_of
 from carpus.core.simulation.scene import HandPose, Scene
 from carpus.core.simulation.skin import Cones, Part
-from carpus.core.simulation.trace import FloatImage, TracedSurface, trace
+from carpus.core.simulation.trace import Box, FloatImage, TracedSurface, box_around, trace
 from carpus.core.simulation.trouble import false_blobs, passing_thing
 from carpus.core.simulation.truth import protocol_rows
 from carpus.core.types import FloatArray
+
+_EDGE_ON = 0.02
+_LARGEST_SAG_M, _HIDING_GAP_M = 0.004, 0.004
+
+
+@dataclass(frozen=True, slots=True)
+class Patch:
+    """A round piece of blue paper in camera axes; ``normal`` towards the camera, ``bend`` 0 flat to 1 like the skin."""
+
+    center_m: FloatArray
+    normal: FloatArray
+    radius_m: float
+    color: FloatArray
+    bend: float
+
+
+_BAND_EDGE_M = np.float32(0.0012)
+_RING_M, _RING_SHARE, _RING_AWAY_M = 0.002, 0.5, 0.011
+"""Half width of a ring, its place on the bone, and how far from the bone it may lie."""
+_KNUCKLES = (2, 3, 6, 7, 10, 11, 14, 15, 18, 19)
+_NAILS = (4, 8, 12, 16, 20)
+_KNUCKLE_RADIUS_M, _NAIL_RADIUS_M = 0.006, 0.0048
+_KNUCKLE_TINT = np.array([0.05, 0.13, 0.12], dtype=np.float32)
+_NAIL_TINT = np.array([1.10, 1.12, 1.16], dtype=np.float32)
+
+
+def spot_on(
+    camera: Camera, box: Box, points: FloatImage, center_m: FloatArray, radius_m: float
+) -> tuple[tuple[slice, slice], FloatImage] | None:
+    """Where in ``points`` (over ``box``, camera axes) the surface lies within a radius of a point, and how much of
+    each of those pixels; None when that is outside the box."""
+    around = box_around(camera, center_m[None], np.array([radius_m]), margin_px=2.0)
+    around = Box(
+        max(around.top, box.top),
+        min(around.bottom, box.bottom),
+        max(around.left, box.left),
+        min(around.right, box.right),
+    )
+    if around.bottom - around.top < 3 or around.right - around.left < 3:
+        return None
+    place = around.within(box)
+    away = np.linalg.norm(points[place] - center_m.astype(np.float32), axis=-1)
+    along_v, along_u = np.gradient(away)
+    # Within half a pixel of the edge the spot fills part of a pixel.
+    share = np.clip(0.5 - (away - radius_m) / np.maximum(np.hypot(along_u, along_v), 1e-5), 0.0, 1.0)
+    return place, share.astype(np.float32)
+
+
+def patch_on(
+    camera: Camera, rays: tuple[FloatImage, FloatImage], depth_m: FloatImage, patch: Patch
+) -> tuple[tuple[slice, slice], FloatImage, FloatImage] | None:
+    """Where a paper patch shows in the whole picture: rows and columns, share of each pixel, depth of the paper.
+
+    ``rays`` are the rays' x and y where z is 1. Paper is stiffer than skin: between its tangent plane and the skin
+    under it, it goes ``patch.bend`` of the way; it lies on skin that rises. Whatever stands clearly before it hides it.
+    """
+    box = box_around(camera, patch.center_m[None], np.array([patch.radius_m]), margin_px=2.0)
+    if box.bottom - box.top < 3 or box.right - box.left < 3:
+        return None
+    rows, columns = box.slices
+    x, y = rays[0][None, columns], rays[1][rows, None]
+    n, c = patch.normal, patch.center_m
+    toward = n[0] * x + n[1] * y + n[2]
+    if float(toward.max()) > -_EDGE_ON:
+        return None
+    plane = (float(c @ n) / toward).astype(np.float32)
+    behind = depth_m[rows, columns]
+    gap = behind - plane
+    z = plane + np.where(gap > 0.0, np.float32(patch.bend) * np.minimum(gap, _LARGEST_SAG_M), gap)
+    away = np.sqrt((x * z - c[0]) ** 2 + (y * z - c[1]) ** 2 + (z - c[2]) ** 2)
+    along_v, along_u = np.gradient(away)
+    share = np.clip(0.5 - (away - patch.radius_m) / np.maximum(np.hypot(along_u, along_v), 1e-5), 0.0, 1.0)
+    share *= gap > -_HIDING_GAP_M
+    return (rows, columns), share.astype(np.float32), z.astype(np.float32)
+
+
+def lay(image: FloatImage, place: tuple[slice, slice], share: FloatImage, color: FloatArray) -> None:
+    """Cover a place of ``image`` with a colour, by share."""
+    inner = image[place]
+    inner += share[..., None] * (color.astype(np.float32) - inner)
+
+
+def painted_skin(looks: Appearance, points: FloatImage, discs_cam_m: FloatArray, hand_axes: FloatArray) -> FloatImage:
+    """Albedo (H, W, 3) of bare skin; ``discs_cam_m`` (21, 3) tell where knuckles and nails are, ``hand_axes``
+    (3, 3) fix the mottling to the hand."""
+    coarse = points[::2, ::2]
+    size = (points.shape[1], points.shape[0])
+    local = (coarse - discs_cam_m[0].astype(np.float32)) @ hand_axes.astype(np.float32)
+    waves = np.zeros(coarse.shape[:2], dtype=np.float32)
+    for direction in looks.mottling:
+        waves += np.sin(local @ direction.astype(np.float32))
+    mottled = np.float32(1.0) + np.float32(0.016) * waves
+    red = np.zeros_like(waves)
+    for row in _KNUCKLES:
+        red += _ball(coarse, discs_cam_m[row], _KNUCKLE_RADIUS_M)
+    full = cv2.resize(np.dstack((mottled, np.minimum(red, 1.0))), size, interpolation=cv2.INTER_LINEAR)
+    tint = np.float32(1.0) - full[..., 1:] * _KNUCKLE_TINT
+    return np.asarray(looks.skin.astype(np.float32) * full[..., :1] * tint, dtype=np.float32)
+
+
+def _ball(points: FloatImage, center_m: FloatArray, radius_m: float) -> FloatImage:
+    offset = points - center_m.astype(np.float32)
+    return np.asarray(np.exp(np.einsum("hwi,hwi->hw", offset, offset) * np.float32(-0.5 / radius_m**2)))
+
+
+def paint_nails(
+    albedo: FloatImage, camera: Camera, box: Box, points: FloatImage, discs_cam_m: FloatArray, size: float
+) -> None:
+    """Nails are a little lighter than the skin around them."""
+    for row in _NAILS:
+        spot = spot_on(camera, box, points, discs_cam_m[row], _NAIL_RADIUS_M * size)
+        if spot is not None:
+            place, share = spot
+            albedo[place] *= 1.0 + share[..., None] * (_NAIL_TINT - 1.0)
+
+
+def dress(
+    albedo: FloatImage, looks: Appearance, points: FloatImage, is_forearm: np.ndarray, wrist_m: FloatArray,
+    forearm_axis: FloatArray,
+) -> None:  # fmt: skip
+    """Sleeve and what else is worn round the forearm; ``forearm_axis`` points to the hand."""
+    if not looks.bands:
+        return
+    to_wrist = (points - wrist_m.astype(np.float32)) @ forearm_axis.astype(np.float32)
+    for band in looks.bands:
+        along = to_wrist + np.float32(band.from_m)
+        share = np.clip(0.5 - along / _BAND_EDGE_M, 0.0, 1.0) * is_forearm
+        if np.isfinite(band.to_m):
+            share *= np.clip(0.5 + (to_wrist + np.float32(band.to_m)) / _BAND_EDGE_M, 0.0, 1.0)
+        folds = (
+            1.0 + 0.06 * np.sin(along * 310.0 + 9.0 * np.sin(along * 41.0)) if band.is_cloth else np.ones_like(along)
+        )
+        stuff = band.color.astype(np.float32) * folds[..., None]
+        albedo += share[..., None] * (stuff - albedo)
+
+
+def paint_ring(albedo: FloatImage, points: FloatImage, color: FloatArray, bone_m: FloatArray, size: float) -> None:
+    """A ring round the first bone of a finger, from joint to joint (2, 3)."""
+    along_m = bone_m[1] - bone_m[0]
+    length = float(np.linalg.norm(along_m))
+    offset = points - bone_m[0].astype(np.float32)
+    along = offset @ (along_m / length).astype(np.float32)
+    away = np.sqrt(np.maximum(np.einsum("hwi,hwi->hw", offset, offset) - along * along, 0.0))
+    share = np.clip(0.5 + (_RING_M - np.abs(along - np.float32(_RING_SHARE * length))) / _BAND_EDGE_M, 0.0, 1.0)
+    share *= away < _RING_AWAY_M * size
+    albedo += share[..., None].astype(np.float32) * (color.astype(np.float32) - albedo)
+
 
 _GLOSS, _GLOSS_POWER = 0.05, 24
 _SHADOW_STRENGTH = 0.8
@@ -182,15 +328,15 @@ class Renderer:
         x, y = self._rays[0][None, columns], self._rays[1][rows, None]
         points = np.stack((x * skin.depth_m, y * skin.depth_m, skin.depth_m), axis=-1)
         discs = scene.to_camera(scene.discs_w0_m(pose)[0])
-        albedo = paint.painted_skin(looks, points, discs, scene.rotation_w0_cam @ pose.rotation_w2_w0[0])
-        paint.paint_nails(albedo, scene.camera, skin.box, points, discs, scene.patient.size)
+        albedo = painted_skin(looks, points, discs, scene.rotation_w0_cam @ pose.rotation_w2_w0[0])
+        paint_nails(albedo, scene.camera, skin.box, points, discs, scene.patient.size)
         wrist = scene.to_camera(pose.carry_m[0])
-        paint.dress(albedo, looks, points, skin.part == Part.FOREARM, wrist, scene.rotation_w0_cam[:, 0])
+        dress(albedo, looks, points, skin.part == Part.FOREARM, wrist, scene.rotation_w0_cam[:, 0])
         if looks.ring is not None:
             bones = scene.bones_w(pose)
             ends = np.stack((bones.start_m[0, _RING_BONE], bones.end_m[0, _RING_BONE]))
             ends = ends @ pose.rotation_w2_w0[0].T + pose.position_m[0]
-            paint.paint_ring(albedo, points, looks.ring, scene.to_camera(ends), scene.patient.size)
+            paint_ring(albedo, points, looks.ring, scene.to_camera(ends), scene.patient.size)
         corners = corner_light(skin, looks.table_depth_m[rows, columns])
         inner = color[rows, columns]
         inner += skin.coverage[..., None] * (shaded_skin(albedo, skin.normal, corners, looks) - inner)
@@ -209,7 +355,7 @@ class Renderer:
                 continue
             bend = _PALM_BEND if row in PALM_SITES else _DIGIT_BEND
             radius_m = float(scene.patient.disc_radius_m[row])
-            disc = paint.Patch(centers[row], normals[row], radius_m, self.looks.paper, bend)
+            disc = Patch(centers[row], normals[row], radius_m, self.looks.paper, bend)
             laid = self._lay_patch(color, depth_m, disc)
             if laid is None:
                 continue
@@ -223,14 +369,14 @@ class Renderer:
         return visible
 
     def _lay_patch(
-        self, color: FloatImage | None, depth_m: FloatImage, patch: paint.Patch
+        self, color: FloatImage | None, depth_m: FloatImage, patch: Patch
     ) -> tuple[tuple[slice, slice], FloatImage, FloatImage] | None:
         """Draw one patch into depth and, where given, colour; None where the camera cannot see it."""
-        laid = paint.patch_on(self.scene.camera, self._rays, depth_m, patch)
+        laid = patch_on(self.scene.camera, self._rays, depth_m, patch)
         if laid is not None:
             place, share, z = laid
             if color is not None:
-                paint.lay(color, place, share, self._lit(patch.color, patch.normal))
+                lay(color, place, share, self._lit(patch.color, patch.normal))
             np.copyto(depth_m[place], z, where=share > 0.5)
         return laid
 
@@ -245,7 +391,7 @@ class Renderer:
                     normal = pose.rotation_w2_w0[0] @ normal
                 paper = self.looks.paper * blob.hue_shift
                 turned = self.scene.rotation_w0_cam @ normal
-                patch = paint.Patch(self.scene.to_camera(center), turned, blob.radius_m, paper, _PALM_BEND)
+                patch = Patch(self.scene.to_camera(center), turned, blob.radius_m, paper, _PALM_BEND)
                 self._lay_patch(color, depth_m, patch)
 
     def _thing_depth(self, bodies: _Bodies) -> FloatImage:

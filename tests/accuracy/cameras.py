@@ -11,16 +11,15 @@ from numpy.typing import NDArray
 from carpus.core.calibration.camera.board import BOARDS, Pattern, board_sheet
 from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera
 from carpus.core.calibration.camera.gather import Gathering
-from carpus.core.calibration.camera.guidance import ASKED_VIEWS
+from carpus.core.calibration.camera.views import ASKED_VIEWS
+from carpus.core.calibration.card.card import CardReading
 from carpus.core.calibration.card.measure import measure_card
-from carpus.core.calibration.card.reading import CardReading
 from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.capture.calibrated import correction_table
 from carpus.core.capture.camera_info import StoredCalibration
 from carpus.core.depth_sensor import AZURE_KINECT, D435
 from carpus.core.errors import BoardViewsAlike
-from carpus.core.simulation.practice_camera import card_scene
-from carpus.core.simulation.printed_sheets import LENS, Studio, poses, texture_of
+from carpus.core.simulation.practice_camera import LENS, Studio, card_scene, poses, texture_of
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.types import FloatArray, Frame
 

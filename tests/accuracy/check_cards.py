@@ -8,11 +8,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from carpus.core.calibration.card.card import CHECK_S, CardReading
 from carpus.core.calibration.card.measure import LOOK_EVERY_S, measure_card
-from carpus.core.calibration.card.reading import CHECK_S, CardReading
 from carpus.core.depth_sensor import SENSORS
-from carpus.core.simulation.practice_camera import card_scene
-from carpus.core.simulation.printed_sheets import LENS, Studio
+from carpus.core.simulation.practice_camera import LENS, Studio, card_scene
 from tests.accuracy.cameras import OFF_SHARE
 
 SEED = 7600

@@ -15,8 +15,8 @@ from carpus.app.__main__ import main
 from carpus.core import so3
 from carpus.core.agreement.clocks import ClockCurves, Shift, best_shift, with_drift
 from carpus.core.agreement.compare import LEAST_MATCH, _check_match, compare, remarks_of
+from carpus.core.agreement.compared_files import lines
 from carpus.core.agreement.reference import GoniometerReading, Reference, read_reference
-from carpus.core.agreement.tables import lines
 from carpus.core.errors import ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.formats import c3d_write, mot, trc
 from carpus.core.formats.c3d_read import read_c3d

@@ -17,7 +17,7 @@ from carpus.core.records import library as library_module
 from carpus.core.records import session_list
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.library import Library
-from carpus.core.records.seen_files import remembered
+from carpus.core.records.session_list import remembered
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.writer import SessionWriter
 from tests.records.samples import opened as opened_store

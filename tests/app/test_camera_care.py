@@ -16,7 +16,7 @@ from pytestqt.qtbot import QtBot
 from carpus.app.compose import Desktop, application, compose
 from carpus.app.desktop import care_cameras
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
-from carpus.core.calibration.camera import guidance
+from carpus.core.calibration.camera import views
 from carpus.core.calibration.card import measure
 from carpus.core.calibration.card.chart import add_check, chart_path, read_checks
 from carpus.core.camera import Camera
@@ -56,7 +56,7 @@ def hurry(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(practice_camera, "_STILL_FRAMES", 1)
     monkeypatch.setattr(practice_camera, "_MOST_PICTURES", 6)
     monkeypatch.setattr(practice_camera, "_between", lambda one, other: other)
-    monkeypatch.setitem(guidance.ASKED_VIEWS, "chessboard", FEW)
+    monkeypatch.setitem(views.ASKED_VIEWS, "chessboard", FEW)
     monkeypatch.setattr(measure, "CHECK_S", 6.0)
     monkeypatch.setattr(measure, "_LONGEST_GAP_S", 3.0)
 

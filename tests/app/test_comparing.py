@@ -17,9 +17,9 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app import compose
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.core.agreement.clocks import Stopped, WorkWatch
 from carpus.core.agreement.compared_files import compare_files
 from carpus.core.agreement.reference import outline_of
-from carpus.core.agreement.watch import Stopped, WorkWatch
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.values import PatientEntry

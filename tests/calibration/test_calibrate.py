@@ -10,9 +10,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from carpus.core.calibration.calibrate import NeutralCapture, calibrate, measure_hand, require_calibration
+from carpus.core.calibration.calibrate import (
+    NeutralCapture,
+    calibrate,
+    compared_with_last_time,
+    measure_hand,
+    require_calibration,
+)
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks
-from carpus.core.calibration.same_hand import compared_with_last_time
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.depth_sensor import PRIMESENSE
 from carpus.core.detection.settings import DetectionSettings

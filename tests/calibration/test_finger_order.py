@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.finger_order import FingerOrderSettings, misnamed
-from carpus.core.calibration.plausibility import plan_view
+from carpus.core.calibration.palm_names import plan_view
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.kinematics import disc_centres

@@ -17,8 +17,7 @@ import pytest
 
 from carpus.core.capture.devices import maker_library, orbbec
 from carpus.core.capture.devices.cameras import open_camera
-from carpus.core.capture.devices.capture_messages import CameraPlan
-from carpus.core.capture.devices.capture_process import GaveUp
+from carpus.core.capture.devices.capture_process import CameraPlan, GaveUp
 from carpus.core.capture.devices.color_lock import ColorLock
 from carpus.core.capture.devices.orbbec import _Controls, driver_finding, open_orbbec, sensor_named
 from carpus.core.capture.devices.orbbec_opening import choose_streams, find_camera, library

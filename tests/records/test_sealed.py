@@ -144,7 +144,7 @@ def test_the_commands_ask_for_the_passphrase_and_bring_everything_back(
 
 
 def test_a_passphrase_of_few_signs_is_told_in_words(monkeypatch: pytest.MonkeyPatch) -> None:
-    from carpus.app.asking import ask_passphrase
+    from carpus.app.command_line import ask_passphrase
 
     monkeypatch.setattr(sys, "stdin", io.StringIO("short\n"))
     with pytest.raises(PassphraseUnfit):

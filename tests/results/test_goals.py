@@ -10,7 +10,7 @@ from functools import cache
 import pytest
 
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.measures.error_limits import ErrorLimits, MeasuredLimit, RetestStudy
+from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.goals import proposals
 from tests.ui.fakes import NOW, session

@@ -14,11 +14,10 @@ from hypothesis import strategies as st
 
 from carpus.core.measures.signals import LONGEST_GAP_S
 from carpus.core.results.figures import SessionFigures, session_figures
-from carpus.core.results.in_step import Step, in_step
 from carpus.core.results.mean_repetition import mean_repetition, seen_angles
 from carpus.core.results.ranges import finger_keys
 from carpus.core.results.repetition_rows import RepetitionChoices, ShownRepetition
-from carpus.core.results.side_by_side import ordered, pair_reasons, partner_of, side_by_side
+from carpus.core.results.side_by_side import Step, in_step, ordered, pair_reasons, partner_of, side_by_side
 from tests.ui.fakes import NOW, session
 from tests.ui.hand_fakes import hand_session
 

@@ -35,7 +35,7 @@ library.close()
 begin = time.monotonic()
 library = Library(Path(sys.argv[1]))
 again = library.recover()[1]
-from carpus.core.records.seen_files import remembered
+from carpus.core.records.session_list import remembered
 apart = sum(bool(one.reason) for one in remembered(library.store).values())
 patients = len(library.patients.listed())
 library.close()

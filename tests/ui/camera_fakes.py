@@ -13,15 +13,13 @@ from carpus.core.calibration.camera.calibrate import CameraCalibration
 from carpus.core.calibration.camera.depth import DepthCheck
 from carpus.core.calibration.camera.effect import CELLS, Effect
 from carpus.core.calibration.camera.gather import Gathering
-from carpus.core.calibration.camera.guidance import next_step, target_outline
 from carpus.core.calibration.camera.solve import Intrinsics
-from carpus.core.calibration.camera.views import FIELDS, Judgement
+from carpus.core.calibration.camera.views import FIELDS, Judgement, next_step, target_outline
 from carpus.core.calibration.card.card import FIGURES
 from carpus.core.calibration.card.chart import CardCheck, verdict_of
 from carpus.core.calibration.card.measure import CardWatch
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.simulation.practice_camera import card_scene
-from carpus.core.simulation.printed_sheets import LENS, Studio, poses, texture_of
+from carpus.core.simulation.practice_camera import LENS, Studio, card_scene, poses, texture_of
 from carpus.core.types import Frame
 from carpus.ui.camera_calibration.values import BoardProgress, BoardResult
 from carpus.ui.check_card.values import CameraChecks, CardProgress

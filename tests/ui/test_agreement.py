@@ -10,8 +10,7 @@ from PySide6.QtCore import QRectF
 from pytestqt.qtbot import QtBot
 
 from carpus.core.agreement.compare import Compared, Pairs
-from carpus.core.agreement.statistics import agreement
-from carpus.core.agreement.verdict import judged
+from carpus.core.agreement.statistics import agreement, judged
 from carpus.ui.agreement.reference_sheet import missing
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.agreement.words import angle_name, headline, in_order, interval, judgement_words, limits, signed

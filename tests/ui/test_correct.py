@@ -7,8 +7,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.session.marker_doubts import name_doubt
-from carpus.core.session.marker_places import Correction
+from carpus.core.session.marker_doubts import Correction, name_doubt
 from carpus.ui.background import Background
 from carpus.ui.correct.picture import RING_PX
 from carpus.ui.correct.places import Places

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import ChangedMeanwhile
-from carpus.core.records.clinic_form import form_in, keep_form, read_form
+from carpus.core.records.of_clinic import form_in, keep_form, read_form
 from carpus.core.records.store import Store
 from carpus.core.results.report_form import PAPER_PT, PAPERS, SECTIONS, Letterhead, Paper, ReportForm
 from carpus.ui.background import Background

@@ -9,6 +9,7 @@ from pathlib import Path
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFileDialog
 
+from carpus.core.agreement.clocks import Stopped, WorkWatch
 from carpus.core.agreement.compared_files import Result, compare_files, write_files
 from carpus.core.agreement.reference import (
     ANGLE_FILES,
@@ -18,7 +19,6 @@ from carpus.core.agreement.reference import (
     ReferenceOutline,
     outline_of,
 )
-from carpus.core.agreement.watch import Stopped, WorkWatch
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.sites import PALM_MARKERS, WRIST_ANGLES
 from carpus.core.records.values import SessionEntry

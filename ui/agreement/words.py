@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from carpus.core.agreement.verdict import Judgement, furthest, judged
+from carpus.core.agreement.statistics import Judgement, furthest, judged
 from carpus.ui import numbers
 from carpus.ui.figures import FIGURES, figure_of
 from carpus.ui.icons import State

@@ -12,10 +12,9 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.hand.exercises import SIDES
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.in_step import InStep, Step, in_step
 from carpus.core.results.mean_repetition import Quantity
 from carpus.core.results.repetition_rows import ShownRepetition
-from carpus.core.results.side_by_side import ordered
+from carpus.core.results.side_by_side import InStep, Step, in_step, ordered
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage
 from carpus.ui import numbers, terms

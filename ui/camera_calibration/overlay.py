@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
-from carpus.core.calibration.camera.find_board import FoundBoard
+from carpus.core.calibration.camera.board import FoundBoard
 from carpus.core.types import FloatArray
 from carpus.ui.picture.photo import label_size, paint_label
 from carpus.ui.picture.view import PictureView

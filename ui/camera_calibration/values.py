@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 from carpus.core.calibration.camera.board import BOARDS, Board, Pattern
 from carpus.core.calibration.camera.calibrate import CameraCalibration
 from carpus.core.calibration.camera.effect import Effect
-from carpus.core.calibration.camera.guidance import GuidanceStep, Look
 from carpus.core.calibration.camera.sheet import RULER_MM, Paper
-from carpus.core.calibration.camera.views import Judgement
+from carpus.core.calibration.camera.views import GuidanceStep, Judgement, Look
 from carpus.core.types import FloatArray, Frame
 
 

@@ -6,10 +6,9 @@ import math
 
 import numpy as np
 
+from carpus.core.calibration.camera.board import MOST_EDGE_PX
 from carpus.core.calibration.camera.depth import MOST_APART_PX, DepthCheck
 from carpus.core.calibration.camera.effect import FLEXION_DEG, HAND_LENGTH_M
-from carpus.core.calibration.camera.guidance import GuidanceStep, Lack
-from carpus.core.calibration.camera.sharpness import MOST_EDGE_PX
 from carpus.core.calibration.camera.solve import FAIR_PX, GOOD_PX
 from carpus.core.calibration.camera.views import (
     FEWEST_FIELDS,
@@ -18,6 +17,8 @@ from carpus.core.calibration.camera.views import (
     LEAST_TILT_DEG,
     MOST_MOTION_PX,
     SIDES,
+    GuidanceStep,
+    Lack,
     Side,
 )
 from carpus.ui import numbers

@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QGridLayout, QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
 
-from carpus.core.calibration.card.reading import CHECK_S
+from carpus.core.calibration.card.card import CHECK_S
 from carpus.core.types import ByteImage
 from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 from carpus.ui.camera_calibration.overlay import paint_discs

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from datetime import datetime, timedelta
 
-from carpus.core.calibration.card.card import FIGURES
+from carpus.core.calibration.card.card import FIGURES, MOST_SCALE
 from carpus.core.calibration.card.chart import OLD_DAYS, CardCheck
-from carpus.core.calibration.card.reading import MOST_SCALE
 from carpus.ui import numbers
 from carpus.ui.check_card.values import CameraChecks, CardProgress
 from carpus.ui.icons import State

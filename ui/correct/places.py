@@ -7,8 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from carpus.core.session.marker_doubts import NameDoubt, name_doubt
-from carpus.core.session.marker_places import Correction, expected_px
+from carpus.core.session.marker_doubts import Correction, NameDoubt, expected_px, name_doubt
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
 

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
 
-from carpus.core.agreement.restated import Restated
 from carpus.core.agreement.retest import StudyFigures, write_study
-from carpus.core.agreement.retest_plan import RetestPlan
+from carpus.core.agreement.retest_plan import Restated, RetestPlan
 from carpus.core.durable import replace_file
 from carpus.core.records.retest_people import RetestPeople
 from carpus.core.words import Words

@@ -6,12 +6,10 @@ import math
 from collections.abc import Sequence
 from datetime import date
 
-from carpus.core.agreement.restated import Restated
 from carpus.core.agreement.retest import Retest
-from carpus.core.agreement.retest_plan import Mounting, Person, RetestPlan
+from carpus.core.agreement.retest_plan import Mounting, Person, Restated, RetestPlan
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.measures.change import ARC_LIMIT_FACTOR, change_limit_rad
-from carpus.core.measures.error_limits import FEWEST_PEOPLE, ErrorLimits
+from carpus.core.measures.change import ARC_LIMIT_FACTOR, FEWEST_PEOPLE, ErrorLimits, change_limit_rad
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
 from carpus.ui.icons import State

@@ -8,8 +8,15 @@ from datetime import date
 from PySide6.QtWidgets import QGridLayout
 
 from carpus.core.hand.sites import WRIST_ANGLES
-from carpus.core.measures.change import ARC_LIMIT_FACTOR, TOTAL_ACTIVE_MOTION, change_limit_rad
-from carpus.core.measures.error_limits import DEFAULT_LIMITS, FEWEST_PEOPLE, ErrorLimits, RetestStudy
+from carpus.core.measures.change import (
+    ARC_LIMIT_FACTOR,
+    DEFAULT_LIMITS,
+    FEWEST_PEOPLE,
+    TOTAL_ACTIVE_MOTION,
+    ErrorLimits,
+    RetestStudy,
+    change_limit_rad,
+)
 from carpus.ui import numbers, terms
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text

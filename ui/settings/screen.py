@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
 )
 
 from carpus.core.about import is_newer
-from carpus.core.measures.error_limits import DEFAULT_LIMITS, ErrorLimits
+from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card

@@ -1,7 +1,10 @@
-"""The printed boards: a chessboard, and a ChArUco board that may be partly out of the picture."""
+"""The printed boards, a chessboard and a ChArUco board that may be partly out of the picture; their corners in a
+picture, and how sharp their edges are."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal
@@ -11,7 +14,7 @@ import numpy as np
 
 from carpus.core.calibration.camera.sheet import PAPER_MM, Mark, Paper, PrintedSheet, SheetBox, SheetText, ruler
 from carpus.core.phrase import phrase
-from carpus.core.types import FloatArray
+from carpus.core.types import ByteImage, FloatArray
 
 Pattern = Literal["chessboard", "charuco"]
 _DICTIONARY = cv2.aruco.DICT_4X4_50
@@ -120,3 +123,118 @@ def _codes(board: Board, left_mm: float, top_mm: float) -> list[SheetBox]:
             for start, end in edges.reshape(-1, 2):
                 out.append(SheetBox(x + cell * float(start), y + cell * row, cell * float(end - start), cell))
     return out
+
+
+LEAST_CORNERS = 8
+"""Of a ChArUco board that is partly out of the picture."""
+_CODE_WINDOW_PX = 3
+"""Half the window of the fine search beside codes: a larger one would reach them."""
+_SHARPEST_SHARE = 0.35
+"""Half the window of the fine search over the distance between corners: more would reach the next corner."""
+
+
+@dataclass(frozen=True, slots=True)
+class FoundBoard:
+    """``corner`` (K,) numbers of the board's corners and ``pixel`` (K, 2) where they are."""
+
+    board: Board
+    corner: np.ndarray
+    pixel: FloatArray
+
+
+def find_board(color_rgb: ByteImage, boards: Sequence[Board]) -> FoundBoard | None:
+    """The first of ``boards`` that is seen, None where none is."""
+    gray = np.asarray(cv2.cvtColor(color_rgb, cv2.COLOR_RGB2GRAY), dtype=np.uint8)
+    for board in boards:
+        found = _charuco(gray, board) if board.pattern == "charuco" else _chessboard(gray, board)
+        if found is not None:
+            return found
+    return None
+
+
+def _chessboard(gray: ByteImage, board: Board) -> FoundBoard | None:
+    size = (board.columns - 1, board.rows - 1)
+    flags = cv2.CALIB_CB_ADAPTIVE_THRESH | cv2.CALIB_CB_NORMALIZE_IMAGE | cv2.CALIB_CB_FAST_CHECK
+    there, pixel = cv2.findChessboardCorners(gray, size, flags=flags)
+    if not there:
+        return None
+    grid = np.asarray(pixel, dtype=np.float32).reshape(size[1], size[0], 2)
+    steps = (np.linalg.norm(np.diff(grid, axis=axis), axis=-1).min() for axis in (0, 1))
+    half = int(np.clip(_SHARPEST_SHARE * min(steps), 2, 7))
+    return FoundBoard(board, np.arange(board.corner_count), _fine(gray, grid.reshape(-1, 1, 2), half))
+
+
+def _fine(gray: ByteImage, rough: np.ndarray, half_px: int) -> FloatArray:
+    """Corners (K, 2) to a fraction of a pixel."""
+    criteria = (cv2.TERM_CRITERIA_EPS | cv2.TERM_CRITERIA_MAX_ITER, 40, 1e-3)
+    fine = cv2.cornerSubPix(gray, rough, (half_px, half_px), (-1, -1), criteria)
+    return np.asarray(fine, dtype=np.float64).reshape(-1, 2)
+
+
+def _charuco(gray: ByteImage, board: Board) -> FoundBoard | None:
+    # A cell of a code has three or four pixels: twice enlarged, twice as many codes are read.
+    large = cv2.resize(gray, None, fx=2, fy=2, interpolation=cv2.INTER_LANCZOS4)
+    pixel, corner, _, _ = _detector(board).detectBoard(large)
+    if corner is None or len(corner) < LEAST_CORNERS:  # type: ignore[redundant-expr]  # OpenCV gives None
+        return None
+    numbers = np.asarray(corner).ravel().astype(np.int64)
+    rough = (np.asarray(pixel, dtype=np.float32).reshape(-1, 1, 2) + 0.5) / 2.0 - 0.5
+    return FoundBoard(board, numbers, _fine(gray, rough.astype(np.float32), _CODE_WINDOW_PX))
+
+
+@cache
+def _detector(board: Board) -> cv2.aruco.CharucoDetector:
+    parameters = cv2.aruco.DetectorParameters()
+    parameters.perspectiveRemovePixelPerCell = 8
+    parameters.perspectiveRemoveIgnoredMarginPerCell = 0.33  # blurred cells speak in their middle
+    return cv2.aruco.CharucoDetector(charuco_board(board), cv2.aruco.CharucoParameters(), parameters)
+
+
+MOST_EDGE_PX = 5.0
+"""An edge of a moving or blurred board is wider; in good light and at rest it is about 3.5 wide."""
+_REACH_SHARE, _REACH_PX = 0.3, (2, 6)
+"""Half the window about the middle of an edge, over the distance between corners."""
+_LEAST_CONTRAST = 20.0
+
+
+def edge_px(color_rgb: ByteImage, found: FoundBoard) -> float:
+    """Width of the edges between black and white, the contrast over its steepest rise; NaN where none can be told.
+
+    Half-way between two neighbouring corners there is an edge and nothing else.
+    """
+    gray = np.asarray(cv2.cvtColor(color_rgb, cv2.COLOR_RGB2GRAY), dtype=np.float32)
+    smooth = cv2.GaussianBlur(gray, (3, 3), 0.0)
+    steep = np.hypot(cv2.Sobel(smooth, cv2.CV_32F, 1, 0, scale=0.125), cv2.Sobel(smooth, cv2.CV_32F, 0, 1, scale=0.125))
+    widths = [_width(smooth, steep, *_middles(found, along)) for along in ("row", "column")]
+    return max(widths) if not any(map(math.isnan, widths)) else math.nan
+
+
+def _width(smooth: np.ndarray, steep: np.ndarray, middles: FloatArray, steps: FloatArray) -> float:
+    """Median width of the edges at these places of a picture."""
+    widths = []
+    for (u, v), step in zip(middles, steps, strict=True):
+        half = int(np.clip(_REACH_SHARE * step, *_REACH_PX))
+        box = (slice(round(v) - half, round(v) + half + 1), slice(round(u) - half, round(u) + half + 1))
+        if min(box[0].start, box[1].start) < 0 or smooth[box].shape != (2 * half + 1, 2 * half + 1):
+            continue
+        contrast = float(np.ptp(smooth[box]))
+        if contrast >= _LEAST_CONTRAST:
+            widths.append(contrast / max(float(steep[box].max()), 1e-6))
+    return float(np.median(widths)) if widths else math.nan
+
+
+def _middles(found: FoundBoard, along: Literal["row", "column"]) -> tuple[FloatArray, FloatArray]:
+    """Middles (E, 2) between neighbouring corners of a row or a column, and how far these are apart (E,): a blur to
+    the side shows on edges that stand upright alone."""
+    across = found.board.columns - 1
+    place = {int(corner): pixel for corner, pixel in zip(found.corner, found.pixel, strict=True)}
+    step = 1 if along == "row" else across
+    pairs = [
+        (place[corner], place[corner + step])
+        for corner in place
+        if corner + step in place and (along == "column" or (corner + 1) % across)
+    ]
+    if not pairs:
+        return np.empty((0, 2)), np.empty(0)
+    one, other = np.array(pairs).transpose(1, 0, 2)
+    return 0.5 * (one + other), np.asarray(np.linalg.norm(other - one, axis=1))

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from carpus.core.calibration.camera.board import FoundBoard
 from carpus.core.calibration.camera.calibrate import CameraCalibration
-from carpus.core.calibration.camera.find_board import FoundBoard
 from carpus.core.calibration.camera.solve import Intrinsics
 from carpus.core.calibration.camera.views import BoardView
 from carpus.core.camera import Camera

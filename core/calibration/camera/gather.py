@@ -5,11 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from carpus.core.calibration.camera.board import BOARDS, Board
-from carpus.core.calibration.camera.find_board import FoundBoard, find_board
-from carpus.core.calibration.camera.guidance import Lack, Look, is_dark
-from carpus.core.calibration.camera.sharpness import MOST_EDGE_PX, edge_px
-from carpus.core.calibration.camera.views import MOST_MOTION_PX, BoardView, Judgement, is_new, judge, moved_px, view_of
+from carpus.core.calibration.camera.board import BOARDS, MOST_EDGE_PX, Board, FoundBoard, edge_px, find_board
+from carpus.core.calibration.camera.views import (
+    MOST_MOTION_PX,
+    BoardView,
+    Judgement,
+    Lack,
+    Look,
+    is_dark,
+    is_new,
+    judge,
+    moved_px,
+    view_of,
+)
 from carpus.core.camera import Camera
 from carpus.core.types import Frame
 

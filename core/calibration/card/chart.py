@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from carpus.core.calibration.card.reading import (
+from carpus.core.calibration.card.card import (
     MOST_ANGLE_DEG,
     MOST_LENGTH_MM,
     MOST_SCALE,

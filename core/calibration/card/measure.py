@@ -10,8 +10,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.calibration.candidates import CandidateSettings, marker_candidates
-from carpus.core.calibration.card.card import FIGURES, disc_places_m, figures_of
-from carpus.core.calibration.card.reading import CHECK_S, MOST_ANGLE_DEG, MOST_LENGTH_MM, CardReading
+from carpus.core.calibration.card.card import (
+    CHECK_S,
+    FIGURES,
+    MOST_ANGLE_DEG,
+    MOST_LENGTH_MM,
+    CardReading,
+    disc_places_m,
+    figures_of,
+)
 from carpus.core.camera import Camera
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CardMissing

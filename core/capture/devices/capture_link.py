@@ -13,8 +13,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.capture.devices.capture_messages import Arrived, Command, Free, Opened, Report, Ring, Stop, Trouble
-from carpus.core.capture.devices.capture_process import Serve, run
+from carpus.core.capture.devices.capture_process import (
+    Arrived,
+    Command,
+    Free,
+    Opened,
+    Report,
+    Ring,
+    Serve,
+    Stop,
+    Trouble,
+    run,
+)
 from carpus.core.capture.video_mode import Sensor, VideoMode
 from carpus.core.errors import DriverFailed
 from carpus.core.phrase import phrase

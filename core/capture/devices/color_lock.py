@@ -10,8 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from carpus.core.capture.devices.capture_messages import ExposureSet
-from carpus.core.capture.devices.capture_process import Outlet
+from carpus.core.capture.devices.capture_process import ExposureSet, Outlet
 
 EVERY = 97
 """Every so-many-th pixel is looked at."""

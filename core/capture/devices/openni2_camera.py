@@ -13,8 +13,16 @@ from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 
 from carpus.core.camera import Camera
-from carpus.core.capture.devices.capture_messages import Broken, CameraPlan, Opened
-from carpus.core.capture.devices.capture_process import WAIT_MS, GaveUp, Heard, Outlet, why_unlisted
+from carpus.core.capture.devices.capture_process import (
+    WAIT_MS,
+    Broken,
+    CameraPlan,
+    GaveUp,
+    Heard,
+    Opened,
+    Outlet,
+    why_unlisted,
+)
 from carpus.core.capture.devices.openni2 import (
     CallFailed,
     Context,

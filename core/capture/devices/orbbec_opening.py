@@ -9,8 +9,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
-from carpus.core.capture.devices.capture_messages import CameraPlan
-from carpus.core.capture.devices.capture_process import GaveUp, why_unlisted
+from carpus.core.capture.devices.capture_process import CameraPlan, GaveUp, why_unlisted
 from carpus.core.capture.devices.usb_devices import usb_cameras
 from carpus.core.capture.video_mode import Lens, PixelFormat, Sensor, VideoMode
 from carpus.core.errors import CameraBusy, CameraUnsuited, DriverMissing

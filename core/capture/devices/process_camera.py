@@ -10,8 +10,15 @@ from dataclasses import replace
 
 from carpus.core.camera import Camera
 from carpus.core.capture.devices.capture_link import ANSWER_S, CAMERA_SLOTS, OPEN_CAMERA_S, CaptureProcess
-from carpus.core.capture.devices.capture_messages import Arrived, CameraPlan, Ended, ExposureSet, LockExposure, Opened
-from carpus.core.capture.devices.capture_process import Serve
+from carpus.core.capture.devices.capture_process import (
+    Arrived,
+    CameraPlan,
+    Ended,
+    ExposureSet,
+    LockExposure,
+    Opened,
+    Serve,
+)
 from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_lens, camera_of_view, fitted_camera
 from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.capture.video_mode import Sensor

@@ -14,8 +14,15 @@ from typing import Any
 
 from carpus.core.camera import Camera
 from carpus.core.capture.devices.camera_kind import CameraKind
-from carpus.core.capture.devices.capture_messages import CameraPlan, Opened
-from carpus.core.capture.devices.capture_process import WAIT_MS, GaveUp, Heard, Outlet, why_not_opened
+from carpus.core.capture.devices.capture_process import (
+    WAIT_MS,
+    CameraPlan,
+    GaveUp,
+    Heard,
+    Opened,
+    Outlet,
+    why_not_opened,
+)
 from carpus.core.capture.devices.color_lock import ColorLock, Control, Step
 from carpus.core.capture.devices.maker_library import USB_3, further_findings, library_finding
 from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera

@@ -7,7 +7,7 @@ import pytest
 from carpus.core.calibration.camera.board import CHESSBOARD, board_sheet
 from carpus.core.calibration.camera.gather import Gathering
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.simulation.printed_sheets import Studio, poses, texture_of
+from carpus.core.simulation.practice_camera import Studio, poses, texture_of
 from carpus.core.types import Frame
 from tests.calibration.camera.printed import ShownSheets
 

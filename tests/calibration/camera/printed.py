@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from carpus.core.camera import Camera
 from carpus.core.capture.source import SourceInfo
-from carpus.core.simulation.printed_sheets import Placed, Studio
+from carpus.core.simulation.practice_camera import Placed, Studio
 from carpus.core.types import Frame
 
 

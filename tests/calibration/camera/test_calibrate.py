@@ -8,18 +8,45 @@ import cv2
 import numpy as np
 import pytest
 
-from carpus.core.calibration.camera.board import BOARDS, CHARUCO, CHESSBOARD, EDGE_MM, Board, board_sheet
+from carpus.core.calibration.camera.board import (
+    BOARDS,
+    CHARUCO,
+    CHESSBOARD,
+    EDGE_MM,
+    LEAST_CORNERS,
+    Board,
+    FoundBoard,
+    board_sheet,
+    find_board,
+)
 from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera, calibration_lines
 from carpus.core.calibration.camera.effect import HAND_LENGTH_M, effect_of
-from carpus.core.calibration.camera.find_board import LEAST_CORNERS, FoundBoard, find_board
 from carpus.core.calibration.camera.gather import Gathering
-from carpus.core.calibration.camera.guidance import ASKED_VIEWS, GuidanceStep, next_step, target_outline
 from carpus.core.calibration.camera.sheet import PAPER_MM, Paper, SheetBox, SheetLine, SheetText
-from carpus.core.calibration.camera.views import FEWEST_VIEWS, SIDES, BoardView, is_new, judge, view_of
+from carpus.core.calibration.camera.views import (
+    ASKED_VIEWS,
+    FEWEST_VIEWS,
+    SIDES,
+    BoardView,
+    GuidanceStep,
+    is_new,
+    judge,
+    next_step,
+    target_outline,
+    view_of,
+)
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
-from carpus.core.simulation.practice_camera import BOARD_DISTANCES_M, DIFFERENT
-from carpus.core.simulation.printed_sheets import LENS, PX_PER_MM, Studio, held, poses, texture_of
+from carpus.core.simulation.practice_camera import (
+    BOARD_DISTANCES_M,
+    DIFFERENT,
+    LENS,
+    PX_PER_MM,
+    Studio,
+    held,
+    poses,
+    texture_of,
+)
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.types import Frame
 from tests.calibration.camera.printed import ShownSheets

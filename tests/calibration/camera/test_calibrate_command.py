@@ -13,9 +13,8 @@ import pytest
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
 from carpus.app.sources import open_recording
-from carpus.core.calibration.camera.calibrate import calibrate_camera
+from carpus.core.calibration.camera.calibrate import calibrate_camera, stored_of
 from carpus.core.calibration.camera.gather import Gathering
-from carpus.core.calibration.camera.keep import stored_of
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture.calibrated import (
     CalibratedSource,
@@ -32,7 +31,7 @@ from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import CameraFileUnreadable
 from carpus.core.pipeline.track import source_facts
 from carpus.core.simulation.oni_writer import write_oni
-from carpus.core.simulation.printed_sheets import LENS, Studio
+from carpus.core.simulation.practice_camera import LENS, Studio
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.types import Frame
 from tests.calibration.camera.printed import ShownSheets

@@ -14,8 +14,7 @@ import pytest
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
 from carpus.core.calibration.camera.sheet import PAPER_MM, Disc, Paper, SheetLine, SheetText
-from carpus.core.calibration.card.ages import camera_ages
-from carpus.core.calibration.card.card import FIGURES, card_sheets, disc_places_m, figures_of
+from carpus.core.calibration.card.card import FIGURES, CardReading, card_sheets, disc_places_m, figures_of
 from carpus.core.calibration.card.chart import (
     IN_A_ROW,
     CardCheck,
@@ -27,8 +26,7 @@ from carpus.core.calibration.card.chart import (
     verdict_of,
 )
 from carpus.core.calibration.card.measure import CardWatch, measure_card
-from carpus.core.calibration.card.reading import CardReading
-from carpus.core.calibration.card.standing import standing_of
+from carpus.core.calibration.card.standing import camera_ages, standing_of
 from carpus.core.camera import Camera
 from carpus.core.capture.calibrated import new_calibration_path
 from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
@@ -36,8 +34,7 @@ from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import CardMissing
 from carpus.core.results.camera_said import unsure_of
-from carpus.core.simulation.practice_camera import card_scene
-from carpus.core.simulation.printed_sheets import LENS, Studio
+from carpus.core.simulation.practice_camera import LENS, Studio, card_scene
 from carpus.core.types import Frame
 
 NOW = datetime(2026, 11, 20, 9, tzinfo=UTC)
