@@ -68,15 +68,19 @@ def restored(place: Path, made: Backup, target: Path, settings: Path | None = No
 def test_everything_is_restored_on_another_computer(data: Path, tmp_path: Path) -> None:
     settings = tmp_path / "settings"
     settings.mkdir()
-    (settings / "preferences.toml").write_text("x = 1")
+    for name in ("preferences", "lab"):
+        (settings / f"{name}.toml").write_text("x = 1")
     with opened(data) as house:  # it runs
         made = back_up(data, tmp_path / "disk", software_version="1", settings_folder=settings, now=NOW)
         first = [entry.session_id for entry in house.index.of_patient(house.patients.listed()[0].patient_id)]
     assert (made.sessions, made.running) == (2, 0)
     new, new_settings = tmp_path / "new" / "carpus", tmp_path / "new settings"
+    new_settings.mkdir()
+    (new_settings / "lab.toml").write_text("x = 2")
     restored(tmp_path / "disk", made, new, new_settings)
     assert contents(new) == contents(data)
     assert (new_settings / "preferences.toml").read_text() == "x = 1"
+    assert (new_settings / "lab.toml").read_text() == "x = 2", "settings that are there stay"
     assert {path.stat().st_mode & 0o077 for path in new.rglob("*")} == {0}
     with opened(new) as house:
         (patient,) = house.patients.listed()
@@ -194,6 +198,18 @@ def test_the_newest_and_one_of_each_month_are_kept(data: Path, tmp_path: Path) -
         compare(place, one)
     needed = {file.sha256 for one in backups(place) for file in one.files}
     assert {path.name for path in (place / OBJECTS).glob("*/*")} == needed
+
+
+def test_what_a_back_up_of_a_newer_program_needs_is_not_thinned_out(data: Path, tmp_path: Path) -> None:
+    place = tmp_path / "disk"
+    for days in (900, 800, 0):
+        (data / "set_ups.json").write_text(json.dumps({"day": days}))
+        made = back_up(data, place, software_version="1", now=NOW - timedelta(days=days))
+        if days == 800:
+            path, newer = place / BACKUPS / f"{made.name}.json", made
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"format_version": 99}))
+    assert thin_out(place, 1, 0, NOW) == 1
+    compare(place, newer)
 
 
 def test_a_newer_or_foreign_list_is_refused(data: Path, tmp_path: Path) -> None:

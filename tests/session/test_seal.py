@@ -14,6 +14,7 @@ from carpus.core.errors import SessionChanged, SessionUnfinished, SessionUnreada
 from carpus.core.session.opened import verify as verify_here
 from carpus.core.session.reader import verify
 from carpus.core.session.recovery import recover_folder
+from carpus.core.session.seal import seal_of
 from carpus.core.session.values import RawPictures, Verified, motion_of
 from carpus.core.session.writer import SessionWriter
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
@@ -96,6 +97,15 @@ def test_any_change_shows(tmp_path: Path, change: object) -> None:
         change(file)
     with pytest.raises(SessionChanged):
         verify(path)
+
+
+def test_the_same_bytes_of_another_type_or_shape_have_another_seal(tmp_path: Path) -> None:
+    seals, values = set(), np.arange(6.0)
+    for number, stored_as in enumerate((values, values.view("i8"), values.reshape(2, 3))):
+        with h5py.File(tmp_path / f"{number}.h5", "w") as file:
+            file["values"] = stored_as
+            seals.add(seal_of(file))
+    assert len(seals) == 3
 
 
 def test_opening_for_writing_without_a_change_does_not_show(tmp_path: Path) -> None:
