@@ -1,9 +1,12 @@
-"""Every file and name that a document for readers of the code mentions is there."""
+"""Every file and name that a document for readers of the code, or a docstring, mentions is there."""
 
 from __future__ import annotations
 
 import ast
+import builtins
+import importlib
 import re
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
@@ -84,3 +87,94 @@ def test_what_is_gone_is_found() -> None:
     gone = ("core/tracking/nowhere.py", "nowhere.py", "Camera.nowhere", "association.nowhere", "NoClass", "no_function",
             "make nothing", "_w9", "core/nowhere/NAME.py")  # fmt: skip
     assert [one for one in gone if is_there(one)] == []
+
+
+PARTS = ("app", "core", "ui", "installer")
+ROLE = re.compile(r":(mod|class|func|meth|data|attr):`~?([^`]+)`")
+PLAIN = re.compile(r"(?<![:`])``([^`\n]+)``(?!`)")
+FOR_EXAMPLE = {"wrist_flexion_r", "mcp2_flexion_l", "rotation_a_b", "WRIST_FE", "MCP2_flexion"}
+"""Names that a docstring puts together as the program does."""
+
+
+@cache
+def docstrings() -> tuple[tuple[str, str], ...]:
+    """Each text that stands by itself, of a module, class, function or value, with the file that it stands in."""
+    return tuple((where, text) for where, texts, _ in _read() for text in texts)
+
+
+@cache
+def written() -> frozenset[str]:
+    """Every word of the code itself: names, attributes, arguments, and what stands in its texts."""
+    return frozenset(word for _, _, words in _read() for word in words)
+
+
+@cache
+def _read() -> tuple[tuple[str, tuple[str, ...], frozenset[str]], ...]:
+    return tuple(
+        (str(path.relative_to(ROOT)), *_said_and_written(ast.parse(path.read_text(encoding="utf-8"))))
+        for part in PARTS
+        for path in sorted((ROOT / part).glob("**/*.py"))
+    )
+
+
+def _said_and_written(tree: ast.Module) -> tuple[tuple[str, ...], frozenset[str]]:
+    said = [
+        node.value
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
+    ]
+    return tuple(str(one.value) for one in said), frozenset(_words(tree, {id(one) for one in said}))
+
+
+def _words(tree: ast.Module, said: set[int]) -> Iterator[str]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in said:
+            yield from re.findall(r"\w+", node.value)
+        for name in (getattr(node, field, None) for field in ("id", "attr", "arg", "name", "asname")):
+            if isinstance(name, str):
+                yield from name.split(".")
+
+
+def leads_somewhere(role: str, told: str) -> bool:
+    """Whether what a role names is in the program, in Python or in a package."""
+    if role == "mod" and told.startswith(("core.", "ui.", "app.", "carpus.")):
+        path = ROOT / told.removeprefix("carpus.").replace(".", "/")
+        return path.is_dir() or path.with_suffix(".py").is_file()
+    if told in defined() or told.rsplit(".", 1)[-1] in defined() or hasattr(builtins, told):
+        return True
+    module, _, name = told.rpartition(".")
+    try:
+        found = importlib.import_module(module or told)
+    except ImportError:
+        return False
+    return role == "mod" or hasattr(found, name)
+
+
+def is_written(told: str) -> bool:
+    """Whether what a docstring shows as code is written somewhere in it; a file, a value or a sentence may be."""
+    if not (OF_CODE.fullmatch(told) or DOTTED.fullmatch(told)) or told in FOR_EXAMPLE or PLACEHOLDER.search(told):
+        return True
+    last = told.rsplit(".", 1)[-1]
+    return (
+        told in defined() or last in written() or hasattr(builtins, told) or bool(re.search(r"\.[a-z0-9]{1,4}$", told))
+    )
+
+
+def test_every_name_in_a_docstring_is_in_the_program() -> None:
+    told = [(where, role, name) for where, text in docstrings() for role, name in ROLE.findall(text)]
+    assert len(told) > 400
+    assert [one for one in told if not leads_somewhere(*one[1:])] == []
+    shown = [(where, name) for where, text in docstrings() for name in PLAIN.findall(text)]
+    assert len(shown) > 1000
+    assert [one for one in shown if not is_written(one[1])] == []
+
+
+def test_what_a_docstring_names_and_is_gone_is_found() -> None:
+    gone = (
+        ("mod", "core.library"),
+        ("class", "NoClass"),
+        ("meth", "Camera.nowhere_at_all"),
+        ("func", "numpy.no_such_function"),
+    )
+    assert [one for one in gone if leads_somewhere(*one)] == []
+    assert [one for one in ("no_such_field", "NoClass", "state.no_such_field") if is_written(one)] == []

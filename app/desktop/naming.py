@@ -16,8 +16,8 @@ from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 
 
 class Naming(QObject):
-    """Asks over a screen whose camera is open; nobody looks at its pictures before ``is_known``. ``begin_again`` opens
-    the camera anew, which then has its name and what is kept under it; ``leave`` lets it go."""
+    """Asks over a screen whose camera is open; nobody looks at its pictures before it is known which one.
+    ``begin_again`` opens the camera anew, which then has its name and what is kept under it; ``leave`` lets it go."""
 
     def __init__(
         self,

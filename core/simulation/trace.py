@@ -119,7 +119,7 @@ class _SeenCone:
 
     def distance(self, z: FloatImage, offset_m: FloatArray) -> FloatImage:
         """Signed distance at depth z (over the box) along each ray, displaced by ``offset_m`` (3,) in camera axes;
-        see :func:`skin.cone_distance`."""
+        see :func:`skin.cone_distances`."""
         origin = (self.origin - self.axes @ offset_m).astype(np.float32)
         along = z * self.ray[0]
         along -= origin[0]

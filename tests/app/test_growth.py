@@ -3,7 +3,9 @@ back, exported, reported on and tracked again."""
 
 from __future__ import annotations
 
+import ast
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -127,6 +129,20 @@ def test_every_registered_line_leads_to_its_file() -> None:
     for protocol in PROTOCOLS:
         assert exercises_of(protocol), protocol.name
     assert {one.id for protocol in PROTOCOLS for one in exercises_of(protocol)} == {one.id for one in EXERCISES}
+
+
+def test_every_place_that_the_table_names_is_there() -> None:
+    page = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    table = page.partition("| a new |")[2].partition("\n\n")[0]
+    told = re.findall(r"((?:`\w+`(?:,| and)? )+)(?:in|of) `(\w+/[\w/]+\.py)`", table)
+    assert len(told) > 10
+    for names, path in told:
+        there = {
+            name.id if isinstance(name, ast.Name) else name.name
+            for name in ast.walk(ast.parse((ROOT / path).read_text(encoding="utf-8")))
+            if isinstance(name, ast.Name | ast.FunctionDef | ast.ClassDef)
+        }
+        assert set(re.findall(r"\w{2,}", names)) - {"and"} <= there, (names, path)
 
 
 @pytest.mark.parametrize("markers", [("WRIST", "CMC1"), (*PALM_MARKERS, "TIP3"), (*PALM_MARKERS, "ELBOW")])
