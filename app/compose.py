@@ -38,7 +38,7 @@ from carpus.app.desktop.welcoming import Welcome
 from carpus.app.desktop.witness import Witness
 from carpus.app.settings import DATA_VARIABLE, LockSettings, Settings, keep_preferences, sessions_folder
 from carpus.app.settings import settings_folder as own_settings_folder
-from carpus.app.stop_signals import on_stop
+from carpus.app.standard_streams import on_stop
 from carpus.core.capture.source import FrameSource
 from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, OutputNotWritable

@@ -18,8 +18,7 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 import numpy as np
 
 from carpus import __version__
-from carpus.app.commands.kept import note, note_exported
-from carpus.app.of_file import read_choices
+from carpus.app.of_file import note, note_exported, read_choices
 from carpus.app.sources import open_recording
 from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S, Compared
 from carpus.core.agreement.compared_files import compare_files

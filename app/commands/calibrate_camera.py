@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carpus.app.command_line import number
-from carpus.app.commands.progress import bar, tell
+from carpus.app.standard_streams import bar, tell
 
 if TYPE_CHECKING:
     from carpus.core.calibration.camera.board import Board

@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 
 from carpus.app.commands import desktop
-from carpus.app.commands.progress import bar
 from carpus.app.settings import load_settings
+from carpus.app.standard_streams import bar
 from carpus.core.durable import make_private
 
 EXAMPLE = "carpus demo --data-folder out/practice"

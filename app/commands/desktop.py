@@ -9,7 +9,7 @@ import sys
 from datetime import datetime
 from pathlib import Path
 
-from carpus.app.commands.kept import note_in
+from carpus.app.of_file import note_in
 from carpus.app.settings import load_sound_settings
 from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, FolderInUse

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 from carpus import __version__
 from carpus.app.command_line import ask_passphrase
-from carpus.app.commands.kept import note_exported
-from carpus.app.commands.progress import bar
+from carpus.app.of_file import note_exported
+from carpus.app.standard_streams import bar
 from carpus.core.errors import OutputExists, SessionsMissing
 from carpus.core.formats.formats import FORMATS
 from carpus.core.names import known_names

@@ -1,57 +1,107 @@
-"""What a command says on stderr while it works: a progress bar for people, and notices."""
+"""``carpus progress``: a patient's figures over all sessions, as a table or as the progress report."""
 
 from __future__ import annotations
 
+import argparse
+import csv
 import sys
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Protocol
+from pathlib import Path
 
-from carpus.app.commands.patient_progress import EXAMPLE, add_arguments, run
-from carpus.core.errors import CarpusFault
+from carpus import __version__
+from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, PatientUnknown, SessionsMissing
+from carpus.core.measures.change import ErrorLimits
+from carpus.core.names import known_names
 from carpus.core.words import one_sentence
 
-__all__ = ["EXAMPLE", "add_arguments", "bar", "run", "tell"]
-"""The module has the name of a command: `carpus progress` finds its own here."""
-
-SPEAK_AFTER_S = 10.0
-"""What took as long is told at its end in one line, with how fast it went."""
+EXAMPLE = """carpus progress "Fern 12"
+carpus progress all --output measures.csv"""
+EVERYBODY = "all"
 
 
-def tell(fault: CarpusFault) -> None:
-    """One line of what a source tells and does not raise."""
-    print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("subject", metavar="PSEUDONYM", help="the patient's pseudonym; all: of everybody, as a table")
+    parser.add_argument(
+        "--sessions",
+        type=Path,
+        nargs="+",
+        metavar="SESSION.h5",
+        help="sessions, or folders of them; else the data folder's",
+    )
+    parser.add_argument(
+        "--output",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="FILE",
+        help=".csv or .parquet: the table; .pdf: the progress report; may be given more than once; else CSV on stdout",
+    )
 
 
-class ShowProgress(Protocol):
-    """Draws that ``done`` of ``total`` are done (None where nobody knows), with a ``note`` behind it."""
+def run(arguments: argparse.Namespace) -> int:
+    from carpus.app.settings import load_settings
+    from carpus.core.agreement.limits_file import read_limits
+    from carpus.core.formats.measures_files import HEAD, csv_rows, write_measures
+    from carpus.core.results.measures_table import measure_rows
+    from carpus.core.results.progress import newest_results
 
-    def __call__(self, done: int, total: int | None, note: str = "") -> None: ...
+    for path in arguments.output:
+        if path.exists():
+            raise OutputExists(path)
+        if path.suffix.lower() == ".pdf" and arguments.subject == EVERYBODY:
+            print("carpus progress: a report is of one patient; name the pseudonym.", file=sys.stderr)
+            return 2
+    settings = load_settings()
+    places = arguments.sessions or [settings.data_folder]
+    found = _of(arguments.subject, places, read_limits(settings.data_folder))
+    figures = newest_results([one for _, one in found])
+    names = {id(one): path.stem for path, one in found}
+    rows = [row for one in figures for row in measure_rows(one, names[id(one)])]
+    for path in arguments.output:
+        if path.suffix.lower() == ".pdf":
+            from carpus.core.records.of_clinic import form_in
+            from carpus.ui.report.pdf import ensure_application, write_progress_report
+
+            application = ensure_application()
+            write_progress_report(
+                figures, path, pseudonym=arguments.subject, therapist=settings.report.therapist,
+                software_version=__version__, form=form_in(settings.data_folder),
+            )  # fmt: skip
+            del application
+        else:
+            write_measures(rows, path)
+        print(f"Written: {path}")
+    if not arguments.output:
+        table = csv.writer(sys.stdout, lineterminator="\n")
+        table.writerow(HEAD)
+        table.writerows(csv_rows(rows))
+    return 0
 
 
-@contextmanager
-def bar(what: str, unit: str = "frame") -> Iterator[ShowProgress]:
-    """A bar with how fast it goes and the time left, which goes when the work is over; nothing where stderr is no
-    terminal. Of work that took long one line stays, of any."""
-    from tqdm import tqdm  # as long to load as a tenth of the tracker
+def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type: ignore[type-arg]
+    """Sessions of a patient that can be read, with their figures. Raises :class:`PatientUnknown` or
+    :class:`SessionsMissing` for none."""
+    from carpus.app.of_file import read_choices
+    from carpus.core.results.camera_said import folder_with_checks
+    from carpus.core.results.figures import session_figures, with_trust
+    from carpus.core.session.reader import read_outline, read_session
 
-    begin_s = time.monotonic()
-    last, note_now = 0, ""
-    with tqdm(desc=what, unit=unit, leave=False, disable=not sys.stderr.isatty()) as drawn:
-
-        def show(done: int, total: int | None, note: str = "") -> None:
-            nonlocal last, note_now
-            drawn.total, last = total, done
-            if note != note_now:
-                note_now = note
-                drawn.set_postfix_str(note, refresh=False)
-            drawn.update(done - drawn.n)
-
-        yield show
-    seconds = time.monotonic() - begin_s
-    if last and seconds >= SPEAK_AFTER_S:
-        behind = f", {note_now}" if note_now else ""
-        print(
-            f"carpus: {what}, {last} {unit}s in {seconds:.0f} s, {last / seconds:.3g} a second{behind}", file=sys.stderr
-        )
+    out = []
+    known: list[str] = []
+    for place in places:
+        if not place.exists():
+            raise FolderMissing(place)
+        for path in sorted(place.rglob("*.h5")) if place.is_dir() else [place]:
+            try:
+                said = read_outline(path).header.subject_id
+                known.append(said)
+                if subject == EVERYBODY or said.casefold() == subject.strip().casefold():
+                    figures = session_figures(read_session(path), read_choices(path), limits)
+                    out.append((path, with_trust(figures, folder_with_checks(path))))
+            except CarpusFault as fault:
+                print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
+    if not out:
+        if subject == EVERYBODY:
+            raise SessionsMissing(places[0])
+        names = sorted({one for one in known if one})
+        raise PatientUnknown(subject, known_names(subject, names))
+    return out

@@ -12,8 +12,8 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus.app.command_line import CAMERA_HELP, camera_address, number
-from carpus.app.commands.progress import bar, tell
 from carpus.app.settings import load_settings
+from carpus.app.standard_streams import bar, tell
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.devices.cameras import open_camera
 from carpus.core.capture.files.raw import RawWriter

@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from carpus.app.commands.kept import note
+from carpus.app.of_file import note
 from carpus.core.errors import FolderMissing
 from carpus.core.session.reader import read_outline
 from carpus.core.session.recovery import recover_folder

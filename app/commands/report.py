@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from carpus import __version__
-from carpus.app.commands.kept import made
+from carpus.app.of_file import made
 from carpus.app.settings import ANGLE_ORDERS, load_settings
 from carpus.core.errors import OutputExists
 from carpus.core.results.angle_order import in_order

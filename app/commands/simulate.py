@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from carpus.app.command_line import count, number
-from carpus.app.commands.progress import bar
+from carpus.app.standard_streams import bar
 from carpus.core.depth_sensor import SENSORS
 from carpus.core.hand.protocols import protocol_names
 from carpus.core.names import known_names

@@ -14,9 +14,9 @@ import numpy as np
 from carpus import __version__
 from carpus.app.batch.places import is_many
 from carpus.app.command_line import count, number
-from carpus.app.commands.kept import note
-from carpus.app.commands.progress import bar, tell
+from carpus.app.of_file import note
 from carpus.app.settings import load_settings
+from carpus.app.standard_streams import bar, tell
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict, finding_sentence
 from carpus.core.capture.identity import Recorded
@@ -83,6 +83,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="SESSION.h5",
         help="the file to write, never overwritten; of many recordings the folder for their sessions and tables",
     )
+    _add_of_many(parser)
+    _add_method(parser)
+    _add_of_recording(parser)
+    parser.epilog = (
+        "A session is tracked again with the settings it was tracked with, a recording with those of settings.toml,\n"
+        "unless an option says otherwise."
+    )
+
+
+def _add_of_many(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--jobs",
         type=count(1, 1000),
@@ -108,6 +118,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="of many recordings: track them on the workers of this Dask scheduler, as tcp://host:8786, which see the "
         "same folders (needs the Python package distributed)",
     )
+
+
+def _add_method(parser: argparse.ArgumentParser) -> None:
+    """How it is tracked."""
     parser.add_argument(
         "--filter",
         choices=("default", "paper"),
@@ -142,6 +156,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action=argparse.BooleanOptionalAction,
         help="add /smoothed, every frame in the light of those after it (default), or not",
     )
+
+
+def _add_of_recording(parser: argparse.ArgumentParser) -> None:
+    """What the recording does not say, and whether it is streamed."""
     parser.add_argument(
         "--start-angles",
         type=number(-LARGEST_START_DEG, LARGEST_START_DEG, "degrees"),
@@ -168,10 +186,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="play one recording in its own time and send what is tracked over Lab Streaming Layer, as in the window; "
         "waits up to 20 s for a listener (needs the Python package pylsl)",
-    )
-    parser.epilog = (
-        "A session is tracked again with the settings it was tracked with, a recording with those of settings.toml,\n"
-        "unless an option says otherwise."
     )
 
 
@@ -249,8 +263,11 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.calibration is None:
         print("carpus track: a recording needs --calibration CLICKS.json.", file=sys.stderr)
         return 2
-    if _refused(arguments, settings):
-        return 2
+    return 2 if _refused(arguments, settings) else _recording(arguments, settings)
+
+
+def _recording(arguments: argparse.Namespace, settings: TrackSettings) -> int:
+    """One recording, from its first picture to its last."""
     from carpus.app.sources import open_recording
 
     source = open_recording(

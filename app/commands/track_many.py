@@ -15,7 +15,7 @@ from carpus.app.batch.places import SESSION_SUFFIX, Place, places
 from carpus.app.batch.processes import LIMIT_S, cores, outcomes
 from carpus.app.batch.tables import MEASURES_FILE, check_outcomes, fault_lines, write_outcomes
 from carpus.app.batch.work import Outcome, Task, fault_of
-from carpus.app.commands.progress import bar
+from carpus.app.standard_streams import bar
 from carpus.core.errors import CarpusFault, OutputNotWritable, RecordingMissing
 from carpus.core.formats.measures_files import check_place, measures_file
 from carpus.core.pipeline.told_settings import settings_told

@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from carpus.app.commands.kept import note
-from carpus.app.commands.progress import bar, tell
-from carpus.app.of_file import data_folder_of
+from carpus.app.of_file import data_folder_of, note
+from carpus.app.standard_streams import bar, tell
 from carpus.core.errors import CarpusFault, PicturesLost, RecordingMissing
 from carpus.core.session.reader import read_outline, verify
 
