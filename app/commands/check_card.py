@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 from carpus.app.standard_streams import bar, tell
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
+    from carpus.core.calibration.card.card import CardReading
+    from carpus.core.calibration.card.chart import CardCheck
     from carpus.core.capture.source import FrameSource
     from carpus.core.types import Frame
 
@@ -56,7 +58,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _check(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
-    from carpus.core.calibration.card.card import FIGURES
     from carpus.core.calibration.card.chart import (
         add_check,
         before,
@@ -86,11 +87,7 @@ def _check(arguments: argparse.Namespace) -> int:
     path = chart_path(data_folder, serial)
     kept = read_checks(path) if serial else []
     earlier = before(kept, check)
-    for figure, measured, sd, off in zip(FIGURES, reading.measured, reading.sd, reading.errors, strict=True):
-        unit = "°" if figure.kind == "angle" else " mm"
-        print(f"{figure.name:<20} {measured:7.2f} ± {sd:.2f}{unit}, off by {off:+.2f}{unit}")
-    share = 100.0 * (reading.scale - 1.0)
-    print(f"{'All distances':<20} {share:+.2f} %; {reading.pictures} pictures, {reading.distance_m * 100:.0f} cm away")
+    _print_figures(reading)
     verdict = verdict_of(earlier, check)
     print(sentence_of(check, verdict))
     if verdict == "out":
@@ -105,19 +102,32 @@ def _check(arguments: argparse.Namespace) -> int:
         print("carpus: nobody says which camera this was, so the check is not kept; --serial names it.",
               file=sys.stderr)  # fmt: skip
     if arguments.output is not None:
-        from carpus.ui.report.check_page import CheckResult, write_check_report
-        from carpus.ui.report.pdf import ensure_application
-
-        application = ensure_application()
-        asides = [
-            ("Calibrated", check.calibrated[:10] or "not with a board"),
-            ("Distance", f"{reading.distance_m * 100:.0f} cm"),
-            ("Pictures", str(reading.pictures)),
-        ]
-        camera = f"{info.name} {serial}".strip()
-        print(f"Result: {write_check_report(arguments.output, CheckResult(camera, check, earlier, asides))}")
-        del application
+        _write_page(arguments.output, f"{info.name} {serial}".strip(), check, earlier, reading)
     return 1 if verdict == "out" else 0
+
+
+def _print_figures(reading: CardReading) -> None:
+    from carpus.core.calibration.card.card import FIGURES
+
+    for figure, measured, sd, off in zip(FIGURES, reading.measured, reading.sd, reading.errors, strict=True):
+        unit = "°" if figure.kind == "angle" else " mm"
+        print(f"{figure.name:<20} {measured:7.2f} ± {sd:.2f}{unit}, off by {off:+.2f}{unit}")
+    share = 100.0 * (reading.scale - 1.0)
+    print(f"{'All distances':<20} {share:+.2f} %; {reading.pictures} pictures, {reading.distance_m * 100:.0f} cm away")
+
+
+def _write_page(path: Path, camera: str, check: CardCheck, earlier: Sequence[CardCheck], reading: CardReading) -> None:
+    from carpus.ui.report.check_page import CheckResult, write_check_report
+    from carpus.ui.report.pdf import ensure_application
+
+    application = ensure_application()
+    asides = [
+        ("Calibrated", check.calibrated[:10] or "not with a board"),
+        ("Distance", f"{reading.distance_m * 100:.0f} cm"),
+        ("Pictures", str(reading.pictures)),
+    ]
+    print(f"Result: {write_check_report(path, CheckResult(camera, check, earlier, asides))}")
+    del application
 
 
 def _source(recording: Path | None, data_folder: Path) -> FrameSource:

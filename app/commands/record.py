@@ -20,6 +20,7 @@ from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.files.raw_tum import TumWriter
 from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.identity import recorded_at
+from carpus.core.capture.source import FrameSource
 from carpus.core.dates import iso
 from carpus.core.errors import OutputExists
 from carpus.core.pipeline.recorder import Recorder
@@ -84,25 +85,34 @@ def run(arguments: argparse.Namespace) -> int:
     # The disk has a thread of its own: a slow moment of it must not hold up the camera.
     recorder = Recorder("pictures", open_writer, _store, WAITING_FRAMES, _fault_told)
     total = None if arguments.seconds is None else max(1, round(arguments.seconds * source.info.nominal_fps))
-    count, missed = 0, 0
     try:
         recorder.start()
-        with bar("recording") as show, contextlib.suppress(KeyboardInterrupt):
-            for frame in source.frames():
-                while not live and recorder.waiting >= WAITING_FRAMES - 1 and recorder.fault is None:
-                    time.sleep(0.002)  # a file can wait for the disk
-                if recorder.fault is not None:
-                    break
-                recorder.put(frame)
-                count, missed = count + 1, missed + frame.dropped_before
-                show(count, total)
-                if total is not None and count >= total:
-                    break
+        count, missed = _recorded(source, recorder, total, live=live)
     finally:
         source.close()
         recorder.finish()
     print(f"Recording: {arguments.output}\nFrames: {count}, missing {missed}")
     return 0
+
+
+def _recorded(
+    source: FrameSource, recorder: Recorder[RawWriter | TumWriter, Frame], total: int | None, *, live: bool
+) -> tuple[int, int]:
+    """Hand the pictures to the recorder until they end, are enough or somebody stops; how many, and how many were
+    missing between them."""
+    count, missed = 0, 0
+    with bar("recording") as show, contextlib.suppress(KeyboardInterrupt):
+        for frame in source.frames():
+            while not live and recorder.waiting >= WAITING_FRAMES - 1 and recorder.fault is None:
+                time.sleep(0.002)  # a file can wait for the disk
+            if recorder.fault is not None:
+                break
+            recorder.put(frame)
+            count, missed = count + 1, missed + frame.dropped_before
+            show(count, total)
+            if total is not None and count >= total:
+                break
+    return count, missed
 
 
 def _store(writer: RawWriter | TumWriter, frame: Frame) -> None:

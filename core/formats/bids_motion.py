@@ -19,9 +19,8 @@ from scipy.spatial.transform import Rotation
 
 from carpus.core.errors import OutputExists
 from carpus.core.formats.deidentify import DAY_NOUGHT
-from carpus.core.formats.even import rate_of
 from carpus.core.formats.new_output import new_json, new_table, new_text
-from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, About, Take, measured, number
+from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, About, Take, measured, number, rate_of
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray

@@ -16,9 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.formats.even import EvenTimes
 from carpus.core.formats.new_output import new_bytes
-from carpus.core.formats.take import CAMERA_AXES, Take, joint_centres_cam_m, measured, repetition_events
+from carpus.core.formats.take import CAMERA_AXES, EvenTimes, Take, joint_centres_cam_m, measured, repetition_events
 from carpus.core.session.values import Event, Session
 from carpus.core.types import FloatArray
 

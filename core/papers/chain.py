@@ -1,4 +1,5 @@
-"""The hand as the papers model it: a palm of rigid links in one plane, fingers as chains through the discs' middles.
+"""The hand as the papers model it, and where its frame W0 lies before the camera ((13) to (20) of the wrist paper): a
+palm of rigid links in one plane, fingers as chains through the discs' middles.
 
 The lengths are measured on the clicked hand "by means of the depth information" (hand paper, section 2). The palm's
 arch "is not considered" (wrist paper, II-B); the hand starts with fingers extended, thumb adducted and wrist neutral
@@ -7,11 +8,12 @@ arch "is not considered" (wrist paper, II-B); the hand starts with fingers exten
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
+from carpus.core.calibration.neutral_pose import pose_by_least_squares
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.errors import SettingsInvalid
@@ -19,6 +21,7 @@ from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.clinical_angles import side_sign
 from carpus.core.hand.kinematics import joint_centres
 from carpus.core.hand.sites import SITE_CHAINS, joint_angle_names
+from carpus.core.hand.wrist_frame import wrist_axes
 from carpus.core.types import FloatArray
 
 PalmModel = Literal["flat", "measured"]
@@ -102,3 +105,37 @@ def palm_modelled(palm_m: FloatArray, palm: PalmModel) -> FloatArray:
     theta = np.arccos(np.clip(palm_m @ axis / np.maximum(length_m, 1e-9), -1.0, 1.0)) * np.sign(palm_m[:, 1])
     theta[_MCP3] = 0.0
     return np.stack((length_m * np.cos(theta), length_m * np.sin(theta), np.zeros(len(palm_m))), axis=1)
+
+
+_TOWARDS_CAMERA = np.array([0.0, 0.0, -1.0])
+
+
+def as_written(calibration: Calibration, camera: Camera, palm: PalmModel) -> Calibration:
+    """The calibration with g_w0c of the palm as modelled; the measured discs stay where they are in space."""
+    disc_cam_m = discs_cam_m(calibration)
+    palm_cam_m = disc_cam_m[list(calibration.clicks.protocol.palm)]
+    axes = wrist_axes(palm_cam_m, _TOWARDS_CAMERA)
+    model_m = palm_modelled((palm_cam_m - palm_cam_m[0]) @ axes, palm)
+    pixel, depth_m = camera.project(palm_cam_m), palm_cam_m[:, 2]
+    rotation, translation = pose_by_least_squares(camera, model_m, pixel, depth_m, axes, palm_cam_m[0])
+    return _seen_from(calibration, disc_cam_m, rotation, translation)
+
+
+def by_the_discs(calibration: Calibration) -> Calibration:
+    """The calibration with W0 built from the measured discs again (reference 1.1), as every other filter has it."""
+    disc_cam_m = discs_cam_m(calibration)
+    palm_cam_m = disc_cam_m[list(calibration.clicks.protocol.palm)]
+    return _seen_from(calibration, disc_cam_m, wrist_axes(palm_cam_m, _TOWARDS_CAMERA), palm_cam_m[0])
+
+
+def _seen_from(
+    calibration: Calibration, disc_cam_m: FloatArray, rotation: FloatArray, translation: FloatArray
+) -> Calibration:
+    turn = rotation.T @ calibration.rotation_w0_cam
+    return replace(
+        calibration,
+        marker_position_w0_m=(disc_cam_m - translation) @ rotation,
+        rotation_w0_cam=rotation,
+        translation_w0_cam_m=translation,
+        marker_covariance_w0_m2=turn @ calibration.marker_covariance_w0_m2 @ turn.T,
+    )

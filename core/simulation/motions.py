@@ -14,9 +14,8 @@ import numpy as np
 
 from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.sites import joint_angle_names
-from carpus.core.simulation.hand_motion import STILL_S, HandMotion, drawn_habits, drawn_sway
+from carpus.core.simulation.hand_motion import STILL_S, HandMotion, StrokeWriter, drawn_habits, drawn_sway
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.simulation.strokes import StrokeWriter
 from carpus.core.types import FloatArray
 
 FLEXION_RAD, DEVIATION_RAD, SUPINATION_RAD = math.radians(50.0), math.radians(25.0), math.radians(35.0)

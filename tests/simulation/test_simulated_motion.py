@@ -11,11 +11,10 @@ from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.clinical_angles import angles_from_rotation
 from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.sites import PALM_MARKERS
-from carpus.core.simulation.hand_motion import STILL_S
+from carpus.core.simulation.hand_motion import STILL_S, StrokePath
 from carpus.core.simulation.motions import MOTIONS, motion_of
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.strokes import StrokePath
 from carpus.core.simulation.truth import truth_of
 
 
