@@ -8,8 +8,9 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from hypothesis import settings
@@ -17,7 +18,9 @@ from tqdm import tqdm
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QApplication
+    from pytestqt.qtbot import QtBot
 
+    from carpus.app.compose import Desktop
     from carpus.core.simulation.spec import RecordingSpec
 
 # Before anything imports NumPy or Qt: two BLAS pools stall each other, and there is no screen to open windows on.
@@ -117,6 +120,31 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Callable[[RecordingSpe
             return cached_recording(spec, cache=folder)
 
     return recording
+
+
+@pytest.fixture
+def open_desktop(qapp: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[Callable[..., Desktop]]:
+    """Puts the whole window together on the data folder ``tmp_path / "data"``, and ends it with all that works for it;
+    takes the settings, the light theme unless they say otherwise, and what ``compose`` takes."""
+    from PySide6.QtCore import QLocale
+
+    from carpus.app import compose
+    from carpus.app.settings import ScreenSettings, Settings
+
+    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
+    opened: list[Desktop] = []
+
+    def open_one(settings: Settings | None = None, **options: Any) -> Desktop:
+        chosen = settings or Settings(screen=ScreenSettings("light"))
+        chosen = replace(chosen, recording=replace(chosen.recording, folder=str(tmp_path / "data")))
+        opened.append(compose.compose(qapp, chosen, **{"settings_folder": tmp_path / "settings"} | options))
+        opened[-1].show()
+        return opened[-1]
+
+    yield open_one
+    for desktop in opened:
+        desktop.close()
+    qtbot.waitUntil(lambda: not any(desktop.journey.background.busy for desktop in opened))
 
 
 @pytest.fixture

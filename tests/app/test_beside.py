@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import csv
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QLocale, Qt
-from PySide6.QtWidgets import QApplication, QFileDialog
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from carpus.app import compose
-from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.app.compose import Desktop
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.values import PatientEntry
@@ -32,8 +31,7 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 
 
 @pytest.fixture
-def desktop(qapp: QApplication, recorded: tuple[Path, Path], tmp_path: Path) -> Iterator[compose.Desktop]:
-    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
+def desktop(open_desktop: Callable[..., Desktop], recorded: tuple[Path, Path], tmp_path: Path) -> Desktop:
     library = Library(tmp_path / "data")
     patient = library.patients.add(PatientEntry("Linden 42", "right"))
     for stored, when in zip(recorded, (NOW, EARLIER), strict=True):
@@ -41,16 +39,13 @@ def desktop(qapp: QApplication, recorded: tuple[Path, Path], tmp_path: Path) -> 
         shutil.copyfile(stored, path)
         library.index.enter(path, patient)
     library.close()
-    settings = Settings(screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(tmp_path / "data")))
-    opened = compose.compose(qapp, settings, settings_folder=tmp_path / "settings", today=date(2026, 11, 20))
-    opened.show()
+    opened = open_desktop(today=date(2026, 11, 20))
     opened.journey.viewing.open_sessions(patient)
-    yield opened
-    opened.close()
+    return opened
 
 
 def test_from_two_ticks_to_tables_and_a_page_and_back(
-    qtbot: QtBot, desktop: compose.Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    qtbot: QtBot, desktop: Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     journey, screen = desktop.journey, desktop.journey.beside.screen
     shown_list = journey.sessions.list
@@ -110,7 +105,7 @@ def test_from_two_ticks_to_tables_and_a_page_and_back(
     assert [deeds.count(did) for did in ("opened", "exported", "reported")] == [2, 2, 2]
 
 
-def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: compose.Desktop) -> None:
+def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: Desktop) -> None:
     journey, screen = desktop.journey, desktop.journey.beside.screen
     newest, older = (line.session_id for line in journey.sessions.list.rows.lines)
     journey.viewing.open_review(newest)

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QLocale, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop, application, compose
+from carpus.app.compose import Desktop
 from carpus.app.desktop import care_cameras
-from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.calibration.camera import views
 from carpus.core.calibration.card import measure
 from carpus.core.calibration.card.chart import add_check, chart_path, read_checks
@@ -39,14 +38,8 @@ def data(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def desktop(qapp: QApplication, data: Path, tmp_path: Path) -> Iterator[Desktop]:
-    """The real application, put together as for a user."""
-    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
-    settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(data)))
-    opened = compose(application([]), settings, speed=20.0, settings_folder=tmp_path / "settings")
-    opened.show()
-    yield opened
-    opened.close()
+def desktop(open_desktop: Callable[..., Desktop]) -> Desktop:
+    return open_desktop(speed=20.0)
 
 
 @pytest.fixture(autouse=True)

@@ -5,18 +5,17 @@ from __future__ import annotations
 import csv
 import json
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QLocale
-from PySide6.QtWidgets import QApplication, QFileDialog
+from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from carpus.app import compose
-from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.app.compose import Desktop
+from carpus.app.settings import ScreenSettings, Settings
 from carpus.core.agreement.clocks import Stopped, WorkWatch
 from carpus.core.agreement.compared_files import compare_files
 from carpus.core.agreement.reference import outline_of
@@ -61,9 +60,8 @@ def earlier(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def desktop(
-    qapp: QApplication, qtbot: QtBot, recorded: Path, earlier: Path, tmp_path: Path
-) -> Iterator[compose.Desktop]:
-    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
+    open_desktop: Callable[..., Desktop], qtbot: QtBot, recorded: Path, earlier: Path, tmp_path: Path
+) -> Desktop:
     library = Library(tmp_path / "data")
     patient = library.patients.add(PatientEntry("Linden 42", "right"))
     for stored, when in ((recorded, NOW), (earlier, NOW - timedelta(days=1))):
@@ -71,17 +69,11 @@ def desktop(
         shutil.copyfile(stored, path)
         library.index.enter(path, patient)
     library.close()
-    settings = Settings(
-        screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(tmp_path / "data")),
-        report=ReportSettings(agreement_limit_deg=5.0),
-    )  # fmt: skip
-    opened = compose.compose(qapp, settings, settings_folder=tmp_path / "settings", today=date(2026, 11, 20))
-    opened.show()
+    settings = Settings(screen=ScreenSettings("light"), report=ReportSettings(agreement_limit_deg=5.0))
+    opened = open_desktop(settings, today=date(2026, 11, 20))
     opened.journey.viewing.review_newest(patient)
     qtbot.waitUntil(lambda: opened.journey.review.shown)
-    yield opened
-    opened.close()
-    qtbot.waitUntil(lambda: not opened.journey.background.busy)
+    return opened
 
 
 def choosing(monkeypatch: pytest.MonkeyPatch, file: Path, folder: Path) -> None:
@@ -91,7 +83,7 @@ def choosing(monkeypatch: pytest.MonkeyPatch, file: Path, folder: Path) -> None:
 
 
 def test_from_the_review_to_saved_tables(
-    qtbot: QtBot, desktop: compose.Desktop, optical: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    qtbot: QtBot, desktop: Desktop, optical: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     journey = desktop.journey
     screen, comparing = journey.agreement.screen, journey.agreement
@@ -136,7 +128,7 @@ def test_from_the_review_to_saved_tables(
     assert [entry.facts["files"] for entry in exported] == [5]
 
 
-def test_from_the_list_of_sessions_with_another_one(qtbot: QtBot, desktop: compose.Desktop) -> None:
+def test_from_the_list_of_sessions_with_another_one(qtbot: QtBot, desktop: Desktop) -> None:
     journey = desktop.journey
     assert journey.patient is not None
     journey.viewing.open_sessions(journey.patient.patient_id)
@@ -157,7 +149,7 @@ def test_from_the_list_of_sessions_with_another_one(qtbot: QtBot, desktop: compo
 
 
 def test_a_file_that_is_no_measurement_is_said_in_words(
-    qtbot: QtBot, desktop: compose.Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    qtbot: QtBot, desktop: Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     wrong = tmp_path / "notes.csv"
     wrong.write_text("one line only\n", encoding="utf-8")
@@ -171,7 +163,7 @@ def test_a_file_that_is_no_measurement_is_said_in_words(
 
 
 def test_a_comparison_is_given_up_when_the_screen_is_left(
-    qtbot: QtBot, desktop: compose.Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, optical: Path
+    qtbot: QtBot, desktop: Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, optical: Path
 ) -> None:
     journey = desktop.journey
     comparing = journey.agreement

@@ -2,38 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel
+from PySide6.QtWidgets import QAbstractButton, QLabel
 from pytestqt.qtbot import QtBot
 
-from carpus.app import compose
 from carpus.app.compose import Desktop
 from carpus.app.desktop.sources import Sources
-from carpus.app.settings import RecordingSettings, Settings
 from carpus.core.records.library import Library
 from tests.records.samples import HERON, LINDEN, T0, record
 
 
 @pytest.fixture
-def demo(
-    qtbot: QtBot, qapp: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[Callable[[], Desktop]]:
+def demo(open_desktop: Callable[..., Desktop], monkeypatch: pytest.MonkeyPatch) -> Callable[[], Desktop]:
     monkeypatch.setattr(Sources, "camera_name", lambda _: None)
-    settings = Settings(recording=RecordingSettings(folder=str(tmp_path / "data")))
-    opened: list[Desktop] = []
-
-    def open_one() -> Desktop:
-        opened.append(compose.compose(qapp, settings, is_demo=True, settings_folder=tmp_path / "settings"))
-        opened[-1].show()
-        return opened[-1]
-
-    yield open_one
-    for desktop in opened:
-        desktop.close()
-        qtbot.waitUntil(lambda desktop=desktop: not desktop.journey.background.busy, timeout=60_000)  # type: ignore[misc]
+    return lambda: open_desktop(is_demo=True)
 
 
 def _said(desktop: Desktop) -> str:

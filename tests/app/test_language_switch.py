@@ -2,29 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop, application, compose
-from carpus.app.settings import RecordingSettings, ScreenSettings, Settings, load_settings
+from carpus.app.compose import Desktop
+from carpus.app.settings import ScreenSettings, Settings, load_settings
 from carpus.ui import language
 from carpus.ui.controls.text import Text
 
 
 @pytest.fixture
-def desktop(qapp: QApplication, tmp_path: Path) -> Iterator[Desktop]:
-    settings = replace(
-        Settings(), screen=ScreenSettings("light", language="en"), recording=RecordingSettings(str(tmp_path / "data"))
-    )
-    opened = compose(application([]), settings, settings_folder=tmp_path / "settings")
-    opened.show()
-    yield opened
-    opened.close()
+def desktop(open_desktop: Callable[..., Desktop]) -> Iterator[Desktop]:
+    yield open_desktop(Settings(screen=ScreenSettings("light", language="en")))
     language.speak("en")
 
 

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import gc
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from datetime import date, datetime, timedelta
+from functools import partial
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QLocale, Qt
-from PySide6.QtWidgets import QAbstractItemView, QApplication, QLabel, QPushButton, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QAbstractItemView, QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app import compose
-from carpus.app.settings import BackupSettings, RecordingSettings, RecordsSettings, ScreenSettings, Settings
+from carpus.app.compose import Desktop
+from carpus.app.settings import BackupSettings, RecordsSettings, Settings
 from carpus.core.records.backup import backups
 from carpus.core.records.library import Library
 from carpus.core.records.log import fingerprint, read_log
@@ -25,7 +26,7 @@ from carpus.ui.messages.strip import NoticeStrip
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces
 
-Open = Callable[..., compose.Desktop]
+Open = Callable[..., Desktop]
 
 
 @pytest.fixture
@@ -43,25 +44,11 @@ def data(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def opened(qapp: QApplication, qtbot: QtBot, data: Path, tmp_path: Path) -> Iterator[Open]:
-    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
-    desktops: list[compose.Desktop] = []
-
-    def open_it(settings: Settings | None = None) -> compose.Desktop:
-        settings = settings or Settings()
-        settings = replace(settings, screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(data)))
-        desktop = compose.compose(qapp, settings, settings_folder=tmp_path / "settings", today=date(2026, 11, 20))
-        desktops.append(desktop)
-        desktop.show()
-        return desktop
-
-    yield open_it
-    for desktop in desktops:
-        desktop.close()
-        qtbot.waitUntil(lambda desktop=desktop: not desktop.journey.background.busy)  # type: ignore[misc]
+def opened(open_desktop: Open, data: Path) -> Open:
+    return partial(open_desktop, today=date(2026, 11, 20))
 
 
-def linden(desktop: compose.Desktop) -> str:
+def linden(desktop: Desktop) -> str:
     return next(one.patient_id for one in desktop.library.patients.listed() if one.entry.pseudonym == "Linden 42")
 
 

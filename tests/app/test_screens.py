@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from PySide6.QtWidgets import QApplication
 
-from carpus.app import compose
-from carpus.app.settings import RecordingSettings, Settings
+from carpus.app.compose import Desktop
 from carpus.ui.flow import ASIDE, STEPS, TABS, Flow
 from carpus.ui.help import guide
 
@@ -19,11 +17,8 @@ NAMED = re.compile(r"""way\.(?:show|go|aside)\("(\w+)"|\bplace (?:==|!=) "(\w+)\
 
 
 @pytest.fixture
-def flows(qapp: QApplication, tmp_path: Path) -> Iterator[dict[str, Flow]]:
-    settings = Settings(recording=RecordingSettings(folder=str(tmp_path / "data")))
-    desktop = compose.compose(qapp, settings, settings_folder=tmp_path / "settings")
-    yield desktop.journey.way.flows
-    desktop.close()
+def flows(open_desktop: Callable[..., Desktop]) -> dict[str, Flow]:
+    return open_desktop().journey.way.flows
 
 
 def test_every_screen_has_a_page_and_every_place_that_is_named_is_there(flows: dict[str, Flow]) -> None:

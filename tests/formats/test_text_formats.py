@@ -61,14 +61,21 @@ def test_joints_and_markers_are_one_row_each(tmp_path: Path) -> None:
     names = session.header.joint_names
     assert len(joints) == len(session) * len(names)
     assert [row["joint"] for row in joints[: len(names)]] == list(names)
-    angle = numbers(joints, "filter_angle_deg").reshape(len(session), len(names))
-    assert np.allclose(angle, np.degrees(session.motion.joint_angles_rad), atol=6e-4, equal_nan=True)
-    rate = numbers(joints, "filter_velocity_deg_s").reshape(angle.shape)
-    assert np.allclose(rate, np.degrees(session.motion.joint_velocity_rad_s), atol=6e-4, equal_nan=True)
     markers = rows_of(tmp_path / "out" / "one.markers.csv")
     assert len(markers) == len(session) * 21
-    place = np.column_stack([numbers(markers, f"filter_{axis}_mm") for axis in "xyz"]).reshape(len(session), 21, 3)
-    assert np.allclose(place, 1e3 * session.markers.position_cam_m, atol=6e-4, equal_nan=True)
+    motion, seen = session.motion, session.markers
+    for rows, column, values in (
+        (joints, "filter_angle_deg", np.degrees(motion.joint_angles_rad)),
+        (joints, "filter_sd_deg", np.degrees(motion.joint_angles_sd_rad)),
+        (joints, "filter_velocity_deg_s", np.degrees(motion.joint_velocity_rad_s)),
+        (markers, "u_px", seen.measured_px[..., 0]),
+        (markers, "v_px", seen.measured_px[..., 1]),
+        (markers, "depth_mm", 1e3 * seen.measured_depth_m),
+        *((markers, f"filter_{axis}_mm", 1e3 * seen.position_cam_m[..., k]) for k, axis in enumerate("xyz")),
+        *((markers, f"filter_joint_{axis}_mm", 1e3 * motion.joint_position_m[..., k]) for k, axis in enumerate("xyz")),
+    ):
+        assert np.isfinite(values).any()
+        assert np.allclose(numbers(rows, column), values.ravel(), atol=6e-4, equal_nan=True), column
     about = json.loads((tmp_path / "out" / "one.csv.json").read_text(encoding="utf-8"))
     assert set(about["tables"]["one.markers.csv"]) == set(markers[0])
     assert set(about["tables"]["one.joints.csv"]) == set(joints[0])
@@ -217,6 +224,10 @@ def test_repetitions_are_in_every_format_that_can_say_them(tmp_path: Path) -> No
         for name in ("start_s", "peak_s", "end_s", "movement_time_s", "sparc", "pauses", "movement_units"):
             assert float(row[name]) == pytest.approx(getattr(shown.row, name), abs=6e-4)
             assert told[name] == pytest.approx(getattr(shown.row, name))
+        for name in ("angle", "arc", "arc_sd", "peak_speed", "peak_speed_sd"):
+            unit = "_s" if "speed" in name else ""
+            turned = np.degrees(getattr(shown.row, f"{name}_rad{unit}"))
+            assert float(row[f"{name}_deg{unit}"]) == pytest.approx(turned, abs=6e-4, nan_ok=True)
         assert float(row["arc_deg"]) == pytest.approx(50.0, abs=0.2)
         assert (row["pauses"], float(row["pause_time_s"])) == ("1.000", pytest.approx(0.74, abs=0.05))
         assert float(row["sparc"]) == pytest.approx(0.5 * (-3.62 - 1.40), abs=0.1)

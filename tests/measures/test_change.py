@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from carpus.core.hand.sites import WRIST_ANGLES, joint_angle_names
-from carpus.core.measures.change import MeasuredMean, change_between, change_limit_rad
+from carpus.core.measures.change import MeasuredLimit, MeasuredMean, RetestStudy, change_between, change_limit_rad
 
 BEFORE = MeasuredMean(math.radians(40.0), 5, "right", "wrist6", "WRIST_FE")
 
@@ -52,6 +52,19 @@ def test_only_above_the_limit(mean_deg: float, beyond: bool) -> None:
 def test_what_does_not_compare_is_no_change(other: MeasuredMean, obstacle: str) -> None:
     change = change_between(BEFORE, other, "flexion")
     assert change.obstacles == (obstacle,)
+
+
+@pytest.mark.parametrize(
+    ("people", "mdc95_deg", "limit_deg"), [(9, 4.2, None), (10, 4.2, 5.0), (10, 4.0, 4.0), (12, 4.9, 5.0)]
+)
+def test_a_clinics_own_limit_is_of_ten_people_and_whole_degrees_upwards(
+    people: int, mdc95_deg: float, limit_deg: float | None
+) -> None:
+    limit = MeasuredLimit("flexion", "flexion", people, 1.5, (1.0, 2.0), mdc95_deg, (3.0, 6.0))
+    study = RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-01", people, 2 * people, 2, (limit,))
+    assert study.limit_deg("flexion", "flexion") == limit_deg
+    assert study.limit_deg("flexion", "extension") is None
+    assert study.in_force == (people >= 10)
 
 
 def test_few_repetitions_before() -> None:

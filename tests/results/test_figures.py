@@ -126,6 +126,18 @@ def test_a_session_with_another_camera_height_is_shown_but_not_compared(figures:
     assert course.last is sessions[3]
 
 
+@pytest.mark.parametrize(
+    ("farther_m", "turned_deg", "reasons"),
+    [(0.099, 4.9, ()), (-0.101, 0.0, ("distance",)), (0.0, 5.1, ("start_angle",)), (0.0, -5.1, ("start_angle",))],
+)
+def test_ten_centimetres_or_five_degrees_are_another_set_up(
+    figures: SessionFigures, farther_m: float, turned_deg: float, reasons: tuple[str, ...]
+) -> None:
+    quality = replace(figures.quality, distance_m=figures.quality.distance_m + farther_m)
+    other = replace(figures, quality=quality, start_angles_deg=figures.start_angles_deg + np.array([0, turned_deg, 0]))
+    assert unfair_reasons(figures, other) == reasons
+
+
 @pytest.mark.parametrize("reason", ["forearm_moved", "doubtful", "not_counted", "simulated", "distance"])
 @pytest.mark.parametrize("which", ["before", "after"])
 def test_what_the_progress_leaves_out_is_judged_nowhere(figures: SessionFigures, reason: str, which: str) -> None:
