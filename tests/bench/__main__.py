@@ -6,8 +6,13 @@ import argparse
 import os
 import platform
 import sys
+from importlib import import_module
 
-PARTS = ("start", "tracking", "whole-hand", "writing", "batch", "zoom", "window")
+PARTS = {
+    "start": "starting", "tracking": "tracking", "whole-hand": "whole_hand", "writing": "writing", "batch": "batch",
+    "zoom": "zooming", "window": "window",
+}  # fmt: skip
+"""What is measured, and the module that does it."""
 
 
 def main() -> int:
@@ -36,47 +41,15 @@ def main() -> int:
     kernels = choice.in_c()
     print(f"Kernels: {'NumPy alone' if kernels is None else f'in C, {kernels.level}'}")
     print(f"CPU time; ratios to the yardstick of the same run. Load at the start: {load:.1f}\n")
-    if "start" in parts:
-        from tests.bench import starting
-
-        for text in starting.report():
+    options: dict[str, dict[str, object]] = {
+        "tracking": {"rounds": arguments.rounds},
+        "whole-hand": {"rounds": arguments.rounds, "compare": arguments.compare},
+        "window": {"seconds": arguments.seconds, "pictures": arguments.raw, "whole_hand": arguments.hand},
+    }
+    for part in (one for one in PARTS if one in parts):
+        for text in import_module(f"tests.bench.{PARTS[part]}").report(**options.get(part, {})):
             print(text, flush=True)
         print()
-    if "tracking" in parts:
-        from tests.bench import tracking
-
-        for text in tracking.report(arguments.rounds):
-            print(text, flush=True)
-        print()
-    if "whole-hand" in parts:
-        from tests.bench import whole_hand
-
-        for text in whole_hand.report(arguments.rounds, compare=arguments.compare):
-            print(text, flush=True)
-        print()
-    if "writing" in parts:
-        from tests.bench import writing
-
-        for text in writing.report():
-            print(text, flush=True)
-        print()
-    if "batch" in parts:
-        from tests.bench import batch
-
-        for text in batch.report():
-            print(text, flush=True)
-        print()
-    if "zoom" in parts:
-        from tests.bench import zooming
-
-        for text in zooming.report():
-            print(text, flush=True)
-        print()
-    if "window" in parts:
-        from tests.bench import window
-
-        for text in window.report(arguments.seconds, pictures=arguments.raw, whole_hand=arguments.hand):
-            print(text, flush=True)
     return 0
 
 

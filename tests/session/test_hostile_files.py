@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from carpus.core.errors import SessionUnreadable
-from carpus.core.hand.protocols import HAND21, WRIST6
+from carpus.core.hand.protocols import WRIST6
 from carpus.core.session import reader, reading_process
 from carpus.core.session.reader import ReadingProcess, read_detections, read_outline, read_raw, read_session
 from carpus.core.session.values import RawPictures, Session
@@ -26,152 +26,116 @@ from tests.session.samples import CAMERA, make_calibration, make_frame, make_hea
 ROWS = 40
 
 
-def stored(path: Path, *, raw: bool = False, protocol: object = WRIST6) -> Path:
+def stored(path: Path, *, raw: bool = False) -> Path:
     """A sound session."""
-    assert protocol in (WRIST6, HAND21)
-    chosen = HAND21 if protocol == HAND21 else WRIST6
     unit = 1e-3 if raw else None
-    header = make_header(chosen, session_id=uuid.uuid4())
-    with SessionWriter.create(path, header, CAMERA, make_calibration(chosen), raw_depth_unit_m=unit) as writer:
+    header = make_header(WRIST6, session_id=uuid.uuid4())
+    with SessionWriter.create(path, header, CAMERA, make_calibration(WRIST6), raw_depth_unit_m=unit) as writer:
         for row in range(ROWS):
-            writer.append(make_frame(row, chosen), RawPictures(b"c" * 50, b"d" * 30) if raw else None)
+            writer.append(make_frame(row, WRIST6), RawPictures(b"c" * 50, b"d" * 30) if raw else None)
         writer.add_event(make_frame(1).timestamp_s, "note", "x")
     return path
 
 
-def replaced(path: Path, place: str, make: Callable[[h5py.File], None]) -> Path:
+ANGLES = "/wrist/angles"
+
+
+def replaced(path: Path, make: Callable[[h5py.File, Path], None]) -> Path:
+    """Something else in the place of the angles, with their attributes where it can have any."""
     with h5py.File(path, "r+") as file:
-        attributes = dict(file[place].attrs) if place in file else {}
-        del file[place]
-        make(file)
-        if place in file and isinstance(file.get(place, getlink=True), h5py.HardLink):
-            for name, value in attributes.items():
-                file[place].attrs[name] = value
+        attributes = dict(file[ANGLES].attrs)
+        del file[ANGLES]
+        make(file, path.parent)
+        if isinstance(file.get(ANGLES, getlink=True), h5py.HardLink):
+            file[ANGLES].attrs.update(attributes)
     return path
 
 
-def test_a_link_into_another_file_is_not_followed(tmp_path: Path) -> None:
-    other = stored(tmp_path / "other.h5")
-    path = stored(tmp_path / "s.h5")
-
-    def link(file: h5py.File) -> None:
-        file["/wrist/angles"] = h5py.ExternalLink(str(other), "/wrist/angles")
-
-    with pytest.raises(SessionUnreadable, match="points out of its place"):
-        read_session(replaced(path, "/wrist/angles", link))
-    with pytest.raises(SessionUnreadable):
-        read_outline(path)
+def link(file: h5py.File, folder: Path) -> None:
+    file[ANGLES] = h5py.ExternalLink(str(stored(folder / "other.h5")), ANGLES)
 
 
-def test_a_soft_link_is_not_followed(tmp_path: Path) -> None:
-    path = stored(tmp_path / "s.h5")
-
-    def link(file: h5py.File) -> None:
-        file["/wrist/angles"] = h5py.SoftLink("/wrist/position")
-
-    with pytest.raises(SessionUnreadable, match="points out of its place"):
-        read_session(replaced(path, "/wrist/angles", link))
+def soft_link(file: h5py.File, _: Path) -> None:
+    file[ANGLES] = h5py.SoftLink("/wrist/position")
 
 
-def test_the_bytes_of_another_file_are_no_angles(tmp_path: Path) -> None:
-    secret = tmp_path / "secret"
-    secret.write_bytes(b"private!" * 3 * ROWS)
-    path = stored(tmp_path / "s.h5")
-
-    def outside(file: h5py.File) -> None:
-        file.create_dataset("/wrist/angles", (ROWS, 3), "f8", external=[(str(secret), 0, 24 * ROWS)])
-
-    with pytest.raises(SessionUnreadable, match="in another file"):
-        read_session(replaced(path, "/wrist/angles", outside))
+def outside(file: h5py.File, folder: Path) -> None:
+    (folder / "secret").write_bytes(b"private!" * 3 * ROWS)
+    file.create_dataset(ANGLES, (ROWS, 3), "f8", external=[(str(folder / "secret"), 0, 24 * ROWS)])
 
 
-def test_a_pipe_behind_external_storage_is_never_waited_for(tmp_path: Path) -> None:
-    pipe = tmp_path / "pipe"
-    os.mkfifo(pipe)
-    path = stored(tmp_path / "s.h5")
+def pipe(file: h5py.File, folder: Path) -> None:
+    """Never waited for."""
+    os.mkfifo(folder / "pipe")
+    file.create_dataset(ANGLES, (ROWS, 3), "f8", external=[(str(folder / "pipe"), 0, 24 * ROWS)])
 
-    def outside(file: h5py.File) -> None:
-        file.create_dataset("/wrist/angles", (ROWS, 3), "f8", external=[(str(pipe), 0, 24 * ROWS)])
 
-    with pytest.raises(SessionUnreadable, match="in another file"):
-        read_session(replaced(path, "/wrist/angles", outside))
+def virtual(file: h5py.File, folder: Path) -> None:
+    layout = h5py.VirtualLayout((ROWS, 3), "f8")
+    layout[:] = h5py.VirtualSource(str(stored(folder / "other.h5")), ANGLES, (ROWS, 3))
+    file.create_virtual_dataset(ANGLES, layout)
+
+
+def twice(file: h5py.File, _: Path) -> None:
+    file[ANGLES] = file["/wrist/position"]
+
+
+def packed(file: h5py.File, _: Path) -> None:
+    """It could unpack itself into memory."""
+    file.create_dataset(ANGLES, data=np.zeros((ROWS, 3)), compression="gzip")
+
+
+def group(file: h5py.File, _: Path) -> None:
+    file.create_group(ANGLES)
+
+
+def of(value: object) -> Callable[[h5py.File, Path], None]:
+    return lambda file, _: file.__setitem__(ANGLES, value)
+
+
+@pytest.mark.parametrize(
+    ("other", "said"),
+    [
+        pytest.param(link, "points out of its place", id="a link into another file"),
+        pytest.param(soft_link, "points out of its place", id="a soft link"),
+        pytest.param(outside, "in another file", id="the bytes of another file"),
+        pytest.param(pipe, "in another file", id="a pipe"),
+        pytest.param(virtual, "in another file", id="a virtual dataset"),
+        pytest.param(twice, "two names", id="one dataset under two names"),
+        pytest.param(packed, "is packed", id="a packed one"),
+        pytest.param(group, ANGLES, id="a group"),
+        pytest.param(of(1.0), ANGLES, id="one number"),
+        pytest.param(of(["x"] * ROWS), ANGLES, id="texts"),
+        pytest.param(of(h5py.Empty("f8")), ANGLES, id="nothing"),
+        pytest.param(of(np.zeros((ROWS, 3), [("a", "f4"), ("b", "f4")])), ANGLES, id="pairs"),
+    ],
+)
+def test_something_else_in_the_place_of_values_is_refused(
+    tmp_path: Path, other: Callable[[h5py.File, Path], None], said: str
+) -> None:
+    path = replaced(stored(tmp_path / "s.h5"), other)
+    for read in (read_outline, read_session):
+        with pytest.raises(SessionUnreadable, match=said):
+            read(path)
+
+
+def test_a_pipe_is_no_session(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
     with pytest.raises(SessionUnreadable, match="no such file"):
-        read_session(pipe)
-
-
-def test_a_virtual_dataset_is_refused(tmp_path: Path) -> None:
-    other = stored(tmp_path / "other.h5")
-    path = stored(tmp_path / "s.h5")
-
-    def virtual(file: h5py.File) -> None:
-        layout = h5py.VirtualLayout((ROWS, 3), "f8")
-        layout[:] = h5py.VirtualSource(str(other), "/wrist/angles", (ROWS, 3))
-        file.create_virtual_dataset("/wrist/angles", layout)
-
-    with pytest.raises(SessionUnreadable, match="in another file"):
-        read_session(replaced(path, "/wrist/angles", virtual))
-
-
-def test_one_dataset_under_two_names_is_refused(tmp_path: Path) -> None:
-    path = stored(tmp_path / "s.h5")
-
-    def twice(file: h5py.File) -> None:
-        file["/wrist/angles"] = file["/wrist/position"]
-
-    with pytest.raises(SessionUnreadable, match="two names"):
-        read_session(replaced(path, "/wrist/angles", twice))
+        read_session(tmp_path / "pipe")
 
 
 def test_a_huge_shape_costs_no_memory(tmp_path: Path) -> None:
     path = stored(tmp_path / "s.h5")
 
-    def huge(file: h5py.File) -> None:
-        file.create_dataset("/wrist/angles", (50_000_000, 3), "f8", maxshape=(None, 3), chunks=(1024, 3))
+    def huge(file: h5py.File, _: Path) -> None:
+        file.create_dataset(ANGLES, (50_000_000, 3), "f8", maxshape=(None, 3), chunks=(1024, 3))
 
-    replaced(path, "/wrist/angles", huge)
+    replaced(path, huge)
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     with pytest.raises(SessionUnreadable, match="claims 1200000000 bytes"):
         read_session(path)
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 100_000  # kB
-
-
-def test_a_packed_file_cannot_unpack_itself_into_memory(tmp_path: Path) -> None:
-    path = stored(tmp_path / "s.h5")
-
-    def packed(file: h5py.File) -> None:
-        file.create_dataset("/wrist/angles", data=np.zeros((ROWS, 3)), compression="gzip")
-
-    with pytest.raises(SessionUnreadable, match="is packed"):
-        read_session(replaced(path, "/wrist/angles", packed))
-
-
-def group(file: h5py.File) -> None:
-    file.create_group("/wrist/angles")
-
-
-def scalar(file: h5py.File) -> None:
-    file["/wrist/angles"] = 1.0
-
-
-def texts(file: h5py.File) -> None:
-    file["/wrist/angles"] = ["x"] * ROWS
-
-
-def empty(file: h5py.File) -> None:
-    file["/wrist/angles"] = h5py.Empty("f8")
-
-
-def compound(file: h5py.File) -> None:
-    file["/wrist/angles"] = np.zeros((ROWS, 3), [("a", "f4"), ("b", "f4")])
-
-
-@pytest.mark.parametrize("other", [group, scalar, texts, empty, compound])
-def test_something_else_in_the_place_of_values(tmp_path: Path, other: Callable[[h5py.File], None]) -> None:
-    path = replaced(stored(tmp_path / "s.h5"), "/wrist/angles", other)
-    with pytest.raises(SessionUnreadable, match="/wrist/angles"):
-        read_outline(path)
-    with pytest.raises(SessionUnreadable, match="/wrist/angles"):
-        read_session(path)
 
 
 def changed(path: Path, place: str, rows: object, value: object) -> Path:
