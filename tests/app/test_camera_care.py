@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QLocale, Qt
 from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop
+from carpus.app.compose import Desktop, application, compose
 from carpus.app.desktop import care_cameras
+from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.calibration.camera import views
 from carpus.core.calibration.card import measure
 from carpus.core.calibration.card.chart import add_check, chart_path, read_checks
@@ -38,8 +39,14 @@ def data(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def desktop(open_desktop: Callable[..., Desktop]) -> Desktop:
-    return open_desktop(speed=20.0)
+def desktop(qapp: QApplication, data: Path, tmp_path: Path) -> Iterator[Desktop]:
+    """The real application, put together as for a user."""
+    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
+    settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(data)))
+    opened = compose(application([]), settings, speed=20.0, settings_folder=tmp_path / "settings")
+    opened.show()
+    yield opened
+    opened.close()
 
 
 @pytest.fixture(autouse=True)
@@ -47,7 +54,6 @@ def hurry(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each picture of the board another pose and long after the last, so that none must be still; few are asked for."""
     monkeypatch.setattr(practice_camera, "FPS", 1.0)
     monkeypatch.setattr(practice_camera, "_STILL_FRAMES", 1)
-    monkeypatch.setattr(practice_camera, "_MOST_PICTURES", 6)
     monkeypatch.setattr(practice_camera, "_between", lambda one, other: other)
     monkeypatch.setitem(views.ASKED_VIEWS, "chessboard", FEW)
     monkeypatch.setattr(measure, "CHECK_S", 6.0)

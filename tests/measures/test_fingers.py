@@ -61,6 +61,16 @@ def test_what_a_hidden_joint_was_thought_to_do_is_not_its_range_but_is_told() ->
     assert not found.bottom_limited
 
 
+@pytest.mark.parametrize(("further_deg", "limited"), [(2.0, False), (4.0, True)])
+def test_a_hidden_joint_is_limited_where_it_may_have_gone_five_degrees_further(
+    further_deg: float, limited: bool
+) -> None:
+    hidden = between(1.5, 2.5)
+    largest_seen = float((80.0 * WAVE[~hidden]).max())
+    angle = np.where(hidden, largest_seen + further_deg, 80.0 * WAVE)
+    assert joint_range(track("PIP3_flexion", angle, ~hidden), REPETITIONS).top_limited == limited
+
+
 def test_repetitions_that_were_surely_seen_stand_for_one_that_was_not() -> None:
     four = (*REPETITIONS, Repetition(12.0, 16.0, 1.0))
     time_s = np.arange(0.0, 16.0, 1.0 / 30.0)

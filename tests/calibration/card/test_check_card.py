@@ -16,7 +16,6 @@ from carpus.app.settings import load_settings
 from carpus.core.calibration.camera.sheet import PAPER_MM, Disc, Paper, SheetLine, SheetText
 from carpus.core.calibration.card.card import FIGURES, CardReading, card_sheets, disc_places_m, figures_of
 from carpus.core.calibration.card.chart import (
-    IN_A_ROW,
     CardCheck,
     add_check,
     chart_path,
@@ -131,8 +130,10 @@ def test_usual_is_what_the_first_checks_were() -> None:
     usual = usual_of(first, "x")
     assert usual is not None
     assert usual.band[0, 0] < 0.5 < 0.7 < usual.band[0, 1] < 1.2
-    assert verdict_of(first, check(8, 0.6)) == "right"
-    assert verdict_of(first, check(8, 1.6)) == "unusual"
+    assert verdict_of(first, check(8, 0.85)) == "right"
+    assert verdict_of(first, check(8, 0.95)) == "unusual", "three standard deviations of 0.1 above the mean"
+    later = [check(7 + k, 0.8) for k in range(5)]
+    assert verdict_of([*first, *later], check(13, 0.95)) == "unusual", "what comes later widens nothing"
     assert verdict_of(first, check(8, 0.6, calibrated="another")) == "right", "usual begins anew"
     assert verdict_of(first, check(8, 2.1)) == "out"
     assert verdict_of(first, check(8, scale=1.013)) == "out"
@@ -141,9 +142,9 @@ def test_usual_is_what_the_first_checks_were() -> None:
 
 def test_a_drift_inside_the_band_is_unusual() -> None:
     first = [check(k, 0.5 + 0.1 * (k % 3), scale=1.0 + 0.0004 * (k % 3 - 1)) for k in range(7)]
-    drift = [check(8 + k, scale=1.0008) for k in range(IN_A_ROW)]
+    drift = [check(8 + k, scale=1.0008) for k in range(8)]
     verdicts = [verdict_of([*first, *drift[:k]], one) for k, one in enumerate(drift)]
-    assert verdicts == ["right"] * (IN_A_ROW - 1) + ["unusual"]
+    assert verdicts == ["right"] * 7 + ["unusual"]
 
 
 def test_the_sentence_says_what_is_off() -> None:
