@@ -22,16 +22,12 @@ from PySide6.QtGui import QPixmap
 from PySide6.QtWidgets import QApplication
 
 from carpus import __version__
-from carpus.app.desktop.backing_up import BackingUp
 from carpus.app.desktop.care_cameras import CareCameras
-from carpus.app.desktop.erasing import Erasing
 from carpus.app.desktop.journey import Journey, Parts
-from carpus.app.desktop.locking import Locking
 from carpus.app.desktop.no_folder import NoFolder
 from carpus.app.desktop.patients import PatientShelf
 from carpus.app.desktop.practice import practice_beginning, practice_take
 from carpus.app.desktop.preferences import PreferenceKeeper
-from carpus.app.desktop.record_lists import RecordLists
 from carpus.app.desktop.sources import Sources
 from carpus.app.desktop.touring import Tour
 from carpus.app.desktop.welcoming import Welcome
@@ -52,6 +48,10 @@ from carpus.ui.fonts import load_fonts
 from carpus.ui.icons import program_icon
 from carpus.ui.keys import Keys
 from carpus.ui.last_places import LastPlaces
+from carpus.ui.records.backing_up import BackingUp
+from carpus.ui.records.erasing import Erasing
+from carpus.ui.records.lists import RecordLists
+from carpus.ui.records.locking import Locking
 from carpus.ui.settings.camera_card import CameraCard
 from carpus.ui.shell import Shell
 from carpus.ui.style import apply_style
@@ -143,7 +143,7 @@ class Desktop:
         self.shell.create()
         self.safe.locking.look_again()
         self.shell.show()
-        self.journey.settings_wanted.emit()
+        self.journey.way.show("settings")
         application.setQuitOnLastWindowClosed(quits)
         gc.freeze()
 
@@ -271,9 +271,9 @@ def compose(
     camera_card.check.connect(journey.show_card)
     journey.care.changed.connect(lambda: camera_card.show_standing(*card_words(journey.care.standing)))
     camera_card.show_standing(*card_words(journey.care.standing))
-    safe = _safekeeping(shell, theme, journey, library, keeper, settings, settings_folder, parts.today)
+    safe = _safekeeping(journey, keeper, settings, settings_folder)
     keeper.screen.add_cards("camera", camera_card)
-    keeper.screen.add_cards("report", journey.forms.card)
+    keeper.screen.add_cards("report", journey.report.forms.card)
     tour = Tour(journey)
     welcome = Welcome(journey, theme, tour, keeper, library)
     again = partial(compose, qt, is_demo=is_demo, take=take, speed=speed, settings_folder=settings_folder, today=today)
@@ -299,41 +299,29 @@ def compose(
     return desktop
 
 
-def _safekeeping(
-    shell: Shell,
-    theme: Theme,
-    journey: Journey,
-    library: Library,
-    keeper: PreferenceKeeper,
-    settings: Settings,
-    folder: Path | None,
-    today: Callable[[], date],
-) -> Safe:
+def _safekeeping(journey: Journey, keeper: PreferenceKeeper, settings: Settings, folder: Path | None) -> Safe:
     """The flows about records, back-up and lock, and their cards among the settings."""
-    records = Records(library)
-
-    def is_recording() -> bool:
-        return journey.live.recording_state != "off"
-
+    context, sessions, patients = journey.context, journey.sessions.screen, journey.patients
+    records = Records(context.library)
     backing_up = BackingUp(
-        journey, shell.stage, theme, library, settings.backup, folder or own_settings_folder(),
-        keep=lambda chosen: keeper.keep(backup=chosen), close_window=shell.close_surely, is_recording=is_recording,
-    )  # fmt: skip
+        context, settings.backup, folder or own_settings_folder(), keep=lambda chosen: keeper.keep(backup=chosen)
+    )
     erasing = Erasing(
-        journey, shell.stage, theme, records, today,
+        context, records, sessions, patients,
         years=lambda: lists.years, last_backup=lambda: backing_up.last.made if backing_up.last else None,
     )  # fmt: skip
     lists = RecordLists(
-        journey, shell.stage, theme, records, erasing, years=settings.records.retention_years, today=today,
+        context, records, erasing, sessions, patients, years=settings.records.retention_years,
         keep_years=lambda years: keeper.keep(records=replace(settings.records, retention_years=years)),
     )  # fmt: skip
     locking = Locking(
-        journey, shell, theme, library, key=Keys(settings.screen.keys)["lock"],
-        minutes=settings.lock.after_min, is_busy=is_recording,
+        context, key=context.keys["lock"], minutes=settings.lock.after_min,
         keep_minutes=lambda minutes: keeper.keep(lock=LockSettings(minutes)),
     )  # fmt: skip
+    view = journey.patient_view
+    locking.hides.connect(lambda hides: view.hide_all() if hides else view.show_again())
     keeper.screen.add_cards("safety", backing_up.card, locking.card, lists.card)
-    backing_up.remind()
+    backing_up.remind(patients.notice_place)
     return Safe(erasing, lists, backing_up, locking)
 
 

@@ -26,6 +26,7 @@ from carpus.core.phrase import phrase
 from carpus.core.pipeline.live import LiveSettings
 from carpus.core.pipeline.live_values import StartMode
 from carpus.core.pipeline.track import TrackSettings
+from carpus.core.records.values import BackupSettings
 from carpus.core.results.report_form import ReportSettings
 from carpus.core.session.values import ANGLE_ORDERS as ANGLE_ORDERS
 from carpus.core.tracking.settings import TrackerSettings
@@ -74,22 +75,6 @@ class RecordingSettings:
     keep_pictures: bool = True
     smooth: bool = True
     start: StartMode = "key"
-
-
-@dataclass(frozen=True, slots=True)
-class BackupSettings:
-    """``folder`` for back-ups, empty for none; by itself each day from ``hour`` on, -1 for never; a reminder after
-    ``remind_days``. The newest ``keep`` are kept, and one of each month for ``months``."""
-
-    folder: str = ""
-    hour: int = 18
-    remind_days: int = 3
-    keep: int = 14
-    months: int = 24
-
-    def __post_init__(self) -> None:
-        if not (-1 <= self.hour <= 23 and self.keep >= 1 and self.months >= 0 and self.remind_days >= 1):
-            raise ValueError("hours are -1 to 23, at least one back-up is kept, reminders come after a day or more")
 
 
 @dataclass(frozen=True, slots=True)

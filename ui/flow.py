@@ -3,7 +3,7 @@ between them (:class:`Navigator`)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
@@ -18,8 +18,10 @@ from carpus.ui.background import Background
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.keys import Keys
 from carpus.ui.last_places import Kind, LastPlaces
+from carpus.ui.messages.files_written import tell_written
 from carpus.ui.messages.messages import Messages
 from carpus.ui.now_open import NowOpen
+from carpus.ui.ports import PatientRow
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 
@@ -111,6 +113,15 @@ class Flow(QObject):
         """What must not be forgotten of what is on the screen."""
         return []
 
+    def show_research(self, *, on: bool) -> None:
+        """Show what only research needs, or fold it away; no value changes by it."""
+
+    def open_patient(self, patient_id: str) -> None:
+        """From now on this patient is open."""
+        now = self.context.now
+        if now.patient is None or now.patient.patient_id != patient_id:
+            now.patient = PatientRow.of(self.context.library.patients.one(patient_id))
+
     def run(
         self,
         work: Callable[[], T],
@@ -119,6 +130,15 @@ class Flow(QObject):
     ) -> None:
         """Work beside the window; its fault is told, unless ``failed`` does something else."""
         self.context.background.run(work, done, failed or self.context.messages.fault, self)
+
+    def note_made(self, paths: Sequence[Path | str], sessions: Sequence[str]) -> None:
+        """Files were made from sessions: they are named on the day these are erased."""
+        self.context.library.made([Path(path) for path in paths], "export", sessions)
+
+    def tell_made(self, paths: Sequence[Path], sessions: Sequence[str]) -> None:
+        """The same, and said on a card."""
+        self.note_made(paths, sessions)
+        tell_written(self.context.messages, str(paths[0].parent), [path.name for path in paths])
 
     def ask_where_to_save(self, kind: Kind, name: str, title: str, kinds: str) -> Path | None:
         """A file to write, None when the person changed their mind."""
@@ -134,7 +154,7 @@ class Navigator(QObject):
 
     def __init__(self, shell: Shell, is_asked: Callable[[], bool], is_recording: Callable[[], bool]) -> None:
         super().__init__(shell)
-        self._shell, self._is_asked, self._is_recording = shell, is_asked, is_recording
+        self._shell, self._is_asked, self.is_recording = shell, is_asked, is_recording
         self.flows: dict[str, Flow] = {}
         """By their places."""
         self._place = "patients"
@@ -182,7 +202,7 @@ class Navigator(QObject):
 
     def may_aside(self) -> bool:
         """Whether help and settings can be opened now: not from each other, a recording, or a question."""
-        return not (self._place in ASIDE or self._is_recording() or self._is_asked())
+        return not (self._place in ASIDE or self.is_recording() or self._is_asked())
 
     def aside(self, place: str) -> None:
         """Help or settings, from which one comes back; not over a running recording."""
@@ -200,5 +220,5 @@ class Navigator(QObject):
             sheets[-1].leave()
         elif self._place in ASIDE:
             self.go(self._before_aside)
-        elif not (self._place == "live" and self._is_recording()):
+        elif not (self._place == "live" and self.is_recording()):
             self.flows[self._place].up()

@@ -16,7 +16,7 @@ from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, StartMode, TrackedView
 from carpus.core.records.set_up import SetUp
-from carpus.core.records.values import AffectedSide, Dominance, Onset, PatientEntry
+from carpus.core.records.values import AffectedSide, Dominance, Onset, PatientEntry, PatientRecord
 from carpus.core.results.camera_said import CameraSaid
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.repetition_rows import RepetitionChoices
@@ -44,6 +44,16 @@ class PatientRow:
     """Of the operation or injury, as in :class:`core.records.values.PatientEntry`."""
     result_count: int = 0
     """Results of all recordings; more than ``session_count`` where one was tracked again: it counts once."""
+
+    @classmethod
+    def of(cls, record: PatientRecord) -> PatientRow:
+        """As the store has them."""
+        entry = record.entry
+        return cls(
+            record.patient_id, entry.pseudonym, entry.side, entry.dominance, record.last_exercise, record.last_session,
+            record.session_count, entry.note, entry.name, entry.diagnosis, entry.onset, entry.onset_day,
+            record.result_count,
+        )  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,61 +99,6 @@ class SessionRow:
     side: str
     duration_s: float
     complete: bool = True
-
-
-@dataclass(frozen=True, slots=True)
-class SessionLine:
-    """One row of the list of sessions. What must be read from the file is empty until it has been: ``figure`` the main
-    one in words, ``counted`` ``8 of 9``, ``counted_words`` and ``warning`` for the card."""
-
-    session_id: str
-    when: datetime
-    exercise: str
-    side: Side
-    duration_s: float
-    complete: bool
-    simulated: bool = False
-    of_practice: bool = False
-    set_aside: str = ""
-    """Why it does not count; empty when it does."""
-    damaged: bool = False
-    away: bool = False
-    """Its file is not where it was."""
-    figure: str = ""
-    counted: str = ""
-    counted_words: str = ""
-    warning: str = ""
-    corrected: str = ""
-    """That and since when markers were put right, in words; empty as measured."""
-    not_sure: str = ""
-    """That a check of the camera near it was out, in two or three words; empty where none was."""
-
-
-class SessionShelf(Protocol):
-    """All sessions of a patient and what can be done with them. All but ``lines`` and ``other_patients`` may read or
-    write the disk: called in the background."""
-
-    def lines(self, patient_id: str) -> Sequence[SessionLine]:
-        """Newest first, without what only the files know."""
-        ...
-
-    def with_figures(self, line: SessionLine) -> SessionLine: ...
-
-    def other_patients(self, patient_id: str) -> Sequence[tuple[str, str]]:
-        """Identity and pseudonym of everybody else."""
-        ...
-
-    def archived(self, patient_id: str) -> int:
-        """How many sessions of the patient are in the archive."""
-        ...
-
-    def set_aside(self, session_id: str, reason: str) -> None:
-        """Let a session count nowhere, with the reason; with an empty one let it count again."""
-        ...
-
-    def move(self, session_id: str, patient_id: str) -> None: ...
-
-    def rename_exercise(self, session_id: str, exercise: str) -> None: ...
 
 
 MOST_ROWS = 500
@@ -390,20 +345,6 @@ class SessionStore(Protocol):
     def by_hand(self, patient_id: str) -> Sequence[HandValue]:
         """Everything that was ever measured by hand of a patient, in the order in which it was entered."""
         ...
-
-
-@dataclass(frozen=True, slots=True)
-class StoredMoment:
-    """One stored picture: the colours, None where none were kept, and the middles (S, 2) of its blue spots."""
-
-    picture_rgb: ByteImage | None
-    spots_px: FloatArray
-
-
-class CorrectionStore(Protocol):
-    """What the correction of markers reads; called in the background."""
-
-    def moment(self, session_id: str, row: int) -> StoredMoment: ...
 
 
 # --- agreement with another measurement ---------------------------------------------------------------------

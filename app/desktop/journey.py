@@ -13,7 +13,7 @@ from datetime import date, datetime
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QWidget
 
 from carpus import __version__
@@ -23,22 +23,15 @@ from carpus.app.desktop.camera_care import CameraCare
 from carpus.app.desktop.camera_watch import CameraWatch
 from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.checking import Checking
-from carpus.app.desktop.correcting import Correcting, Moments
 from carpus.app.desktop.courses import CourseRun, KeptSets
-from carpus.app.desktop.filming import Filming
 from carpus.app.desktop.measuring_flow import MeasuringFlow
 from carpus.app.desktop.opening import Opener
 from carpus.app.desktop.patient_view import PatientViewing
-from carpus.app.desktop.printing import Printing
-from carpus.app.desktop.report_forms import ReportForms
 from carpus.app.desktop.setting_up import SettingUp, SetUpScreens
-from carpus.app.desktop.shelf import StoredSessions
 from carpus.app.desktop.sources import Sources
-from carpus.app.desktop.viewing import Viewing, ViewScreens
 from carpus.app.settings import Settings
 from carpus.core.capture.calibrated import SERIAL
 from carpus.core.errors import CarpusFault
-from carpus.core.records.corrections import Corrections
 from carpus.core.records.library import Library, Recovered
 from carpus.core.records.set_up import SetUp
 from carpus.ui.agreement.flow import AgreementFlow
@@ -47,10 +40,9 @@ from carpus.ui.beside.flow import BesideFlow
 from carpus.ui.by_hand.flow import ByHandFlow
 from carpus.ui.camera_calibration.screen import BoardScreen
 from carpus.ui.check_card.screen import CardScreen
-from carpus.ui.check_card.standing_words import bar_words, card_words, session_words, unsure_words
+from carpus.ui.check_card.standing_words import bar_words, card_words, session_words
 from carpus.ui.clinic.flow import ClinicFlow
-from carpus.ui.correct.results_sheet import ResultsSheet
-from carpus.ui.correct.screen import CorrectScreen
+from carpus.ui.correct.flow import CorrectFlow
 from carpus.ui.flow import STEPS, TABS, Flow, Navigator, ScreenContext
 from carpus.ui.help.screen import HelpScreen
 from carpus.ui.icons import State
@@ -59,16 +51,15 @@ from carpus.ui.last_places import LastPlaces
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.messages.messages import Messages
-from carpus.ui.messages.strip import NoticeStrip
+from carpus.ui.messages.strip import put_off_last
 from carpus.ui.now_open import NowOpen, OpenSource
 from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.ports import PatientRow, PatientStore
-from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.report.beside_page import BesideReport
-from carpus.ui.report.screen import ReportScreen
+from carpus.ui.progress.flow import ProgressFlow
+from carpus.ui.report.flow import ReportFlow
 from carpus.ui.retest.flow import RetestFlow
-from carpus.ui.review.screen import ReviewScreen
-from carpus.ui.sessions.screen import SessionsScreen
+from carpus.ui.review.flow import ReviewFlow
+from carpus.ui.sessions.flow import SessionsFlow
 from carpus.ui.setup.camera import CameraScreen
 from carpus.ui.setup.choice import SourceChoice
 from carpus.ui.setup.exercise import ExerciseScreen
@@ -148,11 +139,7 @@ class _Stop(Flow):
 
 
 class Journey(QObject):
-    """Owns the screens and the flows. ``settings_wanted`` asks for the settings screen,
-    ``safety_wanted`` for what it has of back-up, lock and records."""
-
-    settings_wanted = Signal()
-    safety_wanted = Signal()
+    """Owns the screens and the flows."""
 
     def __init__(self, shell: Shell, theme: Theme, keys: Keys, parts: Parts) -> None:
         super().__init__(shell)
@@ -175,25 +162,17 @@ class Journey(QObject):
         self._connect(keys)
         self.watch.start()
         self.care.look()
-        self.correcting.look_for_waiting()
+        self.correct.look_for_waiting()
 
     def _make_screens(self, theme: Theme, keys: Keys) -> None:
-        background, library = self.background, self._parts.library
+        background = self.background
         self.patients = PatientsScreen(theme, self._parts.patients, self._parts.today)
         self.exercise = ExerciseScreen(theme)
         self.camera = CameraScreen(theme, is_demo=self.is_demo)
         self.markers = MarkersScreen(theme, keys, background)
         self.live = LiveScreen(theme, keys, background)
-        self.review = ReviewScreen(theme, keys, background, library)
-        self.sessions = SessionsScreen(theme, background, StoredSessions(library), keys)
-        self.progress = ProgressScreen(theme, keys, background, library)
-        self.report = ReportScreen(theme, keys, background)
         self.board = BoardScreen(theme, keys)
         self.card = CardScreen(theme, keys)
-        self._corrections = Corrections(library)
-        self._corrections.clear_unfinished()
-        self.correct = CorrectScreen(theme, keys, background, Moments(self._corrections))
-        self.results_sheet = ResultsSheet(self._shell.stage, theme)
         self.help = HelpScreen(theme, keys)
 
     def _make_flows(self, theme: Theme) -> None:
@@ -211,15 +190,10 @@ class Journey(QObject):
         self.patient_view = PatientViewing(self._shell, self.live, theme, lambda: self.settings.patient.sound)
         self.kept_sets = KeptSets(self._shell.stage, self.exercise, tell, library, theme)
         self.course = CourseRun(self, self.live, self.patient_view, now)
-        views = ViewScreens(self.sessions, self.review, self.progress)
-        self.viewing = Viewing(self, views, self.way, tell, now, library, self._find_patient, places)
-        self.forms = ReportForms(self, theme, library.store, tell.fault)
-        self.printing = Printing(
-            self._shell, self.report, self.way, tell, now, library, places, self.background,
-            theme=theme, therapist=lambda: self.settings.report.therapist, forms=self.forms,
-            today=self._parts.today,
-        )  # fmt: skip
-        self.filming = Filming(self._shell, tell, library, places, self.background, theme)
+        self.sessions = SessionsFlow(context)
+        self.review = ReviewFlow(context)
+        self.progress = ProgressFlow(context)
+        self.report = ReportFlow(context)
         self.by_hand = ByHandFlow(context)
         self.agreement = AgreementFlow(context)
         self.beside = BesideFlow(context)
@@ -234,22 +208,17 @@ class Journey(QObject):
         self.checking = Checking(
             self._shell, self.card, self.way, tell, cameras, places, self.background, is_demo=is_demo, now=_now
         )
-        self.correcting = Correcting(
-            self, self.correct, self.results_sheet, self.way, tell, self._corrections,
-            initials=lambda: self.settings.report.therapist,
-        )  # fmt: skip
+        self.correct = CorrectFlow(context)
         self.bar = Bar(
-            self._shell, now, self.way, lambda: self.watch.there, self.review,
+            self._shell, now, self.way, lambda: self.watch.there, self.review.screen,
             is_demo=is_demo, care=self._care_words,
         )  # fmt: skip
 
     def _fill_table(self) -> None:
         """The screens whose flow is not their own yet."""
-        context, setting_up, viewing = self.context, self.setting_up, self.viewing
-        up_from_patients = self._past_strips(self.patients, self._to_patient)
-        up_from_sessions = self._past_strips(self.sessions, self._to_patient)
+        context, setting_up = self.context, self.setting_up
         _Stop(
-            context, "patients", self.patients, first=lambda: self.patients.search, up=up_from_patients,
+            context, "patients", self.patients, first=lambda: self.patients.search, up=self._up_from_patients,
             show=self.show_patients,
         )  # fmt: skip
         _Stop(context, "exercise", self.exercise, "exercises")
@@ -261,16 +230,6 @@ class Journey(QObject):
         _Stop(
             context, "live", self.live, "measuring", up=setting_up.up_to_camera, sign=self._measuring_lines
         )  # fmt: skip
-        _Stop(context, "sessions", self.sessions, "sessions", up=up_from_sessions, show=viewing.open_sessions)
-        _Stop(
-            context, "review", self.review, "figures", leave=self.review.end, show=viewing.open_review,
-            sign=self._review_lines,
-        )  # fmt: skip
-        _Stop(context, "progress", self.progress, "figures", up=self._up_from_progress, show=viewing.open_progress)
-        _Stop(
-            context, "report", self.report, "figures", first=lambda: self.report.save_button, up=self._up_from_report
-        )  # fmt: skip
-        _Stop(context, "correct", self.correct, "correct", up=self._to_session, while_aside=True)
         _Stop(
             context, "board", self.board, "cameracheck", up=self._up_from_board, leave=self.calibrating.leave,
             while_aside=True, title=self.tr("Camera calibration"),
@@ -288,10 +247,10 @@ class Journey(QObject):
         shell.set_keys({name: keys[name] for name in ALL_KEYS})
         shell.key.connect(self._take_key)
         bar.back.connect(way.back)
-        bar.tab.connect(self.viewing.take_tab)
+        bar.tab.connect(self.take_tab)
         bar.step.connect(lambda number: self._go_to_step(STEPS[number]))
         bar.help.connect(self._open_guide)
-        bar.settings.connect(self.settings_wanted)
+        bar.settings.connect(lambda: way.show("settings"))
         # A lost camera leaves the tracking light to be seen from afar; elsewhere the top bar stays.
         way.leaving.connect(lambda to: self.messages.cover(self.live.stage if to == "live" else shell.stage))
         way.arrived.connect(lambda _: self.bar.show())
@@ -300,9 +259,9 @@ class Journey(QObject):
         self.watch.looked.connect(self._camera_looked_for)
         self.patients.start.connect(self.setting_up.start)
         self.patients.set_up.connect(self.setting_up.choose_exercise)
-        self.patients.review.connect(self.viewing.review_newest)
-        self.patients.progress.connect(self.viewing.open_progress)
-        self.patients.sessions.connect(self.viewing.open_sessions)
+        self.patients.review.connect(lambda patient_id: way.show("review", "", patient_id))
+        self.patients.progress.connect(self.progress.show)
+        self.patients.sessions.connect(self.sessions.show)
         self.patients.clinic_wanted.connect(self.clinic.show)
         self.setting_up.ready.connect(self.measuring.begin)
         self.setting_up.closing.connect(self._source_closes)
@@ -322,34 +281,13 @@ class Journey(QObject):
         self.measuring.patients_wanted.connect(self._to_patient)
         self.measuring.close_wanted.connect(shell.close_surely)
         shell.asks_before_closing = self.measuring.asks_before_closing
-        self.viewing.report_wanted.connect(self.printing.session)
-        self.viewing.stayed.connect(self.bar.show)
-        self.review.report.connect(self.printing.session)
-        self.review.export.connect(self.printing.export)
-        self.review.film.connect(self.filming.save)
-        self.printing.formats.compare.connect(lambda: self.agreement.show(self.now.session_id))
-        self.sessions.reference_wanted.connect(self._compare_listed)
-        self.sessions.pair_wanted.connect(self.beside.show)
-        self.review.beside.connect(self.beside.show)
-        self.beside.report_wanted.connect(self.printing.pair)
         self.beside.screen.arrived.connect(self.bar.show)
         self.retest.measure.connect(self.setting_up.start)
-        self.review.again.connect(self._another_set)
-        self.review.arrived.connect(self.bar.show)
-        self.progress.report.connect(
-            lambda figures: self.printing.course(
-                figures, self.progress.followed.currentData(), self.progress.progress.by_hand
-            )
-        )
-        self.review.correct.connect(self.correcting.show)
-        self.review.result.connect(self.viewing.open_review)
-        self.correct.done.connect(self.way.back)
-        self.correcting.changed.connect(self.bar.show_again)
-        bar.again_wanted.connect(lambda: self.correcting.open_sheet(self.now.session_id))
-        self.correcting.used.connect(self._result_used)
-        self.sessions.changed.connect(self.correcting.look_for_waiting)
-        self.progress.table_wanted.connect(self.printing.table)
-        self.progress.by_hand_wanted.connect(self.by_hand.show)
+        self.review.screen.again.connect(self._another_set)
+        self.review.screen.arrived.connect(self.bar.show)
+        self.correct.changed.connect(self.bar.show_again)
+        bar.again_wanted.connect(lambda: self.correct.open_sheet(self.now.session_id))
+        self.sessions.screen.changed.connect(self.correct.look_for_waiting)
 
     # --- where one is -------------------------------------------------------------------------------------
     @property
@@ -394,37 +332,21 @@ class Journey(QObject):
     def _to_patient(self) -> None:
         self.show_patients(self.now.patient.patient_id if self.now.patient else "")
 
-    @staticmethod
-    def _past_strips(screen: QWidget, up: Callable[[], None]) -> Callable[[], None]:
-        """Esc closes what is told above a list before it leaves the list."""
-
-        def back() -> None:
-            strips = [strip for strip in screen.findChildren(NoticeStrip) if strip.isVisible()]
-            if strips:
-                strips[-1].later.emit()
-            else:
-                up()
-
-        return back
-
-    def _to_session(self) -> None:
-        if self.now.session_id:
-            self.viewing.open_review(self.now.session_id)
-        else:
+    def _up_from_patients(self) -> None:
+        if not put_off_last(self.patients):
             self._to_patient()
 
-    def _up_from_report(self) -> None:
-        if isinstance(self.report.shown, BesideReport):
-            self.way.go("beside")
+    def take_tab(self, number: int) -> None:
+        """A tab of the top bar."""
+        place, patient = TABS[number], self.now.patient
+        if patient is None or place == self.place or self.messages.busy:
+            self.bar.show()
+        elif place in ("sessions", "progress"):
+            self.way.show(place, patient.patient_id)
+        elif self.now.session_id:
+            self.way.show(place, self.now.session_id)
         else:
-            self._to_session()
-
-    def _up_from_progress(self) -> None:
-        """Where one came from: the list of patients, or the session."""
-        if self.way.came_from("progress") == "patients":
-            self._to_patient()
-        else:
-            self._to_session()
+            self.review.show("", patient.patient_id)
 
     def _stored(self, session_id: str) -> None:
         self.bar.show_recording("off", 0.0)
@@ -434,9 +356,9 @@ class Journey(QObject):
             return
         self.patient_view.stored()
         if in_course and self.now.patient is not None:
-            self.viewing.open_sessions(self.now.patient.patient_id)
+            self.sessions.show(self.now.patient.patient_id)
         else:
-            self.viewing.open_review(session_id)
+            self.review.show(session_id)
 
     def show_retest(self) -> None:
         """The clinic's own test and retest; whatever was open is closed."""
@@ -494,26 +416,11 @@ class Journey(QObject):
         words = session_words(self.care.standing) if self.now.kind == "camera" else ""
         return [words] if words else []
 
-    def _review_lines(self) -> list[str]:
-        """And of the camera that measured."""
-        figures = self.review.figures
-        words = unsure_words(figures.camera) if self.review.shown and figures is not None else ""
-        return [words] if words else []
-
-    def _compare_listed(self, session_id: str) -> None:
-        self.now.session_id = session_id
-        self.agreement.show(session_id)
-
     def _another_set(self) -> None:
         if self.now.source is not None:
             self.measuring.begin()
         elif self.now.patient is not None:
             self.setting_up.start(self.now.patient.patient_id)
-
-    def _result_used(self, before: str, new: str) -> None:
-        """A new result counts from now on; where the old one was on the screen the new one is shown."""
-        if self.now.session_id == before and self.place in ("review", "correct"):
-            self.viewing.open_review(new)
 
     def _source_closes(self) -> None:
         self.live.end()
@@ -522,7 +429,7 @@ class Journey(QObject):
 
     def review_recovered(self, found: Recovered) -> None:
         """Open a session that had been cut short."""
-        self.viewing.open_review_of(found.patient_id, found.session_id)
+        self.review.show(found.session_id, found.patient_id)
 
     def review_file(self, path: Path) -> None:
         """Open a session file handed over from outside; not while something is measured or asked."""
@@ -535,7 +442,7 @@ class Journey(QObject):
             return
         if not found.patient_id:  # of nobody here: shown under the name in its file
             self.now.patient = PatientRow("", found.subject_id, found.side)
-        self.viewing.open_review_of(found.patient_id, found.session_id)
+        self.review.show(found.session_id, found.patient_id)
 
     def _go_to_step(self, place: str) -> None:
         if self.messages.busy:
@@ -547,7 +454,7 @@ class Journey(QObject):
 
     def _take_key(self, name: str) -> None:
         actions: dict[str, Callable[[], object]] = {"back": self._escape, "help": self._open_guide}
-        actions["settings"] = self.settings_wanted.emit
+        actions["settings"] = lambda: self.way.show("settings")
         actions["quit"] = self._shell.close
         if self.place == "patients":
             actions["search"] = lambda: self.patients.search.setFocus(Qt.FocusReason.ShortcutFocusReason)
@@ -556,7 +463,9 @@ class Journey(QObject):
             actions[name]()
 
     def _escape(self) -> None:
-        taken = not self.messages.busy and (self.takes_escape() or (self.place == "report" and self.report.to_report()))
+        taken = not self.messages.busy and (
+            self.takes_escape() or (self.place == "report" and self.report.screen.to_report())
+        )
         if not taken:
             self.way.back()
 
@@ -579,7 +488,7 @@ class Journey(QObject):
         """Whether something is measured, or worked on that would end with the window."""
         measures = self.now.source is not None and self.way.behind in MEASURING
         measures |= self.calibrating.hand.is_open or self.checking.hand.is_open
-        return measures or self.correcting.is_at_work or self.agreement.is_at_work or self.background.busy
+        return measures or self.correct.is_at_work or self.agreement.is_at_work or self.background.busy
 
     def show_again_at(self, place: str, before: NowOpen) -> None:
         """Where the person was before the window was put together again: the same patient and tab."""
@@ -589,30 +498,27 @@ class Journey(QObject):
             return
         with suppress(CarpusFault):
             if place == "progress":
-                self.viewing.open_progress(before.patient.patient_id)
+                self.progress.show(before.patient.patient_id)
                 self.now.session_id = before.session_id
             elif place == "sessions" or not before.session_id:
-                self.viewing.open_sessions(before.patient.patient_id)
+                self.sessions.show(before.patient.patient_id)
             else:
-                self.viewing.open_review_of(before.patient.patient_id, before.session_id)
+                self.review.show(before.session_id, before.patient.patient_id)
 
     def show_research(self, *, on: bool) -> None:
         """Show what only research needs, or fold it away; no value changes by it."""
-        for shown in (self.live, self.review.player, self.printing, self.sessions):
-            shown.show_research(on=on)
-
-    def put_settings(self, screen: QWidget) -> None:
-        """The settings screen, which is made where settings are kept."""
-        _Stop(self.context, "settings", screen, "data")
+        self.live.show_research(on=on)
+        for flow in self.way.flows.values():
+            flow.show_research(on=on)
 
     def close(self) -> None:
         """The window closes: finish what runs, in order, and wait for it."""
         self.watch.stop()
         self.patient_view.close()
         self.markers.end()
-        self.review.end()
+        self.review.close()
         self.beside.close()
-        self.correcting.close()
+        self.correct.close()
         self.agreement.close()
         recording = self.measuring.let_go()
         self.opener.close()

@@ -10,7 +10,7 @@ from carpus.core.records import of_clinic
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.records.values import PatientEntry, PatientRecord
+from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import compare, compare_rows, unfair_reasons
 from carpus.ui.ports import MOST_ROWS, PatientCard, PatientRow, ResultLine, SessionRow
@@ -32,7 +32,7 @@ class PatientShelf:
 
     def patients(self, search: str = "") -> Sequence[PatientRow]:
         """The first rows, newest session first."""
-        return [_row(record) for record in self._library.patients.listed(search, most=MOST_ROWS)]
+        return [PatientRow.of(record) for record in self._library.patients.listed(search, most=MOST_ROWS)]
 
     def archived(self) -> Sequence[str]:
         """Who is in the archive."""
@@ -42,7 +42,7 @@ class PatientShelf:
         """What the therapist must recall, of the last session against the first that compares."""
         record = self._library.patients.one(patient_id)
         self._shown[patient_id] = record.version
-        row = _row(record)
+        row = PatientRow.of(record)
         entries = self._library.sessions(patient_id)
         if not entries:
             archived = any(one.patient_id == patient_id for one in Records(self._library).archived())
@@ -107,15 +107,6 @@ class PatientShelf:
             if figures.simulated == last.simulated and not unfair_reasons(figures, figures):
                 return figures
         return None
-
-
-def _row(record: PatientRecord) -> PatientRow:
-    entry = record.entry
-    return PatientRow(
-        record.patient_id, entry.pseudonym, entry.side, entry.dominance, record.last_exercise, record.last_session,
-        record.session_count, entry.note, entry.name, entry.diagnosis, entry.onset, entry.onset_day,
-        record.result_count,
-    )  # fmt: skip
 
 
 def _joint_results(first: SessionFigures | None, last: SessionFigures) -> Sequence[ResultLine]:

@@ -8,10 +8,8 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from carpus import __version__
 from carpus.app.desktop.journey import Journey
 from carpus.app.settings import (
-    BackupSettings,
     FirstStartSettings,
     LockSettings,
     PatientSettings,
@@ -21,14 +19,12 @@ from carpus.app.settings import (
     StreamSettings,
     keep_preferences,
 )
-from carpus.core.about import licence_texts, newest_version
 from carpus.core.errors import CarpusFault
 from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
+from carpus.core.records.values import BackupSettings
 from carpus.core.results.report_form import ReportSettings
-from carpus.ui.background import Background
 from carpus.ui.ports import Preferences
-from carpus.ui.settings.licences import LicencesWindow
-from carpus.ui.settings.screen import SettingsScreen
+from carpus.ui.settings.flow import SettingsFlow
 from carpus.ui.theme import Theme, ThemeName
 
 
@@ -66,30 +62,11 @@ class PreferenceKeeper(QObject):
             settings.screen.research,
             settings.recording.start,
         )
-        self.screen = SettingsScreen(theme, chosen, __version__, measured)
+        self.screen = SettingsFlow(journey.context, chosen, measured, settings.updates.folder).screen
         self._shown_folder = chosen.data_folder
         self.screen.changed.connect(self.take)
-        self.screen.done.connect(journey.way.back)
-        self.screen.licences.clicked.connect(lambda: LicencesWindow(self.screen, theme, licence_texts()).exec())
-        journey.put_settings(self.screen)
         journey.show_research(on=chosen.research)
         journey.live.start_mode = chosen.start
-        journey.settings_wanted.connect(lambda: journey.way.aside("settings"))
-        self._background = Background()
-        journey.settings_wanted.connect(self.look_for_newer)
-        journey.safety_wanted.connect(lambda: self.screen.choose("safety"))
-        journey.safety_wanted.connect(journey.settings_wanted)
-
-    def look_for_newer(self) -> None:
-        """Where the clinic named a folder of packages, and nowhere else."""
-        folder, screen = self._settings.updates.folder, self.screen
-        if folder:
-            self._background.run(
-                lambda: newest_version(Path(folder).expanduser()),
-                lambda newest: screen.show_newest(folder, newest),
-                lambda _: screen.show_newest(folder, None),
-                screen,
-            )
 
     def take(self, chosen: Preferences) -> None:
         """Something was changed."""

@@ -31,8 +31,8 @@ class Tour(QObject):
             "camera": journey.camera.bubble,
             "markers": journey.markers.bubble,
             "live": journey.live.bubble,
-            "review": journey.review.bubble,
-            "report": journey.report.bubble,
+            "review": journey.review.screen.bubble,
+            "report": journey.report.screen.bubble,
         }
         for view in self._views.values():
             view.next.connect(self.next)
@@ -40,7 +40,7 @@ class Tour(QObject):
         self._clock = QTimer(self)
         self._clock.setInterval(LOOK_EVERY_MS)
         self._clock.timeout.connect(self.look)
-        journey.report.saved.connect(self._report_saved)
+        journey.report.screen.saved.connect(self._report_saved)
         journey.way.arrived.connect(self._arrived)
         journey.help.tour.connect(self._show_around)
         journey.takes_escape = self._take_escape
@@ -106,7 +106,7 @@ class Tour(QObject):
         busy = {
             "camera": journey.camera.is_opening,
             "live": journey.live.storing,
-            "review": not journey.review.shown,
+            "review": not journey.review.screen.shown,
         }.get(place, False)
         return TourMoment(
             place,
@@ -126,9 +126,9 @@ class Tour(QObject):
             "camera": lambda: journey.camera.primary,
             "record": lambda: journey.live.main,
             "stop": lambda: journey.live.main,
-            "results": lambda: journey.review.report_button,
-            "report": lambda: journey.review.report_button,
-            "save": lambda: journey.report.save_button,
+            "results": lambda: journey.review.screen.report_button,
+            "report": lambda: journey.review.screen.report_button,
+            "save": lambda: journey.report.screen.save_button,
         }
         return buttons.get(bubble, lambda: journey.markers.primary)()
 

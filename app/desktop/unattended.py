@@ -125,7 +125,7 @@ class Walker:
         self.until(enough)
         self.press(Qt.Key.Key_Space, live)
         self.at("review")
-        self.until(lambda: self.journey.review.shown)
+        self.until(lambda: self.journey.review.screen.shown)
         return self.journey.session_id
 
     def tab(self, place: str) -> None:
@@ -136,11 +136,11 @@ class Walker:
 
     def save_report(self, path: Path) -> None:
         """Make the report from the review and save it."""
-        self.journey.review.report_button.click()
+        self.journey.review.screen.report_button.click()
         self.at("report")
         saved: list[str] = []
-        self.journey.report.saved.connect(saved.append)
-        self.journey.report.save(str(path))
+        self.journey.report.screen.saved.connect(saved.append)
+        self.journey.report.screen.save(str(path))
         self.until(lambda: bool(saved))
 
 
@@ -167,7 +167,7 @@ def walk(settings: Settings, progress: Progress, *, repetitions: int = REPETITIO
         session_id = walker.record(repetitions, lambda done: progress(done, repetitions))
         walker.tab("progress")
         walker.tab("review")
-        walker.until(lambda: desktop.journey.review.shown)
+        walker.until(lambda: desktop.journey.review.screen.shown)
         path = desktop.library.entry(session_id).path
         report = path.with_suffix(".pdf")
         walker.save_report(report)

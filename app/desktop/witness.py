@@ -1,15 +1,13 @@
-"""What is looked at and what leaves the window, taken down: in the log, and for the day it is erased."""
+"""What is looked at, taken down in the log."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
 from carpus.core.records.library import Library
-from carpus.core.records.of_sessions import MadeKind
 
 if TYPE_CHECKING:
     from carpus.app.desktop.journey import Journey
@@ -29,14 +27,6 @@ class Witness(QObject):
         self.log_lost.connect(journey.messages.fault)
         library.log_fault = self.log_lost.emit
         journey.way.arrived.connect(self._arrived)
-        journey.printing.reported.connect(lambda path, sessions: self._made(path, "report", sessions))
-        journey.filming.filmed.connect(lambda path, sessions: self._made(path, "export", sessions))
-        journey.printing.tabled.connect(lambda path, sessions: self._made(path, "export", sessions))
-        journey.beside.tabled.connect(lambda paths, sessions: library.made(paths, "export", sessions))
-        journey.agreement.saved.connect(lambda paths, sessions: library.made(paths, "export", sessions))
-        journey.agreement.screen.chart.saved.connect(lambda path: self._made(path, "export", [self._now.session_id]))
-        journey.review.curves.saved.connect(lambda path: self._made(path, "export", [self._now.session_id]))
-        journey.progress.chart.saved.connect(lambda path: self._made(path, "export", self._of_patient()))
 
     def _arrived(self, place: str) -> None:
         patient = self._now.patient
@@ -54,11 +44,3 @@ class Witness(QObject):
         """Not only back from the help."""
         before, self._seen = self._seen, (place, identity)
         return before != self._seen
-
-    def _made(self, path: str, kind: MadeKind, sessions: Sequence[str]) -> None:
-        self._library.made([Path(path)], kind, sessions)
-
-    def _of_patient(self) -> Sequence[str]:
-        patient = self._now.patient
-        entries = self._library.sessions(patient.patient_id) if patient is not None else ()
-        return [entry.session_id for entry in entries]

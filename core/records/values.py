@@ -181,3 +181,19 @@ class ClinicWeek:
     therapists: tuple[Counted, ...]
     patients: int
     due: tuple[DueTest, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class BackupSettings:
+    """``folder`` for back-ups, empty for none; by itself each day from ``hour`` on, -1 for never; a reminder after
+    ``remind_days``. The newest ``keep`` are kept, and one of each month for ``months``."""
+
+    folder: str = ""
+    hour: int = 18
+    remind_days: int = 3
+    keep: int = 14
+    months: int = 24
+
+    def __post_init__(self) -> None:
+        if not (-1 <= self.hour <= 23 and self.keep >= 1 and self.months >= 0 and self.remind_days >= 1):
+            raise ValueError("hours are -1 to 23, at least one back-up is kept, reminders come after a day or more")

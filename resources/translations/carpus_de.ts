@@ -9412,6 +9412,13 @@
     </message>
 </context>
 <context>
+    <name>Exporting</name>
+    <message>
+        <source>Export into a folder</source>
+        <translation>In einen Ordner exportieren</translation>
+    </message>
+</context>
+<context>
     <name>FieldMap</name>
     <message>
         <source>Where the board has been</source>
@@ -9473,11 +9480,11 @@
     <name>Filming</name>
     <message>
         <source>Save film</source>
-        <translation>Film speichern</translation>
+        <translation type="vanished">Film speichern</translation>
     </message>
     <message>
         <source>Save picture</source>
-        <translation>Bild speichern</translation>
+        <translation type="vanished">Bild speichern</translation>
     </message>
 </context>
 <context>
@@ -11224,11 +11231,11 @@ Umschalt+F8 von der Seite</translation>
     <name>Printing</name>
     <message>
         <source>Export into a folder</source>
-        <translation>In einen Ordner exportieren</translation>
+        <translation type="vanished">In einen Ordner exportieren</translation>
     </message>
     <message>
         <source>Save table</source>
-        <translation>Tabelle speichern</translation>
+        <translation type="vanished">Tabelle speichern</translation>
     </message>
 </context>
 <context>
@@ -11248,6 +11255,13 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Click opens the session</source>
         <translation>Ein Klick öffnet die Sitzung</translation>
+    </message>
+</context>
+<context>
+    <name>ProgressFlow</name>
+    <message>
+        <source>Save table</source>
+        <translation>Tabelle speichern</translation>
     </message>
 </context>
 <context>
@@ -12086,6 +12100,17 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Grey = not yet usable. Reports then say whose limits they are, with date and number of people. A new camera, exercise or way of mounting needs its own study.</source>
         <translation>Grau = noch nicht brauchbar. Berichte sagen dann, wessen Grenzen es sind, mit Datum und Zahl der Personen. Eine neue Kamera, Übung oder Art des Klebens braucht eine eigene Untersuchung.</translation>
+    </message>
+</context>
+<context>
+    <name>ReviewFlow</name>
+    <message>
+        <source>Save film</source>
+        <translation>Film speichern</translation>
+    </message>
+    <message>
+        <source>Save picture</source>
+        <translation>Bild speichern</translation>
     </message>
 </context>
 <context>

@@ -9412,6 +9412,13 @@
     </message>
 </context>
 <context>
+    <name>Exporting</name>
+    <message>
+        <source>Export into a folder</source>
+        <translation>Esporta in una cartella</translation>
+    </message>
+</context>
+<context>
     <name>FieldMap</name>
     <message>
         <source>Where the board has been</source>
@@ -9473,11 +9480,11 @@
     <name>Filming</name>
     <message>
         <source>Save film</source>
-        <translation>Salva filmato</translation>
+        <translation type="vanished">Salva filmato</translation>
     </message>
     <message>
         <source>Save picture</source>
-        <translation>Salva immagine</translation>
+        <translation type="vanished">Salva immagine</translation>
     </message>
 </context>
 <context>
@@ -11224,11 +11231,11 @@ Maiusc+F8 di lato</translation>
     <name>Printing</name>
     <message>
         <source>Export into a folder</source>
-        <translation>Esporta in una cartella</translation>
+        <translation type="vanished">Esporta in una cartella</translation>
     </message>
     <message>
         <source>Save table</source>
-        <translation>Salva la tabella</translation>
+        <translation type="vanished">Salva la tabella</translation>
     </message>
 </context>
 <context>
@@ -11248,6 +11255,13 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Click opens the session</source>
         <translation>Un clic apre la seduta</translation>
+    </message>
+</context>
+<context>
+    <name>ProgressFlow</name>
+    <message>
+        <source>Save table</source>
+        <translation>Salva la tabella</translation>
     </message>
 </context>
 <context>
@@ -12086,6 +12100,17 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Grey = not yet usable. Reports then say whose limits they are, with date and number of people. A new camera, exercise or way of mounting needs its own study.</source>
         <translation>Grigio = non ancora utilizzabile. Le relazioni dicono poi di chi sono i limiti, con data e numero di persone. Una nuova telecamera, un nuovo esercizio o un nuovo modo di applicare i dischetti richiede uno studio proprio.</translation>
+    </message>
+</context>
+<context>
+    <name>ReviewFlow</name>
+    <message>
+        <source>Save film</source>
+        <translation>Salva filmato</translation>
+    </message>
+    <message>
+        <source>Save picture</source>
+        <translation>Salva immagine</translation>
     </message>
 </context>
 <context>

@@ -303,7 +303,7 @@ def test_the_study_in_the_window_from_people_to_limits_in_force(
     journey, screen = desktop.journey, desktop.journey.retest.screen
     try:
         desktop.show()
-        journey.settings_wanted.emit()
+        journey.way.show("settings")
         settings_screen = desktop.shell.stage.currentWidget()
         assert isinstance(settings_screen, SettingsScreen)
         settings_screen.retest.click()

@@ -40,7 +40,7 @@ def desktop(open_desktop: Callable[..., Desktop], recorded: tuple[Path, Path], t
         library.index.enter(path, patient)
     library.close()
     opened = open_desktop(today=date(2026, 11, 20))
-    opened.journey.viewing.open_sessions(patient)
+    opened.journey.sessions.show(patient)
     return opened
 
 
@@ -48,13 +48,13 @@ def test_from_two_ticks_to_tables_and_a_page_and_back(
     qtbot: QtBot, desktop: Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     journey, screen = desktop.journey, desktop.journey.beside.screen
-    shown_list = journey.sessions.list
+    shown_list = journey.sessions.screen.list
     qtbot.waitUntil(lambda: all(line.figure for line in shown_list.rows.lines))
-    assert not journey.sessions.pair_button.isEnabled()
+    assert not journey.sessions.screen.pair_button.isEnabled()
     qtbot.keyClick(shown_list, Qt.Key.Key_Space)
     qtbot.keyClick(shown_list, Qt.Key.Key_Down)
     qtbot.keyClick(shown_list, Qt.Key.Key_Space)
-    assert "Compare the 2 ticked" in journey.sessions.pair_button.text()
+    assert "Compare the 2 ticked" in journey.sessions.screen.pair_button.text()
     qtbot.keyClick(shown_list, Qt.Key.Key_C)
     assert journey.place == "beside"
     qtbot.waitUntil(lambda: screen.shown is not None)
@@ -93,25 +93,25 @@ def test_from_two_ticks_to_tables_and_a_page_and_back(
 
     screen.report_button.click()
     assert journey.place == "report"
-    with qtbot.waitSignal(journey.report.saved, timeout=60_000):
-        journey.report.save(str(tmp_path / "pair.pdf"))
+    with qtbot.waitSignal(journey.report.screen.saved, timeout=60_000):
+        journey.report.screen.save(str(tmp_path / "pair.pdf"))
     assert (tmp_path / "pair.pdf").read_bytes().startswith(b"%PDF")
     journey.way.back()
     assert journey.place == "beside"
     journey.way.back()
     assert journey.place == "sessions"
-    assert len(journey.sessions.list.rows.ticked) == 2, "they stay ticked"
+    assert len(journey.sessions.screen.list.rows.ticked) == 2, "they stay ticked"
     deeds = [entry.did for entry in read_log(desktop.library.store)]
     assert [deeds.count(did) for did in ("opened", "exported", "reported")] == [2, 2, 2]
 
 
 def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: Desktop) -> None:
     journey, screen = desktop.journey, desktop.journey.beside.screen
-    newest, older = (line.session_id for line in journey.sessions.list.rows.lines)
-    journey.viewing.open_review(newest)
-    qtbot.waitUntil(lambda: journey.review.shown)
-    assert journey.review.beside_button.isEnabled()
-    qtbot.keyClick(journey.review, Qt.Key.Key_B)
+    newest, older = (line.session_id for line in journey.sessions.screen.list.rows.lines)
+    journey.review.show(newest)
+    qtbot.waitUntil(lambda: journey.review.screen.shown)
+    assert journey.review.screen.beside_button.isEnabled()
+    qtbot.keyClick(journey.review.screen, Qt.Key.Key_B)
     assert journey.place == "beside"
     qtbot.waitUntil(lambda: screen.shown is not None)
     assert screen.ids == (newest, older)
@@ -124,7 +124,7 @@ def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: Deskto
     assert opened == 3, "the review's one, and the two once"
     journey.way.back()
     assert journey.place == "review"
-    qtbot.waitUntil(lambda: journey.review.shown)
+    qtbot.waitUntil(lambda: journey.review.screen.shown)
     desktop.library.entry(older).path.unlink()
     told: list[Exception] = []
     screen.told.connect(told.append)

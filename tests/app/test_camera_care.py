@@ -77,7 +77,7 @@ def test_from_the_settings_over_board_and_card_to_their_pages(
         monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
         return path
 
-    journey.settings_wanted.emit()
+    journey.way.show("settings")
     settings_card = desktop.shell.findChild(CameraCard)
     assert settings_card is not None
     settings_card.calibrate_button.click()
@@ -138,7 +138,7 @@ def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(
     journey.care.look()
     qtbot.waitUntil(lambda: journey.care.standing.is_out)
     assert desktop.shell.bar.camera.text() == "Camera out: check it"
-    journey.settings_wanted.emit()
+    journey.way.show("settings")
     card = desktop.shell.findChild(CameraCard)
     assert card is not None
     assert "out of its limits" in card._state.text()

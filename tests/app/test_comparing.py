@@ -71,8 +71,8 @@ def desktop(
     library.close()
     settings = Settings(screen=ScreenSettings("light"), report=ReportSettings(agreement_limit_deg=5.0))
     opened = open_desktop(settings, today=date(2026, 11, 20))
-    opened.journey.viewing.review_newest(patient)
-    qtbot.waitUntil(lambda: opened.journey.review.shown)
+    opened.journey.review.show("", patient)
+    qtbot.waitUntil(lambda: opened.journey.review.screen.shown)
     return opened
 
 
@@ -88,8 +88,8 @@ def test_from_the_review_to_saved_tables(
     journey = desktop.journey
     screen, comparing = journey.agreement.screen, journey.agreement
     choosing(monkeypatch, optical, tmp_path)
-    journey.review.export_button.click()
-    journey.printing.formats.compare_button.click()
+    journey.review.screen.export_button.click()
+    journey.review.exporting.formats.compare_button.click()
     assert journey.place == "agreement"
     assert comparing.reference.isVisible()
     comparing.reference.file_button.click()
@@ -131,8 +131,8 @@ def test_from_the_review_to_saved_tables(
 def test_from_the_list_of_sessions_with_another_one(qtbot: QtBot, desktop: Desktop) -> None:
     journey = desktop.journey
     assert journey.patient is not None
-    journey.viewing.open_sessions(journey.patient.patient_id)
-    journey.sessions.reference_button.click()
+    journey.sessions.show(journey.patient.patient_id)
+    journey.sessions.screen.reference_button.click()
     assert journey.place == "agreement"
     sheet = journey.agreement.reference
     assert [sheet.box.itemText(row) for row in range(sheet.box.count())] == [

@@ -12,11 +12,8 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop import correcting
-from carpus.app.desktop.shelf import StoredSessions
 from carpus.core.pipeline.correction import CorrectionTask, correct, task_of
 from carpus.core.records.corrections import Corrections, Waiting, difference
 from carpus.core.records.keeping import Records
@@ -26,11 +23,13 @@ from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.ui.background import Background
-from carpus.ui.correct.results_sheet import ResultsSheet
-from carpus.ui.correct.screen import CorrectScreen
-from carpus.ui.keys import Keys
+from carpus.ui.correct.flow import CorrectFlow
+from carpus.ui.now_open import NowOpen
+from carpus.ui.sessions.flow import SessionShelf
+from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 from tests.pipeline.test_correction import WRONG_FROM, Stored, put_right, stored  # noqa: F401  (a fixture)
+from tests.ui.contexts import Told, a_context
 
 
 @pytest.fixture
@@ -80,22 +79,6 @@ def test_what_waits_is_erased_with_its_session(library: Library, stored: Stored)
     assert not trial.exists()
 
 
-class _Ways:
-    """Stands in for the window's way and messages."""
-
-    place, busy = "correct", False
-
-    def __init__(self) -> None:
-        self.faults: list[Exception] = []
-
-    def go(self, place: str) -> None: ...
-
-    def back(self) -> None: ...
-
-    def fault(self, fault: Exception, *_: object, **__: object) -> None:
-        self.faults.append(fault)
-
-
 def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
     qtbot: QtBot, library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch,  # noqa: F811
 ) -> None:  # fmt: skip
@@ -110,20 +93,18 @@ def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
         return True
 
     again: list[str] = []
-    monkeypatch.setattr(correcting, "correct_in_process", beside)
-    theme, stage, ways = Theme("light"), QWidget(), _Ways()
-    qtbot.addWidget(stage)
-    stage.resize(1280, 744)
-    stage.show()
-    corrections = Corrections(library)
-    screen = CorrectScreen(theme, Keys(), Background(), correcting.Moments(corrections))
-    qtbot.addWidget(screen)
-    sheet = ResultsSheet(stage, theme)
-    flow = correcting.Correcting(stage, screen, sheet, ways, ways, corrections, initials=lambda: "MK")  # type: ignore[arg-type]
+    monkeypatch.setattr("carpus.ui.correct.flow.correct_in_process", beside)
+    theme, told = Theme("light"), Told("correct")
+    shell = Shell(theme)
+    qtbot.addWidget(shell)
+    shell.resize(1280, 744)
+    shell.show()
+    stage = shell.stage
+    now = NowOpen(session_id=session_id)
+    flow = CorrectFlow(a_context(theme, shell, told, Background(), library=library, now=now))
+    sheet = flow.sheet
     said: list[tuple[int, int]] = []
-    used: list[str] = []
     flow.changed.connect(lambda percent, count: said.append((percent, count)))
-    flow.used.connect(lambda _, new: used.append(new))
     time.sleep(1.1)  # files say the second in which they were made, and nobody corrects within one
     flow.start(session_id, (put_right(stored),))
     qtbot.waitUntil(lambda: said[-1:] == [(-1, 1)], timeout=30_000)
@@ -141,14 +122,15 @@ def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
     qtbot.waitUntil(lambda: sheet.both is not None, timeout=30_000)
     assert "Not held" not in sheet.words.text()
     sheet.use.click()
-    qtbot.waitUntil(lambda: bool(used), timeout=30_000)
-    assert [entry.session_id for entry in library.sessions(patient)] == used
+    qtbot.waitUntil(lambda: bool(told.shown), timeout=30_000)
+    (new,) = (entry.session_id for entry in library.sessions(patient))
+    assert told.shown == [("review", new)]
     assert said[-1] == (-1, 0)
-    line = StoredSessions(library).with_figures(StoredSessions(library).lines(patient)[0])
+    line = SessionShelf(library).with_figures(SessionShelf(library).lines(patient)[0])
     assert line.corrected.startswith("Corrected on ")
     assert line.corrected.endswith(", from 00:02.0, by MK.")
-    assert not ways.faults
-    flow.start(used[0], (put_right(stored),))
+    assert not told.faults
+    flow.start(new, (put_right(stored),))
     flow.open_sheet()
     assert sheet.stop.isVisible()
     sheet.stop.click()

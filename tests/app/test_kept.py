@@ -13,7 +13,6 @@ import pytest
 import carpus
 from carpus.app.__main__ import main
 from carpus.app.desktop.patients import PatientShelf
-from carpus.app.desktop.shelf import StoredSessions
 from carpus.app.of_file import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.errors import OutputNotWritable
@@ -24,6 +23,7 @@ from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.ui.sessions.flow import SessionShelf
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces
 
@@ -44,7 +44,7 @@ def deeds(folder: Path) -> list[tuple[str, str, str]]:
 
 
 def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path: Path) -> None:
-    shelf, stored = PatientShelf(library), StoredSessions(library)
+    shelf, stored = PatientShelf(library), SessionShelf(library)
     linden = shelf.add(PatientEntry("Linden 42", "right", "right", note="a note", name="Erika Mustermann"))
     shelf.change(linden, PatientEntry("Linden 43", "right", "right"))
     session = store(library, set_up(linden, "Linden 43"))

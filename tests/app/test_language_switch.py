@@ -29,7 +29,7 @@ def test_another_language_at_the_same_place_and_none_while_something_is_at_work(
 ) -> None:
     at_work = [True]
     desktop.keeper.keeps_language = lambda: "Not now." if at_work[0] else ""
-    desktop.journey.settings_wanted.emit()
+    desktop.journey.way.show("settings")
     german = desktop.keeper.screen.language.buttons()[list(language.LANGUAGES).index("de")]
     german.click()
     assert "Not now." in texts(desktop)

@@ -15,7 +15,6 @@ import numpy as np
 import pytest
 
 from carpus.app.desktop.patients import PatientShelf
-from carpus.app.desktop.shelf import StoredSessions
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, SessionUnreadable
 from carpus.core.hand.exercises import exercise_named
@@ -27,6 +26,7 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
+from carpus.ui.sessions.flow import SessionShelf
 from carpus.ui.sessions.listing import remark
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
@@ -175,7 +175,7 @@ def test_the_exported_table_holds_the_angles_and_is_never_overwritten(library: L
 
 
 def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(library: Library) -> None:
-    shelf, stored = PatientShelf(library), StoredSessions(library)
+    shelf, stored = PatientShelf(library), SessionShelf(library)
     linden = shelf.add(PatientEntry("Linden 42", "right", "right"))
     heron = shelf.add(PatientEntry("Heron 17", "right", "right"))
     one = store(library, set_up(linden, "Linden 42"))

@@ -16,12 +16,12 @@ from PySide6.QtWidgets import QAbstractItemView, QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.app.compose import Desktop
-from carpus.app.settings import BackupSettings, RecordsSettings, Settings
+from carpus.app.settings import RecordsSettings, Settings
 from carpus.core.records.backup import backups
 from carpus.core.records.library import Library
 from carpus.core.records.log import fingerprint, read_log
 from carpus.core.records.pin import Pin
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import BackupSettings, PatientEntry
 from carpus.ui.messages.strip import NoticeStrip
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces
@@ -66,15 +66,15 @@ def visible_words(window: QWidget) -> set[str]:
 def test_a_session_is_archived_or_erased_from_the_list(qtbot: QtBot, opened: Open) -> None:
     desktop = opened()
     journey = desktop.journey
-    journey.viewing.open_sessions(linden(desktop))
+    journey.sessions.show(linden(desktop))
     sheet = desktop.safe.erasing.sheet
     for answer in (sheet.instead, sheet.for_good):
-        before = len(journey.sessions.list.rows.lines)
-        journey.sessions.erase_button.click()
+        before = len(journey.sessions.screen.list.rows.lines)
+        journey.sessions.screen.erase_button.click()
         qtbot.waitUntil(sheet.isVisible)
         sheet.line.setText("Linden 42")
         qtbot.mouseClick(answer, Qt.MouseButton.LeftButton)
-        qtbot.waitUntil(lambda before=before: len(journey.sessions.list.rows.lines) == before - 1)  # type: ignore[misc]
+        qtbot.waitUntil(lambda before=before: len(journey.sessions.screen.list.rows.lines) == before - 1)  # type: ignore[misc]
     assert len(desktop.library.index.archived()) == 1
     assert [entry.did for entry in read_log(desktop.library.store)][-3:] == [
         "archived", "erase_begun", "erased",
@@ -121,16 +121,16 @@ def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: 
     assert journey.patients.list.rows.find(who) >= 0, "the list below knows it too"
     journey.patients.search.clear()
 
-    journey.viewing.open_sessions(who)
-    lines = journey.sessions.list.rows
-    archive(journey.sessions.erase_button, lambda: len(lines.lines) == 1).button.click()
+    journey.sessions.show(who)
+    lines = journey.sessions.screen.list.rows
+    archive(journey.sessions.screen.erase_button, lambda: len(lines.lines) == 1).button.click()
     qtbot.waitUntil(lambda: len(lines.lines) == 2)
-    strip = archive(journey.sessions.erase_button, lambda: len(lines.lines) == 1)
+    strip = archive(journey.sessions.screen.erase_button, lambda: len(lines.lines) == 1)
     journey.way.back()
     assert journey.place == "sessions", "Esc closes what is told, then leaves"
     assert not strip.isVisible()
-    assert journey.sessions.archive_button.isVisible()
-    journey.sessions.archive_button.click()
+    assert journey.sessions.screen.archive_button.isVisible()
+    journey.sessions.screen.archive_button.click()
     qtbot.waitUntil(lists.sheet.isVisible)
     lists.sheet.buttons[0].click()
     qtbot.waitUntil(lambda: len(lines.lines) == 2)
@@ -139,9 +139,9 @@ def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: 
 def test_it_is_said_to_whom_a_session_was_given(qtbot: QtBot, opened: Open) -> None:
     desktop = opened()
     journey = desktop.journey
-    journey.viewing.open_sessions(linden(desktop))
+    journey.sessions.show(linden(desktop))
     (heron,) = (one.patient_id for one in desktop.library.patients.listed("heron"))
-    journey.sessions.move_sheet.chosen.emit(heron)
+    journey.sessions.screen.move_sheet.chosen.emit(heron)
     said = "The session is now one of Heron 17."
     qtbot.waitUntil(lambda: said in visible_words(desktop.shell), timeout=60_000)
     assert len(desktop.library.sessions(heron)) == 1
@@ -207,9 +207,9 @@ def test_it_locks_by_key_and_by_itself_but_never_over_a_recording(
     locking.sheet.tried.emit("4821")
     assert not locking.locked
     assert 0 < locking.idle.left_ms <= 11 * 60_000  # a coarse clock
-    journey.viewing.open_sessions(linden(desktop))
-    journey.sessions.rename_button.click()
-    assert journey.sessions.rename_sheet.isVisible()
+    journey.sessions.show(linden(desktop))
+    journey.sessions.screen.rename_button.click()
+    assert journey.sessions.screen.rename_sheet.isVisible()
     monkeypatch.setattr(type(journey.live), "recording_state", "recording")
     locking.lock_by_key()
     locking.idle.passed.emit()
@@ -221,7 +221,7 @@ def test_it_locks_by_key_and_by_itself_but_never_over_a_recording(
     assert "after 10 minutes" in locking.sheet.why.text()
     assert not any("Linden" in word for word in visible_words(desktop.shell))
     locking.sheet.tried.emit("4821")
-    assert journey.sessions.rename_sheet.isVisible(), "what was open is open again"
+    assert journey.sessions.screen.rename_sheet.isVisible(), "what was open is open again"
 
 
 def test_a_pin_is_set_changed_and_taken_away_in_the_settings(qtbot: QtBot, opened: Open, data: Path) -> None:
@@ -297,7 +297,7 @@ def test_back_up_now_without_a_folder_asks_for_one_and_backs_up(
     facts = backing._facts()
     assert (facts.state, facts.place_state) == ("warn", "warn"), "the same disk is no safe place"
     assert "same disk" in facts.place_words
-    monkeypatch.setattr("carpus.app.desktop.backing_up.on_same_disk", lambda *_: False)
+    monkeypatch.setattr("carpus.ui.records.backing_up.on_same_disk", lambda *_: False)
     facts = backing._facts()
     assert (facts.state, facts.place_state) == ("good", "good")
 
@@ -352,11 +352,11 @@ def test_lists_of_records_and_the_log(qtbot: QtBot, opened: Open, data: Path) ->
 
 def test_what_is_looked_at_is_logged(qtbot: QtBot, opened: Open) -> None:
     desktop = opened()
-    desktop.journey.viewing.open_sessions(linden(desktop))
-    chosen = desktop.journey.sessions.chosen()
+    desktop.journey.sessions.show(linden(desktop))
+    chosen = desktop.journey.sessions.screen.chosen()
     assert chosen is not None
-    desktop.journey.sessions.open_chosen()
-    qtbot.waitUntil(lambda: desktop.journey.review.shown)
+    desktop.journey.sessions.screen.open_chosen()
+    qtbot.waitUntil(lambda: desktop.journey.review.screen.shown)
     last = read_log(desktop.library.store)[-1]
     assert (last.did, last.kind, last.subject) == ("opened", "session", fingerprint(chosen.session_id))
 

@@ -30,13 +30,13 @@ def test_a_session_of_nobody_here_is_shown_and_stays_where_it_is(
     before = session.read_bytes()
     journey = (desktop := open_desktop()).journey
     desktop.called(session)
-    qtbot.waitUntil(lambda: journey.review.shown, timeout=30_000)
+    qtbot.waitUntil(lambda: journey.review.screen.shown, timeout=30_000)
     assert journey.place == "review"
     assert journey.patient is not None
     assert journey.patient.pseudonym == "Linden 42"
-    assert journey.review.again_button.isHidden(), "there is nobody to measure"
+    assert journey.review.screen.again_button.isHidden(), "there is nobody to measure"
     for tab in range(4):  # every tab of the bar leads somewhere
-        journey.viewing.take_tab(tab)
+        journey.take_tab(tab)
         assert journey.place == ("sessions", "review", "progress", "report")[tab] or tab == 3
     journey.show_patients()
     assert not list((data / "sessions").rglob("*.h5"))
@@ -51,7 +51,7 @@ def test_a_session_of_a_patient_is_opened_as_theirs_also_by_a_copy(
     shutil.copyfile(session, data / "sessions" / "copied.h5")
     journey = (desktop := open_desktop()).journey
     desktop.called(session)
-    qtbot.waitUntil(lambda: journey.review.shown, timeout=30_000)
+    qtbot.waitUntil(lambda: journey.review.screen.shown, timeout=30_000)
     assert journey.patient is not None
     assert journey.patient.patient_id
     assert journey.patient.session_count == 1
@@ -69,7 +69,7 @@ def test_behind_the_lock_nothing_is_opened_until_somebody_has_the_pin(
     assert desktop.journey.place == "patients"
     assert desktop.journey.patient is None
     locking.sheet.tried.emit("4711")
-    qtbot.waitUntil(lambda: desktop.journey.review.shown, timeout=30_000)
+    qtbot.waitUntil(lambda: desktop.journey.review.screen.shown, timeout=30_000)
 
 
 def test_what_is_no_session_is_told(open_desktop: Open, tmp_path: Path) -> None:

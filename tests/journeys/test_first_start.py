@@ -55,7 +55,7 @@ def test_the_first_session_is_led_from_control_to_control(
     assert journey.live.bubble.isVisible()
     journey.way.go("report")
     qtbot.waitUntil(lambda: shown(desktop, "save"))
-    journey.report.saved.emit(str(tmp_path / "report.pdf"))
+    journey.report.screen.saved.emit(str(tmp_path / "report.pdf"))
     assert not load_settings(tmp_path / "settings").first_start.answered, "it is not finished yet"
     go_on("end")
     assert order == ["patients", "markers", "markers", "report"]

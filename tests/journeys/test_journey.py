@@ -78,7 +78,7 @@ def click_discs(qtbot: QtBot, desktop: Desktop, take: Path) -> None:
 def reviewed(qtbot: QtBot, desktop: Desktop) -> Path:
     """The session file of the review that is shown."""
     at(qtbot, desktop, "review")
-    wait(qtbot, lambda: desktop.journey.review.shown)
+    wait(qtbot, lambda: desktop.journey.review.screen.shown)
     return desktop.library.entry(desktop.journey.session_id).path
 
 
@@ -154,16 +154,16 @@ def test_the_whole_journey_by_mouse(
     reviewed(qtbot, desktop)
     click(qtbot, desktop.shell.bar.way()[2])
     at(qtbot, desktop, "progress")
-    wait(qtbot, lambda: bool(journey.progress.chart.points()))
-    spot = journey.progress.chart.points()[0][2].toPoint()
-    qtbot.mouseClick(journey.progress.chart.face, Qt.MouseButton.LeftButton, pos=spot)
+    wait(qtbot, lambda: bool(journey.progress.screen.chart.points()))
+    spot = journey.progress.screen.chart.points()[0][2].toPoint()
+    qtbot.mouseClick(journey.progress.screen.chart.face, Qt.MouseButton.LeftButton, pos=spot)
     reviewed(qtbot, desktop)
-    click(qtbot, journey.review.report_button)
+    click(qtbot, journey.review.screen.report_button)
     at(qtbot, desktop, "report")
     pdf = tmp_path / "report.pdf"
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(pdf), ""))
-    with qtbot.waitSignal(journey.report.saved, timeout=PATIENCE_MS):
-        click(qtbot, journey.report.save_button)
+    with qtbot.waitSignal(journey.report.screen.saved, timeout=PATIENCE_MS):
+        click(qtbot, journey.report.screen.save_button)
     assert name in words_of_pdf(pdf)
     click(qtbot, desktop.shell.bar.back_button)
     at(qtbot, desktop, "review")
@@ -228,7 +228,7 @@ def test_the_whole_journey_by_keyboard(
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(pdf), ""))
     press(Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier)
     at(qtbot, desktop, "report")
-    with qtbot.waitSignal(journey.report.saved, timeout=PATIENCE_MS):
+    with qtbot.waitSignal(journey.report.screen.saved, timeout=PATIENCE_MS):
         press(Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier)
     assert "strap loose" in words_of_pdf(pdf)
     press(Qt.Key.Key_Escape)
@@ -264,7 +264,7 @@ def test_a_recording_is_measured_from_its_first_picture_to_its_last(
         assert times[0] == pytest.approx(stored[0])
         assert times[-1] == pytest.approx(stored[-1])
         assert len(times) + int(file["quality/dropped_frames"][:].sum()) == len(stored)
-    assert not journey.review.again_button.isVisible()
+    assert not journey.review.screen.again_button.isVisible()
 
 
 def test_a_recording_of_the_camera_plays_through_its_own_library_in_real_time(
@@ -341,7 +341,7 @@ def test_a_second_set_needs_no_new_markers(qtbot: QtBot, open_desktop: Open, tak
     journey = desktop.journey
     to_live(qtbot, desktop, take)
     first = one_set(qtbot, desktop)
-    click(qtbot, journey.review.again_button)
+    click(qtbot, journey.review.screen.again_button)
     at(qtbot, desktop, "live")
     second = one_set(qtbot, desktop)
     assert first != second
@@ -416,7 +416,7 @@ def test_a_card_takes_every_key_and_its_first_button_does_what_it_says(
     journey.live.stop()  # as the end of the source does
     at(qtbot, desktop, "review")
     assert not journey.messages.busy, "the question has answered itself"
-    wait(qtbot, lambda: journey.review.shown)
+    wait(qtbot, lambda: journey.review.screen.shown)
     qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Escape)
     at(qtbot, desktop, "patients")
 
@@ -630,10 +630,10 @@ def test_what_was_left_out_is_stored_beside_the_session(qtbot: QtBot, open_deskt
     journey.live.toggle_recording()
     path = reviewed(qtbot, desktop)
     before = path.read_bytes()
-    figures = journey.review.figures
+    figures = journey.review.screen.figures
     assert figures is not None
     counted = figures.counted
-    journey.review._leave_out("pain")
+    journey.review.screen._leave_out("pain")
     wait(qtbot, lambda: not journey.background.busy)
     assert path.read_bytes() == before
     desktop.close()

@@ -27,7 +27,7 @@ def test_esc_closes_any_sheet_and_leaves_its_screen(qtbot: QtBot, open_desktop: 
     seen: list[str] = []
     for place, screen in (
         ("patients", journey.patients), ("markers", journey.markers), ("live", journey.live),
-        ("review", journey.review),
+        ("review", journey.review.screen),
     ):  # fmt: skip
         journey.way.go(place)  # type: ignore[arg-type]
         for sheet in screen.findChildren(Sheet):

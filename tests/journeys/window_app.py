@@ -27,7 +27,7 @@ class Reporter:
         self._desktop, self._take = desktop, take
         self._said: set[str] = set()
         desktop.journey.live.stopped.connect(self._stored)
-        desktop.journey.report.saved.connect(lambda path: self.say(f"saved {path}"))
+        desktop.journey.report.screen.saved.connect(lambda path: self.say(f"saved {path}"))
         desktop.journey.messages.told.connect(lambda fault: self.say(f"fault {fault!r}"))
         self._timer = QTimer(desktop.shell)
         self._timer.timeout.connect(self._look)
@@ -52,7 +52,7 @@ class Reporter:
             self.say("place live")
             if journey.live.recording_state == "recording" and journey.live.repetitions >= 2:
                 self.say("repeated")
-        elif journey.place != "review" or journey.review.shown:
+        elif journey.place != "review" or journey.review.screen.shown:
             self.say(f"place {journey.place}")
 
     def _look_at_markers(self) -> None:

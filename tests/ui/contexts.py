@@ -34,6 +34,9 @@ class Told:
     def go(self, place: str) -> None:
         self.place = place
 
+    def back(self) -> None:
+        """Nobody goes anywhere."""
+
     def show(self, place: str, *given: object) -> None:
         self.shown.append((place, *given))
 

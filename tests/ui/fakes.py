@@ -23,6 +23,7 @@ from carpus.core.hand.exercises import Movement, exercise_named
 from carpus.core.hand.sites import WRIST_ANGLES, joint_angle_names
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
+from carpus.core.records.corrections import Corrections
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.records.values import ClinicWeek, Counted, DueTest, PatientEntry
 from carpus.core.results.camera_said import CameraSaid, camera_said
@@ -32,7 +33,17 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import ByteImage, Detections, Frame, Moment, Side, SpotAnswer, TrackedFrame, TrackStatus
+from carpus.core.types import (
+    ByteImage,
+    Detections,
+    FloatArray,
+    Frame,
+    Moment,
+    Side,
+    SpotAnswer,
+    TrackedFrame,
+    TrackStatus,
+)
 from carpus.ui.ports import (
     MOST_ROWS,
     FoundMarker,
@@ -41,14 +52,14 @@ from carpus.ui.ports import (
     PatientRow,
     ProposedMarker,
     ResultLine,
-    SessionLine,
     SessionRow,
-    StoredMoment,
     StoredResult,
     VerdictLimits,
 )
 from carpus.ui.report.home_page import HomeReport, HomeTask, OwnWay
 from carpus.ui.report.pdf import session_report
+from carpus.ui.sessions.flow import SessionShelf
+from carpus.ui.sessions.listing import SessionLine
 from tests.moments import with_moment
 
 FPS = 30.0
@@ -717,7 +728,7 @@ def hand_values() -> list[HandValue]:
     return [*found, other, size]
 
 
-class FakeShelf:
+class FakeShelf(SessionShelf):
     """A list of sessions that remembers what was done with it."""
 
     def __init__(self, count: int = 6) -> None:
@@ -760,16 +771,16 @@ class FakeShelf:
         self._change(session_id, exercise=exercise)
 
 
-class FakeCorrections:
+class FakeCorrections(Corrections):
     """The stored pictures of :class:`FakeSessions`, and the spots of each: all discs that were seen, and one more."""
 
     def __init__(self, sessions: FakeSessions, *, pictures: bool = True) -> None:
         self._sessions, self._pictures = sessions, pictures
 
-    def moment(self, session_id: str, row: int) -> StoredMoment:
+    def moment(self, session_id: str, row: int) -> tuple[ByteImage | None, FloatArray]:
         places = self._sessions.session(session_id).markers.measured_px[row]
         spots = np.concatenate((places[np.isfinite(places[:, 0])], [[420.0, 120.0]]))
-        return StoredMoment(self._sessions.picture(session_id, row) if self._pictures else None, spots)
+        return self._sessions.picture(session_id, row) if self._pictures else None, spots
 
 
 def compared(*, readings: bool = False, hand: bool = False) -> Compared:

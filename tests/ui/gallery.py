@@ -56,11 +56,10 @@ from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.ports import Preferences, ReferenceChoice
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.records.cards import BackupCard, BackupFacts, LockCard, RecordsCard
-from carpus.ui.records.erase_sheet import EraseSheet
-from carpus.ui.records.list_sheets import LogSheet, RecordsSheet
+from carpus.ui.records.erase_sheet import EraseSheet, ErasureFacts
+from carpus.ui.records.list_sheets import DeedLine, ListedRecord, LogSheet, RecordsSheet
 from carpus.ui.records.lock_sheet import LockSheet
 from carpus.ui.records.pin_sheet import PinSheet
-from carpus.ui.records.ports import DeedLine, ErasureFacts, ListedRecord
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_page import LetterReport

@@ -12,7 +12,6 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.printing import write_tables
 from carpus.core.measures.by_hand import HandValue, counted
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
@@ -22,6 +21,7 @@ from carpus.ui.background import Background
 from carpus.ui.by_hand.flow import ByHandFlow
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.ports import PatientRow
+from carpus.ui.progress.tables import write_tables
 from carpus.ui.report.pdf import progress_report, session_report, write_progress_report, write_session_report
 from carpus.ui.theme import Theme
 from tests.ui.contexts import Told, a_context

@@ -48,11 +48,10 @@ from carpus.ui.messages.stop_card import Answer, StopCard
 from carpus.ui.patients.entry import PatientForm
 from carpus.ui.ports import ReferenceChoice
 from carpus.ui.records.erase_sheet import EraseSheet
-from carpus.ui.records.list_sheets import LogSheet, RecordsSheet
+from carpus.ui.records.list_sheets import ListedRecord, LogSheet, RecordsSheet
 from carpus.ui.records.lock_sheet import LockSheet
 from carpus.ui.records.passphrase_sheet import PassphraseSheet
 from carpus.ui.records.pin_sheet import PinSheet
-from carpus.ui.records.ports import ListedRecord
 from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_sheet import LetterSheet
 from carpus.ui.retest.people_sheet import PeopleSheet

@@ -11,29 +11,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.printing import Printing
-from carpus.app.desktop.report_forms import ReportForms
 from carpus.core.formats.formats import FORMATS
 from carpus.core.records.store import Store
 from carpus.ui.background import Background
-from carpus.ui.keys import Keys
+from carpus.ui.export.flow import Exporting
 from carpus.ui.last_places import LastPlaces
-from carpus.ui.report.screen import ReportScreen
 from carpus.ui.theme import Theme
-
-
-class Told:
-    """What the person was told and asked."""
-
-    def __init__(self) -> None:
-        self.faults: list[Exception] = []
-        self.asked: list[object] = []
-
-    def fault(self, fault: Exception) -> None:
-        self.faults.append(fault)
-
-    def ask(self, words: object, answers: object, *, icon: str = "") -> None:
-        self.asked.append(words)
+from tests.ui.contexts import Told, a_context
 
 
 class Stored:
@@ -60,58 +44,53 @@ class Stored:
 @pytest.fixture
 def parts(
     qtbot: QtBot, theme: Theme, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[tuple[Printing, Stored, Told, Background]]:
+) -> Iterator[tuple[Exporting, Stored, Told, Background]]:
     window = QWidget()
     qtbot.addWidget(window)
     window.resize(1280, 800)
     background, stored, told = Background(), Stored(), Told()
-    screen = ReportScreen(theme, Keys({}), background)
-    qtbot.addWidget(screen)
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(tmp_path))
     store = Store(tmp_path)
-    printing = Printing(
-        window, screen, None, told, None, stored, LastPlaces(store), background,  # type: ignore[arg-type]
-        theme=theme, therapist=lambda: "", forms=ReportForms(window, theme, store, told.fault),
-    )  # fmt: skip
+    exporting = Exporting(a_context(theme, window, told, background, library=stored, places=LastPlaces(store)))
     window.show()
-    yield printing, stored, told, background
+    yield exporting, stored, told, background
     store.close()
 
 
 def test_every_format_is_offered_and_what_is_ticked_is_written(qtbot: QtBot, parts: tuple) -> None:  # type: ignore[type-arg]
-    printing, stored, told, _ = parts
-    printing.export("s1")
-    assert set(printing.formats.boxes) == set(FORMATS)
-    assert printing.formats.formats == ["csv"]
-    printing.formats.boxes["csv"].click()
-    assert not printing.formats.take.isEnabled(), "nothing to write"
-    printing.formats.boxes["c3d"].click()
-    printing.formats.nobody.click()
-    printing.formats.take.click()
+    exporting, stored, told, _ = parts
+    exporting.ask("s1")
+    assert set(exporting.formats.boxes) == set(FORMATS)
+    assert exporting.formats.formats == ["csv"]
+    exporting.formats.boxes["csv"].click()
+    assert not exporting.formats.take.isEnabled(), "nothing to write"
+    exporting.formats.boxes["c3d"].click()
+    exporting.formats.nobody.click()
+    exporting.formats.take.click()
     qtbot.waitUntil(lambda: bool(told.asked))
     assert stored.calls == [(["c3d"], True)]
-    assert not printing.formats.isVisible()
+    assert not exporting.formats.isVisible()
     assert not told.faults
 
 
 def test_enter_goes_on_and_changes_no_choice(qtbot: QtBot, parts: tuple) -> None:  # type: ignore[type-arg]
-    printing, stored, told, _ = parts
-    printing.export("s1")
-    printing.formats.boxes["trc"].click()
-    qtbot.keyClick(printing.formats.boxes["trc"], Qt.Key.Key_Return)
+    exporting, stored, told, _ = parts
+    exporting.ask("s1")
+    exporting.formats.boxes["trc"].click()
+    qtbot.keyClick(exporting.formats.boxes["trc"], Qt.Key.Key_Return)
     qtbot.waitUntil(lambda: bool(told.asked))
     assert stored.calls == [(["csv", "trc"], False)]
 
 
 def test_it_shows_how_far_it_is_and_stops(qtbot: QtBot, parts: tuple) -> None:  # type: ignore[type-arg]
-    printing, stored, told, background = parts
+    exporting, stored, told, background = parts
     stored.waits.clear()
-    printing.export("s1")
-    printing.formats.take.click()
-    qtbot.waitUntil(lambda: printing.formats.bar.value() == 1)
-    assert printing.formats.bar.maximum() == 2
-    assert not printing.formats.take.isVisible()
-    qtbot.keyClick(printing.formats, Qt.Key.Key_Escape)
-    qtbot.waitUntil(lambda: not printing.formats.isVisible())
+    exporting.ask("s1")
+    exporting.formats.take.click()
+    qtbot.waitUntil(lambda: exporting.formats.bar.value() == 1)
+    assert exporting.formats.bar.maximum() == 2
+    assert not exporting.formats.take.isVisible()
+    qtbot.keyClick(exporting.formats, Qt.Key.Key_Escape)
+    qtbot.waitUntil(lambda: not exporting.formats.isVisible())
     assert background.wait()
     assert not told.asked, "nothing was written, so nothing is said to be"

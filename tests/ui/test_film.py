@@ -13,10 +13,9 @@ import cv2
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.filming import Filming
 from carpus.core.errors import OutputNotWritable
 from carpus.core.formats.film import UNFINISHED, write_film
 from carpus.core.hand.exercises import exercise_named
@@ -27,8 +26,10 @@ from carpus.core.types import SIMULATED, ByteImage, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.review.film import STILL, FilmWanted, film_pictures
+from carpus.ui.review.flow import ReviewFlow
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
+from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import FakeSessions, session
 
 ROWS = range(30, 90)
@@ -188,6 +189,8 @@ class Places:
 def test_a_saved_film_is_told_and_noted(
     qtbot: QtBot, theme: Theme, background: Background, side: Session, tmp_path: Path
 ) -> None:
+    made: list[tuple[str, object]] = []
+
     class Pictures:
         folder = tmp_path / "data"
 
@@ -195,29 +198,26 @@ def test_a_saved_film_is_told_and_noted(
         def picture(session_id: str, row: int) -> ByteImage:
             return room(row)
 
-    told: list[object] = []
-
-    class Tell:
-        def fault(self, fault: object) -> None:
-            told.append(fault)
-
-        def __getattr__(self, name: str) -> object:
-            return lambda *given, **named: told.append(given)
+        @staticmethod
+        def made(paths: list[Path], kind: str, sessions: list[str]) -> None:
+            assert kind == "export"
+            made.extend((str(path), sessions) for path in paths)
 
     Pictures.folder.mkdir()
     (Pictures.folder / UNFINISHED).write_bytes(b"of a program that was killed")
     places = Places(tmp_path / "x")
-    filming = Filming(None, Tell(), Pictures(), places, background, theme)  # type: ignore[arg-type]
-    made: list[tuple[str, object]] = []
-    filming.filmed.connect(lambda path, sessions: made.append((path, sessions)))
+    told, window = Told(), QWidget()
+    qtbot.addWidget(window)
+    flow = ReviewFlow(a_context(theme, window, told, background, library=Pictures(), places=places))
+    qtbot.addWidget(flow.screen)
     assert not list(Pictures.folder.iterdir())
-    filming.save(FilmWanted(side, "s7", 4, ROWS[:6], 30.0, exercise_named("WRIST_RU"), lambda _: ""))
+    flow.save_film(FilmWanted(side, "s7", 4, ROWS[:6], 30.0, exercise_named("WRIST_RU"), lambda _: ""))
     qtbot.waitUntil(lambda: bool(made), timeout=60_000)
     assert re.search(r"_\d{4}-\d\d-\d\d_\d\d-\d\d_wrist-ru_right_4.mp4$", str(places.asked[2]))
     assert made == [(str(tmp_path / "x.mp4"), ["s7"])]
     assert (tmp_path / "x.mp4").stat().st_mode & 0o077 == 0
-    assert told
-    filming.save(FilmWanted(side, "s7", 4, ROWS[:1], 0.0, exercise_named("WRIST_RU"), lambda _: "24°"))
+    assert told.asked
+    flow.save_film(FilmWanted(side, "s7", 4, ROWS[:1], 0.0, exercise_named("WRIST_RU"), lambda _: "24°"))
     qtbot.waitUntil(lambda: len(made) == 2, timeout=60_000)
     picture = cv2.imread(str(tmp_path / "x.png"))
     assert picture is not None

@@ -36,14 +36,14 @@ from carpus.ui.plot.course import place_panels
 from carpus.ui.plot.history import History
 from carpus.ui.plot.session import HandPlot
 from carpus.ui.plot.style import screen_style
-from carpus.ui.ports import PatientCard, Preferences, ResultLine, SessionLine
+from carpus.ui.ports import PatientCard, Preferences, ResultLine
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.progress.words import before_after, doubt_words
 from carpus.ui.report.hand_rows import column_heads, limits_words
 from carpus.ui.report.pdf import session_report
 from carpus.ui.report.tables import repetition_words, table_rows
 from carpus.ui.report.words import method, other_lines, warnings
-from carpus.ui.sessions.listing import cells
+from carpus.ui.sessions.listing import SessionLine, cells
 from carpus.ui.settings.limits import limit_lines
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme

@@ -14,7 +14,6 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter
 from pytestqt.qtbot import QtBot
 
-from carpus.app.desktop.shelf import main_figure
 from carpus.core.results.figures import session_figures
 from carpus.core.results.motion_curves import motion_curves
 from carpus.core.results.seen import session_curves
@@ -28,6 +27,7 @@ from carpus.ui.plot.ways import LEAST_SPAN_MM, finger_ways, is_titled, plane_mar
 from carpus.ui.ports import PatientCard
 from carpus.ui.report.further_rows import further_rows, main_words
 from carpus.ui.report.hand_rows import column_heads, finger_rows
+from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.pdf import write_session_report
 from carpus.ui.review.screen import WRIST, ReviewScreen
 from carpus.ui.theme import Theme

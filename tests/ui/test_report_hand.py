@@ -12,7 +12,6 @@ import pytest
 from PySide6.QtGui import QPainter, QPicture
 from PySide6.QtWidgets import QApplication
 
-from carpus.app.desktop.printing import write_table
 from carpus.core.results.figures import session_figures
 from carpus.core.results.progress import compare_rows, progress
 from carpus.core.results.ranges import finger_keys
@@ -20,6 +19,7 @@ from carpus.ui import numbers
 from carpus.ui.figures import Figure, with_side
 from carpus.ui.language import speaking
 from carpus.ui.plot.course import axis_top_deg, panels_of
+from carpus.ui.progress.tables import write_table
 from carpus.ui.progress.words import headline
 from carpus.ui.report.hand_part import CHANGE_COLUMN, GAP_PT, LEAST_SIZE_PT, column_edges, lines_of
 from carpus.ui.report.hand_rows import (

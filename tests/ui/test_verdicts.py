@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from carpus.app.desktop.shelf import main_figure
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.results.figures import session_figures
 from carpus.ui import numbers
 from carpus.ui.figures import figure_of
 from carpus.ui.live.number_card import speed_words
 from carpus.ui.report.hand_rows import compared_figures
+from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.pdf import session_report
 from carpus.ui.report.screen import suggested_name
 from carpus.ui.verdicts import change_since_first, difference, no_change_words, verdict_word

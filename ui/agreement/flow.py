@@ -27,19 +27,17 @@ from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet, mi
 from carpus.ui.agreement.screen import AgreementScreen
 from carpus.ui.background import Background
 from carpus.ui.flow import Flow, ScreenContext
-from carpus.ui.messages.files_written import tell_written
 from carpus.ui.ports import ReferenceChoice
 from carpus.ui.report.agreement_plot import write_plots
 
 
 class AgreementFlow(Flow):
-    """``saved`` carries the paths written and the sessions that went into them."""
+    """The sheets that choose the other one, and the screen with the difference."""
 
     place, guide, tab = "agreement", "checking", "review"
     while_aside = True
     screen: AgreementScreen
 
-    saved = Signal(object, object)
     _stepped = Signal(int, int)
 
     def __init__(self, context: ScreenContext) -> None:
@@ -62,6 +60,7 @@ class AgreementFlow(Flow):
         screen.stop.connect(self._stop.set)
         screen.save.connect(self._save)
         screen.told.connect(context.messages.fault)
+        screen.chart.saved.connect(lambda path: self.note_made([path], [context.now.session_id]))
         self._stepped.connect(screen.bar.show_progress, Qt.ConnectionType.QueuedConnection)
 
     @property
@@ -206,8 +205,4 @@ class AgreementFlow(Flow):
             files = write_files(result, Path(folder), self.context.version)
             return [*files, *write_plots(result.compared, Path(folder), result.stem, limit_deg)]
 
-        self._background.run(write, lambda paths: self._written(paths, sessions), self.context.messages.fault, self)
-
-    def _written(self, paths: Sequence[Path], sessions: Sequence[str]) -> None:
-        self.saved.emit(paths, sessions)
-        tell_written(self.context.messages, str(paths[0].parent), [path.name for path in paths])
+        self._background.run(write, lambda paths: self.tell_made(paths, sessions), self.context.messages.fault, self)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QSizePolicy, QWidget
+from PySide6.QtWidgets import QComboBox, QGridLayout, QSizePolicy, QWidget
 
 from carpus.core.hand.sites import PALM_MARKERS
 from carpus.ui.agreement.words import angle_name
@@ -16,6 +16,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.column import RING_PX, scroll_area
 from carpus.ui.controls.field import Choices, Labelled
 from carpus.ui.controls.host import host_of
+from carpus.ui.controls.layouts import STRETCH, fill, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
 from carpus.ui.controls.tick import Tick
@@ -51,14 +52,8 @@ class ReferenceSheet(Sheet):
         self._other = Labelled(theme, self.tr("Or another session of this &patient"), self.box)
         self.session_button = Button(theme, self.tr("Compare with this &session"))
         close = Button(theme, self.tr("Cancel"), "quiet", hint=self.tr("Esc"))
-        body.addWidget(self.file_button)
-        body.addSpacing(8)
-        body.addWidget(self._other)
-        row = QHBoxLayout()
-        row.addWidget(close)
-        row.addStretch(1)
-        row.addWidget(self.session_button)
-        body.addLayout(row)
+        fill(body, self.file_button, 8, self._other)
+        body.addLayout(in_line(close, STRETCH, self.session_button))
         close.clicked.connect(self.close_sheet)
         self.file_button.clicked.connect(self._take_file)
         self.session_button.clicked.connect(self._take_session)
@@ -108,12 +103,7 @@ class ColumnsSheet(Sheet):
         body = self.card.body
         for widget in (self.title, self.words, self._scroll, self.unit, self.problem):
             body.addWidget(widget)
-        row = QHBoxLayout()
-        row.setSpacing(10)
-        row.addStretch(1)
-        row.addWidget(close)
-        row.addWidget(self.take)
-        body.addLayout(row)
+        body.addLayout(in_line(STRETCH, close, self.take, gap=10))
         close.clicked.connect(self.close_sheet)
         self.take.clicked.connect(self._take)
         self.set_default(self.take)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QComboBox, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QComboBox, QGridLayout, QVBoxLayout, QWidget
 
 from carpus.ui.agreement.table import AgreementTable
 from carpus.ui.agreement.words import angle_name, headline, in_order, joined_rows, left_words, most_moved, remark_words
@@ -14,6 +14,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind
@@ -76,33 +77,19 @@ class AgreementScreen(QWidget):
             bind(self, keys, name, action)
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.setSpacing(12)
-        head.addWidget(self.other_button)
-        head.addWidget(self.columns_button)
-        head.addWidget(self.facts, 1)
-        head.addWidget(self.save_button)
-        over = QHBoxLayout()
-        over.setContentsMargins(20, 10, 56, 0)
-        over.setSpacing(12)
+        head = in_line(self.other_button, self.columns_button, (self.facts, 1), self.save_button, gap=12)
+        over = in_line(gap=12, margins=(20, 10, 56, 0))
         for widget in (self.angle, self.view):
             widget.setProperty("floats", True)  # in the head of the card, in which nothing is painted
-        over.addWidget(self.angle)
-        over.addWidget(self.view)
-        over.addStretch(1)
-        inside = QVBoxLayout(self.chart)
-        inside.setContentsMargins(0, 0, 0, 0)
-        inside.addLayout(over)
-        inside.addStretch(1)
+        fill(over, self.angle, self.view, STRETCH)
+        in_column(over, STRETCH, margins=(0, 0, 0, 0), within=self.chart)
         self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         self._columns.setSpacing(GAP_PX)
         self._columns.addWidget(self.chart, 1)
         self._columns.addWidget(self._joined)
         figures = Card(self._theme, 20)
         figures.body.setContentsMargins(24, 12, 16, 12)
-        title = QHBoxLayout()
-        title.setSpacing(12)
-        title.addWidget(Text(self._theme, self.tr("Per angle"), 16, SEMIBOLD))
+        title = in_line(Text(self._theme, self.tr("Per angle"), 16, SEMIBOLD), gap=12)
         words = self.tr("Carpus less the reference; in brackets 95 % intervals, repeated values allowed for")
         title.addWidget(caption(self._theme, words, wrap=True), 1)
         figures.body.addLayout(title)
@@ -110,30 +97,25 @@ class AgreementScreen(QWidget):
         words = self.tr("The limit is a choice, not a proof: change it in Settings, before comparing.")
         figures.body.addWidget(caption(self._theme, words, wrap=True))
         host = ScrolledColumn()
-        body = QVBoxLayout(host)
-        body.setContentsMargins(0, 0, 0, 0)
-        body.setSpacing(GAP_PX)
-        body.addLayout(self._columns, 1)
-        body.addWidget(figures)
+        in_column((self._columns, 1), figures, gap=GAP_PX, margins=(0, 0, 0, 0), within=host)
         self._body = scroll_area(host)
         self._work = Card(self._theme, 24)
         self._work.body.addWidget(Text(self._theme, self.tr("Bringing the two together…"), 16, SEMIBOLD))
         self._work.body.addWidget(self.bar)
-        row = QHBoxLayout()
-        row.addStretch(1)
-        row.addWidget(self.stop_button)
-        self._work.body.addLayout(row)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX)
-        whole.setSpacing(0)
-        whole.addLayout(head)
-        whole.addSpacing(12)
-        whole.addWidget(self.answer)
-        whole.addSpacing(2)
-        whole.addWidget(self.basis)
-        whole.addSpacing(12)
-        whole.addWidget(self._work)
-        whole.addWidget(self._body, 1)
+        self._work.body.addLayout(in_line(STRETCH, self.stop_button))
+        whole = in_column(
+            head,
+            12,
+            self.answer,
+            2,
+            self.basis,
+            12,
+            self._work,
+            (self._body, 1),
+            gap=0,
+            margins=(MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX),
+            within=self,
+        )
         whole.addStretch(0)
         self._theme.changed.connect(self._fit)
         self.begin()

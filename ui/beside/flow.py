@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
-
-from PySide6.QtCore import Signal
-
 from carpus.core.provenance import with_revision
 from carpus.core.records.values import SessionEntry
 from carpus.ui import numbers, terms
@@ -15,20 +10,15 @@ from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.beside.shown import Shown
 from carpus.ui.beside.tables import write_tables
 from carpus.ui.flow import Flow, ScreenContext
-from carpus.ui.messages.files_written import tell_written
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.sessions.sheets import ChooseSheet
 
 
 class BesideFlow(Flow):
-    """``report_wanted`` carries a page to be shown; ``tabled`` the paths written and the sessions that went into them.
-    ``back_to`` is where one came from."""
+    """``back_to`` is where one came from."""
 
     place, guide, tab = "beside", "sessions", "review"
     screen: BesideScreen
-
-    report_wanted = Signal(object)
-    tabled = Signal(object, object)
 
     def __init__(self, context: ScreenContext) -> None:
         self._background = Background()  # its own: what the list still reads holds up no picture
@@ -78,7 +68,8 @@ class BesideFlow(Flow):
         pseudonym = self.context.now.name or now.both.first.subject_id
         made_by = with_revision(self.context.version)
         therapist = self.context.report.therapist
-        self.report_wanted.emit(BesideReport(now, self.screen.quantity, pseudonym, therapist, made_by))
+        report = BesideReport(now, self.screen.quantity, pseudonym, therapist, made_by)
+        self.context.way.show("report", report, [figures.session_id for figures in report.sessions])
 
     # --- another session in place of the second ------------------------------------------------------------
     def _ask_other(self) -> None:
@@ -107,11 +98,9 @@ class BesideFlow(Flow):
             target = path if path.suffix else path.with_suffix(".csv")
             replaces = target.exists()
             sessions = [now.both.first.session_id, now.both.second.session_id]
-            self.run(lambda: write_tables(target, now, replaces=replaces), lambda paths: self._written(paths, sessions))
-
-    def _written(self, paths: Sequence[Path], sessions: Sequence[str]) -> None:
-        self.tabled.emit(paths, sessions)
-        tell_written(self.context.messages, str(paths[0].parent), [path.name for path in paths])
+            self.run(
+                lambda: write_tables(target, now, replaces=replaces), lambda paths: self.tell_made(paths, sessions)
+            )
 
 
 def _entry_words(entry: SessionEntry) -> str:

@@ -6,9 +6,10 @@ from dataclasses import replace
 
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy
+from PySide6.QtWidgets import QComboBox, QSizePolicy
 
 from carpus.ui.controls.card import Card
+from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.plot.beside import BesidePlot
 from carpus.ui.plot.still import StillPlot
@@ -30,11 +31,7 @@ class MeanCard(Card):
         self.quantity.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
         self.quantity.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         self.curves = MeanCurves(theme)
-        head = QHBoxLayout()
-        head.setSpacing(12)
-        head.addWidget(self.title)
-        head.addStretch(1)
-        head.addWidget(self.quantity)
+        head = in_line(self.title, STRETCH, self.quantity, gap=12)
         self.body.setContentsMargins(20, 8, 16, 10)
         self.body.setSpacing(4)
         self.body.addLayout(head)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QGridLayout, QWidget
 
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.ui import numbers
@@ -13,6 +13,7 @@ from carpus.ui.beside.words import step_words
 from carpus.ui.controls.button import Button, icon_button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.key_caps import KeyCaps
+from carpus.ui.controls.layouts import in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text
 from carpus.ui.review.player import SPEEDS, Scrubber
 from carpus.ui.theme import Theme
@@ -58,22 +59,25 @@ class BesidePlayer(Card):
             tracks.addWidget(track, line, 1)
             tracks.addWidget(clock, line, 2)
         tracks.setColumnStretch(1, 1)
-        row = QHBoxLayout()
-        row.setContentsMargins(12, 4, 16, 4)
-        row.setSpacing(4)
-        for button in (self.back, self.play, self.on):
-            row.addWidget(button)
-        row.addSpacing(4)
-        row.addWidget(self.speed)
-        row.addSpacing(8)
-        row.addWidget(self.step_name)
-        row.addSpacing(4)
-        row.addWidget(self.step)
-        row.addSpacing(16)
-        row.addLayout(tracks, 1)
-        row.addSpacing(12)
-        row.addWidget(self.hints)
-        self.body.addLayout(row)
+        self.body.addLayout(
+            in_line(
+                self.back,
+                self.play,
+                self.on,
+                4,
+                self.speed,
+                8,
+                self.step_name,
+                4,
+                self.step,
+                16,
+                (tracks, 1),
+                12,
+                self.hints,
+                gap=4,
+                margins=(12, 4, 16, 4),
+            )
+        )
         self.back.clicked.connect(lambda: self.stepped.emit(-1))
         self.on.clicked.connect(lambda: self.stepped.emit(1))
         self.play.clicked.connect(self.play_toggled)

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
 
 from carpus.core.hand.exercises import SIDES
 from carpus.core.results.figures import SessionFigures
@@ -28,6 +28,7 @@ from carpus.ui.beside.words import doubts, other_hand_words, picture_words, quan
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
+from carpus.ui.controls.layouts import STRETCH, in_column, in_line
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, heading
 from carpus.ui.controls.tooltip import plain_tooltip
@@ -113,58 +114,41 @@ class BesideScreen(QWidget):
 
     # --- layout -------------------------------------------------------------------------------------------
     def _lay_out(self) -> None:
-        said = QVBoxLayout()
-        said.setSpacing(2)
-        said.addWidget(self.answer)
-        said.addWidget(self.basis)
-        head = QHBoxLayout()
-        head.setSpacing(12)
-        head.addLayout(said, 1)
+        said = in_column(self.answer, self.basis, gap=2)
+        head = in_line((said, 1), gap=12)
         for button in (self.other_button, self.report_button):
             head.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
-        line = QHBoxLayout()
-        line.setSpacing(10)
-        line.addWidget(Sign(self._theme, "warn"), 0, Qt.AlignmentFlag.AlignVCenter)
-        line.addWidget(self.unfair, 1)
+        line = in_line((Sign(self._theme, "warn"), 0, Qt.AlignmentFlag.AlignVCenter), (self.unfair, 1), gap=10)
         self._strip.body.setContentsMargins(16, 8, 16, 8)
         self._strip.body.addLayout(line)
-        self._top = QHBoxLayout()
-        self._top.setSpacing(12)
+        self._top = in_line(gap=12)
         for picture in self.pictures:
             self._top.addWidget(picture, 324)
         self._top.addSpacing(GAP_PX - 12)
         self._top.addWidget(self.mean, 556)
-        title = self._title_row = QHBoxLayout()
-        title.setSpacing(12)
-        named = QVBoxLayout()
-        named.setSpacing(0)
-        named.addWidget(self.title)
-        named.addWidget(self.facts)
-        title.addLayout(named, 1)
+        title = self._title_row = in_line(gap=12)
+        title.addLayout(in_column(self.title, self.facts, gap=0), 1)
         for widget in (self.followed, self.mirror_button, self.export_button):
             title.addWidget(widget)
         self._card.body.setContentsMargins(24, 10, 16, 10)
         self._card.body.setSpacing(4)
         self._card.body.addLayout(title)
         self._host = ScrolledColumn()
-        below = QVBoxLayout(self._host)
-        below.setContentsMargins(0, 0, 8, 0)
-        below.setSpacing(8)
-        below.addWidget(self.table)
-        below.addWidget(self.limits)
-        below.addStretch(1)
+        in_column(self.table, self.limits, STRETCH, gap=8, margins=(0, 0, 8, 0), within=self._host)
         self._scroll = scroll_area(self._host, Qt.FocusPolicy.TabFocus)  # so that keys scroll it
         self._scroll.setAccessibleName(self.tr("Differences"))
         self._card.body.addWidget(self._scroll, 1)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX)
-        whole.setSpacing(12)
-        whole.addLayout(head)
-        whole.addWidget(self.bar)
-        whole.addWidget(self._strip)
-        whole.addLayout(self._top, 5)
-        whole.addWidget(self.player)
-        whole.addWidget(self._card, 5)
+        whole = in_column(
+            head,
+            self.bar,
+            self._strip,
+            (self._top, 5),
+            self.player,
+            (self._card, 5),
+            gap=12,
+            margins=(MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX),
+            within=self,
+        )
         whole.addStretch(0)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

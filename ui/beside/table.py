@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from carpus.ui.beside.rows import BesideRow
 from carpus.ui.controls.card import Line
+from carpus.ui.controls.layouts import in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text, caption, named_by_color
 from carpus.ui.theme import Theme
 
@@ -69,9 +70,8 @@ class BesideTable(QWidget):
 class _Said(QWidget):
     def __init__(self, theme: Theme, row: BesideRow) -> None:
         super().__init__()
-        line = QHBoxLayout(self)
-        line.setContentsMargins(0, 0, 0, 0)
-        line.setSpacing(8)
-        line.addWidget(Sign(theme, row.state), 0, Qt.AlignmentFlag.AlignVCenter)
+        line = in_line(
+            (Sign(theme, row.state), 0, Qt.AlignmentFlag.AlignVCenter), gap=8, margins=(0, 0, 0, 0), within=self
+        )
         strong = SEMIBOLD if row.strong else REGULAR
         line.addWidget(Text(theme, row.words, 14, strong, "text" if row.strong else "text2", wrap=True), 1)

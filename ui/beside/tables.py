@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from carpus.core.durable import private
-from carpus.core.errors import OutputNotWritable
-from carpus.core.formats.new_output import plain_cell
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.ranges import RangeRow
 from carpus.core.results.side_by_side import ComparedRange, SideBySide
 from carpus.ui.beside.shown import Shown
 from carpus.ui.beside.words import column_of
+from carpus.ui.saved_table import named_beside, save_table
 
-CURVES = "-curves"
 HEAD = (
     "movement", "angle", "first_session", "first_hand", "first_created", "first_exercise", "first_mean_deg",
     "first_sd_deg", "first_n", "first_at_least", "second_session", "second_hand", "second_created", "second_exercise",
@@ -32,15 +28,11 @@ def write_tables(path: Path, shown: Shown, *, replaces: bool) -> list[Path]:
     """Write the differences into ``path`` and the curves beside it; the files. ``replaces`` whether a person was asked
     for the first; a second file that is there already is never replaced unless the first was. Raises
     :class:`OutputNotWritable`."""
-    beside = path.with_name(f"{path.stem}{CURVES}{path.suffix}")
-    number = 2
-    while beside.exists() and not replaces:
-        beside = path.with_name(f"{path.stem}{CURVES}-{number}{path.suffix}")
-        number += 1
+    beside = named_beside(path, "-curves", replaces=replaces)
     rows = [_row(one, shown.both) for one in shown.both.ranges]
     rows += [_row_alone(row, shown.both, is_first=is_first) for row, is_first in shown.both.alone]
-    _write(path, HEAD, rows)
-    _write(beside, CURVES_HEAD, _curve_rows(shown))
+    save_table(path, HEAD, rows)
+    save_table(beside, CURVES_HEAD, _curve_rows(shown))
     return [path, beside]
 
 
@@ -77,16 +69,6 @@ def _curve_rows(shown: Shown) -> Iterable[Sequence[str]]:
         for share, *rest in shown.plot(quantity).rows():
             cells = [str(value) if isinstance(value, int) else _decimal(value) for value in rest]
             yield [column_of(quantity), f"{share:.2f}", *cells]
-
-
-def _write(path: Path, head: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
-    try:
-        with open(path, "w", newline="", encoding="utf-8", opener=private) as file:
-            table = csv.writer(file)
-            table.writerow(head)
-            table.writerows([plain_cell(cell) for cell in row] for row in rows)
-    except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
 
 
 def _decimal(value: float) -> str:

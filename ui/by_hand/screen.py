@@ -8,7 +8,7 @@ from datetime import date, datetime
 
 from PySide6.QtCore import QDate, Qt, Signal
 from PySide6.QtGui import QKeySequence, QResizeEvent, QShortcut
-from PySide6.QtWidgets import QBoxLayout, QComboBox, QDateEdit, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QComboBox, QDateEdit, QWidget
 
 from carpus.core.measures.by_hand import MEASURES, HandMeasure, HandValue, Key, counted, measure_named
 from carpus.core.results.figures import SessionFigures
@@ -23,6 +23,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices
+from carpus.ui.controls.layouts import STRETCH, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
@@ -86,42 +87,31 @@ class ByHandScreen(QWidget):
         self.setProperty("shows_own_focus", True)
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.setSpacing(12)
-        head.addWidget(self.title, 1)
-        head.addWidget(self.day)
-        head.addWidget(self.hand)
+        head = in_line((self.title, 1), self.day, self.hand, gap=12)
         entries = Card(self._theme, 20)
         entries.body.addWidget(self.form)
         course = Card(self._theme, 20)
         course.body.addWidget(self.chart)
-        right = QVBoxLayout()
-        right.setSpacing(GAP_PX)
-        right.addWidget(course)
-        right.addWidget(self._changes)
-        right.addStretch(1)
+        right = in_column(course, self._changes, STRETCH, gap=GAP_PX)
         host = ScrolledColumn()
         self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight, host)
         self._columns.setContentsMargins(0, 0, 0, 0)
         self._columns.setSpacing(GAP_PX)
         self._columns.addWidget(entries, 5, Qt.AlignmentFlag.AlignTop)
         self._columns.addLayout(right, 4)
-        foot = QHBoxLayout()
-        foot.setSpacing(12)
-        foot.addWidget(self.more)
-        foot.addWidget(self.state, 1)
-        foot.addWidget(self.cancel)
-        foot.addWidget(self.save_button)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
-        whole.setSpacing(0)
-        whole.addLayout(head)
-        whole.addSpacing(2)
-        whole.addWidget(self.basis)
-        whole.addSpacing(14)
-        whole.addWidget(scroll_area(host), 1)
-        whole.addSpacing(12)
-        whole.addLayout(foot)
+        foot = in_line(self.more, (self.state, 1), self.cancel, self.save_button, gap=12)
+        in_column(
+            head,
+            2,
+            self.basis,
+            14,
+            (scroll_area(host), 1),
+            12,
+            foot,
+            gap=0,
+            margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX),
+            within=self,
+        )
         self._theme.changed.connect(self._fit)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

@@ -6,13 +6,14 @@ import math
 from datetime import date, timedelta
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from carpus.core.records.values import ClinicWeek
 from carpus.ui.clinic.words import due_rows, heads_of_days, heads_of_due, session_rows, sessions_words, week_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import scrolled
+from carpus.ui.controls.layouts import in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.controls.words_table import WordsTable
 from carpus.ui.keys import Keys, bind
@@ -48,16 +49,11 @@ class ClinicScreen(QWidget):
 
     def _lay_out(self) -> None:
         theme = self._theme
-        top = QHBoxLayout()
-        top.setSpacing(GAP_PX)
-        titles = QVBoxLayout()
-        titles.addWidget(heading(theme, self.tr("The clinic")))
-        titles.addWidget(self.days)
-        top.addLayout(titles, 1)
+        top = in_line(gap=GAP_PX)
+        top.addLayout(in_column(heading(theme, self.tr("The clinic")), self.days), 1)
         for button in (self.before, self.after, self.save):
             top.addWidget(button)
-        column = QVBoxLayout()
-        column.setSpacing(GAP_PX)
+        column = in_column(gap=GAP_PX)
         for title, table in ((self.sessions_title, self.sessions), (self.due_title, self.due)):
             card = Card(theme, 20)
             card.body.addWidget(title)
@@ -69,11 +65,7 @@ class ClinicScreen(QWidget):
         )
         column.addWidget(Text(theme, words, 12, REGULAR, "text2", wrap=True))
         column.addStretch(1)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 0)
-        whole.setSpacing(GAP_PX)
-        whole.addLayout(top)
-        whole.addWidget(scrolled(column), 1)
+        in_column(top, (scrolled(column), 1), gap=GAP_PX, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, 0), within=self)
 
     def first(self) -> QWidget:
         """What has the keyboard: the first who is due, else the page."""

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QWidget
+from PySide6.QtWidgets import QProgressBar, QWidget
 
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Surface
 from carpus.ui.controls.field import Choices
+from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.figures import FINGERS
@@ -77,12 +78,7 @@ class ResultsSheet(Sheet):
         for widget in (self.title, self.whose, self.bar, self.words, self.legend, self.finger):
             body.addWidget(widget)
         body.addWidget(self.curves, 1)
-        row = QHBoxLayout()
-        row.setSpacing(10)
-        for button in (self.stop, self.keep, self.use):
-            row.addWidget(button)
-        row.addStretch(1)
-        row.addWidget(self.later)
+        row = in_line(self.stop, self.keep, self.use, STRETCH, self.later, gap=10)
         body.addSpacing(4)
         body.addLayout(row)
         self._paint_bar()
@@ -160,9 +156,7 @@ def _legend(theme: Theme) -> QWidget:
     """How the old and the new result are drawn."""
     legend = QWidget()
     legend.setAccessibleName(", ".join(legend_words()))
-    row = QHBoxLayout(legend)
-    row.setContentsMargins(0, 0, 0, 0)
-    row.setSpacing(6)
+    row = in_line(gap=6, margins=(0, 0, 0, 0), within=legend)
     for words, token, dashes_px in zip(legend_words(), (OLD_TOKEN, "curve_a"), ((8, 8, 8), (36,)), strict=True):
         for dash_px in dashes_px:
             stroke = Surface(theme, token)

@@ -6,9 +6,10 @@ import math
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy
+from PySide6.QtWidgets import QPushButton, QSizePolicy
 
 from carpus.ui import numbers
+from carpus.ui.controls.layouts import in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Sign, Text
 from carpus.ui.theme import Theme
 
@@ -27,9 +28,7 @@ class MarkerRow(QPushButton):
         self._sign = Sign(theme, "good", 18, (18, 20))
         self._said, self._value = ElidedText(theme, name, 14, MEDIUM), Text(theme, "", 14, REGULAR)
         self._value.setObjectName("value")
-        row = QHBoxLayout(self)
-        row.setContentsMargins(8, 0, 8, 0)
-        row.setSpacing(10)
+        row = in_line(gap=10, margins=(8, 0, 8, 0), within=self)
         for part in (self._sign, self._said, self._value):
             part.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
             row.addWidget(part, int(part is self._said))

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.seen import session_curves
 from carpus.core.session.marker_doubts import NameDoubt
 from carpus.core.session.values import Session
-from carpus.core.types import FloatArray, TrackStatus
+from carpus.core.types import ByteImage, FloatArray, TrackStatus
 from carpus.ui import numbers
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
@@ -21,6 +22,7 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import scrolled
 from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.key_caps import KeyCaps
+from carpus.ui.controls.layouts import STRETCH, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.correct.picture import CorrectionPicture
 from carpus.ui.correct.places import Places
@@ -29,9 +31,11 @@ from carpus.ui.keys import Keys, bind
 from carpus.ui.marker_words import marker_name
 from carpus.ui.plot.session import SessionPlot
 from carpus.ui.plot.session_view import CurveView
-from carpus.ui.ports import CorrectionStore, StoredMoment
 from carpus.ui.review.player import Player
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+
+if TYPE_CHECKING:  # it reads and writes files
+    from carpus.core.records.corrections import Corrections
 
 ARROWS = {
     Qt.Key.Key_Left: (-1.0, 0.0), Qt.Key.Key_Right: (1.0, 0.0), Qt.Key.Key_Up: (0.0, -1.0), Qt.Key.Key_Down: (0.0, 1.0),
@@ -48,7 +52,7 @@ class CorrectScreen(QWidget):
     done = Signal()
     told = Signal(object)
 
-    def __init__(self, theme: Theme, keys: Keys, background: Background, store: CorrectionStore) -> None:
+    def __init__(self, theme: Theme, keys: Keys, background: Background, store: Corrections) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self._session_id = ""
@@ -69,8 +73,7 @@ class CorrectScreen(QWidget):
         self.although = Button(theme, self.tr("Track again although &doubtful"), "quiet", height_px=32)
         self.although.hide()
         self.rows: dict[str, MarkerRow] = {}
-        self._rows = QVBoxLayout()
-        self._rows.setSpacing(0)
+        self._rows = in_column(gap=0)
         self.next_doubtful = Button(theme, self.tr("Next doubtful picture"), "quiet", hint="D", height_px=36)
         self.hide_button = Button(theme, self.tr("Not to be seen here"), "quiet", hint="H", height_px=36)
         self.primary = Button(theme, self.tr("Track again from here"), "primary", hint=ENTER)
@@ -84,45 +87,23 @@ class CorrectScreen(QWidget):
             (self.tr("Drag"), self.tr("move a name")), ("H", self.tr("not to be seen here")),
             (", .", self.tr("picture")), ("Z", self.tr("undo")), ("D", self.tr("next doubtful")),
         ]  # fmt: skip
-        left = QVBoxLayout()
-        left.setSpacing(8)
-        left.addWidget(self.picture, 452)
-        caps = QHBoxLayout()
-        caps.addWidget(KeyCaps(self._theme, keys))
-        caps.addStretch(1)
-        left.addLayout(caps)
+        left = in_column((self.picture, 452), gap=8)
+        left.addLayout(in_line(KeyCaps(self._theme, keys), STRETCH))
         left.addWidget(self.player)
         left.addWidget(self.curves, 200)
-        right = QVBoxLayout()
-        right.setSpacing(8)
-        right.setContentsMargins(0, 0, 0, 0)
-        for widget in (self.step, self.title, self.hint):
-            right.addWidget(widget)
+        right = in_column(self.step, self.title, self.hint, gap=8, margins=(0, 0, 0, 0))
         card = Card(self._theme, 16)
         card.body.addWidget(Text(self._theme, self.tr("At this picture: distance to its place"), 14, SEMIBOLD))
-        column = QVBoxLayout()
-        column.addLayout(self._rows)
-        column.addStretch(1)
+        column = in_column(self._rows, STRETCH)
         card.body.addWidget(scrolled(column), 1)
         right.addWidget(card, 1)
-        extra = QHBoxLayout()
-        extra.addWidget(self.hide_button)
-        extra.addStretch(1)
-        right.addLayout(extra)
+        right.addLayout(in_line(self.hide_button, STRETCH))
         right.addWidget(self.next_doubtful)
         right.addWidget(self.although)
-        foot = QHBoxLayout()
-        foot.setSpacing(12)
-        foot.addWidget(self.primary, 1)
-        foot.addWidget(self.cancel)
-        right.addLayout(foot)
+        right.addLayout(in_line((self.primary, 1), self.cancel, gap=12))
         self._column = QWidget()
         self._column.setLayout(right)
-        whole = QHBoxLayout(self)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
-        whole.setSpacing(MARGIN_PX)
-        whole.addLayout(left, 1)
-        whole.addWidget(self._column)
+        in_line((left, 1), self._column, gap=MARGIN_PX, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX), within=self)
         self._theme.changed.connect(self._fit)
         self._fit()
 
@@ -237,18 +218,18 @@ class CorrectScreen(QWidget):
         self._asked_row = row = self._row
         store, session_id = self._store, self._session_id
 
-        def shown(moment: StoredMoment) -> None:
+        def shown(moment: tuple[ByteImage | None, FloatArray]) -> None:
             self._asked_row = -1
             if session_id != self._session_id or self._session is None or self.places is None:
                 return
             if row != self._row:
                 self._ask()
                 return
+            picture_rgb, self._spots = moment
             camera = self._session.camera
             plain = np.full((camera.height_px, camera.width_px, 3), 34, np.uint8)
-            self.picture.show_frame(plain if moment.picture_rgb is None else moment.picture_rgb)
-            self._spots = moment.spots_px
-            self.picture.show_moment(self.places, row, self._spots, has_picture=moment.picture_rgb is not None)
+            self.picture.show_frame(plain if picture_rgb is None else picture_rgb)
+            self.picture.show_moment(self.places, row, self._spots, has_picture=picture_rgb is not None)
             self._refresh()
 
         self._background.run(lambda: store.moment(session_id, row), shown, self.told.emit, self)

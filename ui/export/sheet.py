@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication, Signal
-from PySide6.QtWidgets import QHBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from carpus.core.formats.formats import FORMATS
 from carpus.ui.controls.button import Button
+from carpus.ui.controls.layouts import STRETCH, fill, in_line
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
@@ -42,9 +43,7 @@ class ExportSheet(Sheet):
         body.setSpacing(2)
         self.title = Text(theme, self.tr("Export this session"), 20, SEMIBOLD, wrap=True)
         self.words = Text(theme, self.tr("Files that are there are never overwritten."), 14, token="text2", wrap=True)
-        body.addWidget(self.title)
-        body.addWidget(self.words)
-        body.addSpacing(8)
+        fill(body, self.title, self.words, 8)
         self.boxes: dict[str, Tick] = {}
         for name in FORMATS:
             words = QCoreApplication.translate(CONTEXT, str(NAMES[name])) if name in NAMES else name.upper()
@@ -56,9 +55,7 @@ class ExportSheet(Sheet):
         body.addSpacing(8)
         self.nobody = self._tick(self.tr("Nobody can be found by it: new random name, days counted, no notes"))
         self.bar = ThinBar(theme, self.tr("How far the export is"))
-        body.addSpacing(8)
-        body.addWidget(self.bar)
-        body.addSpacing(8)
+        fill(body, 8, self.bar, 8)
         self.close_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
         self.take = Button(theme, self.tr("Choose the folder…"), "primary", height_px=44)
         self.close_button.clicked.connect(self.leave)
@@ -66,13 +63,7 @@ class ExportSheet(Sheet):
         self.set_default(self.take)
         self.compare_button = Button(theme, self.tr("Compare with a &reference…"), "quiet", height_px=44)
         self.compare_button.clicked.connect(self._compare)
-        row = QHBoxLayout()
-        row.setSpacing(10)
-        row.addWidget(self.compare_button)
-        row.addStretch(1)
-        row.addWidget(self.close_button)
-        row.addWidget(self.take)
-        body.addLayout(row)
+        body.addLayout(in_line(self.compare_button, STRETCH, self.close_button, self.take, gap=10))
         self._runs = False
         for box in self.boxes.values():
             box.toggled.connect(self._check)
@@ -119,10 +110,7 @@ class ExportSheet(Sheet):
 
     def _tick(self, words: str) -> Tick:
         tick = Tick(self._theme, words)
-        row = QHBoxLayout()
-        row.addWidget(tick)
-        row.addStretch(1)
-        self.card.body.addLayout(row)
+        self.card.body.addLayout(in_line(tick, STRETCH))
         return tick
 
     def _check(self) -> None:

@@ -6,13 +6,14 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt, QUrl, Signal
 from PySide6.QtGui import QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QButtonGroup, QFileDialog, QFrame, QHBoxLayout, QTextBrowser, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QButtonGroup, QFileDialog, QFrame, QTextBrowser, QWidget
 
 from carpus.core.errors import CarpusFault
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import scrolled
+from carpus.ui.controls.layouts import in_column, in_line
 from carpus.ui.controls.text import Text, heading
 from carpus.ui.help import cards, guide
 from carpus.ui.keys import DEFAULT_KEYS, Keys, action_words
@@ -53,8 +54,7 @@ class HelpScreen(QWidget):
         self.text.wanted.connect(self.show_page)
         self.pages: dict[str, Button] = {}
         self._group = QButtonGroup(self)
-        column = QVBoxLayout()
-        column.setSpacing(2)
+        column = in_column(gap=2)
         for name in (*guide.PAGES, guide.KEYS_PAGE):
             words = self.tr("Keys") if name == guide.KEYS_PAGE else guide.title(name)
             button = Button(theme, words, "well", height_px=36)
@@ -64,24 +64,19 @@ class HelpScreen(QWidget):
             self.pages[name] = button
             column.addWidget(button)
         column.addStretch(1)
-        head = QHBoxLayout()
-        head.addWidget(heading(theme, self.tr("Guide")), 1)
-        head.addWidget(self.tour_button)
-        head.addWidget(self.cards_button)
-        head.addWidget(self.back)
+        head = in_line((heading(theme, self.tr("Guide")), 1), self.tour_button, self.cards_button, self.back)
         card = Card(theme, 8)
         card.body.addWidget(self.text, 1)
         self._index = scrolled(column)
-        columns = QHBoxLayout()
-        columns.setSpacing(GAP_PX)
-        columns.addWidget(self._index)
-        columns.addWidget(card, 1)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
-        whole.setSpacing(12)
-        whole.addLayout(head)
-        whole.addLayout(columns, 1)
-        whole.addWidget(Text(theme, terms.LEGAL_SENTENCE, 12, token="text2", wrap=True))
+        columns = in_line(self._index, (card, 1), gap=GAP_PX)
+        in_column(
+            head,
+            (columns, 1),
+            Text(theme, terms.LEGAL_SENTENCE, 12, token="text2", wrap=True),
+            gap=12,
+            margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX),
+            within=self,
+        )
         theme.changed.connect(self._fit)
         self._fit()
 

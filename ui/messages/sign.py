@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtWidgets import QHBoxLayout
-
 from carpus.ui.controls.card import Surface
+from carpus.ui.controls.layouts import in_line
 from carpus.ui.controls.text import MEDIUM, Sign, Text
 from carpus.ui.theme import MARGIN_PX, Theme
 
@@ -17,11 +16,7 @@ class AmberLine(Surface):
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, "warn_soft", under="warn")
         self._words = Text(theme, "", 14, MEDIUM, wrap=True)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(MARGIN_PX, 5, MARGIN_PX, 5)
-        row.setSpacing(10)
-        row.addWidget(Sign(theme, "warn"))
-        row.addWidget(self._words, 1)
+        in_line(Sign(theme, "warn"), (self._words, 1), gap=10, margins=(MARGIN_PX, 5, MARGIN_PX, 5), within=self)
         self.show_lines(())
 
     @property

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from carpus.core.words import Words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
+from carpus.ui.controls.layouts import in_column, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.theme import Theme
@@ -46,8 +47,7 @@ class StopCard(Sheet):
         self._icon, self._icon_safe, onward = (
             Sign(theme, name, 26, (44, 40), lean=0.5) for name in ("unplug", "good", "chevron-right")
         )
-        self._buttons = QHBoxLayout()
-        self._buttons.setSpacing(12)
+        self._buttons = in_line(gap=12)
         self._answers: list[tuple[Button, Answer]] = []
         body = self.card.body
         body.setContentsMargins(32, 24, 32, 24)
@@ -58,20 +58,11 @@ class StopCard(Sheet):
             (onward, self.todo, self.todo_detail),
         )
         for icon, head, detail in rows:
-            row = QHBoxLayout()
-            row.setSpacing(24)
-            row.addWidget(icon, 0, Qt.AlignmentFlag.AlignVCenter)
-            column = QVBoxLayout()
-            column.setSpacing(2)
-            column.addWidget(head)
-            column.addWidget(detail)
-            row.addLayout(column, 1)
+            row = in_line((icon, 0, Qt.AlignmentFlag.AlignVCenter), gap=24)
+            row.addLayout(in_column(head, detail, gap=2), 1)
             body.addLayout(row)
             body.addWidget(Line(theme))
-        foot = QHBoxLayout()
-        foot.addWidget(self.waiting, 1)
-        foot.addLayout(self._buttons)
-        body.addLayout(foot)
+        body.addLayout(in_line((self.waiting, 1), self._buttons))
 
     def show_words(
         self, words: Words, answers: Sequence[Answer], *, icon: str = "", detail: str = "", safe_detail: str = "",

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Protocol
@@ -12,10 +10,8 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QRectF, QSize
 from PySide6.QtGui import QColor, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
 
-from carpus.core.durable import private
-from carpus.core.errors import OutputNotWritable
-from carpus.core.formats.new_output import plain_cell
 from carpus.ui.plot.style import PlotStyle, paper_style
+from carpus.ui.saved_table import save_private, table_text
 from carpus.ui.theme import LIGHT
 
 WIDTH_MM, DPI = 170.0, 300.0
@@ -83,31 +79,17 @@ def drawing(plot: Printable) -> bytes:
     return bytes(store.data())
 
 
-def table(plot: Printable) -> str:
-    """What is shown as comma-separated values; unknown is empty."""
-    head, rows = plot.table()
-    text = io.StringIO()
-    writer = csv.writer(text)
-    writer.writerow(head)
-    writer.writerows([plain_cell(str(cell)) for cell in row] for row in rows)
-    return text.getvalue()
-
-
 def save(plot: Printable, path: Path) -> None:
     """Write the plot as the name ends. Raises :class:`OutputNotWritable`."""
     kind = path.suffix.lower()
     if kind == ".svg":
         content = drawing(plot)
     elif kind == ".csv":
-        content = table(plot).encode("utf-8")
+        content = table_text(*plot.table()).encode("utf-8")
     else:
         store = QByteArray()
         buffer = QBuffer(store)
         buffer.open(QIODevice.OpenModeFlag.WriteOnly)
         picture(plot).save(buffer, "PNG")  # type: ignore[call-overload]
         content = bytes(store.data())
-    try:
-        with open(path, "wb", opener=private) as file:
-            file.write(content)
-    except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
+    save_private(path, content)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QWidget
 
 from carpus.core.measures.by_hand import HandValue, counted
 from carpus.core.results.figures import SessionFigures
@@ -19,6 +19,7 @@ from carpus.ui.by_hand.names import changes, day_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
 from carpus.ui.keys import Keys, bind, letter_key
 from carpus.ui.plot.course_view import ProgressChart
@@ -86,8 +87,7 @@ class ProgressScreen(QWidget):
         bind(self, keys, "export", self.table_button.click)
 
     def _lay_out(self) -> None:
-        filters = QHBoxLayout()
-        filters.setSpacing(12)
+        filters = in_line(gap=12)
         self.exercise.setAccessibleName(self.tr("Exercise and hand"))
         self.exercise.setMinimumContentsLength(LEAST_LETTERS)
         self.exercise.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
@@ -95,41 +95,17 @@ class ProgressScreen(QWidget):
         self.followed.setAccessibleName(self.tr("What is followed"))
         self.followed.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.followed.hide()  # until a session of the whole hand is shown
-        filters.addWidget(self.followed)
-        filters.addWidget(self.span)
-        filters.addStretch(1)
-        for button in (self.table_button, self.picture_button, self.report_button):
-            filters.addWidget(button)
-        right = QVBoxLayout()
-        right.setContentsMargins(0, 0, 0, 0)
-        right.setSpacing(GAP_PX)
-        right.addWidget(self._table)
-        right.addWidget(self._hand)
-        right.addWidget(self._fair)
-        right.addStretch(1)
+        fill(filters, self.followed, self.span, STRETCH, self.table_button, self.picture_button, self.report_button)
+        right = in_column(self._table, self._hand, self._fair, STRETCH, gap=GAP_PX, margins=(0, 0, 0, 0))
         host = ScrolledColumn()
         host.setLayout(right)
         self._side = scroll_area(host)
         self._theme.changed.connect(self._fit)
         self._fit()
-        columns = QHBoxLayout()
-        columns.setSpacing(GAP_PX)
-        columns.addWidget(self.chart, 1)
-        columns.addWidget(self._side)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
-        whole.setSpacing(0)
-        whole.addLayout(filters)
-        whole.addSpacing(18)
-        said = QHBoxLayout()
-        said.setSpacing(12)
-        said.addWidget(self.answer, 1)
-        said.addWidget(self.by_hand_button, 0, Qt.AlignmentFlag.AlignBottom)
-        whole.addLayout(said)
-        whole.addSpacing(2)
-        whole.addWidget(self.basis)
-        whole.addSpacing(16)
-        whole.addLayout(columns, 1)
+        columns = in_line((self.chart, 1), self._side, gap=GAP_PX)
+        whole = in_column(filters, 18, gap=0, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX), within=self)
+        whole.addLayout(in_line((self.answer, 1), (self.by_hand_button, 0, Qt.AlignmentFlag.AlignBottom), gap=12))
+        fill(whole, 2, self.basis, 16, (columns, 1))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()
@@ -279,9 +255,7 @@ class ProgressScreen(QWidget):
 class _Row(QWidget):
     def __init__(self, theme: Theme, name: str, figures: str, verdict: str, small: str) -> None:
         super().__init__()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 3, 0, 3)
-        column.setSpacing(0)
+        column = in_column(gap=0, margins=(0, 3, 0, 3), within=self)
         top, below = QHBoxLayout(), QHBoxLayout()
         top.addWidget(Text(theme, name, 14, REGULAR, "text2"))
         top.addStretch(1)

@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.flow import FlowLayout
 from carpus.ui.controls.key_caps import KeyCaps
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
@@ -52,34 +53,18 @@ class BackupCard(Card):
         self.detail = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.more = Text(theme, "", 12, MEDIUM, "text2", wrap=True)
         self.state_card = Card(theme, 14, "soft", "soft")
-        texts = QVBoxLayout()
-        texts.setSpacing(2)
+        texts = in_column(gap=2)
         for text in (self.headline, self.detail, self.more):
             texts.addWidget(text)
-        row = QHBoxLayout()
-        row.setSpacing(10)
-        row.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignTop)
-        row.addLayout(texts, 1)
-        self.state_card.body.addLayout(row)
+        self.state_card.body.addLayout(in_line((self.sign, 0, Qt.AlignmentFlag.AlignTop), (texts, 1), gap=10))
         self.now_button = Button(theme, self.tr("&Back up now"), icon="archive")
         self.restore_button = Button(theme, self.tr("&Restore…"), icon="rotate-ccw")
         self.progress = caption(theme, self.tr("then read back and compared"), wrap=True)
-        acts = QVBoxLayout()
-        acts.setSpacing(4)
-        acts.addWidget(self.now_button)
-        acts.addWidget(self.progress)
-        acts.addStretch(1)
-        again = QVBoxLayout()
-        again.setSpacing(4)
-        again.addWidget(self.restore_button)
-        again.addWidget(caption(theme, self.tr("shows first what changes"), wrap=True))
-        again.addStretch(1)
-        top = QHBoxLayout()
-        top.setSpacing(16)
-        top.addWidget(self.state_card, 1)
-        top.addLayout(acts)
-        top.addLayout(again)
-        self.body.addLayout(top)
+        acts = in_column(self.now_button, self.progress, STRETCH, gap=4)
+        again = in_column(
+            self.restore_button, caption(theme, self.tr("shows first what changes"), wrap=True), STRETCH, gap=4
+        )
+        self.body.addLayout(in_line((self.state_card, 1), acts, again, gap=16))
         self.seal_button = Button(theme, self.tr("&Seal into one file…"), icon="lock", height_px=40)
         self.unseal_button = Button(theme, self.tr("Back from a sealed file…"), height_px=40)
         self.sealed = Text(theme, "", 14, SEMIBOLD, "good", wrap=True)
@@ -94,13 +79,14 @@ class BackupCard(Card):
             [(12, self.tr("Each day at 12:00")), (18, self.tr("At 18:00")), (-1, self.tr("Only when told"))],
             hour,
         )
-        self.body.addWidget(Line(theme))
-        self.body.addLayout(
-            _row(theme, self.tr("Folder for back-ups"), self.place, self.place_state, self.place_button)
+        fill(
+            self.body,
+            Line(theme),
+            _row(theme, self.tr("Folder for back-ups"), self.place, self.place_state, self.place_button),
+            Line(theme),
+            _row(theme, self.tr("By itself"), self.hours),
+            Line(theme),
         )
-        self.body.addWidget(Line(theme))
-        self.body.addLayout(_row(theme, self.tr("By itself"), self.hours))
-        self.body.addWidget(Line(theme))
         keep = Text(theme, self.tr("the last 14, and one of each month for 2 years"), 14)
         self.body.addLayout(_row(theme, self.tr("Keep"), keep))
         self.body.addWidget(Line(theme))
@@ -175,15 +161,20 @@ class LockCard(Card):
             minutes,
         )
         self.pin_button = Button(theme, "", height_px=40)
-        self.body.addWidget(Text(theme, self.tr("Lock by itself"), 14, REGULAR, "text2"))
-        self.body.addWidget(self.minutes)
-        self.body.addWidget(Text(theme, self.tr("PIN"), 14, REGULAR, "text2"))
-        row = QHBoxLayout()
-        row.setSpacing(20)
-        row.addWidget(self.pin_button)
-        row.addWidget(KeyCaps(theme, [(key, self.tr("locks now"))]), 0, Qt.AlignmentFlag.AlignVCenter)
-        row.addStretch(1)
-        self.body.addLayout(row)
+        fill(
+            self.body,
+            Text(theme, self.tr("Lock by itself"), 14, REGULAR, "text2"),
+            self.minutes,
+            Text(theme, self.tr("PIN"), 14, REGULAR, "text2"),
+        )
+        self.body.addLayout(
+            in_line(
+                self.pin_button,
+                (KeyCaps(theme, [(key, self.tr("locks now"))]), 0, Qt.AlignmentFlag.AlignVCenter),
+                STRETCH,
+                gap=20,
+            )
+        )
         self.pin_button.clicked.connect(self.pin_wanted)
         self.minutes.chosen.connect(lambda minutes: self.minutes_chosen.emit(minutes))
 
@@ -222,12 +213,7 @@ class RecordsCard(Card):
         self.log_button = Button(theme, self.tr("&Log…"), icon="file-text", height_px=40)
         self.body.addWidget(self.years)
         self.body.addSpacing(4)
-        row = QHBoxLayout()
-        row.setSpacing(12)
-        for button in (self.due_button, self.archive_button, self.log_button):
-            row.addWidget(button)
-        row.addStretch(1)
-        self.body.addLayout(row)
+        self.body.addLayout(in_line(self.due_button, self.archive_button, self.log_button, STRETCH, gap=12))
         self.years.chosen.connect(lambda years: self.years_chosen.emit(years))
         self.due_button.clicked.connect(self.due_wanted)
         self.archive_button.clicked.connect(self.archive_wanted)
@@ -235,8 +221,7 @@ class RecordsCard(Card):
 
 
 def _row(theme: Theme, name: str, *widgets: QWidget) -> QHBoxLayout:
-    row = QHBoxLayout()
-    row.setSpacing(16)
+    row = in_line(gap=16)
     label = Text(theme, name, 14, REGULAR, "text2")
     theme.follow(label, lambda: label.setFixedWidth(theme.px(180)))
     row.addWidget(label)

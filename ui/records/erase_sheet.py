@@ -2,22 +2,50 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from datetime import date, datetime
+
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
+from carpus.ui.controls.layouts import STRETCH, in_column, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
-from carpus.ui.records.ports import ErasureFacts
 from carpus.ui.theme import Theme
 from carpus.ui.translate import inside
 
 ICON_PX, COLUMN_PX = 26, 72
 MOST_PATHS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class ErasureFacts:
+    """What is said before a session, or with ``when`` None a patient, is erased.
+
+    ``made``: reports and exports that Carpus saved elsewhere; they stay. ``others`` counts the patient's sessions that
+    stay. ``kept_until`` None where no years are set, ``last_backup`` None before the first. ``by_hand``: values that a
+    person measured, which go with a patient.
+    """
+
+    pseudonym: str
+    when: datetime | None
+    exercise: str
+    side: str
+    sessions: int
+    files: int
+    size_mb: float
+    made: tuple[str, ...]
+    others: int
+    last_backup: datetime | None
+    kept_until: date | None
+    retention_years: int
+    today: date
+    by_hand: int = 0
 
 
 class EraseSheet(Sheet):
@@ -52,10 +80,12 @@ class EraseSheet(Sheet):
         body = self.card.body
         body.setSpacing(10)
         self._parts = ScrolledColumn()
-        column = QVBoxLayout(self._parts)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(10)
-        column.addLayout(_section(theme, _sign(theme, "trash-2", "bad"), self.title, self.about))
+        column = in_column(
+            _section(theme, _sign(theme, "trash-2", "bad"), self.title, self.about),
+            gap=10,
+            margins=(0, 0, 0, 0),
+            within=self._parts,
+        )
         for sign, title, words in (
             (_sign(theme, "bad"), self.tr("This goes"), self.goes),
             (_sign(theme, "good"), self.tr("This stays"), self.stays),
@@ -80,18 +110,9 @@ class EraseSheet(Sheet):
         column.addWidget(milder)
         self._scroll = scroll_area(self._parts)  # large text on a small screen: the answer stays to be seen
         body.addWidget(self._scroll)
-        typing = QHBoxLayout()
-        typing.setSpacing(16)
-        typing.addWidget(self.label, 1)
-        typing.addWidget(self.line, 1)
-        body.addLayout(typing)
+        body.addLayout(in_line((self.label, 1), (self.line, 1), gap=16))
         body.addSpacing(8)
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.for_good)
-        buttons.addStretch(1)
-        buttons.addWidget(self.cancel)
-        buttons.addWidget(self.instead)
-        body.addLayout(buttons)
+        body.addLayout(in_line(self.for_good, STRETCH, self.cancel, self.instead))
 
     def begin(self, facts: ErasureFacts) -> None:
         """Say what goes and what stays, and wait."""
@@ -204,12 +225,5 @@ def _sign(theme: Theme, name: str, token: str = "accent") -> Sign:
 
 
 def _section(theme: Theme, sign: QWidget, title: QWidget, words: QWidget) -> QHBoxLayout:
-    texts = QVBoxLayout()
-    texts.setSpacing(4)
-    texts.addWidget(title)
-    texts.addWidget(words)
-    row = QHBoxLayout()
-    row.setSpacing(0)
-    row.addWidget(sign, 0, Qt.AlignmentFlag.AlignTop)
-    row.addLayout(texts, 1)
-    return row
+    texts = in_column(title, words, gap=4)
+    return in_line((sign, 0, Qt.AlignmentFlag.AlignTop), (texts, 1), gap=0)

@@ -3,20 +3,44 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import datetime
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QAbstractItemView, QHBoxLayout, QTableWidget, QTableWidgetItem, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QAbstractItemView, QTableWidget, QTableWidgetItem, QWidget
 
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.host import host_of
+from carpus.ui.controls.layouts import fill, in_column, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
 from carpus.ui.fonts import font
-from carpus.ui.records.ports import DeedLine, ListedRecord
 from carpus.ui.theme import Theme
+
+
+@dataclass(frozen=True, slots=True)
+class ListedRecord:
+    """A line of what is due or archived: ``identity`` of what the buttons act on."""
+
+    identity: str
+    title: str
+    detail: str
+    archived: bool
+
+
+@dataclass(frozen=True, slots=True)
+class DeedLine:
+    """A line of the log, in words."""
+
+    number: int
+    when: datetime
+    who: str
+    what: str
+    of_whom: str
+    detail: str
 
 
 class RecordsSheet(Sheet):
@@ -30,9 +54,7 @@ class RecordsSheet(Sheet):
         super().__init__(host, theme, 800)
         self.title = Text(theme, "", 20, SEMIBOLD)
         self.words = Text(theme, "", 14, REGULAR, "text2", wrap=True)
-        self.rows = QVBoxLayout()
-        self.rows.setContentsMargins(0, 0, 8, 0)
-        self.rows.setSpacing(8)
+        self.rows = in_column(gap=8, margins=(0, 0, 8, 0))
         self._inside = ScrolledColumn()
         self._inside.setLayout(self.rows)
         self._scroll = scroll_area(self._inside)
@@ -40,10 +62,7 @@ class RecordsSheet(Sheet):
         self.done.clicked.connect(self.close_sheet)
         self.set_default(self.done)
         self.card.body.setSpacing(12)
-        self.card.body.addWidget(self.title)
-        self.card.body.addWidget(self.words)
-        self.card.body.addWidget(self._scroll)
-        self.card.body.addWidget(self.done, 0, Qt.AlignmentFlag.AlignRight)
+        fill(self.card.body, self.title, self.words, self._scroll, (self.done, 0, Qt.AlignmentFlag.AlignRight))
         self.buttons: list[Button] = []
 
     def begin(self, title: str, words: str, records: Sequence[ListedRecord]) -> None:
@@ -69,14 +88,15 @@ class RecordsSheet(Sheet):
 
     def _row(self, record: ListedRecord) -> QWidget:
         row = QWidget()
-        line = QHBoxLayout(row)
-        line.setContentsMargins(0, 2, 0, 2)
-        line.setSpacing(12)
-        texts = QVBoxLayout()
-        texts.setSpacing(2)
-        texts.addWidget(Text(self._theme, record.title, 14, MEDIUM, wrap=True))
-        texts.addWidget(Text(self._theme, record.detail, 12, REGULAR, "text2", wrap=True))
-        line.addLayout(texts, 1)
+        line = in_line(gap=12, margins=(0, 2, 0, 2), within=row)
+        line.addLayout(
+            in_column(
+                Text(self._theme, record.title, 14, MEDIUM, wrap=True),
+                Text(self._theme, record.detail, 12, REGULAR, "text2", wrap=True),
+                gap=2,
+            ),
+            1,
+        )
         first = Button(self._theme, self.tr("Bring back") if record.archived else self.tr("Archive"), height_px=36)
         signal = self.back_wanted if record.archived else self.archive_wanted
         first.clicked.connect(lambda _=False, one=record.identity: signal.emit(one))
@@ -113,10 +133,13 @@ class LogSheet(Sheet):
         self.done.clicked.connect(self.close_sheet)
         self.set_default(self.done)
         self.card.body.setSpacing(10)
-        self.card.body.addWidget(self.title)
-        self.card.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        self.card.body.addWidget(self.table)
-        self.card.body.addWidget(self.done, 0, Qt.AlignmentFlag.AlignRight)
+        fill(
+            self.card.body,
+            self.title,
+            Text(theme, words, 14, REGULAR, "text2", wrap=True),
+            self.table,
+            (self.done, 0, Qt.AlignmentFlag.AlignRight),
+        )
 
     def begin(self, deeds: Sequence[DeedLine]) -> None:
         """Show the deeds."""

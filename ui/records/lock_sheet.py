@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line, Surface
+from carpus.ui.controls.layouts import fill, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, StateText, Text
 from carpus.ui.theme import Theme
@@ -31,11 +32,13 @@ class LockSheet(Sheet):
         QHBoxLayout(self.badge).addWidget(Sign(theme, "lock", 32, (50, 50), lean=0.5))
         self._bar = Surface(theme, under="line")
         self._bar.setParent(self)
-        over = QHBoxLayout(self._bar)
-        over.setContentsMargins(20, 0, 0, 0)
-        over.setSpacing(6)
-        over.addWidget(Sign(theme, "carpus", 22, (26, 32)))
-        over.addWidget(Text(theme, "Carpus", 16, SEMIBOLD), 1)
+        in_line(
+            Sign(theme, "carpus", 22, (26, 32)),
+            (Text(theme, "Carpus", 16, SEMIBOLD), 1),
+            gap=6,
+            margins=(20, 0, 0, 0),
+            within=self._bar,
+        )
         self.title = Text(theme, self.tr("Locked"), 28, SEMIBOLD)
         self.why = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.line = QLineEdit()
@@ -56,17 +59,20 @@ class LockSheet(Sheet):
         body.addWidget(self.badge, 0, middle)
         body.addWidget(self.title, 0, middle)
         self.why.setAlignment(middle)
-        body.addWidget(self.why)
-        body.addSpacing(8)
-        body.addWidget(Text(theme, self.tr("PIN"), 14, REGULAR, "text2"))
-        body.addWidget(self.line)
-        body.addWidget(self.said)
-        body.addWidget(self.unlock)
-        body.addSpacing(4)
-        body.addWidget(Line(theme))
-        body.addWidget(self.safe)
-        body.addWidget(self.hidden)
-        body.addWidget(self.forgotten)
+        fill(
+            body,
+            self.why,
+            8,
+            Text(theme, self.tr("PIN"), 14, REGULAR, "text2"),
+            self.line,
+            self.said,
+            self.unlock,
+            4,
+            Line(theme),
+            self.safe,
+            self.hidden,
+            self.forgotten,
+        )
         self._clock = QTimer(self)
         self._clock.setInterval(1000)
         self._clock.timeout.connect(self._count)

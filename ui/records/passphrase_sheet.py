@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from carpus.core.names import is_passphrase
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.field import Labelled
+from carpus.ui.controls.layouts import STRETCH, fill, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.theme import Theme
@@ -32,16 +33,15 @@ class PassphraseSheet(Sheet):
         cancel.clicked.connect(self.close_sheet)
         body = self.card.body
         body.setSpacing(12)
-        body.addWidget(self.title)
-        body.addWidget(self.words)
-        body.addWidget(Labelled(theme, self.tr("&Passphrase"), self.first))
-        body.addWidget(self._again_row)
-        body.addWidget(self.said)
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
-        buttons.addWidget(cancel)
-        buttons.addWidget(self.go)
-        body.addLayout(buttons)
+        fill(
+            body,
+            self.title,
+            self.words,
+            Labelled(theme, self.tr("&Passphrase"), self.first),
+            self._again_row,
+            self.said,
+        )
+        body.addLayout(in_line(STRETCH, cancel, self.go))
         self.set_default(self.go)
         self._chosen: Callable[[str], None] = lambda _: None
         self._seals = True

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.field import Labelled
+from carpus.ui.controls.layouts import STRETCH, fill, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.records.lock_sheet import MOST_SIGNS
@@ -41,18 +42,16 @@ class PinSheet(Sheet):
             "readable for whoever has this computer’s account or disk."
         )
         self.card.body.setSpacing(12)
-        self.card.body.addWidget(self.title)
-        self.card.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        self.card.body.addWidget(self._old_row)
-        self.card.body.addWidget(Labelled(theme, self.tr("&New PIN"), self.new))
-        self.card.body.addWidget(Labelled(theme, self.tr("The same &again"), self.again))
-        self.card.body.addWidget(self.said)
-        buttons = QHBoxLayout()
-        buttons.addWidget(self.remove)
-        buttons.addStretch(1)
-        buttons.addWidget(cancel)
-        buttons.addWidget(self.keep)
-        self.card.body.addLayout(buttons)
+        fill(
+            self.card.body,
+            self.title,
+            Text(theme, words, 14, REGULAR, "text2", wrap=True),
+            self._old_row,
+            Labelled(theme, self.tr("&New PIN"), self.new),
+            Labelled(theme, self.tr("The same &again"), self.again),
+            self.said,
+        )
+        self.card.body.addLayout(in_line(self.remove, STRETCH, cancel, self.keep))
 
     def begin(self, *, is_set: bool) -> None:
         """Ask; the old one first where there is one."""

@@ -5,13 +5,14 @@ from __future__ import annotations
 from datetime import date, timedelta
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLineEdit, QSpinBox, QWidget
+from PySide6.QtWidgets import QComboBox, QGridLayout, QLineEdit, QSpinBox, QWidget
 
 from carpus.core.hand.exercises import Exercise
 from carpus.core.records.values import HomePlan
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.field import Choices, Labelled, number_field
+from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.controls.tick import Tick
@@ -49,8 +50,7 @@ class HomeSheet(Sheet):
         self.day.setEditable(True)
         self.day.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
         self.at = QLineEdit()
-        fields = QHBoxLayout()
-        fields.setSpacing(12)
+        fields = in_line(gap=12)
         for words, field in (
             (self.tr("&Times"), self.times), (self.tr("&Rounds a day"), self.rounds),
             (self.tr("Ne&xt appointment"), self.day), (self.tr("T&ime"), self.at),
@@ -62,9 +62,7 @@ class HomeSheet(Sheet):
         body.addWidget(Text(theme, self.tr("Language of the patient"), 14, REGULAR, "text2"))
         self.language = Choices(theme, list(LANGUAGES.items()), "en")
         body.addWidget(self.language)
-        row = QHBoxLayout()
-        row.setSpacing(10)
-        row.addStretch(1)
+        row = in_line(STRETCH, gap=10)
         self.close_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
         self.take = Button(theme, self.tr("Show the sheet"), "primary", height_px=44)
         row.addWidget(self.close_button)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPlainTextEdit, QWidget
+from PySide6.QtWidgets import QComboBox, QPlainTextEdit, QWidget
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.field import Choices, Labelled
+from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.controls.tick import Tick
@@ -54,9 +55,7 @@ class LetterSheet(Sheet):
         words = self.tr("The name goes into this letter only. Anybody who gets the file can read it.")
         self.names_note = Text(theme, words, 14, SEMIBOLD, "warn", wrap=True)
         body.addWidget(self.names_note)
-        row = QHBoxLayout()
-        row.setSpacing(10)
-        row.addStretch(1)
+        row = in_line(STRETCH, gap=10)
         self.close_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
         self.take = Button(theme, self.tr("Show the letter"), "primary", height_px=44)
         row.addWidget(self.close_button)

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QFocusEvent
-from PySide6.QtWidgets import QComboBox, QCompleter, QHBoxLayout, QPlainTextEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QCompleter, QHBoxLayout, QPlainTextEdit, QWidget
 
 from carpus.core.results.report_form import MOST_SENTENCES, SECTIONS, ReportForm
 from carpus.ui.controls.button import Button
+from carpus.ui.controls.layouts import fill, in_column
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.controls.tick import Tick
 from carpus.ui.report.sentences import PLACES, filled, proposals
@@ -34,10 +35,7 @@ class ReportPanel(QWidget):
         self._report: SessionReport | None = None
         self._kept = ""
         self._usual: frozenset[str] = frozenset()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(6)
-        column.addWidget(Text(theme, self.tr("Comment"), 16, SEMIBOLD))
+        column = in_column(Text(theme, self.tr("Comment"), 16, SEMIBOLD), gap=6, margins=(0, 0, 0, 0), within=self)
         words = self.tr("Printed on the report and kept with the session. No names here, please.")
         column.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self.comment = _Comment()
@@ -69,9 +67,7 @@ class ReportPanel(QWidget):
         for button in (self.insert, self.remember, self.forget):
             row.addWidget(button)
         row.addStretch(1)
-        column.addLayout(row)
-        column.addSpacing(8)
-        column.addWidget(Text(theme, self.tr("Parts of the report"), 16, SEMIBOLD))
+        fill(column, row, 8, Text(theme, self.tr("Parts of the report"), 16, SEMIBOLD))
         names = {
             "diagnosis": self.tr("Diagnosis or operation"),
             "table": self.tr("Table"), "curves": self.tr("Curves and repetitions"), "bars": self.tr("Range as bars"),

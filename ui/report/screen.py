@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QSize, Qt, QUrl, Signal
 from PySide6.QtGui import QColor, QDesktopServices, QPainter, QPixmap
 from PySide6.QtPrintSupport import QPrintDialog
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QScrollArea, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFileDialog, QLabel, QScrollArea, QSizePolicy, QWidget
 
 from carpus.core.durable import replace_file
 from carpus.core.results.report_form import PAPER_PT, ReportForm
@@ -16,6 +16,7 @@ from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import RING_PX, scrolled
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.keys import Keys, bind
 from carpus.ui.report.beside_page import BesideReport
@@ -87,28 +88,23 @@ class ReportScreen(QWidget):
         card = Card(self._theme, 24)
         self._card = card
         card.body.setSpacing(12)
-        card.body.addWidget(self.state)
-        card.body.addWidget(self.where)
-        card.body.addWidget(self.bubble)
-        card.body.addWidget(self.save_button)
-        card.body.addWidget(self.print_button)
-        card.body.addWidget(self.letter_button)
-        card.body.addWidget(self.home_button)
-        card.body.addWidget(self.back_button)
-        card.body.addWidget(self.open_button)
+        fill(
+            card.body,
+            self.state,
+            self.where,
+            self.bubble,
+            self.save_button,
+            self.print_button,
+            self.letter_button,
+            self.home_button,
+            self.back_button,
+            self.open_button,
+        )
         self.pages = Text(self._theme, "", 14, REGULAR, "text2", wrap=True)
-        card.body.addWidget(self.pages)
-        card.body.addSpacing(8)
-        card.body.addWidget(self.panel)
-        host = QVBoxLayout()
-        host.addWidget(card)
-        host.addStretch(1)
+        fill(card.body, self.pages, 8, self.panel)
+        host = in_column(card, STRETCH)
         self._side = scrolled(host)
-        columns = QHBoxLayout(self)
-        columns.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 0)
-        columns.setSpacing(GAP_PX)
-        columns.addWidget(self._scroll, 1)
-        columns.addWidget(self._side)
+        in_line((self._scroll, 1), self._side, gap=GAP_PX, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, 0), within=self)
         self._theme.changed.connect(self._fit)
         self._fit()
 

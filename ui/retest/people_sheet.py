@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.column import RING_PX, scroll_area
 from carpus.ui.controls.host import host_of
+from carpus.ui.controls.layouts import STRETCH, in_column, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.controls.tick import Tick
@@ -35,12 +36,7 @@ class PeopleSheet(Sheet):
         self.ticks: dict[str, Tick] = {}
         close = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
         self.take = Button(theme, self.tr("These take part"), "primary", height_px=44)
-        row = QHBoxLayout()
-        row.setSpacing(10)
-        row.addStretch(1)
-        row.addWidget(close)
-        row.addWidget(self.take)
-        body.addLayout(row)
+        body.addLayout(in_line(STRETCH, close, self.take, gap=10))
         close.clicked.connect(self.close_sheet)
         self.take.clicked.connect(self._take)
         self.set_default(self.take)
@@ -48,18 +44,13 @@ class PeopleSheet(Sheet):
     def begin(self, people: Sequence[tuple[str, str, int]], chosen: Sequence[str]) -> None:
         """Identity, pseudonym and number of sessions of everybody, and who takes part already."""
         rows = QWidget()
-        column = QVBoxLayout(rows)
-        column.setContentsMargins(RING_PX, RING_PX, RING_PX + 8, RING_PX)
-        column.setSpacing(2)
+        column = in_column(gap=2, margins=(RING_PX, RING_PX, RING_PX + 8, RING_PX), within=rows)
         self.ticks = {}
         for identity, name, sessions in people:
             count = self.tr("1 session") if sessions == 1 else self.tr("{count} sessions").format(count=sessions)
             tick = Tick(self._theme, f"{name.replace('&', '&&')} · {count}")
             tick.setChecked(identity in chosen)
-            line = QHBoxLayout()
-            line.addWidget(tick)
-            line.addStretch(1)
-            column.addLayout(line)
+            column.addLayout(in_line(tick, STRETCH))
             self.ticks[identity] = tick
         if not people:
             column.addWidget(Text(self._theme, self.tr("Nobody is in the list yet."), 14, REGULAR, "text2"))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QComboBox, QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QComboBox, QGridLayout, QWidget
 
 from carpus.core.agreement.retest_plan import Restated, RetestPlan, changed_first
 from carpus.core.measures.change import DEFAULT_LIMITS, FEWEST_PEOPLE, ErrorLimits
@@ -14,6 +14,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
+from carpus.ui.controls.layouts import STRETCH, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind
 from carpus.ui.retest.words import (
@@ -78,34 +79,27 @@ class RetestScreen(QWidget):
         self.show_plan(self.plan, DEFAULT_LIMITS)
 
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        head.setSpacing(12)
-        head.addWidget(self.exercise)
-        head.addWidget(self.people_button)
-        head.addStretch(1)
-        for button in (self.save_button, self.use_button, self.measure_button):
-            head.addWidget(button)
+        head = in_line(
+            self.exercise, self.people_button, STRETCH, self.save_button, self.use_button, self.measure_button, gap=12
+        )
         host = ScrolledColumn()
         self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight, host)
         self._columns.setContentsMargins(0, 0, 0, 0)
         self._columns.setSpacing(GAP_PX)
         self._columns.addWidget(self._people_card, 1, Qt.AlignmentFlag.AlignTop)
-        right = QVBoxLayout()
-        right.setSpacing(GAP_PX)
-        right.addWidget(self._figures_card)
-        right.addWidget(self._restated_card)
-        right.addStretch(1)
-        self._columns.addLayout(right, 1)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX)
-        whole.setSpacing(0)
-        whole.addLayout(head)
-        whole.addSpacing(12)
-        whole.addWidget(self.answer)
-        whole.addSpacing(2)
-        whole.addWidget(self.basis)
-        whole.addSpacing(12)
-        whole.addWidget(scroll_area(host), 1)
+        self._columns.addLayout(in_column(self._figures_card, self._restated_card, STRETCH, gap=GAP_PX), 1)
+        in_column(
+            head,
+            12,
+            self.answer,
+            2,
+            self.basis,
+            12,
+            (scroll_area(host), 1),
+            gap=0,
+            margins=(MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX),
+            within=self,
+        )
         self._theme.changed.connect(self._fit)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QImage, QPainter
-from PySide6.QtWidgets import QHBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from carpus.core.hand.exercises import Exercise
 from carpus.core.results.hand_cutout import DrawnAngle, box_of, cut_out, drawn_angle
@@ -16,6 +16,7 @@ from carpus.core.session.values import Session
 from carpus.core.types import ByteImage
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.field import Choices
+from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.controls.tick import Tick
@@ -114,9 +115,7 @@ class FilmSheet(Sheet):
         body.addWidget(self._refused)
         self.agreed = Tick(theme, self.tr("The patient has agreed"))
         body.addWidget(self.agreed)
-        row = QHBoxLayout()
-        row.setSpacing(10)
-        row.addStretch(1)
+        row = in_line(STRETCH, gap=10)
         self.close_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
         self.take = Button(theme, self.tr("Save…"), "primary", height_px=44)
         row.addWidget(self.close_button)

@@ -6,13 +6,14 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QSizePolicy, QWidget
+from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
 
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button, icon_button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.key_caps import KeyCaps
+from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.text import MEDIUM, Text
 from carpus.ui.theme import Theme
 
@@ -55,25 +56,27 @@ class Player(Card):
         self.repetition.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.time = Text(theme, "", 14, MEDIUM)
         self.scrubber = Scrubber(theme)
-        row = QHBoxLayout()
-        row.setContentsMargins(12, 7, 16, 7)
-        row.setSpacing(4)
-        for widget in (self.back, self.play, self.on):
-            row.addWidget(widget)
-        row.addSpacing(8)
-        row.addWidget(self.speed)
-        row.addSpacing(8)
-        row.addWidget(self.view)
-        row.addSpacing(4)
-        row.addWidget(self.view_key)
-        row.addSpacing(12)
-        row.addWidget(self.hints)
-        row.addWidget(self.repetition)
-        row.addStretch(1)
-        row.addWidget(self.time)
-        row.addSpacing(8)
-        row.addWidget(self.scrubber, 6)
-        row.addSpacing(8)
+        row = in_line(
+            self.back,
+            self.play,
+            self.on,
+            8,
+            self.speed,
+            8,
+            self.view,
+            4,
+            self.view_key,
+            12,
+            self.hints,
+            self.repetition,
+            STRETCH,
+            self.time,
+            8,
+            (self.scrubber, 6),
+            8,
+            gap=4,
+            margins=(12, 7, 16, 7),
+        )
         self.picture_hint = KeyCaps(theme, [("← →", self.tr("picture"))])
         row.addWidget(self.picture_hint)
         for shown in (self.play, self.speed, self.view, self.view_key, self.hints, self.repetition, self.picture_hint):

@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
 from carpus.core.results.repetition_rows import PASSIVE
 from carpus.ui.controls.button import Button
+from carpus.ui.controls.layouts import STRETCH, fill
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.theme import Theme
@@ -30,9 +31,7 @@ class ReasonSheet(Sheet):
         self.passive.clicked.connect(lambda: self._keep(PASSIVE))
         self.passive_on = Button(theme, self.tr("Passive, and all after it"), "plain", height_px=40)
         self.passive_on.clicked.connect(lambda: self._keep(PASSIVE, and_after=True))
-        helped.addWidget(self.passive)
-        helped.addWidget(self.passive_on)
-        helped.addStretch(1)
+        fill(helped, self.passive, self.passive_on, STRETCH)
         body.addLayout(helped)
         words = self.tr(
             "Left out: it stays in the recording and on the curves, and counts no longer. The report says so."
@@ -56,9 +55,7 @@ class ReasonSheet(Sheet):
         self._take.clicked.connect(lambda: self._keep(self.line.text().strip()))
         self._close = Button(theme, self.tr("Keep it in"), "plain")
         self._close.clicked.connect(self.close_sheet)
-        row.addWidget(self.line, 1)
-        row.addWidget(self._take)
-        row.addWidget(self._close)
+        fill(row, (self.line, 1), self._take, self._close)
         body.addLayout(row)
 
     def begin(self, number: int) -> None:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from carpus.ui.controls.button import Button
+from carpus.ui.controls.layouts import in_line
 from carpus.ui.controls.text import MEDIUM, Text
 from carpus.ui.numbers import short_date
 from carpus.ui.ports import StoredResult
@@ -22,9 +23,7 @@ class ResultChoice(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self._row = QHBoxLayout(self)
-        self._row.setContentsMargins(0, 0, 0, 0)
-        self._row.setSpacing(8)
+        self._row = in_line(gap=8, margins=(0, 0, 0, 0), within=self)
         self.buttons: list[Button] = []
         self.hide()
 

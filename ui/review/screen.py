@@ -10,7 +10,7 @@ from datetime import datetime, timedelta
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QScrollArea, QWidget
 
 from carpus.core.hand.exercises import FLEXION, SIDES
 from carpus.core.measures.by_hand import HandValue, of_session
@@ -30,6 +30,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import ScrolledColumn
 from carpus.ui.controls.field import ChoiceButton, Choices
+from carpus.ui.controls.layouts import STRETCH, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Text
 from carpus.ui.controls.tooltip import plain_tooltip
 from carpus.ui.controls.words_table import WordsTable
@@ -180,12 +181,8 @@ class ReviewScreen(QWidget):
         self._timer.timeout.connect(self._play_on)
 
     def _lay_out(self) -> None:
-        top = QHBoxLayout()
-        top.setSpacing(GAP_PX)
-        top.addWidget(self.picture, 480)
-        right = QVBoxLayout()
-        right.setSpacing(8)
-        right.addWidget(self.finger)
+        top = in_line((self.picture, 480), gap=GAP_PX)
+        right = in_column(self.finger, gap=8)
         both = (self.ways_said, self.ways_table, self.ways_note)
         for hidden in (self.finger, self.hand_table, self.limits, self.further, *both):
             hidden.hide()  # until a session of the whole hand is shown
@@ -197,23 +194,22 @@ class ReviewScreen(QWidget):
         said.setSpacing(12)
         said.addWidget(self.title)
         said.addWidget(self.count, 1)
-        head = QHBoxLayout()
-        head.setSpacing(12)
-        head.addStretch(1)
-        head.addWidget(self.count_button)
-        head.addWidget(self.beside_button)
-        head.addWidget(self.again_button)
-        head.addWidget(self.export_button)
-        head.addWidget(self.report_button)
+        head = in_line(
+            STRETCH,
+            self.count_button,
+            self.beside_button,
+            self.again_button,
+            self.export_button,
+            self.report_button,
+            gap=12,
+        )
         card.body.setContentsMargins(24, 4, 16, 4)
         card.body.setSpacing(4)
         card.body.addLayout(said)
         card.body.addLayout(head)
         self._scroll = QScrollArea()
         tables = ScrolledColumn()
-        below = self._below = QVBoxLayout(tables)
-        below.setContentsMargins(0, 0, 0, 0)
-        below.setSpacing(4)
+        below = self._below = in_column(gap=4, margins=(0, 0, 0, 0), within=tables)
         both = (self.ways_said, self.ways_table, self.ways_note)
         for widget in (self.table, self.hand_table, *both, self.further, self.limits, self.notes, self.results):
             below.addWidget(widget)
@@ -222,13 +218,15 @@ class ReviewScreen(QWidget):
         self._scroll.setWidgetResizable(True)
         self._scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         card.body.addWidget(self._scroll)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
-        whole.setSpacing(12)
-        whole.addLayout(top, 1)
-        whole.addWidget(self.player)
-        whole.addWidget(self.bubble)
-        whole.addWidget(card)
+        in_column(
+            (top, 1),
+            self.player,
+            self.bubble,
+            card,
+            gap=12,
+            margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX),
+            within=self,
+        )
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()

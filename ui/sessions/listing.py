@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import datetime
 from itertools import pairwise
 
 from PySide6.QtCore import QAbstractListModel, QModelIndex, QPersistentModelIndex, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QBrush, QFontMetricsF, QMouseEvent, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
+from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, font
 from carpus.ui.icons import paint_state
-from carpus.ui.ports import SessionLine
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.translate import inside, tr
 
@@ -25,6 +27,34 @@ COLUMNS = (0.062, 0.242, 0.490, 0.680, 0.760, 0.985)
 TWO_LINES_BELOW_PX, TWO_LINES = 720, (0.42, 0.84, 1.0)
 """In a narrower list, text at 100 %, date, figure and what counted stand over exercise and remark: right edges as
 shares of what is right of the tick."""
+
+
+@dataclass(frozen=True, slots=True)
+class SessionLine:
+    """One row of the list of sessions. What must be read from the file is empty until it has been: ``figure`` the main
+    one in words, ``counted`` ``8 of 9``, ``counted_words`` and ``warning`` for the card."""
+
+    session_id: str
+    when: datetime
+    exercise: str
+    side: Side
+    duration_s: float
+    complete: bool
+    simulated: bool = False
+    of_practice: bool = False
+    set_aside: str = ""
+    """Why it does not count; empty when it does."""
+    damaged: bool = False
+    away: bool = False
+    """Its file is not where it was."""
+    figure: str = ""
+    counted: str = ""
+    counted_words: str = ""
+    warning: str = ""
+    corrected: str = ""
+    """That and since when markers were put right, in words; empty as measured."""
+    not_sure: str = ""
+    """That a check of the camera near it was out, in two or three words; empty where none was."""
 
 
 def remark(line: SessionLine) -> str:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import QModelIndex, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.hand.exercises import exercise_named, exercises_of
 from carpus.core.records.set_up import PRACTICE_PATIENT
@@ -14,12 +16,15 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import scroll_area
 from carpus.ui.controls.default_answer import ENTER
+from carpus.ui.controls.layouts import in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.keys import Keys, bind
-from carpus.ui.ports import SessionLine, SessionShelf
-from carpus.ui.sessions.listing import SessionList, remark
+from carpus.ui.sessions.listing import SessionLine, SessionList, remark
 from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
 from carpus.ui.theme import MARGIN_PX, Theme
+
+if TYPE_CHECKING:  # it reads and writes files
+    from carpus.ui.sessions.flow import SessionShelf
 
 
 class SessionsScreen(QWidget):
@@ -68,18 +73,15 @@ class SessionsScreen(QWidget):
         self._lay_out()
         self._connect(keys or Keys())
 
-    def show_research(self, *, on: bool) -> None:
-        """Whether another measurement can be compared with."""
-        self.reference_button.setVisible(on)
-
     def _lay_out(self) -> None:
-        left = QVBoxLayout()
-        left.setSpacing(12)
-        left.addWidget(self.title)
-        left.addLayout(self.notice_place)
-        left.addWidget(self.none)
-        left.addWidget(self.list, 1)
-        left.addWidget(self.archive_button, 0, Qt.AlignmentFlag.AlignLeft)
+        left = in_column(
+            self.title,
+            self.notice_place,
+            self.none,
+            (self.list, 1),
+            (self.archive_button, 0, Qt.AlignmentFlag.AlignLeft),
+            gap=12,
+        )
         left.addStretch(0)
         self._card = Card(self._theme, 20)
         body = self._card.body
@@ -93,11 +95,13 @@ class SessionsScreen(QWidget):
         ):  # fmt: skip
             body.addWidget(button)
         self._right = scroll_area(self._card)
-        columns = QHBoxLayout(self)
-        columns.setContentsMargins(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4)
-        columns.setSpacing(MARGIN_PX)
-        columns.addLayout(left, 1)
-        columns.addWidget(self._right)
+        in_line(
+            (left, 1),
+            self._right,
+            gap=MARGIN_PX,
+            margins=(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4),
+            within=self,
+        )
         self._theme.changed.connect(self._fit)
         self._fit()
 

@@ -8,6 +8,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLineEdit, QWidget
 
 from carpus.ui.controls.button import Button
+from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.theme import Theme
@@ -25,11 +26,7 @@ class _Asking(Sheet):
         self.card.body.addWidget(self.words)
 
     def _buttons(self, *buttons: Button) -> None:
-        row = QHBoxLayout()
-        row.addStretch(1)
-        for button in buttons:
-            row.addWidget(button)
-        self.card.body.addLayout(row)
+        self.card.body.addLayout(in_line(STRETCH, *buttons))
 
 
 class SetAsideSheet(_Asking):

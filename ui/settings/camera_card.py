@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
+from carpus.ui.controls.layouts import STRETCH, fill, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
@@ -27,20 +27,16 @@ class CameraCard(Card):
             "seconds whether it still measures right. Both can be tried with a simulated camera."
         )
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        self._row = QHBoxLayout()
-        self._row.setSpacing(10)
+        self._row = in_line(gap=10)
         self._sign = Sign(theme, "none")
         self._state = Text(theme, "", 14, SEMIBOLD, wrap=True)
         self._row.addWidget(self._sign)
         self._row.addWidget(self._state, 1)
         self.body.addLayout(self._row)
-        buttons = QHBoxLayout()
-        buttons.setSpacing(12)
+        buttons = in_line(gap=12)
         self.check_button = Button(theme, self.tr("Chec&k card…"), height_px=40)
         self.calibrate_button = Button(theme, self.tr("Cali&brate the camera…"), height_px=40)
-        buttons.addWidget(self.check_button)
-        buttons.addWidget(self.calibrate_button)
-        buttons.addStretch(1)
+        fill(buttons, self.check_button, self.calibrate_button, STRETCH)
         self.body.addLayout(buttons)
         self.check_button.clicked.connect(self.check)
         self.calibrate_button.clicked.connect(self.calibrate)

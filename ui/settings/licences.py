@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QDialog, QPlainTextEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QPlainTextEdit, QWidget
 
+from carpus.ui.controls.layouts import in_column
 from carpus.ui.theme import MARGIN_PX, Theme
 
 
@@ -16,7 +17,5 @@ class LicencesWindow(QDialog):
         self.text = QPlainTextEdit(text)
         self.text.setReadOnly(True)
         self.text.setAccessibleName(self.windowTitle())
-        column = QVBoxLayout(self)
-        column.setContentsMargins(MARGIN_PX, MARGIN_PX, MARGIN_PX, MARGIN_PX)
-        column.addWidget(self.text)
+        in_column(self.text, margins=(MARGIN_PX, MARGIN_PX, MARGIN_PX, MARGIN_PX), within=self)
         self.resize(theme.px(860), theme.px(600))

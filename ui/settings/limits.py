@@ -19,6 +19,7 @@ from carpus.core.measures.change import (
 )
 from carpus.ui import numbers, terms
 from carpus.ui.controls.card import Card
+from carpus.ui.controls.layouts import fill
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
 from carpus.ui.figures import figure_of
 from carpus.ui.theme import Theme
@@ -44,9 +45,12 @@ def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:
     grid.setColumnStretch(2, 1)
     card.body.addLayout(grid)
     for study in measured.studies:
-        card.body.addSpacing(8)
-        card.body.addWidget(Text(theme, study_title(study), 16, SEMIBOLD))
-        card.body.addWidget(Text(theme, study_words(study), 14, REGULAR, "text2", wrap=True))
+        fill(
+            card.body,
+            8,
+            Text(theme, study_title(study), 16, SEMIBOLD),
+            Text(theme, study_words(study), 14, REGULAR, "text2", wrap=True),
+        )
         table = QGridLayout()
         table.setHorizontalSpacing(24)
         table.setVerticalSpacing(6)

@@ -7,12 +7,13 @@ from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPixmap
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QLineEdit, QPlainTextEdit
+from PySide6.QtWidgets import QFileDialog, QLabel, QLineEdit, QPlainTextEdit
 
 from carpus.core.results.report_form import MOST_ADDRESS, MOST_ADDRESS_LINES, MOST_NAME, ReportForm
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import Choices, Labelled
+from carpus.ui.controls.layouts import STRETCH, fill, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.report.logo import LogoRefused, logo_png
 from carpus.ui.theme import Theme
@@ -38,16 +39,12 @@ class ReportCard(Card):
         theme.follow(self.address, lambda: self.address.setFixedHeight(theme.px(ADDRESS_PX)))
         self.body.addWidget(Labelled(theme, self.tr("Name of the clinic"), self.name))
         self.body.addWidget(Labelled(theme, self.tr("Address, up to four lines"), self.address))
-        row = QHBoxLayout()
-        row.setSpacing(12)
+        row = in_line(gap=12)
         self.picture = QLabel()
         self.picture.setAccessibleName(self.tr("Logo"))
         self.choose = Button(theme, self.tr("Choose a logo…"), height_px=40)
         self.remove = Button(theme, self.tr("Remove the logo"), "quiet", height_px=40)
-        row.addWidget(self.picture)
-        row.addWidget(self.choose)
-        row.addWidget(self.remove)
-        row.addStretch(1)
+        fill(row, self.picture, self.choose, self.remove, STRETCH)
         self.body.addLayout(row)
         self.problem = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.problem.hide()

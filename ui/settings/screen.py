@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QButtonGroup,
     QFileDialog,
     QGridLayout,
-    QHBoxLayout,
     QKeySequenceEdit,
     QLineEdit,
     QStackedWidget,
@@ -28,6 +27,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices, DegreesField
+from carpus.ui.controls.layouts import fill, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.controls.tick import Tick
 from carpus.ui.keys import DEFAULT_KEYS, action_words
@@ -103,22 +103,22 @@ class SettingsScreen(QWidget):
     def _lay_out(self) -> None:
         theme = self._theme
         looks = self._card(self.tr("Looks"))
-        looks.body.addWidget(Text(theme, self.tr("Colours"), 14, REGULAR, "text2"))
-        looks.body.addWidget(self.looks)
-        looks.body.addSpacing(8)
-        looks.body.addWidget(Text(theme, self.tr("Text size"), 14, REGULAR, "text2"))
-        looks.body.addWidget(self.text_scale)
-        looks.body.addSpacing(8)
-        looks.body.addWidget(Text(theme, self.tr("Language"), 14, REGULAR, "text2"))
-        looks.body.addWidget(self.language)
-        looks.body.addWidget(self.language_note)
+        fill(
+            looks.body,
+            Text(theme, self.tr("Colours"), 14, REGULAR, "text2"),
+            self.looks,
+            8,
+            Text(theme, self.tr("Text size"), 14, REGULAR, "text2"),
+            self.text_scale,
+            8,
+            Text(theme, self.tr("Language"), 14, REGULAR, "text2"),
+            self.language,
+            self.language_note,
+        )
         data = self._card(self.tr("Data"))
         note = self.tr("Sessions and the list of patients. Private to you; nothing leaves this computer.")
         data.body.addWidget(Text(theme, note, 14, REGULAR, "text2", wrap=True))
-        row = QHBoxLayout()
-        row.addWidget(self.folder, 1)
-        row.addWidget(self.folder_button)
-        data.body.addLayout(row)
+        data.body.addLayout(in_line((self.folder, 1), self.folder_button))
         initials = self._card(self.tr("Initials on reports"))
         self.therapist.setMaximumWidth(theme.px(220))
         initials.body.addWidget(self.therapist)
@@ -222,8 +222,7 @@ class SettingsScreen(QWidget):
         self._stack = QStackedWidget()
         self.index: dict[Part, Button] = {}
         group = QButtonGroup(self)
-        index = QVBoxLayout()
-        index.setSpacing(4)
+        index = in_column(gap=4)
         for number, (part, page) in enumerate(self._pages.items()):
             page.setContentsMargins(0, 4, 12, 4)
             page.setSpacing(GAP_PX)
@@ -239,8 +238,7 @@ class SettingsScreen(QWidget):
             index.addWidget(button)
         index.addStretch(1)
         group.idClicked.connect(lambda number: self.choose(get_args(Part)[number]))
-        beside = QHBoxLayout()
-        beside.setSpacing(GAP_PX)
+        beside = in_line(gap=GAP_PX)
         self._left = QWidget()
         index.setContentsMargins(0, 4, 0, 4)
         self._left.setLayout(index)
@@ -248,15 +246,8 @@ class SettingsScreen(QWidget):
         beside.addWidget(self._stack, 1)
         self._fold()
         self.choose("looks")
-        head = QHBoxLayout()
-        head.setContentsMargins(0, 0, 8, 0)
-        head.addWidget(heading(theme, self.tr("Settings")), 1)
-        head.addWidget(self.back)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX - 8, GAP_PX)
-        whole.setSpacing(12)
-        whole.addLayout(head)
-        whole.addLayout(beside, 1)
+        head = in_line((heading(theme, self.tr("Settings")), 1), self.back, margins=(0, 0, 8, 0))
+        in_column(head, (beside, 1), gap=12, margins=(MARGIN_PX, GAP_PX, MARGIN_PX - 8, GAP_PX), within=self)
 
     def show_limits(self, measured: ErrorLimits) -> None:
         """The limits that hold from now on."""

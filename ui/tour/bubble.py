@@ -7,6 +7,7 @@ from PySide6.QtGui import QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from carpus.ui.controls.button import Button
+from carpus.ui.controls.layouts import in_line
 from carpus.ui.controls.text import MEDIUM, Text, caption
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.tour.order import PARTS, POINTLESS, Bubble, part_of, words_of
@@ -44,8 +45,7 @@ class BubbleView(QWidget):
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus if keys else Qt.FocusPolicy.NoFocus)
         self.next_button.clicked.connect(self.next)
         self.leave_button.clicked.connect(self.leave)
-        foot = QHBoxLayout()
-        foot.setSpacing(4)
+        foot = in_line(gap=4)
         whole = QHBoxLayout(self) if wide else QVBoxLayout(self)
         if wide:
             whole.setSpacing(16)

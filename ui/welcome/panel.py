@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from carpus.core.purpose import PURPOSE
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import scrolled
+from carpus.ui.controls.layouts import STRETCH, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
@@ -61,8 +62,7 @@ class WelcomePanel(Card):
         self.details_button.setCheckable(True)
         self.tour_button = Button(theme, self.tr("&Guide me through a first session"), icon="arrow-right")
         self.later_button = Button(theme, self.tr("Not now"), "quiet", hint=self.tr("Esc"))
-        self._rows = QVBoxLayout()
-        self._rows.setSpacing(4)
+        self._rows = in_column(gap=4)
         self._lay_out()
         for button, signal in (
             (self.tour_button, self.tour), (self.later_button, self.later), (self.again_button, self.again),
@@ -77,40 +77,22 @@ class WelcomePanel(Card):
 
     def _lay_out(self) -> None:
         theme = self._theme
-        text = QVBoxLayout()
-        text.setSpacing(8)
-        text.addWidget(Text(theme, self.tr("Welcome to Carpus"), 20, SEMIBOLD))
+        text = in_column(Text(theme, self.tr("Welcome to Carpus"), 20, SEMIBOLD), gap=8)
         self.purpose = Text(theme, purpose_lines(), 14, REGULAR, "text2", wrap=True)
         text.addWidget(self.purpose)
-        head = QHBoxLayout()
-        head.addWidget(self.state, 1)
-        head.addWidget(self.details_button)
-        head.addWidget(self.again_button)
-        text.addLayout(head)
+        text.addLayout(in_line((self.state, 1), self.details_button, self.again_button))
         text.addLayout(self._rows)
         text.addWidget(Line(theme))
         note = self.tr("Patients and sessions will lie here; nothing leaves this computer.")
-        lies = QVBoxLayout()
-        lies.setSpacing(0)
-        lies.addWidget(Text(theme, note, 14, REGULAR, "text2", wrap=True))
-        lies.addWidget(self.where)
-        place = QHBoxLayout()
-        place.setSpacing(12)
-        place.addLayout(lies, 1)
-        place.addWidget(self.folder_button)
-        text.addLayout(place)
+        lies = in_column(Text(theme, note, 14, REGULAR, "text2", wrap=True), self.where, gap=0)
+        text.addLayout(in_line((lies, 1), self.folder_button, gap=12))
         later = QHBoxLayout()
         later.setContentsMargins(20, 6, 20, 8)  # its widgets hide it whole, and this with it
         later.setSpacing(12)
         later.addWidget(self.counts, 1)
         later.addWidget(self.close_button)
         text.addStretch(1)
-        foot = QHBoxLayout()
-        foot.setContentsMargins(20, 10, 20, 12)
-        foot.setSpacing(8)
-        foot.addWidget(self.tour_button)
-        foot.addStretch(1)
-        foot.addWidget(self.later_button)
+        foot = in_line(self.tour_button, STRETCH, self.later_button, gap=8, margins=(20, 10, 20, 12))
         self.body.setSpacing(0)
         self.body.setContentsMargins(1, 1, 1, 1)
         area = scrolled(text)
@@ -169,15 +151,15 @@ class CheckRow(QWidget):
     def __init__(self, theme: Theme, check: Check) -> None:
         super().__init__()
         self.check = check
-        words = QVBoxLayout()
-        words.setSpacing(0)
-        words.addWidget(Text(theme, f"{check.name}: {check.found}", 14, REGULAR, wrap=True))
+        words = in_column(Text(theme, f"{check.name}: {check.found}", 14, REGULAR, wrap=True), gap=0)
         if check.remedy:
             words.addWidget(Text(theme, check.remedy, 14, MEDIUM, wrap=True))
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(10)
-        row.addWidget(Sign(theme, _ICONS[check.state], 16, (18, 20), lean=0.5), 0, Qt.AlignmentFlag.AlignTop)
-        row.addLayout(words, 1)
+        in_line(
+            (Sign(theme, _ICONS[check.state], 16, (18, 20), lean=0.5), 0, Qt.AlignmentFlag.AlignTop),
+            (words, 1),
+            gap=10,
+            margins=(0, 0, 0, 0),
+            within=self,
+        )
         states = {"good": self.tr("good"), "warning": self.tr("to be looked at"), "bad": self.tr("missing")}
         self.setAccessibleName(f"{check.name}, {states[check.state]}: {check.found}. {check.remedy}")

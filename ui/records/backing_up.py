@@ -5,14 +5,12 @@ from __future__ import annotations
 import shutil
 from collections.abc import Callable
 from datetime import datetime
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QStandardPaths, QTimer, Signal
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QFileDialog, QVBoxLayout
 
-from carpus import __version__
-from carpus.app.settings import BackupSettings
 from carpus.core.disks import on_same_disk
 from carpus.core.errors import BackupMissing
 from carpus.core.records.backup import (
@@ -27,20 +25,17 @@ from carpus.core.records.backup import (
     restore,
     thin_out,
 )
-from carpus.core.records.library import Library
 from carpus.core.records.of_clinic import LastBackup, last_backup, note_backup
 from carpus.core.records.sealed import ENDING, open_sealed, seal_backup
 from carpus.core.records.staging import Staged
+from carpus.core.records.values import BackupSettings
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.background import Background
+from carpus.ui.flow import ScreenContext
 from carpus.ui.messages.stop_card import Answer
 from carpus.ui.records.cards import BackupCard, BackupFacts
 from carpus.ui.records.passphrase_sheet import PassphraseSheet
-from carpus.ui.theme import Theme
-
-if TYPE_CHECKING:
-    from carpus.app.desktop.journey import Journey
 
 LOOK_MS = 60_000
 
@@ -52,33 +47,27 @@ class BackingUp(QObject):
 
     def __init__(
         self,
-        journey: Journey,
-        host: QWidget,
-        theme: Theme,
-        library: Library,
+        context: ScreenContext,
         settings: BackupSettings,
         settings_folder: Path,
         *,
         keep: Callable[[BackupSettings], None],
-        close_window: Callable[[], None],
-        is_recording: Callable[[], bool],
         now: Callable[[], datetime] = lambda: datetime.now().astimezone(),
     ) -> None:
-        super().__init__(journey)
-        self._journey, self._library, self._settings = journey, library, settings
-        self._settings_folder, self._keep, self._close_window = settings_folder, keep, close_window
-        self._is_recording, self._now = is_recording, now
+        super().__init__(context.shell)
+        self._context, self._library, self._settings = context, context.library, settings
+        self._settings_folder, self._keep, self._now = settings_folder, keep, now
         self._background = Background()  # its own: a back-up of gigabytes holds up nothing else
         self._running = False
         self.last: LastBackup | None = None
         self.restored: Staged | None = None
         """A back-up that lies beside the data folder and takes its place when the window has closed."""
-        self.card = BackupCard(theme, settings.hour)
+        self.card = BackupCard(context.theme, settings.hour)
         self.card.back_up.connect(self.back_up)
         self.card.restore.connect(self.ask_restore)
         self.card.seal.connect(self.seal)
         self.card.unseal.connect(self.ask_restore_sealed)
-        self.passphrase = PassphraseSheet(host, theme)
+        self.passphrase = PassphraseSheet(context.shell.stage, context.theme)
         self.card.place_wanted.connect(self._choose_place)
         self.card.hour_chosen.connect(lambda hour: self._change(BackupSettings(self._settings.folder, hour)))
         self.stepped.connect(self.card.show_progress)
@@ -101,7 +90,7 @@ class BackingUp(QObject):
     def look_again(self) -> None:
         """Work out how it stands, and show it."""
         store = self._library.store
-        self._background.run(lambda: last_backup(store), self._take_last, self._journey.messages.fault, self)
+        self._background.run(lambda: last_backup(store), self._take_last, self._context.messages.fault, self)
 
     def _take_last(self, last: LastBackup | None) -> None:
         self.last = last
@@ -115,20 +104,20 @@ class BackingUp(QObject):
         sessions = sum(record.session_count for record in self._library.patients.listed())
         return sessions > 0 and is_due(self.last.made if self.last else None, self._settings.remind_days, self._now())
 
-    def remind(self) -> None:
+    def remind(self, place: QVBoxLayout) -> None:
         """A strip above the patients, once at the start, where the last back-up is old."""
         self.last = last_backup(self._library.store)
         if not self.is_old():
             return
         facts = self._facts()
         words = Words(facts.headline, facts.detail, self.tr("Plug the disk for back-ups in, and back up."))
-        place = self._journey.patients.notice_place
-        self._journey.messages.strip(place, words, self.tr("To the settings"), self._journey.safety_wanted.emit)
+        to_settings = partial(self._context.way.show, "settings", "safety")
+        self._context.messages.strip(place, words, self.tr("To the settings"), to_settings)
 
     def look(self) -> None:
         """Once a minute: is it time?"""
         settings, now = self._settings, self._now()
-        if settings.hour < 0 or not settings.folder or now.hour < settings.hour or self._is_recording():
+        if settings.hour < 0 or not settings.folder or now.hour < settings.hour or self._context.way.is_recording():
             return
         if self.last is not None and self.last.made.astimezone(now.tzinfo).date() >= now.date():
             return
@@ -150,7 +139,7 @@ class BackingUp(QObject):
         made = back_up(
             self._library.folder,
             place,
-            software_version=__version__,
+            software_version=self._context.version,
             sessions=self._library.store.sessions_folder,
             settings_folder=self._settings_folder,
             progress=self._step,
@@ -171,7 +160,7 @@ class BackingUp(QObject):
     def _failed(self, fault: Exception) -> None:
         self._running = False
         self.card.show_progress(None)
-        self._journey.messages.fault(fault)
+        self._context.messages.fault(fault)
 
     def _choose_place(self) -> bool:
         """Ask for the folder; whether one was chosen."""
@@ -260,7 +249,7 @@ class BackingUp(QObject):
     def _ask(self, backup: Backup, content: Content, plan: RestorePlan) -> None:
         what = self.tr("Restore the back-up of {when}? {come} sessions come, {change} change, {go} go.")
         when = numbers.report_date(backup.made.astimezone())
-        self._journey.messages.ask(
+        self._context.messages.ask(
             Words(
                 what.format(when=when, come=len(plan.added), change=len(plan.replaced), go=len(plan.lost)),
                 self.tr("The folder of what is here now is kept beside the new one."),
@@ -287,7 +276,7 @@ class BackingUp(QObject):
         def done(staged: Staged) -> None:
             self._running = False
             self.restored = staged
-            self._close_window()
+            self._context.shell.close_surely()
 
         self._background.run(work, done, self._failed, self)
 
@@ -318,7 +307,7 @@ class BackingUp(QObject):
             if path == chosen:
                 path.unlink(missing_ok=True)  # the dialog has asked
             made = seal_backup(
-                self._library.folder, path, passphrase, software_version=__version__,
+                self._library.folder, path, passphrase, software_version=self._context.version,
                 sessions=self._library.store.sessions_folder, settings_folder=self._settings_folder,
                 progress=self._step,
             )  # fmt: skip

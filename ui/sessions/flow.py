@@ -1,8 +1,9 @@
-"""The list of a patient's sessions: read, set aside, moved, renamed, deleted."""
+"""The flow of a patient's sessions: the list, and where one goes on from it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 from carpus.core.errors import SessionUnreadable
@@ -12,14 +13,70 @@ from carpus.core.records.log import fingerprint
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import SessionEntry
 from carpus.ui.check_card.standing_words import unsure_name
-from carpus.ui.ports import SessionLine
+from carpus.ui.flow import Flow, ScreenContext
+from carpus.ui.messages.strip import put_off_last
 from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.tables import repetition_words
 from carpus.ui.report.words import corrected_words, warnings
+from carpus.ui.sessions.listing import SessionLine
+from carpus.ui.sessions.screen import SessionsScreen
 
 
-class StoredSessions:
-    """:class:`ui.ports.SessionShelf` over the library."""
+class SessionsFlow(Flow):
+    """All sessions of a patient."""
+
+    place, guide = "sessions", "sessions"
+    screen: SessionsScreen
+
+    def __init__(self, context: ScreenContext) -> None:
+        shelf = SessionShelf(context.library)
+        super().__init__(context, SessionsScreen(context.theme, context.background, shelf, context.keys))
+        screen, way = self.screen, context.way
+        screen.told.connect(context.messages.fault)
+        screen.opened.connect(lambda session_id: way.show("review", session_id))
+        screen.progress.connect(self._show_progress)
+        screen.reference_wanted.connect(self._compare)
+        screen.pair_wanted.connect(lambda one, other: way.show("beside", one, other))
+        screen.changed.connect(self._look_for_open)
+
+    def show(self, patient_id: str) -> None:
+        """All sessions of a patient."""
+        self.open_patient(patient_id)
+        now = self.context.now
+        self.screen.begin(patient_id, now.name, now.session_id)
+        self.context.way.go("sessions")
+
+    def up(self) -> None:
+        """To the patient."""
+        if not put_off_last(self.screen):
+            self.to_patient()
+
+    def show_research(self, *, on: bool) -> None:
+        """Whether another measurement can be compared with."""
+        self.screen.reference_button.setVisible(on)
+
+    def _show_progress(self, session_id: str) -> None:
+        now = self.context.now
+        assert now.patient is not None
+        now.session_id = session_id
+        self.context.way.show("progress", now.patient.patient_id)
+
+    def _compare(self, session_id: str) -> None:
+        self.context.now.session_id = session_id
+        self.context.way.show("agreement", session_id)
+
+    def _look_for_open(self) -> None:
+        """A session was moved, renamed or deleted: the one that was open may be gone."""
+        with suppress(SessionUnreadable):
+            if self.context.now.session_id:
+                self.context.library.entry(self.context.now.session_id)
+                return
+        self.context.now.session_id = ""
+
+
+class SessionShelf:
+    """All sessions of a patient and what can be done with them. All but ``lines`` and ``other_patients`` may read or
+    write the disk: called in the background."""
 
     def __init__(self, library: Library) -> None:
         self._library = library

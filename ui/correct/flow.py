@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import Signal
 
-from carpus import __version__
 from carpus.core.pipeline.correction import correct_in_process, not_held, task_of
 from carpus.core.records.corrections import Corrections, Difference, Waiting, difference
 from carpus.core.results.figures import session_figures
@@ -22,61 +21,42 @@ from carpus.ui import numbers, terms
 from carpus.ui.background import Background
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
-from carpus.ui.flow import Navigator
+from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.marker_words import marker_name
-from carpus.ui.messages.messages import Messages
-from carpus.ui.ports import StoredMoment
 from carpus.ui.translate import inside, tr
 
 
-class Moments:
-    """:class:`ui.ports.CorrectionStore` over the stored corrections."""
-
-    def __init__(self, stored: Corrections) -> None:
-        self._stored = stored
-
-    def moment(self, session_id: str, row: int) -> StoredMoment:
-        """One stored picture and its spots."""
-        return StoredMoment(*self._stored.moment(session_id, row))
-
-
-class Correcting(QObject):
-    """``changed`` carries percent, -1 when nothing runs, and how many new results wait for a decision; ``used`` the
-    identities of a session and of its new result that was taken.
+class CorrectFlow(Flow):
+    """``changed`` carries percent, -1 when nothing runs, and how many new results wait for a decision.
 
     One session is tracked again at a time, in a process of its own; window, other patients and a new measurement go on.
     What comes of it waits in the top bar until a person opens it: nothing comes up over what somebody does.
     """
 
+    place, guide = "correct", "correct"
+    while_aside = True
+    screen: CorrectScreen
+
     changed = Signal(int, int)
-    used = Signal(str, str)
     _at = Signal(int)
 
-    def __init__(
-        self,
-        parent: QObject,
-        screen: CorrectScreen,
-        sheet: ResultsSheet,
-        way: Navigator,
-        tell: Messages,
-        stored: Corrections,
-        *,
-        initials: Callable[[], str],
-    ) -> None:
-        super().__init__(parent)
-        self._screen, self._sheet, self._way, self._tell, self._stored = screen, sheet, way, tell, stored
-        self._initials = initials
+    def __init__(self, context: ScreenContext) -> None:
+        self._stored = Corrections(context.library)
+        self._stored.clear_unfinished()
+        super().__init__(context, CorrectScreen(context.theme, context.keys, context.background, self._stored))
+        self.sheet = ResultsSheet(context.shell.stage, context.theme)
         self._tracking, self._background = Background(), Background()
         self._stopping = threading.Event()
         self._running, self._whose, self._percent = "", "", -1
         self._waiting: list[Waiting] = []
         self._shown: Waiting | None = None
         self._at.connect(self._take_progress)
-        screen.wanted.connect(self.start)
-        screen.told.connect(tell.fault)
-        sheet.stop_wanted.connect(self.stop)
-        sheet.keep_wanted.connect(self._keep)
-        sheet.use_wanted.connect(self._use)
+        self.screen.wanted.connect(self.start)
+        self.screen.told.connect(context.messages.fault)
+        self.screen.done.connect(context.way.back)
+        self.sheet.stop_wanted.connect(self.stop)
+        self.sheet.keep_wanted.connect(self._keep)
+        self.sheet.use_wanted.connect(self._use)
 
     @property
     def is_at_work(self) -> bool:
@@ -95,7 +75,7 @@ class Correcting(QObject):
 
     def look_for_waiting(self) -> None:
         """When the program starts, and after something was erased: what waits for a decision."""
-        self._background.run(self._stored.waiting, self._take_waiting, self._tell.fault, self)
+        self._background.run(self._stored.waiting, self._take_waiting, self.context.messages.fault, self)
 
     def _take_waiting(self, found: Sequence[Waiting]) -> None:
         self._waiting = list(found)
@@ -107,8 +87,8 @@ class Correcting(QObject):
             self.open_sheet()
             return
         self._whose = whose(session.header)
-        self._screen.begin(session_id, session, row)
-        self._way.go("correct")
+        self.screen.begin(session_id, session, row)
+        self.context.way.go("correct")
 
     def start(self, session_id: str, corrections: Sequence[Correction]) -> None:
         """Track again in the background."""
@@ -122,38 +102,42 @@ class Correcting(QObject):
         def work() -> bool:
             trial.append(self._stored.trial_path(session_id))
             origin = self._stored.origin_of(session_id)
-            task = task_of(origin, trial[0], corrections, __version__, self._initials())
+            task = task_of(origin, trial[0], corrections, self.context.version, self.context.report.therapist)
             return correct_in_process(task, self._tell_progress, self._stopping)
 
         def done(finished: bool) -> None:
             if finished:
                 self._waiting.append(Waiting(session_id, trial[0]))
             self._end()
-            if finished and self._sheet.isVisible():  # somebody waits for it there
+            if finished and self.sheet.isVisible():  # somebody waits for it there
                 self._show_waiting(self._waiting[-1])
 
         def failed(fault: Exception) -> None:
             self._end()
-            self._tell.fault(fault)
+            self.context.messages.fault(fault)
 
         self._say()
         self._tracking.run(work, done, failed, self)
-        self._way.back()
+        self.context.way.back()
+
+    def up(self) -> None:
+        """To the session."""
+        self.to_session()
 
     def stop(self) -> None:
         """Keep the old result; what runs is given up."""
         self._stopping.set()
-        self._sheet.close_sheet()
+        self.sheet.close_sheet()
 
     def open_sheet(self, session_id: str = "") -> None:
         """What runs, or what waits for a decision: of this session first."""
         if self._running:
-            self._sheet.show_running(self._whose, max(self._percent, 0))
-            self._sheet.begin()
+            self.sheet.show_running(self._whose, max(self._percent, 0))
+            self.sheet.begin()
         elif self._waiting:
             own = [one for one in self._waiting if one.session_id == session_id]
             self._show_waiting((own or self._waiting)[-1 if own else 0])
-            self._sheet.begin()
+            self.sheet.begin()
 
     def close(self) -> None:
         """The program ends; what waits for a decision waits on."""
@@ -169,14 +153,14 @@ class Correcting(QObject):
         if not self._running:
             return
         self._percent = percent
-        if self._sheet.isVisible():
-            self._sheet.show_running(self._whose, percent)
+        if self.sheet.isVisible():
+            self.sheet.show_running(self._whose, percent)
         self._say()
 
     def _end(self) -> None:
         self._running, self._percent = "", -1
         if self._stopping.is_set() or not self._waiting:
-            self._sheet.close_sheet()
+            self.sheet.close_sheet()
         self._say()
 
     def _say(self) -> None:
@@ -185,7 +169,7 @@ class Correcting(QObject):
     # --- old or new ---------------------------------------------------------------------------------------
     def _show_waiting(self, one: Waiting) -> None:
         self._shown = one
-        self._sheet.show_reading(self._whose)
+        self.sheet.show_reading(self._whose)
 
         def read() -> tuple[str, str, BothResults]:
             old, new = self._stored.both(one.session_id, one.trial)
@@ -197,19 +181,19 @@ class Correcting(QObject):
             return whose(old.header), words, both
 
         def show(found: tuple[str, str, BothResults]) -> None:
-            if self._shown == one and self._sheet.isVisible():
-                self._sheet.show_both(*found)
+            if self._shown == one and self.sheet.isVisible():
+                self.sheet.show_both(*found)
 
         def failed(fault: Exception) -> None:
-            self._sheet.close_sheet()
-            self._tell.fault(fault)
+            self.sheet.close_sheet()
+            self.context.messages.fault(fault)
 
         self._background.run(read, show, failed, self)
 
     def _decided(self) -> Waiting | None:
         """The new result that was decided about; it waits no more."""
         one, self._shown = self._shown, None
-        self._sheet.close_sheet()
+        self.sheet.close_sheet()
         if one in self._waiting:
             self._waiting.remove(one)
             self._say()
@@ -228,14 +212,19 @@ class Correcting(QObject):
         def failed(fault: Exception) -> None:
             self._waiting.append(one)
             self._say()
-            self._tell.fault(fault)
+            self.context.messages.fault(fault)
 
         self._background.run(
             lambda: self._stored.use(one.session_id, one.trial),
-            lambda new: self.used.emit(one.session_id, str(new)),
+            lambda new: self._used(one.session_id, str(new)),
             failed,
             self,
         )
+
+    def _used(self, before: str, new: str) -> None:
+        """A new result counts from now on; where the old one was on the screen the new one is shown."""
+        if self.context.now.session_id == before and self.context.way.place in ("review", "correct"):
+            self.context.way.show("review", new)
 
 
 def whose(header: SessionHeader) -> str:

@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from datetime import date
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QWidget
 
-from carpus.app.desktop.erasing import Erasing
 from carpus.core.records.keeping import RETENTION_YEARS, Archived, Due, Records
 from carpus.core.records.log import LoggedDeed
 from carpus.ui import numbers, terms
+from carpus.ui.flow import ScreenContext
+from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.records.cards import RecordsCard
-from carpus.ui.records.list_sheets import LogSheet, RecordsSheet
-from carpus.ui.records.ports import DeedLine, ListedRecord
-from carpus.ui.theme import Theme
-
-if TYPE_CHECKING:
-    from carpus.app.desktop.journey import Journey
-
+from carpus.ui.records.erasing import Erasing
+from carpus.ui.records.list_sheets import DeedLine, ListedRecord, LogSheet, RecordsSheet
+from carpus.ui.sessions.screen import SessionsScreen
 
 T = TypeVar("T")
 
@@ -34,29 +29,28 @@ class RecordLists(QObject):
 
     def __init__(
         self,
-        journey: Journey,
-        stage: QWidget,
-        theme: Theme,
+        context: ScreenContext,
         records: Records,
         erasing: Erasing,
+        sessions: SessionsScreen,
+        patients: PatientsScreen,
         *,
         years: int,
-        today: Callable[[], date],
         keep_years: Callable[[int], None],
     ) -> None:
-        super().__init__(journey)
-        self._journey, self._records, self._erasing = journey, records, erasing
-        self.years, self._today, self._keep_years = years, today, keep_years
+        super().__init__(context.shell)
+        self._context, self._records, self._erasing = context, records, erasing
+        self.years, self._keep_years = years, keep_years
         self._sessions: dict[str, str] = {}
         self._shown: Callable[[Archived], bool] = _everything
-        self.card = RecordsCard(theme, years, RETENTION_YEARS)
-        self.sheet = RecordsSheet(stage, theme)
-        self.log_sheet = LogSheet(stage, theme)
+        self.card = RecordsCard(context.theme, years, RETENTION_YEARS)
+        self.sheet = RecordsSheet(context.shell.stage, context.theme)
+        self.log_sheet = LogSheet(context.shell.stage, context.theme)
         self.card.years_chosen.connect(self._take_years)
         self.card.due_wanted.connect(self.show_due)
         self.card.archive_wanted.connect(lambda: self.show_archive())
-        journey.patients.archive_wanted.connect(lambda: self.show_archive(lambda one: one.recorded is None))
-        journey.sessions.archive_wanted.connect(
+        patients.archive_wanted.connect(lambda: self.show_archive(lambda one: one.recorded is None))
+        sessions.archive_wanted.connect(
             lambda whose: self.show_archive(lambda one: one.recorded is not None and one.patient_id == whose)
         )
         self.card.log_wanted.connect(self.show_log)
@@ -69,11 +63,11 @@ class RecordLists(QObject):
         self._keep_years(years)
 
     def _run(self, work: Callable[[], T], done: Callable[[T], None]) -> None:
-        self._journey.background.run(work, done, self._journey.messages.fault, self)
+        self._context.background.run(work, done, self._context.messages.fault, self)
 
     def show_due(self) -> None:
         """Patients of whom nothing need be kept any more."""
-        self._run(lambda: self._records.due(self.years, self._today()), self._show_due)
+        self._run(lambda: self._records.due(self.years, self._context.today()), self._show_due)
 
     def _show_due(self, found: list[Due]) -> None:
         words = self.tr("Nothing is due: no patient’s last session is so old.")

@@ -4,52 +4,46 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from datetime import datetime
-from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QApplication
 
 from carpus.core.disks import disk_encryption_finding, disk_state
 from carpus.core.errors import CarpusFault, PinUncheckable
 from carpus.core.installing import Finding
-from carpus.core.records.library import Library
 from carpus.core.records.pin import Pin
 from carpus.ui.background import Background
 from carpus.ui.fault_words import fault_words
+from carpus.ui.flow import ScreenContext
 from carpus.ui.records.cards import LockCard
 from carpus.ui.records.idle import Idle
 from carpus.ui.records.lock_sheet import LockSheet
 from carpus.ui.records.pin_sheet import PinSheet
-from carpus.ui.shell import Shell
-from carpus.ui.theme import Theme
 from carpus.ui.translate import say
-
-if TYPE_CHECKING:
-    from carpus.app.desktop.journey import Journey
 
 WAIT_MS = 60_000
 """How long a lock waits again that came while a recording ran."""
 
 
 class Locking(QObject):
-    """Locks by key, after idle minutes and at the start; never while a recording runs."""
+    """Locks by key, after idle minutes and at the start; never while a recording runs. ``hides`` carries whether what
+    lies in other windows is to be hidden."""
+
+    hides = Signal(bool)
 
     def __init__(
         self,
-        journey: Journey,
-        shell: Shell,
-        theme: Theme,
-        library: Library,
+        context: ScreenContext,
         *,
         key: str,
         minutes: int,
         keep_minutes: Callable[[int], None],
-        is_busy: Callable[[], bool],
     ) -> None:
-        super().__init__(journey)
-        self._journey, self._shell, self._library = journey, shell, library
-        self._minutes, self._keep_minutes, self._is_busy = minutes, keep_minutes, is_busy
+        super().__init__(context.shell)
+        shell, theme, library = context.shell, context.theme, context.library
+        self._context, self._shell, self._library = context, shell, library
+        self._minutes, self._keep_minutes = minutes, keep_minutes
         self.pin = Pin(library.folder)
         self.sheet = LockSheet(shell, theme)
         self.sheet.tried.connect(self._try)
@@ -62,7 +56,7 @@ class Locking(QObject):
         self._background = Background()  # the system may take a second or two to answer
         folder = library.folder
         self._background.run(
-            lambda: disk_encryption_finding(disk_state(folder)), self._show_disk, journey.messages.fault, self
+            lambda: disk_encryption_finding(disk_state(folder)), self._show_disk, context.messages.fault, self
         )
         self._hidden = (shell.bar, shell.sign, shell.stage)
         shortcut = QShortcut(QKeySequence(key), shell)
@@ -91,17 +85,17 @@ class Locking(QObject):
 
     def lock_by_key(self) -> None:
         """The key that locks; without a PIN it leads to where one is set."""
-        if self._is_busy():
+        if self._context.way.is_recording():
             return  # a recording goes on, and its keys must reach it
         if self.pin.is_set:
             self._lock(0)
         else:
-            self._journey.safety_wanted.emit()
+            self._context.way.show("settings", "safety")
 
     def _lock_by_itself(self) -> None:
         if not self.pin.is_set or self.locked or self._minutes == 0:
             return
-        if self._is_busy():
+        if self._context.way.is_recording():
             self.idle.wait(WAIT_MS)
             return
         self._lock(self._minutes)
@@ -114,8 +108,8 @@ class Locking(QObject):
                 continue  # the patient's view, which shows nothing but a word then
             if widget is not self._shell and widget.isVisible():
                 widget.close()  # menus and dialogs name patients too
-        self._journey.patient_view.hide_all()
-        stored = self._journey.session_id != ""
+        self.hides.emit(True)
+        stored = self._context.now.session_id != ""
         self.sheet.begin(self.sheet.reason(datetime.now(), minutes), stored=stored)
         for widget in self._hidden:
             widget.setProperty("shown_before_lock", not widget.isHidden())
@@ -136,7 +130,7 @@ class Locking(QObject):
             self.sheet.refuse(tried.left, round(tried.pause_s))
             return
         self._library.note("unlocked")
-        self._journey.patient_view.show_again()
+        self.hides.emit(False)
         for widget in self._hidden:
             widget.setVisible(bool(widget.property("shown_before_lock")))
         self.sheet.close_sheet()
@@ -158,7 +152,7 @@ class Locking(QObject):
                 self.pin.take_away()
         except CarpusFault as fault:
             self.pin_sheet.close_sheet()
-            self._journey.messages.fault(fault)
+            self._context.messages.fault(fault)
             return
         self._library.note("pin_changed", set=int(bool(new)))
         self.pin_sheet.close_sheet()

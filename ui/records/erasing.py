@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from datetime import date, datetime
-from typing import TYPE_CHECKING
+from datetime import datetime
 
 from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout
 
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.keeping import Records, kept_until
 from carpus.core.words import Words
 from carpus.ui import numbers
-from carpus.ui.records.erase_sheet import EraseSheet
-from carpus.ui.records.ports import ErasureFacts
-from carpus.ui.theme import Theme
-
-if TYPE_CHECKING:
-    from carpus.app.desktop.journey import Journey
+from carpus.ui.flow import ScreenContext
+from carpus.ui.patients.screen import PatientsScreen
+from carpus.ui.records.erase_sheet import EraseSheet, ErasureFacts
+from carpus.ui.sessions.screen import SessionsScreen
 
 
 class Erasing(QObject):
@@ -26,22 +23,21 @@ class Erasing(QObject):
 
     def __init__(
         self,
-        journey: Journey,
-        stage: QWidget,
-        theme: Theme,
+        context: ScreenContext,
         records: Records,
-        today: Callable[[], date],
+        sessions: SessionsScreen,
+        patients: PatientsScreen,
         years: Callable[[], int] = lambda: 0,
         last_backup: Callable[[], datetime | None] = lambda: None,
     ) -> None:
-        super().__init__(journey)
-        self._journey, self._records, self._today = journey, records, today
+        super().__init__(context.shell)
+        self._context, self._records, self._sessions, self._patients = context, records, sessions, patients
         self._years, self._last_backup = years, last_backup
-        self.sheet = EraseSheet(stage, theme)
+        self.sheet = EraseSheet(context.shell.stage, context.theme)
         self._plan: ErasurePlan | None = None
-        journey.sessions.erase_wanted.connect(self.ask_session)
-        journey.patients.erase_wanted.connect(self.ask_patient)
-        journey.sessions.moved.connect(self._moved)
+        sessions.erase_wanted.connect(self.ask_session)
+        patients.erase_wanted.connect(self.ask_patient)
+        sessions.moved.connect(self._moved)
         self.sheet.erase.connect(self._erase)
         self.sheet.archive.connect(self._archive)
 
@@ -54,14 +50,14 @@ class Erasing(QObject):
         self._ask(lambda: self._records.plan_patient(patient_id))
 
     def _ask(self, work: Callable[[], ErasurePlan]) -> None:
-        self._journey.background.run(work, self._show, self._journey.messages.fault, self)
+        self._context.background.run(work, self._show, self._context.messages.fault, self)
 
     def _show(self, plan: ErasurePlan) -> None:
         self._plan = plan
         years = self._years()
         last = max((entry.recorded for entry in plan.results), default=None)
         single = plan.kind == "session" and last is not None
-        patient = self._journey.patient
+        patient = self._context.now.patient
         self.sheet.begin(
             ErasureFacts(
                 pseudonym=patient.pseudonym if patient is not None and single else plan.pseudonym,
@@ -77,14 +73,14 @@ class Erasing(QObject):
                 last_backup=self._last_backup(),
                 kept_until=kept_until(last, years) if last is not None else None,
                 retention_years=years,
-                today=self._today(),
+                today=self._context.today(),
             )
         )
 
     def _erase(self) -> None:
         plan, self._plan = self._plan, None
         if plan is not None:
-            self._journey.background.run(
+            self._context.background.run(
                 lambda: self._records.erase(plan),
                 lambda files: self._erased(plan, files),
                 lambda fault: self._refused(plan.kind == "session", fault),
@@ -97,17 +93,17 @@ class Erasing(QObject):
         self._gone(single)
         what = self.tr("The session is erased.") if single else self.tr("The patient is erased.")
         count = self.tr("1 file went.") if files == 1 else self.tr("{count} files went.").format(count=files)
-        place = self._journey.sessions.notice_place if single else self._journey.patients.notice_place
+        place = self._sessions.notice_place if single else self._patients.notice_place
         self._say(place, Words(what, count, ""), "trash-2")
 
     def _moved(self, name: str) -> None:
         words = Words(self.tr("The session is now one of {name}.").format(name=name), "", "")
-        self._say(self._journey.sessions.notice_place, words, "arrow-right")
+        self._say(self._sessions.notice_place, words, "arrow-right")
 
     def _say(self, place: QVBoxLayout, words: Words, icon: str) -> None:
         """What was done, until it is closed or left."""
-        strip = self._journey.messages.strip(place, words, "", lambda: None, icon=icon, later=self.tr("Close"))
-        self._journey.way.leaving.connect(strip.later)
+        strip = self._context.messages.strip(place, words, "", lambda: None, icon=icon, later=self.tr("Close"))
+        self._context.way.leaving.connect(strip.later)
 
     def _archive(self) -> None:
         plan, self._plan = self._plan, None
@@ -119,53 +115,52 @@ class Erasing(QObject):
                 self._gone(single)
                 self._offer_undo(plan, plan.identity)
 
-            self._journey.background.run(lambda: act(plan.identity), done, self._journey.messages.fault, self)
+            self._context.background.run(lambda: act(plan.identity), done, self._context.messages.fault, self)
 
     def _offer_undo(self, plan: ErasurePlan, archived: str) -> None:
         """What was archived is said where it was, and comes back by one press."""
-        journey = self._journey
         if plan.kind == "session":
             what = self.tr("The session of {day} is in the archive.").format(
                 day=numbers.report_date(plan.results[0].recorded)
             )
-            place = journey.sessions.notice_place
+            place = self._sessions.notice_place
         else:
             what = self.tr("{name} is in the archive.").format(name=plan.pseudonym)
-            place = journey.patients.notice_place
+            place = self._patients.notice_place
         words = Words(what, self.tr("Nothing is lost. It counts nowhere until it is brought back."), "")
-        strip = journey.messages.strip(
+        strip = self._context.messages.strip(
             place, words, self.tr("&Undo"), lambda: self._bring_back(archived), icon="archive", later=self.tr("Close")
         )
-        journey.way.leaving.connect(strip.later)  # elsewhere it is said no more; the archive has it
+        self._context.way.leaving.connect(strip.later)  # elsewhere it is said no more; the archive has it
 
     def _bring_back(self, identity: str) -> None:
-        self._journey.background.run(
+        self._context.background.run(
             lambda: self._records.bring_back(identity),
             lambda _: self.show_again(identity),
-            self._journey.messages.fault,
+            self._context.messages.fault,
             self,
         )
 
     def show_again(self, chosen: str = "") -> None:
         """The list that is shown, with what is in it now; ``chosen`` the patient or session that is to be chosen."""
-        journey = self._journey
-        journey.sessions.changed.emit()
-        if journey.place == "sessions" and journey.patient is not None:
-            journey.now.session_id = chosen or journey.now.session_id
-            journey.viewing.open_sessions(journey.patient.patient_id)
-        elif journey.place == "patients":
-            journey.patients.refresh(chosen)
+        now, way = self._context.now, self._context.way
+        self._sessions.changed.emit()
+        if way.place == "sessions" and now.patient is not None:
+            now.session_id = chosen or now.session_id
+            way.show("sessions", now.patient.patient_id)
+        elif way.place == "patients":
+            self._patients.refresh(chosen)
 
     def _refused(self, single: bool, fault: Exception) -> None:
         """Some of it may be gone all the same."""
         self._gone(single)
-        self._journey.messages.fault(fault)
+        self._context.messages.fault(fault)
 
     def _gone(self, single: bool) -> None:
         """The list from which it was chosen, without it."""
-        journey = self._journey
-        journey.sessions.changed.emit()
-        if single and journey.patient is not None:
-            journey.viewing.open_sessions(journey.patient.patient_id)
+        self._sessions.changed.emit()
+        patient = self._context.now.patient
+        if single and patient is not None:
+            self._context.way.show("sessions", patient.patient_id)
         else:
-            journey.show_patients()
+            self._context.way.show("patients")

@@ -1,0 +1,70 @@
+"""The flow of the progress: over which weeks, its report, its tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.progress import Progress
+from carpus.ui.flow import Flow, ScreenContext
+from carpus.ui.progress.screen import ProgressScreen
+from carpus.ui.progress.tables import write_tables
+from carpus.ui.report.pdf import progress_report
+
+
+class ProgressFlow(Flow):
+    """How it went over the weeks."""
+
+    place, guide = "progress", "figures"
+    screen: ProgressScreen
+
+    def __init__(self, context: ScreenContext) -> None:
+        super().__init__(context, ProgressScreen(context.theme, context.keys, context.background, context.library))
+        screen, way = self.screen, context.way
+        screen.told.connect(context.messages.fault)
+        screen.session.connect(lambda session_id: way.show("review", session_id))
+        screen.report.connect(self._report)
+        screen.table_wanted.connect(self._save_tables)
+        screen.by_hand_wanted.connect(lambda: way.show("by_hand"))
+        screen.chart.saved.connect(lambda path: self.note_made([path], self._sessions()))
+
+    def show(self, patient_id: str) -> None:
+        """Of a patient; the kind of the session that is open comes first."""
+        self.open_patient(patient_id)
+        self.screen.chart.start_folder = self.context.places.folder("exports")
+        self.screen.begin(patient_id, self.context.now.session_id)
+        self.context.way.go("progress")
+
+    def up(self) -> None:
+        """Where one came from: the list of patients, or the session."""
+        if self.context.way.came_from("progress") == "patients":
+            self.to_patient()
+        else:
+            self.to_session()
+
+    def _report(self, sessions: Sequence[SessionFigures]) -> None:
+        """Of the sessions shown, and what of the whole hand is on the screen."""
+        if not sessions or self.context.now.patient is None:
+            return
+        followed = self.screen.followed.currentData()
+        report = progress_report(
+            sessions,
+            pseudonym=self.context.now.name,
+            therapist=self.context.report.therapist,
+            what=followed if isinstance(followed, str) else None,
+            software_version=self.context.version,
+            by_hand=self.screen.progress.by_hand,
+        )
+        self.context.way.show("report", report, [one.session_id for one in sessions])
+
+    def _save_tables(self, progress: Progress) -> None:
+        """Ask for a name and write the sessions as CSV."""
+        path = self.ask_where_to_save("exports", "progress.csv", self.tr("Save table"), "CSV (*.csv)")
+        if path is not None:
+            sessions = [point.figures.session_id for point in progress.points]
+            self.run(lambda: write_tables(path, progress), lambda paths: self.tell_made(paths, sessions))
+
+    def _sessions(self) -> list[str]:
+        patient = self.context.now.patient
+        entries = self.context.library.sessions(patient.patient_id) if patient is not None else ()
+        return [entry.session_id for entry in entries]

@@ -1,0 +1,97 @@
+"""The flow of the review: which session, where one goes on from it, a repetition as a film."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from pathlib import Path
+
+from carpus.core.formats.film import UNFINISHED, write_film, write_picture
+from carpus.core.hand.exercises import exercise_named
+from carpus.ui.check_card.standing_words import unsure_words
+from carpus.ui.export.flow import Exporting
+from carpus.ui.flow import Flow, ScreenContext
+from carpus.ui.review.film import FilmWanted, film_pictures
+from carpus.ui.review.screen import ReviewScreen
+
+
+class ReviewFlow(Flow):
+    """One session of the patient who is open."""
+
+    place, guide = "review", "figures"
+    screen: ReviewScreen
+
+    def __init__(self, context: ScreenContext) -> None:
+        super().__init__(context, ReviewScreen(context.theme, context.keys, context.background, context.library))
+        with suppress(OSError):  # of a program that was killed
+            (context.library.folder / UNFINISHED).unlink(missing_ok=True)
+        screen, way = self.screen, context.way
+        self.exporting = Exporting(context)
+        screen.told.connect(context.messages.fault)
+        screen.report.connect(lambda session_id: way.show("report", session_id))
+        screen.export.connect(self.exporting.ask)
+        screen.film.connect(self.save_film)
+        screen.beside.connect(lambda one, other: way.show("beside", one, other))
+        screen.correct.connect(lambda *where: way.show("correct", *where))
+        screen.result.connect(self.show)
+        screen.curves.saved.connect(lambda path: self.note_made([path], [context.now.session_id]))
+
+    def show(self, session_id: str = "", patient_id: str = "") -> None:
+        """Show one session, ``patient_id`` of a patient who is not open; without one the newest, if there is any."""
+        now, library = self.context.now, self.context.library
+        if patient_id:
+            self.open_patient(patient_id)
+        assert now.patient is not None
+        if not session_id:
+            sessions = library.sessions(patient_id)
+            if not sessions:
+                return
+            session_id = sessions[0].session_id
+        now.session_id = session_id
+        may_repeat = now.source is None or not now.source.measuring.starts_with_recording
+        may_repeat &= bool(now.patient.patient_id)  # a file of nobody here has nobody to measure
+        protocol = exercise_named(library.entry(session_id).exercise).protocol
+        self.screen.begin(now.patient.patient_id, session_id, may_repeat=may_repeat, whole_hand=protocol.has_fingers)
+        self.screen.curves.start_folder = self.context.places.folder("exports")
+        self.context.way.go("review")
+
+    def sign_lines(self) -> list[str]:
+        """What must not be forgotten of the camera that measured."""
+        figures = self.screen.figures
+        words = unsure_words(figures.camera) if self.screen.shown and figures is not None else ""
+        return [words] if words else []
+
+    def leave(self) -> None:
+        """Another screen is shown."""
+        self.screen.end()
+
+    def close(self) -> None:
+        """The window closes."""
+        self.screen.end()
+
+    def show_research(self, *, on: bool) -> None:
+        """Paths, places and speeds besides the angles, and all formats of an export."""
+        self.screen.player.show_research(on=on)
+        self.exporting.formats.show_research(on=on)
+
+    def save_film(self, wanted: FilmWanted) -> None:
+        """Ask for a name and write a repetition as a film, or one picture of it."""
+        session_id, library = wanted.session_id, self.context.library
+        head = wanted.session.header
+        what = f"{head.exercise.lower().replace('_', '-')}_{head.hand}"
+        suffix = ".mp4" if wanted.rate_hz else ".png"
+        name = f"carpus_{head.when:%Y-%m-%d_%H-%M}_{what}_{wanted.number}{suffix}"  # of whom it does not say
+        title, kinds = self.tr("Save film"), "MP4 (*.mp4)"
+        if not wanted.rate_hz:
+            title, kinds = self.tr("Save picture"), "PNG (*.png)"
+        path = self.ask_where_to_save("exports", name, title, kinds)
+        if path is None:
+            return
+        target = path if path.suffix.lower() == suffix else path.with_name(f"{path.name}{suffix}")
+
+        def write() -> Path:
+            pictures = film_pictures(self.context.theme, wanted, lambda row: library.picture(session_id, row))
+            if not wanted.rate_hz:
+                return write_picture(target, next(pictures))
+            return write_film(target, pictures, wanted.rate_hz, library.folder)
+
+        self.run(write, lambda done: self.tell_made([done], [session_id]))

@@ -1,0 +1,44 @@
+"""The flow of the settings: shown beside the way, at the part that is asked for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from carpus.core.about import licence_texts, newest_version
+from carpus.core.measures.change import ErrorLimits
+from carpus.ui.background import Background
+from carpus.ui.flow import Flow, ScreenContext
+from carpus.ui.ports import Preferences
+from carpus.ui.settings.licences import LicencesWindow
+from carpus.ui.settings.screen import Part, SettingsScreen
+
+
+class SettingsFlow(Flow):
+    """What a person chooses for the program. ``updates`` is the clinic's folder of packages, empty for none."""
+
+    place, guide = "settings", "data"
+    screen: SettingsScreen
+
+    def __init__(self, context: ScreenContext, chosen: Preferences, measured: ErrorLimits, updates: str) -> None:
+        super().__init__(context, SettingsScreen(context.theme, chosen, context.version, measured))
+        self._updates, self._background = updates, Background()
+        self.screen.done.connect(context.way.back)
+        self.screen.licences.clicked.connect(lambda: LicencesWindow(self.screen, context.theme, licence_texts()).exec())
+
+    def show(self, part: Part | None = None) -> None:
+        """Where help and settings can be opened now; as it was left, or at a part."""
+        if part is not None:
+            self.screen.choose(part)
+        self.context.way.aside("settings")
+        self._look_for_newer()
+
+    def _look_for_newer(self) -> None:
+        """Where the clinic named a folder of packages, and nowhere else."""
+        folder, screen = self._updates, self.screen
+        if folder:
+            self._background.run(
+                lambda: newest_version(Path(folder).expanduser()),
+                lambda newest: screen.show_newest(folder, newest),
+                lambda _: screen.show_newest(folder, None),
+                screen,
+            )
