@@ -227,15 +227,14 @@ def test_exposure_and_white_balance_are_held_as_they_look() -> None:
     lock = ColorLock(SimpleNamespace(send=sent.append), _Controls(ob, device, streams))  # type: ignore[arg-type]
     lock.look(device._picture())
     before = np.frombuffer(device._picture(), np.uint8).reshape(-1, 3).mean(axis=0)
-    assert lock.set_automatic(False) is None
+    assert lock.begin() is None
     for _ in range(120):
         lock.look(device._picture())
     assert [each.done for each in sent] == [True]
     after = np.frombuffer(device._picture(), np.uint8).reshape(-1, 3).mean(axis=0)
     assert after == pytest.approx(before, rel=0.05)
-    assert lock.set_automatic(True)
     device._lacks = "EXPOSURE"
-    assert lock.set_automatic(False) is False
+    assert lock.begin() is False
 
 
 class Profile:

@@ -105,9 +105,8 @@ class Broken:
 
 @dataclass(frozen=True, slots=True)
 class ExposureSet:
-    """Automatic exposure and white balance were locked or freed; ``done`` whether the camera can."""
+    """Exposure and white balance are held from now on; ``done`` whether the camera can."""
 
-    locked: bool
     done: bool
 
 
@@ -133,9 +132,7 @@ class Free:
 
 @dataclass(frozen=True, slots=True)
 class LockExposure:
-    """To the process: keep exposure and white balance as they are, or let them adapt again."""
-
-    locked: bool
+    """To the process: keep exposure and white balance as they are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,8 +180,8 @@ class Heard:
 class Outlet:
     """What a driver's code in the capture process hands pictures and reports to, and hears commands from.
 
-    ``set_exposure`` is called with whether exposure and white balance are to follow the light; it answers whether
-    the camera can, or None where that is reported later.
+    ``lock_exposure`` is called when exposure and white balance are to stay as they are; it answers whether the camera
+    can, or None where that is reported later.
     """
 
     def __init__(self, link: Connection, commands: queue.SimpleQueue[Command], ring: Ring) -> None:
@@ -199,7 +196,7 @@ class Outlet:
         self._last_sent = time.monotonic()
         self._held: list[object] = []
         self.stopping = False
-        self.set_exposure: Callable[[bool], bool | None] = lambda automatic: False
+        self.lock_exposure: Callable[[], bool | None] = lambda: False
 
     @property
     def has_room(self) -> bool:
@@ -255,9 +252,9 @@ class Outlet:
             if isinstance(command, Free):
                 self._free.append(command.slot)
             elif isinstance(command, LockExposure):
-                done = self.set_exposure(not command.locked)
+                done = self.lock_exposure()
                 if done is not None:
-                    self.send(ExposureSet(command.locked, done))
+                    self.send(ExposureSet(done))
             elif isinstance(command, Stop):
                 self.stopping = True
 

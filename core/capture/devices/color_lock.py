@@ -114,8 +114,8 @@ class Control:
 class ColorControls(Protocol):
     """What a driver can set of its colour camera."""
 
-    def follow(self, on: bool) -> tuple[bool, bool]:
-        """Switch automatic exposure and white balance on or off; which of both took it."""
+    def stop_following(self) -> tuple[bool, bool]:
+        """Switch automatic exposure and white balance off; which of both took it."""
         ...
 
     def exposure(self) -> Control | None:
@@ -132,21 +132,21 @@ class ColorControls(Protocol):
 
 
 class ColorLock:
-    """Follows the light, or holds; that a hold is done is reported to the owner of the capture process."""
+    """Lets the camera follow the light until it is to hold; that it holds is reported to the owner of the process."""
 
     def __init__(self, outlet: Outlet, controls: ColorControls) -> None:
         self._outlet, self._controls = outlet, controls
         self._hold: ColorHold | None = None
         self._last: bytes | None = None
 
-    def set_automatic(self, on: bool) -> bool | None:
-        """Follow the light, or begin to hold, which is reported when it is done."""
+    def begin(self) -> bool | None:
+        """Begin to hold, which is reported when it is done."""
         self._hold = None
-        if on or self._last is None:
-            return all(self._controls.follow(on))
-        took, _ = self._controls.follow(False)
+        took = self._controls.stop_following()
+        if self._last is None:
+            return all(took)
         exposure, balance = self._controls.exposure(), self._controls.balance()
-        if not took or exposure is None:
+        if not took[0] or exposure is None:
             return False
         self._hold = ColorHold(
             seen_colors(self._last),
@@ -168,4 +168,4 @@ class ColorLock:
         if self._hold.is_over:
             done = self._hold.is_like_before
             self._hold = None
-            self._outlet.send(ExposureSet(True, done))
+            self._outlet.send(ExposureSet(done))

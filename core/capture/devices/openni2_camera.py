@@ -167,13 +167,13 @@ def _serve(outlet: Outlet, plan: CameraPlan) -> None:
                     _take(outlet, stream, opened.modes[stream.sensor])
                     heard.picture_of(stream.sensor)
 
-    def set_automatic(on: bool) -> bool:
+    def lock() -> bool:
         color = next(stream for stream in streams if stream.sensor == Sensor.COLOR)
         keys = (StreamProperty.AUTO_EXPOSURE, StreamProperty.AUTO_WHITE_BALANCE)
-        done = [color.set_int(key, int(on)) for key in keys]
+        done = [color.set_int(key, 0) for key in keys]
         return all(done)
 
-    outlet.set_exposure = set_automatic
+    outlet.lock_exposure = lock
     outlet.send(opened)
     try:
         outlet.watch(opened.modes, gone, pass_on)

@@ -80,7 +80,7 @@ def _watch(ob: Any, outlet: Outlet, plan: CameraPlan) -> None:
     pipeline.start(config)
     pictures = _Pictures(ob, outlet, streams)
     lock = ColorLock(outlet, _Controls(ob, device, streams))
-    outlet.set_exposure = lock.set_automatic
+    outlet.lock_exposure = lock.begin
     is_told = False
 
     def pass_on(heard: Heard) -> None:
@@ -155,9 +155,9 @@ class _Controls:
         self._ob, self._device, self._prop = ob, device, ob.OBPropertyID
         self._longest = LIGHT_SHARE / streams.color.get_fps() / EXPOSURE_UNIT_S
 
-    def follow(self, on: bool) -> tuple[bool, bool]:
+    def stop_following(self) -> tuple[bool, bool]:
         exposure, balance = (
-            put(self._ob, self._device, each, int(on))
+            put(self._ob, self._device, each, 0)
             for each in (self._prop.OB_PROP_COLOR_AUTO_EXPOSURE_BOOL, self._prop.OB_PROP_COLOR_AUTO_WHITE_BALANCE_BOOL)
         )
         return exposure, balance

@@ -109,11 +109,8 @@ class ProcessCamera:
 
     def lock_exposure(self) -> None:
         """Hold exposure and white balance as they are now, so that the markers keep their colours."""
-        self._set_exposure(locked=True)
-
-    def unlock_exposure(self) -> None:
-        """Let exposure and white balance follow the light again."""
-        self._set_exposure(locked=False)
+        self._locked = True
+        self._process.tell(LockExposure())
 
     def frames(self) -> Iterator[Frame]:
         """Frames from now on, until :meth:`close`; what waited since the opening is thrown away."""
@@ -145,10 +142,6 @@ class ProcessCamera:
         with self._lock:
             self._process.close(gently=True)
 
-    def _set_exposure(self, *, locked: bool) -> None:
-        self._locked = locked
-        self._process.tell(LockExposure(locked))
-
     def _start(self) -> CaptureProcess:
         width, height = SIZE_PX
         return CaptureProcess(self._serve, self._plan, self._subject, width * height * 3, CAMERA_SLOTS)
@@ -169,7 +162,7 @@ class ProcessCamera:
                     )
                     self._process.free(report)
                 elif isinstance(report, ExposureSet):
-                    self._exposure_locked = report.locked if report.done else None
+                    self._exposure_locked = True if report.done else None
                 elif report is None or isinstance(report, Ended):
                     return
             for frame in frames:
@@ -182,7 +175,7 @@ class ProcessCamera:
         if self._relock_in:
             self._relock_in -= 1
             if self._relock_in == 0 and self._locked:
-                self._process.tell(LockExposure(locked=True))
+                self._process.tell(LockExposure())
 
     def _wait_for_return(self, lost: CarpusFault) -> float | None:
         """Seconds the camera was away; None when closed meanwhile. Raises ``lost`` when patience ends."""

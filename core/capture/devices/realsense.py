@@ -96,7 +96,7 @@ def _watch(rs: Any, outlet: Outlet, plan: CameraPlan) -> None:
     _start(streams, take)
     pictures = _Pictures(rs, outlet, streams)
     hold = ColorLock(outlet, _Controls(rs, streams))
-    outlet.set_exposure = hold.set_automatic
+    outlet.lock_exposure = hold.begin
     is_told = False
 
     def pass_on(heard: Heard) -> None:
@@ -257,9 +257,9 @@ class _Controls:
         self._sensor = next(sensor for sensor, profiles in streams.opening if streams.color in profiles)
         self._longest = LIGHT_SHARE / streams.color.fps() / EXPOSURE_UNIT_S
 
-    def follow(self, on: bool) -> tuple[bool, bool]:
+    def stop_following(self) -> tuple[bool, bool]:
         option, sensor = self._option, self._sensor
-        return put(sensor, option.enable_auto_exposure, int(on)), put(sensor, option.enable_auto_white_balance, int(on))
+        return put(sensor, option.enable_auto_exposure, 0), put(sensor, option.enable_auto_white_balance, 0)
 
     def exposure(self) -> Control | None:
         found = self._control(self._option.exposure)
