@@ -37,6 +37,23 @@ class TrackStatus(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
+class Region:
+    """Rectangle of the picture, pixels; ``right`` and ``bottom`` are just outside."""
+
+    left: int
+    top: int
+    right: int
+    bottom: int
+
+    def clipped(self, width: int, height: int) -> Region:
+        return Region(max(self.left, 0), max(self.top, 0), min(self.right, width), min(self.bottom, height))
+
+    @property
+    def is_empty(self) -> bool:
+        return self.right - self.left < 8 or self.bottom - self.top < 8
+
+
+@dataclass(frozen=True, slots=True)
 class Frame:
     """One colour picture and the depth picture that belongs to it.
 
@@ -51,6 +68,10 @@ class Frame:
     depth_raw: DepthImage | None
     depth_unit_m: float
     dropped_before: int = 0
+
+    def seen(self, _part: Region | None) -> Frame:
+        """The frame for who looks at a part of its pictures alone, None for all of them."""
+        return self
 
 
 SURFACE_READINGS, FINGER_READINGS = 224, 352

@@ -22,11 +22,11 @@ from carpus.core.camera import Camera
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.detection.appearance import MarkerAppearance, expected_radius_px, learn_appearance
 from carpus.core.detection.color_histogram import to_hsv
-from carpus.core.detection.detector import Detector, Region
+from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CalibrationImpossible, ClickOnNoMarker, MarkerWithoutDepth
 from carpus.core.hand.wrist_frame import wrist_axes
-from carpus.core.types import Detections, FloatArray, Frame
+from carpus.core.types import Detections, FloatArray, Frame, Region
 
 _MCP3_OVER_HAND_LENGTH = 0.446
 """Wrist crease to middle knuckle over hand length (reference 3.3)."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from statistics import median
 
 import cv2
@@ -18,28 +17,11 @@ from carpus.core.detection.components import Components, components
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.stencil import Stencil, packed, stencil_for, unpacked, window_pixels
 from carpus.core.kernels.choice import NOTHING, Kernels, in_c
-from carpus.core.types import ByteImage, Detections, FloatArray, Frame
+from carpus.core.types import ByteImage, Detections, FloatArray, Frame, Region
 
 _SIMILARITY_BINS = 16
 _NEAREST_M = 0.2
 """No hand is held nearer to a camera."""
-
-
-@dataclass(frozen=True, slots=True)
-class Region:
-    """Rectangle of the picture, pixels; ``right`` and ``bottom`` are just outside."""
-
-    left: int
-    top: int
-    right: int
-    bottom: int
-
-    def clipped(self, width: int, height: int) -> Region:
-        return Region(max(self.left, 0), max(self.top, 0), min(self.right, width), min(self.bottom, height))
-
-    @property
-    def is_empty(self) -> bool:
-        return self.right - self.left < 8 or self.bottom - self.top < 8
 
 
 class Detector:

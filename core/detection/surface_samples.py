@@ -8,7 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.kernels.choice import in_c
-from carpus.core.types import FINGER_READINGS, FINGER_STEP_PX, SURFACE_READINGS, FloatArray, Frame, SurfaceSamples
+from carpus.core.types import (
+    FINGER_READINGS,
+    FINGER_STEP_PX,
+    SURFACE_READINGS,
+    FloatArray,
+    Frame,
+    Region,
+    SurfaceSamples,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +30,26 @@ class SamplingSettings:
     most: int = SURFACE_READINGS // 2
     finger_margin_px: float = 12.0
     most_finger: int = FINGER_READINGS
+
+
+def part_read(region: Region, corner_px: FloatArray, disc_px: FloatArray, settings: SamplingSettings) -> Region | None:
+    """What of a picture holds ``region`` and all that the two functions below read; None where places are not known."""
+    part = region
+    for pixel, wider, margin_px in (
+        (corner_px, settings.wider - 1.0, settings.margin_px),
+        (disc_px, 0.0, settings.finger_margin_px + FINGER_STEP_PX),
+    ):
+        if not np.isfinite(pixel).all():
+            return None
+        if len(pixel):
+            low, high = pixel.min(axis=0), pixel.max(axis=0)
+            reach = wider * (high - low) + margin_px + 1.0
+            left, top = (low - reach).astype(int).tolist()
+            right, bottom = (high + reach).astype(int).tolist()
+            part = Region(
+                min(part.left, left), min(part.top, top), max(part.right, right + 1), max(part.bottom, bottom + 1)
+            )
+    return part
 
 
 def surface_samples(frame: Frame, corner_px: FloatArray, settings: SamplingSettings) -> SurfaceSamples | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from carpus.core.camera import Camera
 from carpus.core.hand.marker_protocol import MarkerProtocol
-from carpus.core.types import Frame, TrackedFrame, TrackStatus
+from carpus.core.types import Frame, Region, TrackedFrame, TrackStatus
 
 REACH = {False: 1.5, True: 0.6}
 """How far the area reaches beyond the box of the discs, in its larger side: of the palm's alone to the finger tips and
@@ -22,16 +22,6 @@ STALE_S = 0.5
 """A hand that was seen longer ago may have left the area."""
 REMEMBERED = 2048
 """Areas: a minute and more, longer than a picture waits for a slow disk."""
-
-
-@dataclass(frozen=True, slots=True)
-class Area:
-    """Rectangle of the picture, pixels; ``right`` and ``bottom`` are just outside."""
-
-    left: int
-    top: int
-    right: int
-    bottom: int
 
 
 class PictureSink(Protocol):
@@ -58,13 +48,13 @@ class HandArea:
 
     def __init__(self, camera: Camera, protocol: MarkerProtocol) -> None:
         self._camera, self._protocol = camera, protocol
-        self._known: deque[tuple[float, Area | None]] = deque(maxlen=REMEMBERED)
+        self._known: deque[tuple[float, Region | None]] = deque(maxlen=REMEMBERED)
 
     def take(self, tracked: TrackedFrame) -> None:
         """The hand of a frame."""
         self._known.append((tracked.timestamp_s, area_of(tracked, self._camera, self._protocol)))
 
-    def area(self, at_s: float) -> Area | None:
+    def area(self, at_s: float) -> Region | None:
         """Where the hand is in a picture of that time, which may have waited for the disk; None while it is lost, or
         not yet tracked nearly so far: then whole pictures are kept."""
         for known_s, area in reversed(self._known.copy()):
@@ -73,7 +63,7 @@ class HandArea:
         return None
 
 
-def area_of(tracked: TrackedFrame, camera: Camera, protocol: MarkerProtocol) -> Area | None:
+def area_of(tracked: TrackedFrame, camera: Camera, protocol: MarkerProtocol) -> Region | None:
     """The hand and its surroundings in the picture of a frame; None where the hand is not known."""
     places = tracked.marker_position_cam_m
     known = places[np.isfinite(places).all(axis=1)]
@@ -86,10 +76,10 @@ def area_of(tracked: TrackedFrame, camera: Camera, protocol: MarkerProtocol) -> 
     reach = max(REACH[protocol.has_fingers] * float((high - low).max()), LEAST_REACH_PX)
     left, top = np.clip(low - reach, 0.0, [camera.width_px, camera.height_px]).astype(int).tolist()
     right, bottom = np.clip(np.ceil(high + reach), 0.0, [camera.width_px, camera.height_px]).astype(int).tolist()
-    return Area(left, top, right, bottom) if right - left > 1 and bottom - top > 1 else None
+    return Region(left, top, right, bottom) if right - left > 1 and bottom - top > 1 else None
 
 
-def only(frame: Frame, area: Area | None) -> Frame:
+def only(frame: Frame, area: Region | None) -> Frame:
     """The frame with nothing outside the area; colours black and depth 0 there."""
     if area is None:
         return frame
@@ -106,7 +96,7 @@ def only(frame: Frame, area: Area | None) -> Frame:
 class AroundHand:
     """Hands pictures on to a raw recording, each with the hand's surroundings alone."""
 
-    def __init__(self, sink: PictureSink, area: Callable[[float], Area | None]) -> None:
+    def __init__(self, sink: PictureSink, area: Callable[[float], Region | None]) -> None:
         self._sink, self._area = sink, area
 
     @property

@@ -6,8 +6,8 @@ from dataclasses import replace
 from typing import Generic, Protocol, TypeVar
 
 from carpus.core.detection.detector import Detector
-from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, surface_samples
-from carpus.core.types import Detections, FloatArray, Frame, TrackedFrame
+from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, part_read, surface_samples
+from carpus.core.types import Detections, FloatArray, Frame, Region, TrackedFrame
 
 
 class Expected(Protocol):
@@ -28,6 +28,23 @@ class Expected(Protocol):
 
     @property
     def finger_px(self) -> FloatArray: ...
+
+
+class Seen(Protocol):
+    """A frame, or one whose pictures are unpacked where they are looked at."""
+
+    @property
+    def index(self) -> int: ...
+
+    @property
+    def timestamp_s(self) -> float: ...
+
+    @property
+    def dropped_before(self) -> int: ...
+
+    def seen(self, part: Region | None) -> Frame:
+        """The frame for who looks at a part of its pictures alone, None for all of them."""
+        ...
 
 
 class HandTracker(Protocol):
@@ -67,14 +84,17 @@ class FramePipeline(Generic[AnyTracker]):
         self.tracker = tracker
         self.sampling = sampling
 
-    def __call__(self, frame: Frame) -> TrackedFrame:
+    def __call__(self, given: Seen) -> TrackedFrame:
         """Track one frame. Without a prediction the whole picture is searched."""
-        expected = self.tracker.expect(frame.timestamp_s)
-        region = None
+        expected = self.tracker.expect(given.timestamp_s)
+        region = part = None
         if expected is not None:
             region = self.detector.region_about(expected.pixel, expected.covariance_px2, expected.depth_m)
+            part = part_read(region, expected.back_px, expected.finger_px, self.sampling)
+        frame = given.seen(part)
         blobs = self.detector.detect(frame, region)
         if region is not None and self.tracker.would_miss(blobs):
+            frame = given.seen(None)
             blobs = self.detector.detect(frame, None)
         if expected is not None:
             blobs = replace(

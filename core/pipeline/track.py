@@ -17,6 +17,7 @@ from carpus.core.calibration.calibrate import CalibrationOutcome, StillNoise, ca
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
+from carpus.core.capture.files.raw import RawRecording
 from carpus.core.capture.identity import Recorded, recorded_at, recording_id
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.depth_sensor import ASSUMED
@@ -26,7 +27,7 @@ from carpus.core.errors import DiskFull, OutputExists, RecordingEmpty
 from carpus.core.papers.chain import as_written, by_the_discs
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.papers.tracker import PaperTracker
-from carpus.core.pipeline.frame_pipeline import FramePipeline, HandTracker
+from carpus.core.pipeline.frame_pipeline import FramePipeline, HandTracker, Seen
 from carpus.core.pipeline.live import Listener
 from carpus.core.pipeline.said_again import answers_in, notes_in
 from carpus.core.pipeline.session_source import SessionPictures
@@ -196,6 +197,11 @@ def from_neutral(
         yield frame
 
 
+def _standing() -> float:
+    """The clock of a session that is done again when it is cut short: rows go to the file by their number alone."""
+    return 0.0
+
+
 def track_recording(
     source: FrameSource,
     clicks: Clicks,
@@ -226,7 +232,7 @@ def track_recording(
     """
     if output.exists():
         raise OutputExists(output)
-    frames = source.frames()
+    frames: Iterator[Seen] = source.packed_frames() if isinstance(source, RawRecording) else source.frames()
     opening = _opening(frames, settings.calibration.still_s)
     if not opening:
         raise RecordingEmpty(source.info.name)
@@ -262,10 +268,10 @@ def track_recording(
         recorded=recorded.when if recorded else "",
         recording_id=recording_id(source.info, opening[0]),
     )
-    writer = SessionWriter.create(output, header, source.info.camera, calibration)
+    writer = SessionWriter.create(output, header, source.info.camera, calibration, clock=_standing)
     answers = {} if said is None else answers_in(said)
 
-    def answered(frame: Frame) -> TrackedFrame:
+    def answered(frame: Seen) -> TrackedFrame:
         _answer(tracker, answers.get(frame.index, ()))
         return pipeline(frame)
 
@@ -349,7 +355,7 @@ def retrack_session(
         recorded=old.recorded,
         recording_id=old.recording_id,
     )
-    writer = SessionWriter.create(output, header, session.camera, calibration)
+    writer = SessionWriter.create(output, header, session.camera, calibration, clock=_standing)
     return _written(writer, tracked(), look_back, calibration.verdict, len(session), progress, notes_in(session))
 
 
@@ -360,11 +366,11 @@ def _heard(frames: Iterator[TrackedFrame], listener: Listener | None) -> Iterato
         yield frame
 
 
-def _opening(frames: Iterator[Frame], still_s: float) -> list[Frame]:
+def _opening(frames: Iterator[Seen], still_s: float) -> list[Frame]:
     """The first frames, as far as the neutral capture may reach, and the one that shows it is over."""
     opening: list[Frame] = []
-    for frame in frames:
-        opening.append(frame)
+    for seen in frames:
+        opening.append(frame := seen.seen(None))
         if frame.timestamp_s - opening[0].timestamp_s > still_s:
             break
     return opening

@@ -50,7 +50,7 @@ from carpus.core.types import SurfaceSamples, TrackedFrame
 
 FLUSH_EVERY_S = 0.5
 """A kill loses what came since the last flush; with the flush itself on a busy computer that stays below a second."""
-ROWS_HELD = 4096
+ROWS_HELD = 1024
 """Rows held in memory at most, when frames come faster than the clock (tracking a stored recording)."""
 _INDEX_BYTES = 512 * 1024
 """More than HDF5's index grows by in one flush."""

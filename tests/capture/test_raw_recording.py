@@ -101,7 +101,7 @@ def test_colour_as_jpeg_is_near_and_depth_exact(tmp_path: Path) -> None:
 
 def test_the_layout_by_a_reader_of_its_own(tmp_path: Path) -> None:
     data = write(tmp_path / "take.carpusraw", 3).read_bytes()
-    assert data[:12] == b"CARPUSRW\x01\x00\x00\x00"
+    assert data[:12] == b"CARPUSRW\x02\x00\x00\x00"
     position, kinds = 12, []
     while position < len(data):
         kind, check, time_s, _, number, color_size, depth_size = struct.unpack_from("<4sIdIIII", data, position)
@@ -115,7 +115,8 @@ def test_the_layout_by_a_reader_of_its_own(tmp_path: Path) -> None:
             assert head["depth_unit_m"] == 1e-3
         elif kind == b"FRAM":
             assert time_s == frames(3)[number].timestamp_s
-            picture = cv2.imdecode(np.frombuffer(color, np.uint8), cv2.IMREAD_COLOR_RGB)
+            assert struct.unpack_from("<HHI", color) == (WIDTH, HEIGHT, len(color) - 8)  # one tile
+            picture = cv2.imdecode(np.frombuffer(color[8:], np.uint8), cv2.IMREAD_COLOR_RGB)
             assert np.array_equal(picture, color_picture(number))
         position = end
     assert kinds == [b"HEAD", b"FRAM", b"FRAM", b"FRAM", b"DONE"]
@@ -261,7 +262,7 @@ def test_faults_of_the_reader(tmp_path: Path) -> None:
     RawWriter(path, INFO).close()
     with pytest.raises(RecordingEmpty):
         RawRecording(path)
-    for data in (b"", b"CARPUSRW", b"CARPUSRW\x02\x00\x00\x00", b"RIFF" + bytes(100)):
+    for data in (b"", b"CARPUSRW", b"CARPUSRW\x01\x00\x00\x00", b"RIFF" + bytes(100)):
         path.write_bytes(data)
         with pytest.raises(RecordingUnreadable):
             RawRecording(path)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from carpus.core.depth_sensor import D435, PRIMESENSE, DepthSensor
-from carpus.core.detection.detector import Detector, Region
+from carpus.core.detection.detector import Detector
 from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, surface_samples
 from carpus.core.kernels import choice
-from carpus.core.types import Detections, Frame
+from carpus.core.types import Detections, Frame, Region
 from tests.detection.pictures import CAMERA, DISTANCE_M, PALM_PX, Extra, Look, depth_picture, frame, picture
 from tests.detection.test_detector import SETTINGS, learnt
 from tests.kernels.pairs import LEVELS, both

@@ -16,6 +16,7 @@ import pytest
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.capture.files.raw import RawRecording, RawWriter
 from carpus.core.capture.files.raw_pictures import encode_color, encode_depth
 from carpus.core.capture.files.tum import DEPTH_UNIT_M, TumFolder
 from carpus.core.capture.source import SourceInfo
@@ -126,6 +127,18 @@ def test_tracking_again_from_detections_gives_the_same_angles(made: Made, tmp_pa
             assert new.attrs[name] == old.attrs[name]
         assert np.array_equal(new["markers/measured"], old["markers/measured"], equal_nan=True)
         assert np.array_equal(new["detections/pixel"], old["detections/pixel"])
+
+
+def test_pictures_unpacked_only_where_they_are_looked_at_give_the_same(made: Made, tmp_path: Path) -> None:
+    source = TumFolder(made.folder)
+    with RawWriter(tmp_path / "r.carpusraw", source.info, lossless=True) as writer:
+        for frame in source.frames():
+            writer.append_frame(frame)
+    raw = RawRecording(tmp_path / "r.carpusraw")
+    track_recording(raw, made.clicks, tmp_path / "new.h5", TrackSettings(), software_version=VERSION)
+    with h5py.File(made.session) as old, h5py.File(tmp_path / "new.h5") as new:
+        for name in ("wrist/angles", "smoothed/wrist/angles", "detections/pixel", "detections/depth", "surface/depth"):
+            np.testing.assert_array_equal(new[name], old[name])
 
 
 def test_and_again_from_that_still_the_same(made: Made, tmp_path: Path) -> None:

@@ -3,8 +3,8 @@
 Nothing that was written is touched again, so a crash or a full disk costs at most the last frame, and writing needs
 no lock that others wait for. Layout, little-endian: ``CARPUSRW``, u32 version, then records. A record is a header of
 32 bytes (4 letters, u32 check sum of all that follows, f64 time in seconds, u32 frames missing before, u32 number,
-u32 size of colour, u32 size of depth) and the two pictures as JPEG or PNG files. ``HEAD`` comes first with JSON
-instead of colour, ``FRAM`` is a frame, ``DONE`` ends a recording that was closed.
+u32 size of colour, u32 size of depth) and the two pictures in tiles (:mod:`.tiles`), JPEG or PNG files each. ``HEAD``
+comes first with JSON instead of colour, ``FRAM`` is a frame, ``DONE`` ends a recording that was closed.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ import zlib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from types import TracebackType
 from typing import Any, BinaryIO
@@ -27,6 +28,7 @@ import numpy as np
 
 from carpus.core.camera import COEFFICIENTS, Camera
 from carpus.core.capture.files.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
+from carpus.core.capture.files.tiles import Tiled, packed
 from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.depth_sensor import ASSUMED_SENSOR, sensor_of
 from carpus.core.durable import copy_open_file, is_still_there, private
@@ -40,7 +42,7 @@ from carpus.core.errors import (
     RecordingUnreadable,
 )
 from carpus.core.phrase import phrase
-from carpus.core.types import ByteImage, Frame
+from carpus.core.types import ByteImage, DepthImage, Frame, Region
 
 SUFFIX = ".carpusraw"
 BYTES_PER_PICTURE = 60_000
@@ -48,13 +50,14 @@ BYTES_PER_PICTURE = 60_000
 170 000."""
 MB_PER_MINUTE = round(60 * 30 * BYTES_PER_PICTURE / 1e6, -1)
 MAGIC = b"CARPUSRW"
-VERSION = 1
+VERSION = 2
 _START = struct.Struct("<8sI")
 _RECORD = struct.Struct("<4sIdIIII")
 _CHECKED_FROM = 8
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 LOOK_EVERY_S = 0.8
 MAX_PICTURE_BYTES = 1 << 27
+_NO_COLOR, _NO_DEPTH = np.empty((0, 0, 3), np.uint8), np.empty((0, 0), np.uint16)
 
 
 class RawWriter:
@@ -110,12 +113,12 @@ class RawWriter:
                 self._move(self._fallback())
         if self._count == 0:
             self._depth_unit_m = frame.depth_unit_m
-            self._put(_packed(b"HEAD", 0.0, 0, 0, self._head(), b""))
-        depth = b"" if frame.depth_raw is None else encode_depth(frame.depth_raw)
+            self._put(_record(b"HEAD", 0.0, 0, 0, self._head(), b""))
+        depth = b"" if frame.depth_raw is None else packed(frame.depth_raw, encode_depth)
         if depth and frame.depth_unit_m != self._depth_unit_m:
             raise ValueError(f"depth in steps of {frame.depth_unit_m} m after {self._depth_unit_m} m")
-        color = encode_color(frame.color_rgb, lossless=self._lossless)
-        self._put(_packed(b"FRAM", frame.timestamp_s, frame.dropped_before, self._count, color, depth))
+        color = packed(frame.color_rgb, partial(encode_color, lossless=self._lossless))
+        self._put(_record(b"FRAM", frame.timestamp_s, frame.dropped_before, self._count, color, depth))
         self._count += 1
 
     def go_on_elsewhere(self, frame: Frame | None) -> RawWriter:
@@ -134,7 +137,7 @@ class RawWriter:
         if self._file is None:
             return
         if self._count:
-            self._put(_packed(b"DONE", 0.0, 0, self._count, b"", b""))
+            self._put(_record(b"DONE", 0.0, 0, self._count, b"", b""))
         try:
             os.fsync(self._file.fileno())
             self._file.close()
@@ -225,6 +228,25 @@ class _Entry:
     check: int
 
 
+@dataclass(frozen=True, slots=True)
+class PackedFrame:
+    """A frame whose pictures are unpacked where they are looked at."""
+
+    index: int
+    timestamp_s: float
+    color: Tiled[ByteImage]
+    depth: Tiled[DepthImage] | None
+    depth_unit_m: float
+    dropped_before: int
+
+    def seen(self, part: Region | None) -> Frame:
+        """The frame for who looks at a part of the pictures, None for all of them; the rest may still be empty."""
+        depth_raw = None if self.depth is None else self.depth.seen(part)
+        return Frame(
+            self.index, self.timestamp_s, self.color.seen(part), depth_raw, self.depth_unit_m, self.dropped_before
+        )
+
+
 class RawRecording:
     """A raw recording as a source of frames. One that was cut short is read up to its last whole frame.
 
@@ -273,18 +295,31 @@ class RawRecording:
 
     def frames(self) -> Iterator[Frame]:
         """All frames from the first on; may be walked through again."""
+        for frame in self.packed_frames():
+            yield frame.seen(None)
+
+    def packed_frames(self) -> Iterator[PackedFrame]:
+        """As :meth:`frames`, each unpacked only where somebody looks."""
         lost = missing = index = 0
         last_s = -math.inf
         with self._path.open("rb") as file:
             for entry in self._entries:
                 pictures = _read(file, entry)
-                color = decode_color(pictures[: entry.color_size])
-                depth = decode_depth(pictures[entry.color_size :])
-                if color is None or (depth is None) != (entry.depth_size == 0) or entry.timestamp_s <= last_s:
+                if not pictures or entry.timestamp_s <= last_s:
                     lost += 1
                     missing += 1 + entry.dropped_before
                     continue
-                yield Frame(index, entry.timestamp_s, color, depth, self._depth_unit_m, entry.dropped_before + missing)
+                depth = None
+                if entry.depth_size:
+                    depth = Tiled(self._path, pictures[entry.color_size :], _NO_DEPTH, decode_depth)
+                yield PackedFrame(
+                    index,
+                    entry.timestamp_s,
+                    self._color(pictures, entry),
+                    depth,
+                    self._depth_unit_m,
+                    entry.dropped_before + missing,
+                )
                 index, missing, last_s = index + 1, 0, entry.timestamp_s
         if lost:
             self._notice(
@@ -298,7 +333,11 @@ class RawRecording:
             return None
         entry = self._entries[place]
         with self._path.open("rb") as file:
-            return decode_color(_read(file, entry)[: entry.color_size])
+            pictures = _read(file, entry)
+        return self._color(pictures, entry).seen(None) if pictures else None
+
+    def _color(self, pictures: bytes, entry: _Entry) -> Tiled[ByteImage]:
+        return Tiled(self._path, pictures[: entry.color_size], _NO_COLOR, decode_color)
 
     def close(self) -> None:
         """Nothing is held open between two walks."""
@@ -313,7 +352,7 @@ def is_raw_recording(path: Path) -> bool:
         return False
 
 
-def _packed(kind: bytes, time_s: float, dropped: int, number: int, color: bytes, depth: bytes) -> bytes:
+def _record(kind: bytes, time_s: float, dropped: int, number: int, color: bytes, depth: bytes) -> bytes:
     head = _RECORD.pack(kind, 0, time_s, dropped, number, len(color), len(depth))
     rest = b"".join((head[_CHECKED_FROM:], color, depth))
     return kind + struct.pack("<I", zlib.crc32(rest)) + rest

@@ -28,13 +28,13 @@ def encode_depth(depth_raw: DepthImage) -> bytes:
     return _encode(".png", depth_raw, _PNG)
 
 
-def decode_color(data: bytes) -> ByteImage | None:
+def decode_color(data: bytes | memoryview) -> ByteImage | None:
     """Inverse of :func:`encode_color`, read-only; None when it is no colour picture."""
     picture = _decode(data, cv2.IMREAD_COLOR_RGB)
     return picture if picture is not None and picture.ndim == 3 and picture.dtype == np.uint8 else None
 
 
-def decode_depth(data: bytes) -> DepthImage | None:
+def decode_depth(data: bytes | memoryview) -> DepthImage | None:
     """Inverse of :func:`encode_depth`, read-only; None when it is no depth picture."""
     picture = _decode(data, cv2.IMREAD_UNCHANGED)
     return picture if picture is not None and picture.ndim == 2 and picture.dtype == np.uint16 else None
@@ -46,7 +46,7 @@ def _encode(kind: str, picture: NDArray[Any], options: list[int]) -> bytes:
     return data.tobytes()
 
 
-def _decode(data: bytes, flags: int) -> NDArray[Any] | None:
+def _decode(data: bytes | memoryview, flags: int) -> NDArray[Any] | None:
     if not data:
         return None
     try:

@@ -1,0 +1,80 @@
+"""Pictures in tiles: the same as whole, unpacked where they are looked at, and damage is told."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from carpus.core.capture.files.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
+from carpus.core.capture.files.tiles import SIDE_PX, Tiled, packed
+from carpus.core.errors import RecordingUnreadable
+from carpus.core.types import ByteImage, Region
+
+WIDTH, HEIGHT = 250, 130
+COLOR, DEPTH = np.empty((0, 0, 3), np.uint8), np.empty((0, 0), np.uint16)
+
+
+def noisy_color() -> ByteImage:
+    return np.random.default_rng(3).integers(1, 256, (HEIGHT, WIDTH, 3), dtype=np.uint8)
+
+
+def color_from(data: bytes) -> Tiled[ByteImage]:
+    return Tiled(Path("take"), data, COLOR, decode_color)
+
+
+def test_jpeg_by_tiles_is_the_same_as_jpeg_whole() -> None:
+    color = noisy_color()
+    back = color_from(packed(color, encode_color)).seen(None)
+    np.testing.assert_array_equal(back, decode_color(encode_color(color)))
+    assert not back.flags.writeable
+
+
+def test_depth_comes_back_exactly() -> None:
+    depth = np.random.default_rng(4).integers(0, 1 << 16, (HEIGHT, WIDTH), dtype=np.uint16)
+    np.testing.assert_array_equal(Tiled(Path("t"), packed(depth, encode_depth), DEPTH, decode_depth).seen(None), depth)
+
+
+@pytest.mark.parametrize(
+    "part",
+    [
+        Region(0, 0, 1, 1), Region(79, 79, 81, 81), Region(160, 80, 240, 130), Region(-50, 100, 20, 900),
+        Region(240, 0, 250, 130), Region(-20, -20, -5, -5), Region(300, 10, 400, 20),
+    ],
+)  # fmt: skip
+def test_what_is_looked_at_is_there_and_the_rest_comes_later(part: Region) -> None:
+    color = noisy_color()
+    tiled = color_from(packed(color, partial(encode_color, lossless=True)))
+    seen = tiled.seen(part)
+    inside = np.s_[max(part.top, 0) : max(part.bottom, 0), max(part.left, 0) : max(part.right, 0)]
+    np.testing.assert_array_equal(seen[inside], color[inside])
+    columns = min(part.right, WIDTH) // SIDE_PX - max(part.left, 0) // SIDE_PX + 1
+    assert seen.any(axis=-1).sum() <= max(columns, 0) * SIDE_PX * HEIGHT
+    np.testing.assert_array_equal(tiled.seen(None), color)
+
+
+def test_a_tile_without_anything_has_no_byte() -> None:
+    color = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
+    assert len(packed(color, encode_color)) == 4 + 4 * 8
+    color[100, 200] = 9
+    np.testing.assert_array_equal(color_from(packed(color, encode_color)).seen(None)[:80], color[:80])
+
+
+@pytest.mark.parametrize(
+    "damaged",
+    [
+        lambda data: b"",
+        lambda data: data[:40],
+        lambda data: data[:-1],
+        lambda data: data + b"x",
+        lambda data: b"\xff\xff\xff\xff" + data[4:],
+        lambda data: data[:36] + bytes(len(data) - 36),
+        lambda data: b"\xfb" + data[1:],  # a column wider
+    ],
+)
+def test_what_is_no_picture_is_told(damaged: object) -> None:
+    data = packed(noisy_color(), encode_color)
+    with pytest.raises(RecordingUnreadable, match="take"):
+        color_from(damaged(data)).seen(None)  # type: ignore[operator]
