@@ -63,15 +63,11 @@ class Kernels:
             told = loaded.load_function(_FFI.typeof("char *(*)(void)"), "kernels_digest")()
             if _FFI.string(told).decode() != path.name.split("-")[1]:
                 raise OSError(f"{path.name} is of another source")
-            declared = _DECLARED.findall((HERE / "kernels.h").read_text(encoding="utf-8"))
-            for name, arguments in declared:
-                pointers = _SIZED.sub(r"*\1", arguments)
-                function = loaded.load_function(_FFI.typeof(f"int (*)({pointers})"), name)
-                setattr(self, name, _called(function, arguments))
+            self._declared = dict(_DECLARED.findall((HERE / "kernels.h").read_text(encoding="utf-8")))
             self._wide = loaded.load_function(_FFI.typeof("int (*)(void)"), "kernels_run_wide")
         except AttributeError as fault:
             raise OSError(str(fault)) from fault
-        self._library = loaded  # as long as its functions
+        self._library = loaded
 
     @property
     def processor_is_wide(self) -> bool:
@@ -79,7 +75,14 @@ class Kernels:
         return bool(self._wide())
 
     def __getattr__(self, name: str) -> Callable[..., None]:
-        raise AttributeError(f"no kernel {name}")
+        """A kernel, made ready when it is first asked for: all of them take as long as a start of Python."""
+        if name not in self._declared:
+            raise AttributeError(f"no kernel {name}")
+        arguments = self._declared[name]
+        pointers = _SIZED.sub(r"*\1", arguments)
+        call = _called(self._library.load_function(_FFI.typeof(f"int (*)({pointers})"), name), arguments)
+        setattr(self, name, call)
+        return call
 
 
 def _called(function: Any, arguments: str) -> Callable[..., None]:

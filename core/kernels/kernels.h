@@ -18,6 +18,9 @@ enum { NOT_DEFINITE = 1, NO_MEMORY = 2, OUTSIDE = 3 };
 KERNEL const char *kernels_digest(void);
 KERNEL int kernels_run_wide(void);
 
+/* assignment.c */
+KERNEL int least_assignment(int rows, int columns, const double cost[rows * columns], int64_t column_of[rows]);
+
 /* filter.c */
 KERNEL int corrected(
     int chains, int modes, int size, int count, const double mean[chains * modes * size],
