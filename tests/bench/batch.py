@@ -1,24 +1,70 @@
-"""Recordings tracked a minute, against the processes that track them."""
+"""Recordings tracked a minute, against the processes that track them; frames a second and core of one that is raw."""
 
 from __future__ import annotations
 
 import tempfile
 import time
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 
 from carpus.app.batch.places import Place
 from carpus.app.batch.processes import cores, outcomes
 from carpus.app.batch.work import Task
-from carpus.core.pipeline.track import TrackSettings
+from carpus.core.calibration.clicks import read_clicks
+from carpus.core.calibration.result import Clicks
+from carpus.core.capture.files.raw import RawRecording, RawWriter
+from carpus.core.capture.files.tum import TumFolder
+from carpus.core.pipeline.track import TrackSettings, track_recording
 from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
 from carpus.core.simulation.spec import RecordingSpec
+from tests.bench.tracking import pipeline_of
 
 SECONDS, EACH = 6.0, 4
+LONGER_S = 20.0
+WANTED = 300.0
+
+
+def _tracked(path: Path, clicks: Clicks, number: int) -> int:
+    output = path.with_name(f"{number}.h5")
+    settings = TrackSettings()
+    return track_recording(RawRecording(path), clicks, output, settings, software_version="bench", path=path).frames
+
+
+def of_raw() -> Iterator[str]:
+    """The second of two walks through a raw recording of the wrist, beside tracking its frames unpacked before."""
+    recording = cached_recording(RecordingSpec(seed=7, motion="flexion", seconds=LONGER_S))
+    clicks = read_clicks(recording / CLICKS_FILE, 640, 480)
+    with tempfile.TemporaryDirectory() as name:
+        path, packing_s = Path(name) / "r.carpusraw", 0.0
+        source = TumFolder(recording)
+        with RawWriter(path, source.info) as writer:
+            for frame in source.frames():
+                begin_s = time.process_time()
+                writer.append_frame(frame)
+                packing_s += time.process_time() - begin_s
+        _tracked(path, clicks, 0)  # loads what is loaded once
+        begin_s = time.process_time()
+        count = _tracked(path, clicks, 1)
+        whole_s = time.process_time() - begin_s
+        frames = list(islice(RawRecording(path).frames(), 240))
+        pipeline, still_until_s = pipeline_of(recording, frames)
+        moving = [frame for frame in frames if frame.timestamp_s > still_until_s]
+        begin_s = time.process_time()
+        for frame in moving:
+            pipeline(frame)
+        alone_ms = 1e3 * (time.process_time() - begin_s) / len(moving)
+    each_ms = 1e3 * whole_s / count
+    yield (
+        f"Raw recording of the wrist, {count} frames, looked back at: {count / whole_s:.0f} frames a "
+        f"second and core ({WANTED:.0f} wanted), {each_ms:.2f} ms each; tracking alone {alone_ms:.2f} ms; packing "
+        f"{1e3 * packing_s / count:.1f} ms"
+    )
 
 
 def report() -> Iterator[str]:
     """Measure and tell, line by line: so many recordings for each process, from one process to one a core."""
+    yield from of_raw()
     recording = cached_recording(RecordingSpec(seed=7, motion="flexion", seconds=SECONDS))
     yield f"Recordings of {SECONDS:g} s (six discs, looked back at) tracked a minute; start of the processes included"
     one = 0.0

@@ -12,23 +12,30 @@ from collections.abc import Callable
 from functools import lru_cache
 from itertools import accumulate, pairwise, product
 from pathlib import Path
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carpus.core.errors import RecordingUnreadable
 from carpus.core.phrase import phrase
-from carpus.core.types import ByteImage, DepthImage, Region
+from carpus.core.types import Region
 
 SIDE_PX = 80
 """Smaller ones cost more bytes and calls, larger ones more pixels that nobody looks at."""
 MOST_BYTES = 1 << 27
 _SIZE = struct.Struct("<HH")
 
-AnyImage = TypeVar("AnyImage", ByteImage, DepthImage)
+AnyImage = TypeVar("AnyImage", bound=NDArray[Any])
 
 
-def packed(picture: AnyImage, encode: Callable[[AnyImage], bytes]) -> bytes:
+@lru_cache(maxsize=4)
+def _tiles(width: int, height: int) -> tuple[tuple[slice, slice], ...]:
+    rows, columns = ([slice(begin, begin + SIDE_PX) for begin in range(0, size, SIDE_PX)] for size in (height, width))
+    return tuple(product(rows, columns))
+
+
+def packed(picture: NDArray[Any], encode: Callable[[Any], bytes]) -> bytes:
     """The picture's tiles, each as ``encode`` packs it."""
     height, width = picture.shape[:2]
     each = (picture[row, column] for row, column in _tiles(width, height))
@@ -61,9 +68,10 @@ class Tiled(Generic[AnyImage]):
         if ends[-1] != len(data):
             raise self._damaged()
         self._bounds = [*pairwise(ends)]
-        self._picture = np.zeros(shape, blank.dtype)
-        self._given = self._picture.view()
-        self._given.flags.writeable = False
+        self._picture: Any = np.zeros(shape, blank.dtype)
+        given: Any = self._picture.view()
+        given.flags.writeable = False
+        self._given: AnyImage = given
 
     def seen(self, part: Region | None) -> AnyImage:
         """The picture, read-only, unpacked at least within ``part``, or all of it."""
@@ -86,9 +94,3 @@ class Tiled(Generic[AnyImage]):
 
     def _damaged(self) -> RecordingUnreadable:
         return RecordingUnreadable(self._path, phrase("not a picture"))
-
-
-@lru_cache(maxsize=4)
-def _tiles(width: int, height: int) -> tuple[tuple[slice, slice], ...]:
-    rows, columns = ([slice(begin, begin + SIDE_PX) for begin in range(0, size, SIDE_PX)] for size in (height, width))
-    return tuple(product(rows, columns))
