@@ -31,20 +31,21 @@ class Job:
     mode: Mode
 
 
-def done(job: Job) -> list[Run]:
-    """Carpus, the simplest thing and the bound on one recording."""
+def done(job: Job, *, bound: bool = True) -> list[Run]:
+    """Carpus, the simplest thing and, unless nobody asks for it, the ``bound`` on one recording."""
+    bound = bound and job.scenario.has_bound
     with threadpool_limits(1):
         if job.mode == "blobs":
             sequence = measurement_sequence(job.scenario.spec(job.seed, BLOB_SECONDS))
             carpus, begin_s = run_on_blobs(job.scenario, sequence)
             simplest = simplest_run(job.scenario, sequence, begin_s)
-            if not job.scenario.has_bound:
+            if not bound:
                 return [carpus, simplest]
             untroubled, _ = run_on_blobs(job.scenario, without_false(sequence), method=UNTROUBLED)
             return [carpus, untroubled, simplest, informed_run(job.scenario, sequence, begin_s, job.mode)]
         carpus, sequence, begin_s, folder = run_on_pictures(job.scenario, job.seed, PICTURE_SECONDS)
         simplest = simplest_run(job.scenario, sequence, begin_s, folder)
-        if not job.scenario.has_bound:
+        if not bound:
             return [carpus, simplest]
         return [carpus, simplest, informed_run(job.scenario, sequence, begin_s, job.mode)]
 
