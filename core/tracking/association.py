@@ -28,8 +28,9 @@ class AssociationSettings:
     ``prior_marker``: that a blob is one given marker; ``prior_clutter``: that it is none.
     ``gate_sd``: blobs further than this from a prediction (in standard deviations of the innovation) are
     never that marker. ``depth_range_m``: over which clutter's depth is spread. ``least_company``: so many discs at
-    their depth bear out another whose depth is something else's. ``beam``: so many ways to name all are followed side
-    by side. A set of names is doubted when chance gives a smaller NIS with the probability ``consistent``.
+    their depth bear out another whose depth is something else's, unless that is more than ``apart_m`` off. ``beam``: so
+    many ways to name all are followed side by side. A set of names is doubted when chance gives a smaller NIS with the
+    probability ``consistent``.
     """
 
     prior_marker: float = 0.9
@@ -37,6 +38,7 @@ class AssociationSettings:
     gate_sd: float = 5.0
     depth_range_m: float = 0.5
     least_company: int = 3
+    apart_m: float = 0.03
     beam: int = 10
     consistent: float = 0.9995
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.tracking.adaptive_noise import adapted_factor
@@ -21,6 +22,7 @@ from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.fingers import Fingers, FingerTrial
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_geometry import CHAINS, JointMoment
+from carpus.core.tracking.joint_association import is_jointly_compatible
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.motion import PalmMotion, palm_ahead, slowing, slowing_unseen, unseen_turns
 from carpus.core.tracking.operator_hints import NamedSpot
@@ -308,6 +310,15 @@ class HandFilter:
         estimate.covariance[RELIEF, RELIEF] = self._stationary[RELIEF, RELIEF]
         estimate.value[LEARNT], estimate.value[:3] = self._learnt, found.position_m
         return replace(estimate, rotation_w2_w0=found.rotation_w2_w0)
+
+    def is_against(self, found: FoundPalm, posterior: Posterior) -> bool:
+        """Whether a palm was found turned further than a prediction leaves open that enough discs bear out."""
+        palm, own, nominal = posterior.palm, self._settings, posterior.predicted.nominal
+        if posterior.seen < own.holding.least_discs or not is_jointly_compatible(palm.nis, palm.dof, own.association):
+            return False
+        off = so3.log(nominal.rotation_w2_w0.T @ found.rotation_w2_w0)
+        either = nominal.covariance[TURN, TURN] + found.pose_covariance(self.view.palm_m, own.finding)[3:, 3:]
+        return bool(off @ np.linalg.solve(either, off) > own.association.gate_sd**2)
 
     def predicted_at(self, found: FoundPalm, predicted: PredictedMeasurement) -> PredictedMeasurement:
         """What was predicted, should the palm be where it was found."""

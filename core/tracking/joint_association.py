@@ -19,7 +19,7 @@ from carpus.core.types import FloatArray
 
 
 @lru_cache(maxsize=4)
-def _most_nis(chance: float) -> tuple[float, ...]:
+def most_chi2(chance: float) -> tuple[float, ...]:
     """Quantiles of chi squared by degrees of freedom."""
     from scipy.special import (
         gammaincinv,  # as long to load as all of NumPy, and asked for only where names are in doubt
@@ -30,7 +30,7 @@ def _most_nis(chance: float) -> tuple[float, ...]:
 
 def is_jointly_compatible(nis: float, dof: int, settings: AssociationSettings) -> bool:
     """Whether the innovations of all markers together are what the filter foresaw."""
-    most = _most_nis(settings.consistent)
+    most = most_chi2(settings.consistent)
     return dof == 0 or nis <= most[min(dof, len(most) - 1)]
 
 

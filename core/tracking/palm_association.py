@@ -139,13 +139,13 @@ def associate_and_update(
     )
     assigned = association.resolve(odds.value)
     with_depth = odds.with_depth[np.arange(markers), assigned]
-    assigned = _in_company(assigned, with_depth, blobs, settings.association)
+    assigned = _in_company(assigned, with_depth, blobs, mean[:, 2], settings.association)
     simple = update(predicted, blobs, assigned, with_depth, noise_factor)
     named = np.count_nonzero(assigned >= 0)
     if (named >= enough or named == len(blobs)) and is_jointly_compatible(simple.nis, simple.dof, settings.association):
         return _without_outliers(simple, predicted, blobs, with_depth, noise_factor, settings.noise)
     found = _by_any_mode(predicted, blobs, resolution_px2, settings)
-    assigned = _in_company(found.assigned, found.with_depth, blobs, settings.association)
+    assigned = _in_company(found.assigned, found.with_depth, blobs, mean[:, 2], settings.association)
     jointly = update(predicted, blobs, assigned, found.with_depth, noise_factor)
     return _without_outliers(jointly, predicted, blobs, found.with_depth, noise_factor, settings.noise)
 
@@ -154,18 +154,22 @@ def _in_company(
     assigned: NDArray[np.int64],
     with_depth: NDArray[np.bool_],
     blobs: Measurements,
+    depth_m: FloatArray,
     settings: association.AssociationSettings,
 ) -> NDArray[np.int64]:
-    """The names without those of blobs at another depth, unless enough discs where they should be bear them out.
+    """The names without those of blobs at another depth than the discs' ``depth_m`` (M,), unless enough discs where
+    they should be bear them out.
 
-    What covers the hand may have blue on it: alone, a blob before or behind a disc's place is not that disc.
+    What covers the hand may have blue on it: alone, a blob before or behind a disc's place is not that disc, and far
+    before or behind it none is: the depths of a disc's rim and of what is beside it mix only where these lie near.
     """
     elsewhere = (assigned >= 0) & ~with_depth
     if not elsewhere.any():
         return assigned
-    elsewhere &= np.isfinite(blobs.value[assigned, 2])
-    if not elsewhere.any() or np.count_nonzero((assigned >= 0) & ~elsewhere) >= settings.least_company:
-        return assigned
+    off_m = np.abs(blobs.value[assigned, 2] - depth_m)
+    elsewhere &= np.isfinite(off_m)
+    if np.count_nonzero((assigned >= 0) & ~elsewhere) >= settings.least_company:
+        elsewhere &= off_m > settings.apart_m
     return np.where(elsewhere, -1, assigned)
 
 

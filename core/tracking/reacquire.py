@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core import so3
+from carpus.core.tracking.joint_association import most_chi2
+from carpus.core.tracking.palm_state import POSE
 from carpus.core.tracking.palm_view import View
 from carpus.core.types import Detections, FloatArray
 
@@ -20,13 +22,14 @@ class FindingSettings:
 
     Two discs' distance may differ from the calibrated one by ``distance_m`` (depth noise of both), a disc lie ``fit_m``
     from where the fitted palm puts it; ``least`` discs are needed. ``most_blobs``, the likest ones, are looked at.
-    Beyond ``most_gap_m`` root mean square of the discs it is not this palm; other names are rivals when their misfit
-    (chi squared) is below ``rival_ratio`` times the best one's and ``rival_margin``. ``across_m``: how well a blob's
-    place across its ray is known. ``explained``: share of all blobs that a palm of none,
-    one, two ... six discs and the fingers on it must explain, where there are fingers. ``disc_sd_m`` how far a disc may
-    lie from where the found pose puts it (depth noise of one picture, and the shape), ``turn_sd_rad`` and
-    ``place_sd_m`` how well such a pose is known at best, ``turn_prior_rad`` at worst; ``velocity_m_s`` and
-    ``rate_rad_s`` how fast such a hand may be. So many poses as ``most_fitted`` are fitted to all blobs.
+    Beyond ``most_gap_m`` root mean square of the discs it is not this palm, nor where chance gives a smaller misfit
+    (chi squared) with the probability ``consistent``; other names are rivals when their misfit is below ``rival_ratio``
+    times the best one's and ``rival_margin``. ``across_m``: how well a blob's place across its ray is known.
+    ``explained``: share of all blobs that a palm of none, one, two ... six discs and the fingers on it must explain,
+    where there are fingers. ``disc_sd_m`` how far a disc may lie from where the found pose puts it (depth noise of one
+    picture, and the shape), ``turn_sd_rad`` and ``place_sd_m`` how well such a pose is known at best,
+    ``turn_prior_rad`` at worst; ``velocity_m_s`` and ``rate_rad_s`` how fast such a hand may be. So many poses as
+    ``most_fitted`` are fitted to all blobs.
     """
 
     distance_m: float = 0.007
@@ -34,6 +37,7 @@ class FindingSettings:
     least: int = 4
     most_blobs: int = 40
     most_gap_m: float = 0.004
+    consistent: float = 0.99
     rival_ratio: float = 1.25
     rival_margin: float = 9.0
     across_m: float = 0.00025
@@ -306,7 +310,8 @@ def _best(
         both = best.only(np.arange(1)).and_more(_believable(every, blobs, settings))
         best, misfit = _best_first(both, model, seen, strays, about, settings)
     beyond = _turned_beyond(best, about)
-    if best.gap_m[0] > settings.most_gap_m or beyond[0]:
+    most_misfit = most_chi2(settings.consistent)[3 * int(best.count[0]) - POSE.size]
+    if best.gap_m[0] > settings.most_gap_m or misfit[0] > most_misfit or beyond[0]:
         return None
     # A disc of the palm counts for more than one that a finger could reach.
     worth = best.explained + best.count

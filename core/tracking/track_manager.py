@@ -23,7 +23,7 @@ class HoldingSettings:
 
     Expecting the hand's turn less surely than ``vague_rad`` the filter may settle on wrong names or at a wrong pose;
     less surely than ``too_vague_rad`` sigma points reach too far for a correction to be trusted even by the right
-    names. Less surely than ``blind_rad`` any so many blobs would do for discs: none to four of them;
+    names. Less surely than ``blind_rad`` any so many blobs would do for discs: none to five of them;
     ``blind_among_fingers_rad`` where there are discs on fingers, which can look like some of the palm, even like five.
 
     A hand gone from sight is not found turned further than it may have turned meanwhile (``turn_slack_rad`` and
@@ -38,7 +38,7 @@ class HoldingSettings:
     share_window_s: float = 1.0
     vague_rad: float = 0.15
     too_vague_rad: float = 0.5
-    blind_rad: tuple[float, ...] = (0.1, 0.1, 0.15, 0.35, 0.5)
+    blind_rad: tuple[float, ...] = (0.1, 0.1, 0.15, 0.35, 0.5, 0.5)
     blind_among_fingers_rad: tuple[float, ...] = (0.1, 0.06, 0.15, 0.25, 0.35, 0.5)
     turn_slack_rad: float = 0.35
     most_rate_rad_s: float = 12.0

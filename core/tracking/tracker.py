@@ -160,6 +160,8 @@ class Tracker:
         if found is None or not (is_vague or found.count > seen):
             return None
         holding = self.settings.holding
+        if found.count <= self.settings.finding.least and self._filter.is_against(found, posterior):
+            return None
         is_expected = turned_rad(rotation, found.rotation_w2_w0) < holding.turn_slack_rad
         if is_vague and not (is_expected or manager.is_borne_out(found, scan.timestamp_s)):
             return None

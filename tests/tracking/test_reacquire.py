@@ -14,7 +14,7 @@ from carpus.core.tracking.palm_view import View
 from carpus.core.tracking.reacquire import Facing, FindingSettings, find_palm
 from carpus.core.tracking.soft_tissue import SoftTissue, stationary_covariance
 from carpus.core.types import Detections, Side
-from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, Pose, blobs, palm, rotation_of
+from tests.tracking.hands import CAMERA, CMC1, FROM_ABOVE, MCP5, MIDDLE_M, Pose, blobs, palm, rotation_of
 
 FINDING = FindingSettings()
 ANYHOW = Facing(np.eye(3), np.pi)
@@ -77,6 +77,18 @@ def test_three_discs_are_not_enough(side: Side) -> None:
         assert (
             find_palm(blobs(some_pose(rng), rng, side=side, hidden=hidden), view(side), STRAYS, ANYHOW, FINDING) is None
         )
+
+
+def test_four_blobs_hardly_in_the_shape_of_the_palm_are_not_it() -> None:
+    """Each lies within millimetres of its place, but across the finger no skin glides so far."""
+    four = blobs(Pose(), hidden=(CMC1, MCP5))
+    assert find_palm(four, view("right"), STRAYS, ANYHOW, FINDING) is not None
+    pixel = four.pixel.copy()
+    pixel[2, 0] += 525.0 * 0.005 / four.depth_m[2]  # MCP3
+    found = find_palm(replace(four, pixel=pixel), view("right"), STRAYS, ANYHOW, FINDING)
+    assert found is None
+    loose = replace(FINDING, consistent=1.0 - 1e-12)
+    assert find_palm(replace(four, pixel=pixel), view("right"), STRAYS, ANYHOW, loose) is not None
 
 
 def test_three_discs_and_far_clutter_are_not_enough() -> None:

@@ -17,6 +17,7 @@ from tests.tracking.hands import (
     CMC1,
     DT_S,
     MCP3,
+    MCP4,
     RIGID,
     WRIST,
     Motion,
@@ -34,6 +35,7 @@ from tests.tracking.hands import (
 
 SIDES: tuple[Side, Side] = ("right", "left")
 ALL = range(6)
+FIELDS = ("pixel", "depth_m", "depth_sd_m", "area_px", "similarity")
 
 
 def times(count: int) -> list[float]:
@@ -513,6 +515,36 @@ def test_alone_a_blob_at_another_depth_is_no_disc() -> None:
         frames.append((t, found))
     after = track(frames)[40:]
     assert all(np.isnan(frame.marker_measured_px).all() for frame in after)
+
+
+@pytest.mark.parametrize("before_m", [0.06, -0.1])
+def test_far_before_or_behind_a_covered_disc_is_something_else_whatever_bears_it_out(before_m: float) -> None:
+    """A blue thing rests over the covered WRIST, or seems to lie on the table there, while the hand turns away."""
+    rng, motion = np.random.default_rng(8), swing(0, 20.0, 0.4)
+    wrist_px = CAMERA.project(discs_cam_m(Pose())[WRIST])
+    frames = []
+    for k, t in enumerate(times(60)):
+        hidden, thing = ([WRIST], [wrist_px]) if k >= 4 else ((), ())
+        frames.append((t, blobs(motion(t), rng, hidden=hidden, false_px=thing, false_depth_m=0.7 - before_m)))
+    tracked = track(frames)
+    assert np.isnan([frame.marker_measured_px[WRIST] for frame in tracked[4:]]).all()
+    assert set(statuses(tracked)) == {TrackStatus.TRACKED}
+    assert np.abs(angles_deg(tracked) - truth_deg(motion, times(60))).max() < 4.0
+
+
+def test_four_blobs_in_the_shape_of_the_palm_do_not_carry_off_a_hand_of_which_three_show() -> None:
+    """They are one more than what is seen of the hand, and as far away as no hand was predicted to be."""
+    rng = np.random.default_rng(9)
+    like = blobs(moved(Pose(np.array([38.0, 0.0, 0.0])), [0.05, 0.03, 0.0]), rng, hidden=(MCP3, MCP4))
+    frames = []
+    for k, t in enumerate(times(40)):
+        own = blobs(Pose(), rng, hidden=(CMC1, MCP3, MCP4) if k >= 20 else ())
+        both = (np.concatenate((getattr(own, field), getattr(like, field))) for field in FIELDS)
+        frames.append((t, own if k < 20 else Detections(*both)))
+    tracked = track(frames)
+    assert set(statuses(tracked)) == {TrackStatus.TRACKED}
+    assert all(named_rightly(frame, Pose()) for frame in tracked)
+    assert np.abs(angles_deg(tracked)).max() < 4.0
 
 
 def test_after_a_long_pause_without_pictures_the_hand_is_found_anew() -> None:
