@@ -30,15 +30,17 @@ _DOWN = np.array([1.0, 1.0, -1.0])
 class AnatomyPrior:
     """How far a hand may differ from the average one of its size; standard deviations.
 
-    ``bone_share`` of a bone's length; ``last_bone_share`` of the last one, which ends under a disc whose place on the
-    nail varies; ``height_scale`` common to all offsets of a digit, besides the scatter of each in the table;
-    ``start_ahead_m`` and ``start_aside_m`` of the first joint centre (MCP, CMC1) from the place under its disc.
+    ``bone_share`` of a bone's length, for which the reference's two tables lie 7 to 15 % apart; ``last_bone_share`` of
+    the last one, which ends under a disc whose place on the nail varies; ``thumb_roll_rad`` of an estimate that other
+    sources put 20 degrees off; ``height_scale`` common to all offsets of a digit, besides the scatter of each in the
+    table; ``finger_start_m`` and ``thumb_start_m``, ahead and aside, of the first joint centre (MCP, CMC1) from the
+    place under its disc: people stick a disc up to 5 mm off its place, that of CMC1 anywhere on the slope over it.
     ``depth_stays_m``: error of a disc's depth that stays over a recording. To the camera it is height, at the neutral
     pose and after, so it is part of what is not known of the heights.
     ``stuck_off_m``: how far a disc on a finger is stuck beside the middle of its joint.
     ``finger_depth_m`` of each disc's height over its joint centre by itself (MCP, PIP, DIP, TIP), ``thumb_depth_m``
     (CMC1, MCP1, IP1, TIP1): with ``height_scale`` somewhat more than a quarter of the ranges of reference 2, as hands
-    after an injury are swollen.
+    after an injury are swollen; of the thumb half, as it shows a camera above its side, where skin slopes.
     ``neutral_*`` of the angles at the neutral pose, about a hand that lies relaxed: joints bent by
     ``relaxed_flexion_rad``, the thumb a little out, ``relaxed_thumb_rad`` CMC extension and abduction.
     ``straight_rad``: how straight a finger lies of which a person says that it does, each joint by itself;
@@ -50,16 +52,16 @@ class AnatomyPrior:
     that is flesh, or a disc stuck askew.
     """
 
-    bone_share: float = 0.06
+    bone_share: float = 0.09
     last_bone_share: float = 0.20
     fan_rad: float = math.radians(2.5)
     thumb_fan_rad: float = math.radians(5.0)
-    thumb_roll_rad: float = math.radians(6.0)
+    thumb_roll_rad: float = math.radians(12.0)
     height_scale: float = 0.1
     finger_depth_m: tuple[float, ...] = (0.0015, 0.0007, 0.0005, 0.0004)
-    thumb_depth_m: tuple[float, ...] = (0.0015, 0.0010, 0.00065, 0.00045)
-    start_ahead_m: float = 0.0015
-    start_aside_m: float = 0.0007
+    thumb_depth_m: tuple[float, ...] = (0.0035, 0.0015, 0.0010, 0.0010)
+    finger_start_m: tuple[float, ...] = (0.0025, 0.0020)
+    thumb_start_m: tuple[float, ...] = (0.0030, 0.0040)
     depth_stays_m: float = 0.0004
     stuck_off_m: float = 0.0006
     neutral_abduction_rad: float = math.radians(2.2)
@@ -123,8 +125,7 @@ def constants_prior(
         sd[7:] = np.maximum(stays_m, _FIXED)
         heights = np.zeros(11)
         if has_offsets:
-            sd[5] = math.hypot(prior.start_ahead_m, lateral_sd_m[chain])
-            sd[6] = math.hypot(prior.start_aside_m, lateral_sd_m[chain])
+            sd[5:7] = np.hypot(prior.finger_start_m if chain else prior.thumb_start_m, lateral_sd_m[chain])
             sd[7:] = np.hypot(prior.finger_depth_m if chain else prior.thumb_depth_m, stays_m)
             heights[7:] = mean[chain, 7:]
         sd[7] = math.hypot(sd[7], depth_sd_m[chain])

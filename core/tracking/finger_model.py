@@ -271,9 +271,8 @@ class FingerModel:
         slots, own = mean[:, :SLOTS].copy(), joints.copy()
         slots[:, FLEXION] -= palm.cup_rad
         own[:, FLEXION, FLEXION] += palm.cup_sd_rad**2
-        own[:, _SLOT, _SLOT] += np.where(
-            self._moves & self.settings.fingers.skin_offsets, self.settings.fingers.skin_sd_rad**2, 0.0
-        )
+        if self.settings.fingers.skin_offsets:
+            own[:, _SLOT, _SLOT] += self.settings.fingers.skin_sd_rad**2
         angles = self.reading.angles(slots)
         variance = self.reading.variances(own + inherited)
         rates = self.reading.angles(mean[:, RATES])
