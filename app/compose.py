@@ -108,7 +108,7 @@ class Desktop:
     def show(self) -> None:
         """Bring up the first screen and tell of what was recovered."""
         # The newest session is on top, but for simulated ones, which count nowhere.
-        self.journey.show_patients(self.library.last_patient() if self.journey.is_demo else "")
+        self.journey.show_patients(self.library.index.last_owner() if self.journey.is_demo else "")
         put_in_place(self.shell, LastPlaces(self.library.store).window())
         self.shell.create()  # what hides the names must be there before anything is seen
         self.safe.locking.lock_at_start()

@@ -77,7 +77,7 @@ class PatientShelf:
     def add(self, entry: PatientEntry) -> str:
         """Enter a new patient."""
         patient_id = self._library.patients.add(entry)
-        self._library.note_patient("added", patient_id)
+        self._library.notes.patient("added", patient_id)
         return patient_id
 
     def change(self, patient_id: str, entry: PatientEntry) -> None:
@@ -85,7 +85,7 @@ class PatientShelf:
         record = self._library.patients.one(patient_id)
         new = replace(entry, age_band=record.entry.age_band)
         self._library.patients.change(patient_id, new, self._shown.pop(patient_id, record.version))
-        self._library.note_patient("changed", patient_id)
+        self._library.notes.patient("changed", patient_id)
 
     def diagnoses(self) -> Sequence[str]:
         """The clinic's own list."""

@@ -31,12 +31,12 @@ class Witness(QObject):
     def _arrived(self, place: str) -> None:
         patient = self._now.patient
         if place == "review" and self._is_new(place, self._now.session_id):
-            self._library.note_session("opened", self._now.session_id)
+            self._library.notes.session("opened", self._now.session_id)
         elif place == "beside":
             for session_id in self._now_beside() if self._is_new(place, " ".join(self._now_beside())) else ():
-                self._library.note_session("opened", session_id)
+                self._library.notes.session("opened", session_id)
         elif place == "progress" and patient is not None and self._is_new(place, patient.patient_id):
-            self._library.note_patient("opened", patient.patient_id)
+            self._library.notes.patient("opened", patient.patient_id)
         elif place == "patients":
             self._seen = ("", "")
 

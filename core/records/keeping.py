@@ -116,27 +116,27 @@ class Records:
         """Do what a plan says. Raises what :func:`erasure.erase` does."""
         for one in plan.results:
             self._library.forget_figures(one.session_id)
-        self._library.forget_pictures()
+        self._library.pictures.forget()
         return erasure.erase(self._store, plan, self._library.log)
 
     def archive_session(self, session_id: str) -> None:
         """Out of every list and count."""
         self._library.index.archive(session_id)
-        self._library.note_session("archived", session_id)
+        self._library.notes.session("archived", session_id)
 
     def archive_patient(self, patient_id: str) -> None:
         """Out of every list and count."""
         self._library.patients.archive(patient_id)
-        self._library.note_patient("archived", patient_id)
+        self._library.notes.patient("archived", patient_id)
 
     def bring_back(self, identity: str) -> None:
         """A patient or a session, by :attr:`Archived.identity`."""
         if identity in self._library.patients.archived():
             self._library.patients.bring_back(identity)
-            self._library.note_patient("brought_back", identity)
+            self._library.notes.patient("brought_back", identity)
         else:
             self._library.index.bring_back(identity)
-            self._library.note_session("brought_back", identity)
+            self._library.notes.session("brought_back", identity)
 
     def archived(self) -> list[Archived]:
         """What can be brought back, last archived first."""
@@ -158,7 +158,7 @@ class Records:
     def log(self) -> tuple[LoggedDeed, ...]:
         """The log of what was done; that it was read is in it too, after what is returned."""
         found = read_log(self._store)
-        self._library.note("read_log")
+        self._library.notes.program("read_log")
         return found
 
     def names(self) -> dict[str, str]:

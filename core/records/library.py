@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
@@ -15,9 +14,6 @@ import numpy as np
 from carpus.core.agreement.limits_file import read_limits
 from carpus.core.calibration.result import ALL_STRAIGHT
 from carpus.core.capture.files.picture_file import read_color
-from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
-from carpus.core.capture.files.raw import RawRecording
-from carpus.core.capture.files.raw_pictures import decode_color
 from carpus.core.durable import make_private
 from carpus.core.errors import (
     CarpusFault,
@@ -32,32 +28,31 @@ from carpus.core.hand.exercises import exercise_named
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.measures.change import DEFAULT_LIMITS
 from carpus.core.phrase import phrase
-from carpus.core.records import of_clinic, of_patients, of_sessions
+from carpus.core.records import of_patients, of_sessions
 from carpus.core.records.changes import changed, is_identity
 from carpus.core.records.coming_home import bring_home, fallback_place
 from carpus.core.records.erasure import finish_erasing
 from carpus.core.records.exercise_sets import keep_set_up, last_set_up
-from carpus.core.records.log import By, Deed, Fact, Kind, Log, was_erased
-from carpus.core.records.of_sessions import MOST_CHARACTERS, Comment, MadeKind
+from carpus.core.records.log import By, Log, Notes, was_erased
+from carpus.core.records.of_sessions import MOST_CHARACTERS, MadeKind
 from carpus.core.records.patients import Patients
+from carpus.core.records.pictures import StoredPictures
 from carpus.core.records.schema import PATIENT
 from carpus.core.records.session_list import FilesOfSessions, ListedSessions, free_path, look_for_share
 from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
 from carpus.core.records.store import Store
-from carpus.core.records.values import HomePlan, SessionEntry, entry_of, newest_results
+from carpus.core.records.values import SessionEntry, entry_of, newest_results
 from carpus.core.results.angle_order import in_order
 from carpus.core.results.camera_said import CameraSaid, camera_of
 from carpus.core.results.figures import SessionFigures, session_figures, with_trust
 from carpus.core.results.goals import Goals
 from carpus.core.results.progress import NAMES_DOUBTED
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.session.reader import has_raw, read_outline, read_raw_color, read_session
+from carpus.core.session.reader import read_outline, read_session
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import AngleOrder, Session
 from carpus.core.types import ByteImage, Side
 
-KEPT_PICTURES = 2
-"""Files of pictures that stay open: two sessions are looked at beside each other."""
 MOST_TOLD = 3
 """Files that are told one by one when the program starts; more are told together."""
 
@@ -112,38 +107,17 @@ class Library:
         self.store = Store(folder, sessions, url, lambda fault: self.log_fault(fault))
         self.log = Log(self.store, by, lambda: self.who())
         self.patients, self.index = Patients(self.store), ListedSessions(self.store)
+        self.notes = Notes(self.log, self.index.owner, lambda fault: self.log_fault(fault))
+        self.pictures = StoredPictures()
         self._files = FilesOfSessions(self.store)
         if self.patients.one(PRACTICE_PATIENT).entry.pseudonym != practice_name:
             self.store.do([changed(PATIENT, PRACTICE_PATIENT, pseudonym=practice_name)])
-        self._lock = threading.Lock()
         self._elsewhere: dict[str, SessionEntry] = {}
         self._figures: dict[Path, tuple[RepetitionChoices, SessionFigures]] = {}
-        self._pictures: list[KeptPictures] = []
         self._shown: dict[str, int] = {}
         self.angle_order: Callable[[], AngleOrder] = lambda: "zyx"
         """In which order the wrist's angles are read in the window; files keep the papers'."""
         finish_erasing(self.store, self.log)
-
-    def note_session(self, did: Deed, session_id: str, **facts: Fact) -> None:
-        """Take down what was done with a session."""
-        with suppress(KeyError):  # of a folder that went away: noted when it comes home
-            if self.index.owner(session_id) != PRACTICE_PATIENT:
-                self._note(did, "session", session_id, **facts)
-
-    def note_patient(self, did: Deed, patient_id: str, **facts: Fact) -> None:
-        """Take down what was done with a patient, or with all sessions of one."""
-        if patient_id != PRACTICE_PATIENT:
-            self._note(did, "patient", patient_id, **facts)
-
-    def note(self, did: Deed, **facts: Fact) -> None:
-        """Take down what was done with the program or with everything."""
-        self._note(did, "program", "", **facts)
-
-    def _note(self, did: Deed, kind: Kind, identity: str, **facts: Fact) -> None:
-        try:
-            self.log.note(did, kind, identity, **facts)
-        except CarpusFault as fault:  # what was done is done; that it stands in no log is said
-            self.log_fault(fault)
 
     def close(self) -> None:
         """May be called twice."""
@@ -177,7 +151,7 @@ class Library:
     def enter_by_hand(self, patient_id: str, values: Sequence[HandValue]) -> None:
         """Keep what was measured by hand; what was entered before for the same stays readable."""
         of_patients.enter_by_hand(self.store, patient_id, values)
-        self.note_patient("entered_by_hand", patient_id, values=len(values))
+        self.notes.patient("entered_by_hand", patient_id, values=len(values))
 
     def sessions_alike(self, patient_id: str, set_up: SetUp) -> Sequence[SessionEntry]:
         """Those with the discs of a set-up on the same hand, newest first."""
@@ -199,10 +173,6 @@ class Library:
             return self.index.owner(session_id)
         return ""
 
-    def last_patient(self) -> str:
-        """Who was measured last, also on a simulated camera; empty for nobody."""
-        return self.index.last_owner()
-
     def new_path(self, set_up: SetUp) -> Path:
         """A free path for a session that begins now: on this computer while a share is away, which is told."""
         about = set_up.pseudonym, set_up.exercise.id, set_up.side, datetime.now().astimezone()
@@ -221,7 +191,7 @@ class Library:
             return self._enter_elsewhere(path)
         keep_set_up(self.store, set_up)
         session_id = self.index.enter(path, set_up.patient_id, self.who()).session_id
-        self.note_session("recorded", session_id)
+        self.notes.session("recorded", session_id)
         return session_id
 
     def _enter_elsewhere(self, path: Path) -> str:
@@ -293,7 +263,7 @@ class Library:
         for path in recovery.recovered:
             outline = read_outline(path)
             header = outline.header
-            self.note_session("recovered", header.session_id)
+            self.notes.session("recovered", header.session_id)
             owner = self.owner(header.session_id)
             pseudonym = self.patients.one(owner).entry.pseudonym if owner else header.subject_id
             found.append(Recovered(owner, header.session_id, pseudonym, header.when, outline.duration_s))
@@ -324,20 +294,11 @@ class Library:
         """What was worked out of a session is worked out anew."""
         self._figures = {path: known for path, known in self._figures.items() if known[1].session_id != session_id}
 
-    def forget_pictures(self) -> None:
-        """Let go of the files whose pictures were shown last."""
-        with self._lock:
-            self._pictures = []
-
     def picture(self, session_id: str, row: int) -> ByteImage | None:
-        """The colour picture of a row where pictures were kept, in the session or beside it."""
-        path = self._path_with_pictures(session_id)
-        with self._lock:
-            kept = next((one for one in self._pictures if one.path == path), None)
-            if kept is None:
-                kept = KeptPictures(path)
-                self._pictures = [kept, *self._pictures][:KEPT_PICTURES]
-            return kept.color(row)
+        """The colour picture of a row where pictures were kept, in the session or beside it, or beside another result
+        of the same recording."""
+        paths = self.entry(session_id).path, *(one.path for one in self.results_of(session_id))
+        return self.pictures.picture(paths, row)
 
     def results_of(self, session_id: str) -> Sequence[SessionEntry]:
         """Every result of the recording of a session, the first one first."""
@@ -346,14 +307,6 @@ class Library:
         with suppress(KeyError):
             return self.index.results_of(session_id)
         raise SessionUnreadable(session_id, phrase("not in the list of patients"))
-
-    def _path_with_pictures(self, session_id: str) -> Path:
-        """The session itself, or the result of the same recording beside which the pictures were kept."""
-        own = self.entry(session_id).path
-        for path in (own, *(entry.path for entry in self.results_of(session_id))):
-            if path.with_suffix(RAW_SUFFIX).exists() or has_raw(path):
-                return path
-        return own
 
     def choices(self, session_id: str) -> RepetitionChoices:
         """What a person left out or moved."""
@@ -367,32 +320,20 @@ class Library:
             self.store, session_id, choices, self._shown.get(session_id, version)
         )
         if before.not_counted == choices.not_counted:
-            self.note_session("changed", session_id)
+            self.notes.session("changed", session_id)
         else:
-            self.note_session("set_aside" if choices.not_counted else "taken_back", session_id)
-
-    def recipients(self) -> Sequence[str]:
-        """To whom letters were written, the last used first."""
-        return of_clinic.recipients(self.store)
-
-    def remember_recipient(self, address: str) -> None:
-        """Take down to whom a letter goes."""
-        of_clinic.remember_recipient(self.store, address)
-
-    def comments(self, session_id: str) -> Sequence[Comment]:
-        """All that the therapist wrote of a session, oldest first."""
-        return of_sessions.comments(self.store, session_id)
+            self.notes.session("set_aside" if choices.not_counted else "taken_back", session_id)
 
     def comment(self, session_id: str) -> str:
         """What holds of it; empty where nothing was written."""
-        return of_sessions.latest(self.comments(session_id))
+        return of_sessions.latest(of_sessions.comments(self.store, session_id))
 
     def keep_comment(self, session_id: str, text: str) -> None:
         """Add a comment, which holds from now on; what was written before stays readable."""
         text = text.strip()[:MOST_CHARACTERS]
         if text != self.comment(session_id):
             of_sessions.add_comment(self.store, session_id, text, self.who())
-            self.note_session("changed", session_id)
+            self.notes.session("changed", session_id)
 
     def figures(self, entry: SessionEntry) -> SessionFigures:
         """Figures of a session with its choices, computed once, and with what is known of its camera by now."""
@@ -416,7 +357,7 @@ class Library:
         """The clinic has measured its own error limits: from now on everything is judged by them."""
         self.error_limits = read_limits(self.folder)
         self._figures = {}
-        self.note("changed", limits=len(self.error_limits.studies))
+        self.notes.program("changed", limits=len(self.error_limits.studies))
 
     def history(self, patient_id: str) -> Sequence[SessionFigures]:
         """Figures of all sessions of a patient that can be read."""
@@ -455,7 +396,7 @@ class Library:
         if not deidentified:  # what nobody can be found by is not tied to anybody by the list of patients either
             self.made(done.files, "export", [session_id])
         else:
-            self.note_session("exported", session_id, files=len(done.files), deidentified=1)
+            self.notes.session("exported", session_id, files=len(done.files), deidentified=1)
         for refused in done.refused:
             raise refused.fault
         return [str(path.relative_to(folder)) for path in done.files]
@@ -469,7 +410,7 @@ class Library:
         known = [one for one in session_ids if one not in self._elsewhere]
         of_sessions.remember_made(self.store, paths, kind, known)
         for session_id in known:
-            self.note_session("reported" if kind == "report" else "exported", session_id, files=len(paths))
+            self.notes.session("reported" if kind == "report" else "exported", session_id, files=len(paths))
 
     def marker_picture(self, patient_id: str, set_up: SetUp | None = None) -> ByteImage | None:
         """The markers as they were stuck last time, or when last on the hand and of the protocol of a set-up."""
@@ -486,35 +427,9 @@ class Library:
         """How the last session was set up, None before the first."""
         return last_set_up(self.store, patient_id)
 
-    def home_plan(self, patient_id: str) -> HomePlan | None:
-        """What a patient was last given to do at home."""
-        return of_patients.home_plan(self.store, patient_id)
-
-    def keep_home_plan(self, patient_id: str, plan: HomePlan) -> None:
-        """Remember what a patient is given to do at home."""
-        of_patients.keep_home_plan(self.store, patient_id, plan)
-
     def goals(self, patient_id: str) -> Goals:
         """The targets that were last set for each exercise and hand of a patient."""
         return of_patients.goals(self.store, patient_id)
-
-
-class KeptPictures:
-    """Pictures kept in a session file, or in a raw recording beside it."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        raw = path.with_suffix(RAW_SUFFIX)
-        self._beside = RawRecording(raw) if raw.exists() else None
-        self._inside = self._beside is None and has_raw(path)
-        self._times_s = read_session(path).timestamp_s if self._beside is not None else np.empty(0)
-
-    def color(self, row: int) -> ByteImage | None:
-        """The colour picture of a row, None when it was not kept."""
-        if self._beside is not None:
-            return self._beside.color_at(float(self._times_s[row]))
-        data = read_raw_color(self.path, row) if self._inside else b""
-        return decode_color(data) if data else None
 
 
 def _as_listed(session: Session, entry: SessionEntry) -> Session:

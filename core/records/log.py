@@ -15,13 +15,15 @@ import json
 import re
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from typing import Literal, get_args
 
 from sqlalchemy import select
 
-from carpus.core.records.changes import new
+from carpus.core.errors import CarpusFault
+from carpus.core.records.changes import PRACTICE, new
 from carpus.core.records.schema import DEED
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import moment
@@ -74,6 +76,38 @@ class Log:
             "subject": fingerprint(identity), "facts": json.dumps(facts),
         }  # fmt: skip
         self._store.do([new(DEED, new_id(), **row)])
+
+
+class Notes:
+    """Takes down what is done with sessions and patients. The practice patient is nobody, and in no log; where the log
+    cannot be written ``on_fault`` is told: what was done is done.
+
+    ``owner`` says whose a session is, and raises KeyError for one that is not in the list.
+    """
+
+    def __init__(self, log: Log, owner: Callable[[str], str], on_fault: Callable[[CarpusFault], None]) -> None:
+        self._log, self._owner, self._on_fault = log, owner, on_fault
+
+    def session(self, did: Deed, session_id: str, **facts: Fact) -> None:
+        """What was done with a session."""
+        with suppress(KeyError):  # of a folder that went away: noted when it comes home
+            if self._owner(session_id) != PRACTICE:
+                self._note(did, "session", session_id, **facts)
+
+    def patient(self, did: Deed, patient_id: str, **facts: Fact) -> None:
+        """What was done with a patient, or with all sessions of one."""
+        if patient_id != PRACTICE:
+            self._note(did, "patient", patient_id, **facts)
+
+    def program(self, did: Deed, **facts: Fact) -> None:
+        """What was done with the program or with everything."""
+        self._note(did, "program", "", **facts)
+
+    def _note(self, did: Deed, kind: Kind, identity: str, **facts: Fact) -> None:
+        try:
+            self._log.note(did, kind, identity, **facts)
+        except CarpusFault as fault:
+            self._on_fault(fault)
 
 
 def fingerprint(identity: str) -> str:

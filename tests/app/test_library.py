@@ -18,6 +18,7 @@ from carpus.app.desktop.patients import PatientShelf
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, SessionUnreadable
 from carpus.core.hand.exercises import exercise_named
+from carpus.core.records import of_sessions
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
@@ -138,7 +139,11 @@ def test_choices_and_comments_are_kept_in_the_store(library: Library) -> None:
     library.keep_choices(session_id, choices)
     for text in ("First.", "Second,\nwith a line.", "Second,\nwith a line.\n", ""):
         library.keep_comment(session_id, text)
-    assert [one.text for one in library.comments(session_id)] == ["First.", "Second,\nwith a line.", ""]
+    assert [one.text for one in of_sessions.comments(library.store, session_id)] == [
+        "First.",
+        "Second,\nwith a line.",
+        "",
+    ]
     assert library.comment(session_id) == ""
     assert library.choices(session_id) == choices
     assert not list(library.folder.rglob("*.json")), "nothing that is typed lies beside a session"

@@ -146,7 +146,7 @@ class BackingUp(QObject):
         )
         thin_out(place, settings.keep, settings.months, self._now())
         note_backup(self._library.store, made.made, str(place), made.sessions, made.size_bytes)
-        self._library.note("backed_up", sessions=made.sessions)
+        self._library.notes.program("backed_up", sessions=made.sessions)
         return made
 
     def _step(self, done: int, total: int) -> None:
@@ -270,7 +270,7 @@ class BackingUp(QObject):
 
         def work() -> Staged:
             staged = restore(backup, content, self._library.folder, progress=self._step, replaces=True)
-            self._library.note("restored", sessions=backup.sessions)
+            self._library.notes.program("restored", sessions=backup.sessions)
             return staged
 
         def done(staged: Staged) -> None:
@@ -311,7 +311,7 @@ class BackingUp(QObject):
                 sessions=self._library.store.sessions_folder, settings_folder=self._settings_folder,
                 progress=self._step,
             )  # fmt: skip
-            self._library.note("backed_up", sessions=made.sessions, sealed=1)
+            self._library.notes.program("backed_up", sessions=made.sessions, sealed=1)
             return made
 
         def done(made: Backup) -> None:

@@ -114,7 +114,7 @@ class Locking(QObject):
         for widget in self._hidden:
             widget.setProperty("shown_before_lock", not widget.isHidden())
             widget.hide()
-        self._library.note("locked", idle=int(minutes > 0))
+        self._library.notes.program("locked", idle=int(minutes > 0))
 
     def _try(self, typed: str) -> None:
         try:
@@ -126,10 +126,10 @@ class Locking(QObject):
                 self.sheet.pause(WAIT_MS // 1000)  # what cannot be counted is not tried without end
             return
         if not tried.opened:
-            self._library.note("pin_refused", left=tried.left)
+            self._library.notes.program("pin_refused", left=tried.left)
             self.sheet.refuse(tried.left, round(tried.pause_s))
             return
-        self._library.note("unlocked")
+        self._library.notes.program("unlocked")
         self.hides.emit(False)
         for widget in self._hidden:
             widget.setVisible(bool(widget.property("shown_before_lock")))
@@ -141,7 +141,7 @@ class Locking(QObject):
             if self.pin.is_set:
                 tried = self.pin.try_it(old)
                 if not tried.opened:
-                    self._library.note("pin_refused", left=tried.left)
+                    self._library.notes.program("pin_refused", left=tried.left)
                     words = self.tr("The PIN until now is another one.")
                     wait = self.tr("Too many tries. The next one in {seconds} s.").format(seconds=round(tried.pause_s))
                     self.pin_sheet.say(wait if tried.pause_s else words)
@@ -154,7 +154,7 @@ class Locking(QObject):
             self.pin_sheet.close_sheet()
             self._context.messages.fault(fault)
             return
-        self._library.note("pin_changed", set=int(bool(new)))
+        self._library.notes.program("pin_changed", set=int(bool(new)))
         self.pin_sheet.close_sheet()
         self.card.show_pin(is_set=self.pin.is_set)
         self._restart()

@@ -11,6 +11,7 @@ from PySide6.QtCore import QLocale, QObject
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.errors import CarpusFault
+from carpus.core.records import of_clinic, of_patients
 from carpus.core.records.of_clinic import keep_form, read_form
 from carpus.core.results.report_form import ReportForm, usual_paper
 from carpus.ui.flow import Flow, ScreenContext
@@ -127,7 +128,9 @@ class ReportFlow(Flow):
         row = self.context.now.patient
         if row is not None:
             self._letter_of = report
-            self.letter.begin(self._tried(self.context.library.recipients) or [], has_name=bool(row.name))
+            self.letter.begin(
+                self._tried(lambda: of_clinic.recipients(self.context.library.store)) or [], has_name=bool(row.name)
+            )
 
     def _show_letter(self, recipient: str, language: str, named: bool) -> None:
         """The real name goes no further than the letter's page."""
@@ -135,13 +138,17 @@ class ReportFlow(Flow):
         if row is None or report is None:
             return
         if recipient:
-            self._tried(lambda: self.context.library.remember_recipient(recipient))
+            self._tried(lambda: of_clinic.remember_recipient(self.context.library.store, recipient))
         self._begin(LetterReport(report, recipient, self.context.today(), row.name if named else "", language))
 
     def _ask_home(self, report: SessionReport) -> None:
         row = self.context.now.patient
         if row is not None:
-            last = self._tried(lambda: self.context.library.home_plan(row.patient_id)) if row.patient_id else None
+            last = (
+                self._tried(lambda: of_patients.home_plan(self.context.library.store, row.patient_id))
+                if row.patient_id
+                else None
+            )
             self.home.begin(report, self.context.today(), last)
 
     def _show_home(self, home: HomeReport) -> None:
@@ -151,7 +158,7 @@ class ReportFlow(Flow):
         if row is None:
             return
         if row.patient_id:
-            self._tried(lambda: stored.keep_home_plan(row.patient_id, home.plan))
+            self._tried(lambda: of_patients.keep_home_plan(stored.store, row.patient_id, home.plan))
 
         def gather() -> HomeReport:
             history, goals = stored.history(row.patient_id), stored.goals(row.patient_id)

@@ -134,13 +134,13 @@ class SessionShelf:
 
     def move(self, session_id: str, patient_id: str) -> None:
         """Give it to another patient."""
-        self._library.forget_pictures()
+        self._library.pictures.forget()
         self._library.index.move(session_id, patient_id)
-        self._library.note_session("moved", session_id, to=fingerprint(patient_id))
+        self._library.notes.session("moved", session_id, to=fingerprint(patient_id))
         self._library.forget_figures(session_id)
 
     def rename_exercise(self, session_id: str, exercise: str) -> None:
         """Say that it was another exercise."""
         self._library.index.rename_exercise(session_id, exercise)
-        self._library.note_session("renamed", session_id, exercise=exercise.lower())
+        self._library.notes.session("renamed", session_id, exercise=exercise.lower())
         self._library.forget_figures(session_id)
