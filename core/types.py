@@ -120,6 +120,10 @@ class Detections:
             self.fingers,
         )
 
+    def with_readings(self, surface: SurfaceSamples | None, fingers: SurfaceSamples | None) -> Detections:
+        """The blobs with depth readings."""
+        return Detections(self.pixel, self.depth_m, self.depth_sd_m, self.area_px, self.similarity, surface, fingers)
+
     def __len__(self) -> int:
         return int(self.pixel.shape[0])
 

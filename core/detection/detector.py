@@ -118,12 +118,9 @@ class Detector:
             depth, depth_sd = blob_depths(
                 raw.take(pixels[:, stencil.near]), core, frame.depth_unit_m, settings, self._camera.sensor
             )
-        return self._kept(Detections(centre, depth, depth_sd, area, similarity), skin_share)
-
-    def _kept(self, blobs: Detections, skin_share: FloatArray) -> Detections:
-        """Those that look like a disc and lie on skin."""
-        return blobs.only(
-            (blobs.similarity >= self._looks.least_similarity) & (skin_share >= self._settings.skin_share)
+        # Those that look like a disc and lie on skin.
+        return Detections(centre, depth, depth_sd, area, similarity).only(
+            (similarity >= self._looks.least_similarity) & (skin_share >= self._settings.skin_share)
         )
 
     def _detected(self, kernels: Kernels, frame: Frame, region: Region) -> Detections:
@@ -144,7 +141,7 @@ class Detector:
         if not (count := found.item()):
             return Detections.none()
         stencil = stencil_for(median(radius_px[:count].tolist()), settings.stencil, sensor.edge_px)
-        centre, (area, similarity, skin_share, depth, depth_sd) = np.empty((count, 2)), np.empty((5, count))
+        centre, (area, similarity, depth, depth_sd) = np.empty((count, 2)), np.empty((4, count))
         kernels.blobs_measured(
             count, own[:count], rough_px[:count], left, top, *shape, labels, look, *seen,
             frame.depth_unit_m, stencil.row.size, stencil.row, stencil.column, stencil.reach,
@@ -154,9 +151,10 @@ class Detector:
             settings.depth_iqr_m, settings.depth_valid_share, settings.fewest_readings,
             settings.edge_step_m, settings.edge_sd_m, settings.slope_share,
             sensor.reading.fixed_m, sensor.reading.square_per_m, sensor.patch_px, sensor.averages,
-            centre, area, similarity, skin_share, depth, depth_sd,
+            self._looks.least_similarity, settings.skin_share, centre, area, similarity, depth, depth_sd, found,
         )  # fmt: skip
-        return self._kept(Detections(centre, depth, depth_sd, area, similarity), skin_share)
+        kept = found.item()
+        return Detections(centre[:kept], depth[:kept], depth_sd[:kept], area[:kept], similarity[:kept])
 
     def _likeness(self, hsv: NDArray[np.uint32], outline: Outline, stencil: Stencil) -> tuple[FloatArray, FloatArray]:
         """Bhattacharyya coefficient (B,) of each blob's colours to the reference; share (B,) of skin in its rim.

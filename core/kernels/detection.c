@@ -400,8 +400,8 @@ int blobs_measured(
     int rim_from, int rim_to, const float *wedge, const int64_t *pick, const uint8_t *cell, const uint8_t *is_skin,
     int cells, const double *reference, double low, double high, double fewest_rim, double fewest_core, double iqr_m,
     double valid_share, double fewest_readings, double edge_step, double edge_sd, double slope_share, double fixed_m,
-    double square_per_m, double patch, int averages, double *centre, double *area, double *similarity,
-    double *skin_share, double *depth, double *depth_sd)
+    double square_per_m, double patch, int averages, double least_similarity, double least_skin, double *centre,
+    double *area, double *similarity, double *depth, double *depth_sd, int32_t *kept)
 {
     if (left < 0 || top < 0 || left + width > whole_width || top + height > whole_height)
         return OUTSIDE;
@@ -412,8 +412,10 @@ int blobs_measured(
     double *counts = work, *inner = counts + cells, *ordered = inner + pixels;
     int *at = (int *)(ordered + pixels), *in_whole = at + pixels;
     uint8_t *mine = (uint8_t *)(in_whole + pixels), *free_of = mine + pixels;
-    for (int b = 0; b < blobs; b++) {
-        const double middle_u = nearbyint(rough[2 * b]), middle_v = nearbyint(rough[2 * b + 1]);
+    *kept = 0;
+    for (int found = 0; found < blobs; found++) {
+        const int b = *kept;
+        const double middle_u = nearbyint(rough[2 * found]), middle_v = nearbyint(rough[2 * found + 1]);
         const int mu = (int)middle_u, mv = (int)middle_v;
         int total = 0;
         memset(counts, 0, sizeof(double) * (size_t)cells);
@@ -424,7 +426,7 @@ int blobs_measured(
             v = v < 0 ? 0 : v >= height ? height - 1 : v;
             at[p] = v * width + u;
             in_whole[p] = (v + top) * whole_width + u + left;
-            mine[p] = inside && labels[at[p]] == own[b];
+            mine[p] = inside && labels[at[p]] == own[found];
             free_of[p] = inside && labels[at[p]] == 0;
             if (mine[p]) {
                 counts[cell[look[at[p]]]] += 1.0;
@@ -453,7 +455,10 @@ int blobs_measured(
                     for (int k = 0; k < 4; k++)
                         ground[w][k] += seen[k];
         }
-        skin_share[b] = skins / (rim[3] > 1.0 ? rim[3] : 1.0);
+        /* Those that look like a disc and lie on skin. */
+        if (!(similarity[b] >= least_similarity) || !(skins / (rim[3] > 1.0 ? rim[3] : 1.0) >= least_skin))
+            continue;
+        ++*kept;
         for (int p = 0; p < pixels; p++)
             if (mine[p]) {
                 const uint8_t *c = color + 3 * (size_t)in_whole[p];

@@ -1,5 +1,6 @@
 /* Thumb and fingers: core/tracking/hand_geometry.py, digit_filter.py, digit_association.py and finger_model.py in C. */
 #include "algebra.h"
+#include "filter.h"
 #include "kernels.h"
 
 enum { CHAINS = 5, DIGIT = 21, SLOTS = 5, BENT = 6, OTHER = 10, JOINED = 16, POINTS = 2 * BENT + 1, SEEN = 9 };
@@ -158,10 +159,12 @@ int digits_spread(
 
 int digits_linearised(
     const double *disc_m, const double *unroot, const double *along, const double *by_constants, const double *covariance,
-    const double *rotation, const double *translation, double fx, double fy, double cx, double cy, double mean_middle,
-    double mean_other, double spread_middle, double spread_other, double scale, double *out_value, double *out_slope,
-    double *out_error, double *out_spread, double *centre_m, double *by_place)
+    const double *rotation, const double *translation, double fx, double fy, double cx, double cy,
+    const double *weights, double *out_value, double *out_slope, double *out_error, double *out_spread,
+    double *centre_m, double *by_place)
 {
+    const double mean_middle = weights[0], mean_other = weights[1], spread_middle = weights[2];
+    const double spread_other = weights[3], scale = weights[4];
     for (int r = 0; r < CHAINS; r++) {
         double image[POINTS][SEEN], half[BENT * SEEN], bend[BENT][SEEN], constants[SEEN * OTHER];
         double *value = out_value + r * SEEN, *slope = out_slope + r * SEEN * DIGIT, *error = out_error + r * SEEN * SEEN;
@@ -246,7 +249,7 @@ static void by_turn(const double *by_place, const double *from, const double *at
     }
 }
 
-int digits_scene(
+static void scene(
     const double *covariance, const double *line_spread, const double *centre_m, const double *by_place,
     const double *normal, const double *rotation, const double *translation, const double *pose_covariance,
     const double *bends, const double *visible, double dt_s, double shown_s, double hidden_s, double steepest,
@@ -287,7 +290,6 @@ int digits_scene(
         for (int k = 0; k < SEEN * SEEN; k++)
             out_spread[r * SEEN * SEEN + k] = line_spread[r * SEEN * SEEN + k] + shift[r * SEEN * SEEN + k];
     }
-    return 0;
 }
 
 /* What the blobs as named measure of the discs, and how surely. */
@@ -333,6 +335,143 @@ int digits_measured(
     return 0;
 }
 
+/* The digits a step ahead, their modes mixed before, and sigma points of them all: finger_model.py and digit_filter.py.
+   `motion` has what is fixed: how fast slots with a variance in the long run return, how long modes last, rates are
+   remembered, and slots take to be anywhere; of each slot the density, that variance, whether it moves and its variance
+   over its range; the constants' drift; and the modes' scales, squared. */
+int digits_ahead(
+    int modes, double dt, const double *motion, const double *unseen_s, const double *mean, const double *covariance,
+    const double *probability, const double *roots, double floor, double scale, double *out_mean, double *out_covariance,
+    double *out_probability, double *whole_mean, double *whole, double *disc_m, double *unroot, double *along,
+    double *by_constants, double *normal)
+{
+    enum { ALL = CHAINS * SLOTS, CONSTANTS = DIGIT - 2 * SLOTS };
+    const double settles_s = motion[0], dwell_s = motion[1], memory_s = motion[2], anywhere_s = motion[3];
+    const double *density = motion + 4, *stationary = density + ALL, *moves = stationary + ALL, *range2 = moves + ALL;
+    const double *drift = range2 + ALL, *scales2 = drift + CHAINS * CONSTANTS;
+    const double leave = 1.0 - exp(-dt / dwell_s), remembered = exp(-dt / memory_s);
+    double change[modes * modes], forward[CHAINS * DIGIT * DIGIT] = {0.0}, noise[CHAINS * modes * DIGIT * DIGIT];
+    for (int i = 0; i < modes; i++)
+        for (int j = 0; j < modes; j++)
+            change[i * modes + j] = modes == 1 ? 1.0 : i == j ? 1.0 - leave : leave / (modes - 1);
+    memset(noise, 0, sizeof noise);
+    for (int r = 0; r < CHAINS; r++) {
+        double *ahead = forward + r * DIGIT * DIGIT;
+        for (int j = 0; j < DIGIT; j++)
+            ahead[j * (DIGIT + 1)] = 1.0;
+        for (int s = 0; s < SLOTS; s++) {
+            const int at = r * SLOTS + s, rate = SLOTS + s;
+            const double stays = stationary[at] > 0.0 ? exp(-dt / settles_s) : 1.0;
+            double keep = 1.0, angle2 = 0.0, rate2 = 0.0;
+            if (unseen_s[at] > 0.0 && moves[at] != 0.0) {
+                const double before = fmin(unseen_s[at], anywhere_s) / anywhere_s;
+                const double after = fmin(unseen_s[at] + dt, anywhere_s) / anywhere_s;
+                double speed = 0.0;
+                for (int k = 0; k < modes; k++)
+                    speed += probability[r * modes + k] * mean[(r * modes + k) * DIGIT + rate];
+                keep = remembered;
+                angle2 = range2[at] * (after * after * after - before * before * before +
+                                       (before >= 1.0 ? dt / anywhere_s : 0.0));
+                rate2 = (1.0 - keep * keep) * speed * speed;
+            }
+            ahead[s * DIGIT + s] = stays;
+            ahead[s * DIGIT + rate] = keep * dt;
+            ahead[rate * DIGIT + rate] = keep;
+            for (int k = 0; k < modes; k++) {
+                double *own = noise + (size_t)(r * modes + k) * DIGIT * DIGIT;
+                own[s * DIGIT + s] = density[at] * (dt * dt * dt / 3.0) * scales2[k] + stationary[at] * (1.0 - stays * stays) + angle2;
+                own[s * DIGIT + rate] = own[rate * DIGIT + s] = density[at] * (0.5 * dt * dt) * scales2[k];
+                own[rate * DIGIT + rate] = density[at] * dt * scales2[k] + rate2;
+            }
+        }
+        for (int k = 0; k < modes; k++)
+            for (int j = 0; j < CONSTANTS; j++)
+                noise[((size_t)(r * modes + k) * DIGIT + 2 * SLOTS + j) * DIGIT + 2 * SLOTS + j] = drift[r * CONSTANTS + j] * dt;
+    }
+    predicted(CHAINS, modes, DIGIT, change, mean, covariance, probability, forward, noise, out_mean, out_covariance,
+              out_probability);
+    if (!whole)
+        return 0;
+    merged(CHAINS, modes, DIGIT, out_mean, out_covariance, out_probability, whole_mean, whole);
+    return digits_spread(whole_mean, whole, roots, floor, scale, disc_m, unroot, along, by_constants, normal);
+}
+
+/* What the camera should see of the digits and how surely, each disc named by itself, and all digits corrected as named:
+   fingers.py. `ordinary` where all odds are known; where not, only the first of it is done. `settled` where nothing of it
+   is doubted: all are jointly compatible, and no disc is named that was not seen a moment ago, nor the end of the thumb
+   alone. Of the digits come in turn: `nine` what is expected, measured, its variance, the residuals; `square` covariances of
+   what is not linear, of the images by the digits, by the palm, by both; `rows` of the discs the chance to be seen, the
+   tilt, pixels for each square metre, and the area in pixels and in square metres. */
+int digits_named(
+    int modes, int blobs, const double *disc_m, const double *unroot, const double *along, const double *by_constants,
+    const double *normal, const double *whole_mean, const double *whole, const double *rotation, const double *translation,
+    const double *pose_covariance, double fx, double fy, double cx, double cy, const double *weights, const double *bends,
+    const double *visible, double dt, double shown_s, double hidden_s, double steepest, double steepest_sd,
+    double least_seen, double most_seen, double least_facing, const double *value, const double *variance,
+    const double *area, const uint8_t *is_free, const double *disc_m2, const double *noise_factor, const uint8_t *has_discs,
+    double prior, double depth_range, double outlier, double gate2, double impossible, double assumed, double whole_from,
+    double shade_share, double radius_m, double crowded_radii, double crowded_px, double pixel_sd, double skin_px,
+    double flat, double learning, const double *mean, const double *covariance, const double *probability, double *nine,
+    double *square, double *rows, double *slope, double *centre_m, double *by_place, double *out_mean,
+    double *out_covariance, double *out_probability, int64_t *assigned, uint8_t *with_depth, double *nis, int64_t *dof,
+    const double *most_nis, double was_seen, uint8_t *ordinary, uint8_t *settled)
+{
+    enum { ALL = CHAINS * 3, NINE = CHAINS * SEEN, SQUARE = CHAINS * SEEN * SEEN };
+    const int most = blobs > 0 ? blobs : 1;
+    double *expected = nine, *measured = nine + NINE, *noise = measured + NINE, *residual = noise + NINE;
+    double *error = square, *by_digits = square + SQUARE, *by_palm = by_digits + SQUARE, *by_both = by_palm + SQUARE;
+    double *seen = rows, *tilt = rows + ALL, *facing = tilt + ALL, *whole_px = facing + ALL, *out_m2 = whole_px + ALL;
+    double odds[ALL * most], own[ALL * 9], left[3 * most], left_variance[3 * most], share[DIGIT];
+    uint8_t deep[ALL * most];
+    int64_t blob_of[most];
+    int free_blobs = 0;
+    digits_linearised(disc_m, unroot, along, by_constants, whole, rotation, translation, fx, fy, cx, cy, weights, expected,
+                      slope, error, by_digits, centre_m, by_place);
+    scene(whole, by_digits, centre_m, by_place, normal, rotation, translation, pose_covariance, bends, visible, dt, shown_s,
+          hidden_s, steepest, steepest_sd, least_seen, most_seen, least_facing, fx, by_palm, by_both, seen, tilt, facing);
+    *ordinary = 0;
+    *settled = 1;
+    for (int d = 0; d < ALL; d++)
+        whole_px[d] = disc_m2[d] * facing[d];
+    for (int b = 0; b < blobs; b++)
+        if (is_free[b]) {
+            memcpy(left + 3 * free_blobs, value + 3 * b, 3 * sizeof *left);
+            memcpy(left_variance + 3 * free_blobs, variance + 3 * b, 3 * sizeof *left);
+            blob_of[free_blobs++] = b;
+        }
+    for (int d = 0; d < ALL; d++)
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                own[9 * d + 3 * i + j] = by_both[81 * (d / 3) + (3 * (d % 3) + i) * SEEN + 3 * (d % 3) + j];
+    log_odds(ALL, free_blobs, expected, own, left, left_variance, prior, depth_range, outlier, gate2, impossible, odds, deep);
+    for (int d = 0; d < ALL; d++)
+        for (int b = 0; b < free_blobs; b++)
+            odds[d * free_blobs + b] =
+                has_discs[d / 3] ? odds[d * free_blobs + b] + (log(seen[d] / (1.0 - seen[d])) - assumed) : impossible;
+    if (!resolved(ALL, free_blobs, odds, assigned))
+        return 0;
+    for (int d = 0; d < ALL; d++) {
+        with_depth[d] = assigned[d] >= 0 && deep[d * free_blobs + assigned[d]];
+        assigned[d] = assigned[d] >= 0 ? blob_of[assigned[d]] : -1;
+        out_m2[d] = assigned[d] >= 0 && tilt[d] < flat ? area[assigned[d]] / facing[d] : NAN;
+    }
+    digits_measured(blobs, assigned, with_depth, value, variance, area, whole_px, expected, noise_factor, whole_from,
+                    shade_share, radius_m, fx, crowded_radii, crowded_px, pixel_sd, skin_px, measured, noise);
+    for (int j = 0; j < DIGIT; j++)
+        share[j] = j < 2 * SLOTS ? 1.0 : learning;
+    const int failed = corrected(CHAINS, modes, DIGIT, SEEN, mean, covariance, probability, expected, slope, error, whole_mean,
+                                 measured, noise, by_palm, share, out_mean, out_covariance, out_probability, nis, dof, residual);
+    *ordinary = !failed;
+    for (int r = 0; r < CHAINS; r++) {
+        int back = !r && assigned[2] >= 0 && assigned[1] < 0;
+        for (int d = 3 * r; d < 3 * r + 3; d++)
+            back |= assigned[d] >= 0 && seen[d] < was_seen;
+        if (back || (dof[r] && !(nis[r] <= most_nis[dof[r]])))
+            *settled = 0;
+    }
+    return failed;
+}
+
 /* X of A X = B, A (n, n) and B (n, m) spoilt, by elimination with pivots; 1 where A is singular. */
 static int solved(double *a, double *b, int n, int m)
 {
@@ -366,19 +505,25 @@ static int solved(double *a, double *b, int n, int m)
     return 0;
 }
 
-/* Places of joints and discs, and the covariance (5, 5, 5) that the slots inherit. */
+/* Joint angles, how sure and how fast; places of joints and discs: finger_model.py, read. */
 int digits_read(
     const double *mean, const double *covariance, const double *slope, const double *centre_m, const double *by_place,
-    const double *roots, const double *rotation, const double *translation, const double *turn_covariance, double fx,
-    double fy, double across_m, double depth_stays, double share, double narrow2, int coupled, double *inherited,
-    double *centres, double *disc_cam)
+    const double *palm_m, const double *rotation, const double *translation, const double *turn_covariance,
+    const double *cup, const double *cup_sd, const double *settings, int joints_read,
+    const int64_t *chain, const double *weight, int sites_read, const int64_t *site, double *angle, double *sd, double *rate,
+    double *place, double *disc_cam)
 {
+    enum { FLEXION = 1, SITES = 1 + 4 * CHAINS };
+    const double fx = settings[0], fy = settings[1], across_m = settings[2], depth_stays = settings[3], share = settings[4];
+    const double narrow2 = settings[5], wrist_m = settings[7], mirror = settings[8], *roots = palm_m + 3;
+    const int coupled = settings[6] != 0.0;
+    double inherited[CHAINS * SLOTS * SLOTS], centres[3 * SITES] = {0.0, 0.0, -wrist_m};
     for (int r = 0; r < CHAINS; r++) {
         double s[JOINED], direction[9], normal[9], joint[12], bound[9];
         joined(mean + r * DIGIT, s);
         frames_of(r, s, direction, normal);
         joints_of(s, roots + 3 * r, direction, joint);
-        memcpy(centres + 12 * r, joint, sizeof joint);
+        memcpy(centres + 3 + 12 * r, joint, sizeof joint);
         double unit[SEEN], by[SEEN * SLOTS], root_m[3], turned[SEEN * 3], seen[SEEN];
         times3(rotation, roots + 3 * r, root_m);
         for (int k = 0; k < 3; k++)
@@ -440,8 +585,31 @@ int digits_read(
         if (coupled && r) {
             s[3] = 0.0;
             frames_of(r, s, bound, normal);
-            joints_of(s, roots + 3 * r, bound, centres + 12 * r);
+            joints_of(s, roots + 3 * r, bound, centres + 3 + 12 * r);
         }
+    }
+    for (int j = 0; j < joints_read; j++) {
+        const int r = (int)chain[j];
+        const double *by = weight + SLOTS * j, *at = mean + r * DIGIT, *wide = covariance + (size_t)r * DIGIT * DIGIT;
+        double variance = 0.0;
+        if (r < 0 || r >= CHAINS)
+            return OUTSIDE;
+        /* A knuckle's flexion is against its own metacarpal. */
+        angle[j] = dot(by, at, SLOTS) - by[FLEXION] * cup[r];
+        rate[j] = dot(by, at + SLOTS, SLOTS);
+        for (int i = 0; i < SLOTS; i++)
+            for (int l = 0; l < SLOTS; l++) {
+                double own = wide[i * DIGIT + l] + inherited[(r * SLOTS + i) * SLOTS + l];
+                own += i == l ? settings[9] + (i == FLEXION ? cup_sd[r] * cup_sd[r] : 0.0) : 0.0;
+                variance += by[i] * own * by[l];
+            }
+        sd[j] = sqrt(variance < 0.0 ? 0.0 : variance);
+    }
+    for (int m = 0; m < sites_read; m++) {
+        if (site[m] < 0 || site[m] >= SITES)
+            return OUTSIDE;
+        memcpy(place + 3 * m, centres + 3 * site[m], 3 * sizeof *place);
+        place[3 * m + 1] *= mirror;
     }
     return 0;
 }
@@ -464,23 +632,32 @@ static void softened(double *mean, double *variance, double edge, double soft)
     *variance -= *variance * *variance * ratio * (z + ratio) / total;
 }
 
-/* The digits with the limits of their joints taken into account; `pulled` tells of each digit whether any was near. */
-int digits_limited(
-    int modes, int size, const double *mean, const double *covariance, const double *slots, const double *limits,
-    const double *direction, double abduction, double soft, double near_sd, double *out_mean, double *out_covariance,
-    uint8_t *pulled)
+/* Lowest and highest of the angles of a digit: joint_limits.py, slot_limits_rad. */
+static void limits_of(int chain, const double *slots, const double *limits, double abduction, double edge[SLOTS][2])
 {
-    const int n = size, nn = n * n;
+    memcpy(edge, limits + chain * SLOTS * 2, sizeof(double) * SLOTS * 2);
+    if (chain) {
+        const double bent = cos(slots[1]);
+        edge[0][1] = abduction * (bent < 0.0 ? 0.0 : bent);
+        edge[0][0] = -edge[0][1];
+    }
+}
+
+/* The digits with the limits of their joints taken into account, and merged; `misread` of each whether a picture has bent
+   it as no finger bends: finger_model.py, within_reach. */
+int digits_settled(
+    int modes, const double *mean, const double *covariance, const double *probability, const double *limits,
+    const double *direction, double abduction, double soft, double near_sd, double most_beyond, double *out_mean,
+    double *out_covariance, double *whole_mean, double *whole, uint8_t *misread)
+{
+    const int n = DIGIT, nn = n * n;
+    uint8_t pulled[CHAINS], any = 0;
+    merged(CHAINS, modes, n, mean, covariance, probability, whole_mean, whole);
     for (int r = 0; r < CHAINS; r++) {
         double edge[SLOTS][2], across[modes][n * SLOTS], shared[modes][SLOTS * SLOTS], angle[modes][SLOTS];
         uint8_t near[modes][SLOTS];
         const double *turn = direction + r * SLOTS * SLOTS;
-        memcpy(edge, limits + r * SLOTS * 2, sizeof edge);
-        if (r) {
-            const double bent = cos(slots[r * SLOTS + 1]);
-            edge[0][1] = abduction * (bent < 0.0 ? 0.0 : bent);
-            edge[0][0] = -edge[0][1];
-        }
+        limits_of(r, whole_mean + r * n, limits, abduction, edge);
         pulled[r] = 0;
         for (int k = 0; k < modes; k++) {
             const double *at = mean + (r * modes + k) * n, *wide = covariance + (size_t)(r * modes + k) * nn;
@@ -534,8 +711,49 @@ int digits_limited(
                         wide[a * n + b] -= gain[j * n + a] * precision[j] * across[k][b * SLOTS + j];
             }
         }
+        any |= pulled[r];
+    }
+    if (any)
+        merged(CHAINS, modes, n, out_mean, out_covariance, probability, whole_mean, whole);
+    for (int r = 0; r < CHAINS; r++) {
+        double edge[SLOTS][2];
+        limits_of(r, whole_mean + r * n, limits, abduction, edge);
+        misread[r] = 0;
+        for (int j = 0; j < SLOTS; j++) {
+            const double angle = dot(direction + (r * SLOTS + j) * SLOTS, whole_mean + r * n, SLOTS);
+            misread[r] |= angle - edge[j][1] > most_beyond || edge[j][0] - angle > most_beyond;
+        }
     }
     return 0;
+}
+
+/* What is remembered of the discs after an accepted frame: fingers.py, accept. */
+int digits_accepted(
+    double dt, const int64_t *assigned, const double *visible, double missed, double most_seen, const uint8_t *shows,
+    const double *unseen_s, const int64_t *missing, int least_discs, const double *residual, const double *measured,
+    const double *factor, double weight, double least, double most, const double *disc_m2, const double *now_m2, double grows,
+    double shrinks, double *out_visible, double *out_unseen_s, int64_t *out_missing, double *out_factor, double *out_m2)
+{
+    uint8_t is_measured[CHAINS * SEEN];
+    for (int r = 0; r < CHAINS; r++) {
+        int count = 0;
+        for (int d = 3 * r; d < 3 * r + 3; d++) {
+            const double known = disc_m2[d], now = now_m2[d], by = now > known ? grows : shrinks;
+            count += assigned[d] >= 0;
+            out_visible[d] = assigned[d] >= 0 ? most_seen : visible[d] * missed / (1.0 - (1.0 - missed) * visible[d]);
+            out_m2[d] = !isfinite(now) ? known : isnan(known) ? now : known + by * (now - known);
+        }
+        for (int s = SLOTS * r; s < SLOTS * (r + 1); s++) {
+            out_unseen_s[s] = unseen_s[s] + dt;
+            for (int d = 0; d < 3; d++)
+                if (shows[3 * s + d] && assigned[3 * r + d] >= 0)
+                    out_unseen_s[s] = 0.0;
+        }
+        out_missing[r] = count < least_discs ? missing[r] + 1 : 0;
+    }
+    for (int k = 0; k < CHAINS * SEEN; k++)
+        is_measured[k] = weight > 0.0 && isfinite(measured[k]);
+    return adapted_factors(CHAINS * 3, factor, residual, is_measured, weight, least, most, out_factor);
 }
 
 int knuckles_bent(

@@ -1,5 +1,6 @@
 /* The filter's step: core/tracking/kernel.py in C. Covariances are symmetric: of what comes in the lower half is read. */
 #include "algebra.h"
+#include "filter.h"
 #include "kernels.h"
 
 static const double LEAST_PROBABILITY = 1e-6;
@@ -216,7 +217,8 @@ int merged(
     return 0;
 }
 
-int transitioned(
+/* kernel.py, transitioned. */
+void transitioned(
     int modes, int size, int mixing, int relaxing, const double *change, const double *mean, const double *covariance,
     const double *probability, const double *moving, const double *driven, const double *kept, const double *stationary,
     const double *nominal, double *out_mean, double *out_covariance, double *out_probability)
@@ -250,10 +252,10 @@ int transitioned(
             for (int j = 0; j < r; j++)
                 wide[(first + i) * n + first + j] += stationary[(k * r + i) * r + j];
     }
-    return 0;
 }
 
-int predicted(
+/* kernel.py, predicted. */
+void predicted(
     int chains, int modes, int size, const double *change, const double *mean, const double *covariance,
     const double *probability, const double *forward, const double *noise, double *out_mean, double *out_covariance,
     double *out_probability)
@@ -276,5 +278,4 @@ int predicted(
             product(wide, n, half, n, 1, turned, n, n, n, n, ADD);
         }
     }
-    return 0;
 }

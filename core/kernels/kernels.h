@@ -32,71 +32,67 @@ KERNEL int corrected(
     double out_mean[chains * modes * size],
     double out_covariance[chains * modes * size * size], double out_probability[chains * modes], double nis[chains],
     int64_t dof[chains], double residual[chains * count]);
-KERNEL int transitioned(
-    int modes, int size, int mixing, int relaxing, const double change[modes * modes],
-    const double mean[modes * size], const double covariance[modes * size * size], const double probability[modes],
-    const double moving[mixing * mixing], const double driven[modes * mixing * mixing],
-    const double kept[modes * size], const double stationary[modes * relaxing * relaxing], const double nominal[size],
-    double out_mean[modes * size], double out_covariance[modes * size * size], double out_probability[modes]);
-KERNEL int predicted(
-    int chains, int modes, int size, const double change[modes * modes], const double mean[chains * modes * size],
-    const double covariance[chains * modes * size * size], const double probability[chains * modes],
-    const double forward[chains * size * size], const double noise[chains * modes * size * size],
-    double out_mean[chains * modes * size], double out_covariance[chains * modes * size * size],
-    double out_probability[chains * modes]);
 KERNEL int merged(
     int chains, int modes, int size, const double mean[chains * modes * size],
     const double covariance[chains * modes * size * size], const double probability[chains * modes],
     double whole_mean[chains * size], double whole[chains * size * size]);
 
 /* palm.c */
-KERNEL int palm_ahead(
-    int modes, int tissues, int resting, int scales, double dt, const double *scale_of, const int64_t *tissue_of,
-    const double *stationary, const double *between, const double *soft, double dwell, double push,
-    double turning, double unseen_scale, const double *unseen, const double *mean, const double *covariance,
-    const double *probability, const double *value, const double *rotation, double *out_mean, double *out_covariance,
-    double *out_probability, double *out_value, double *out_rotation, double *whole);
-KERNEL int palm_linearised(
-    const double *value, const double *covariance, const double *rotation, const double *palm, const double *hidden,
-    const double *image, const double *shift, const double *rotation_w0_cam, double fx, double fy, double cx, double cy,
-    double floor, double mean_middle, double mean_other, double spread_middle, double spread_other, double scale,
-    double *out_value, double *out_slope, double *out_error);
-KERNEL int palm_expected(
-    int modes, const double *covariance, const double *mean, const double *probability, const double *value,
-    const double *slope, const double *error, double *out_mean, double *out_covariance);
-KERNEL int error_reset(
-    int modes, const double *mean, const double *covariance, const double *probability, const double *value,
-    const double *rotation, double *out_mean, double *out_covariance, double *out_value, double *out_rotation);
+KERNEL int palm_sighted(
+    int modes, const double mean[modes * 54], const double *probability, const double *value, const double *covariance,
+    const double *rotation, const double *view, const double *weights, double floor, double *line, double *slope,
+    double *error, double *out_mean, double *out_covariance);
+KERNEL int palm_predicted(
+    int modes, int tissues, int resting, int scales, double dt,
+    const double motion[7 + 2 * modes + tissues * (462 + tissues)], double thumb, double fingers, double news, double stale,
+    const double *view, const double *weights, double floor, const double *unseen, const double mean[modes * 54],
+    const double *covariance, const double *probability, const double *value, const double *rotation, double *out_mean,
+    double *out_covariance, double *out_probability, double *out_value, double *out_rotation, double *whole,
+    double *partial, double *line, double *slope, double *error, double *expected, double *expected_covariance);
+KERNEL int palm_named(
+    int modes, int blobs, const double *expected, const double *covariance, const double value[blobs * 3],
+    const double variance[blobs * 3], const double *noise_factor, double prior, double depth_range, double outlier,
+    double gate2, double impossible, int enough, const double *most_nis, int most_outliers, double outlier_sd,
+    const double mean[modes * 54], const double *wide, const double *probability, const double *line, const double *slope,
+    const double *error, const double *partial, double *out_mean, double *out_covariance, double *out_probability,
+    int64_t *assigned, uint8_t *used, double *residual, double *raw, double *nis, int64_t *dof, uint8_t *ordinary);
+KERNEL int palm_reset(
+    int modes, const double mean[modes * 54], const double *covariance, const double *probability, const double *value,
+    const double *rotation, int count, const double pixel[count * 2], const double depth[count], const double *view, int rows,
+    int columns, const double *plane, const double *to_node, const double *middle, int steps, double huber, double most,
+    int least, double share_in, double reading_per_m, double turn_sd, double up_sd, double goes_on, double most_nis,
+    const double *partial, double *out_mean, double *out_covariance, double *out_probability, double *whole,
+    double *out_value, double *out_rotation, uint8_t *levelled);
 KERNEL int log_odds(
     int markers, int blobs, const double expected[markers * 3], const double covariance[markers * 9],
     const double measured[blobs * 3], const double variance[blobs * 3], double prior, double depth_range,
     double outlier, double gate2, double impossible, double out[markers * blobs], uint8_t with_depth[markers * blobs]);
 KERNEL int wrist_read(
-    const double *axes, const double *sensitivity, const double *place, const double *value, const double *rotation,
-    const double *covariance, const double *start, const double *stays, double side, double undefined_below,
-    double *position, double *shown, double *rate, double *angles, double *sd, double *zyz);
+    const double *known, const double *sensitivity, const double *about, double most_m, const double *place,
+    const double *value, const double *rotation, const double *covariance, const double *start, const double *stays,
+    double side, double undefined_below, double *axes, double *position, double *shown, double *rate, double *angles,
+    double *sd, double *zyz, uint8_t *is_near);
+KERNEL int palm_seat(
+    const double *known, const double *sensitivity, const double *about, double most_m, const double *disc,
+    double metacarpal_m, double mirror, const double *value, const double *rotation, const double *covariance,
+    const double *view, double *axes, double *origin, double *disc_m, double *cup, double *cup_sd, double *to_camera,
+    double *at, double *pose, double *turn_covariance, uint8_t *is_near);
+KERNEL int markers_told(
+    int markers, int blobs, const int64_t source[markers], const int64_t *palm_blob, const double *palm_expected,
+    const double *palm_covariance, const double *palm_off, const double *value, const double *rotation, const double *view,
+    const int64_t *digit_blob, const double *digit_expected, const double *digit_covariance, const double *digit_off,
+    const double *digit_m, const double pixel[blobs * 2], const double depth[blobs], double pixel_sd,
+    int64_t blob[markers], double seen_px[markers * 2], double seen_m[markers], double expected_px[markers * 2],
+    double expected_px2[markers * 4], double disc_m[markers * 3], int64_t *worst);
 KERNEL int adapted_factors(
     int markers, const double factor[markers * 3], const double residual[markers * 3],
     const uint8_t measured[markers * 3], double weight, double least, double most, double out[markers * 3]);
 
-KERNEL int discs_in_camera(
-    const double value[54], const double rotation[9], const double palm[18], const double rotation_w0_cam[9],
-    const double translation[3], double out[18]);
 KERNEL int blobs_worth(
     int blobs, const double pixel[blobs * 2], const double depth[blobs], const double depth_sd[blobs],
     const double area[blobs], int use_depth, double radius_px, double shade, double whole_from, double pixel_sd,
     double depth_ratio, double fixed_m, double square_per_m, int averages, double share, double patch,
     double stays_fixed, double stays_square, double value[blobs * 3], double variance[blobs * 3]);
-
-/* surface.c */
-KERNEL int surface_fit(
-    int count, const double *pixel, const double *depth, double fx, double fy, double cx, double cy,
-    const double *rotation_w0_cam,
-    const double *translation, const double *estimate_rotation, const double *value, int rows, int columns,
-    const double *plane, const double *to_node, const double *middle, int steps, double huber, double most, int least,
-    double share_in, double reading_per_m, double reading_fixed, double reading_square, double stays_fixed,
-    double stays_square, double stays_px, double patch, int averages, double turn_sd, double up_sd, double goes_on,
-    double *used, double *out_value, double *out_covariance, double *out_slope);
 
 /* detection.c */
 KERNEL int blobs_found(
@@ -116,8 +112,8 @@ KERNEL int blobs_measured(
     const uint8_t is_skin[65536], int cells, const double reference[cells], double low, double high,
     double fewest_rim, double fewest_core, double iqr_m, double valid_share, double fewest_readings, double edge_step,
     double edge_sd, double slope_share, double fixed_m, double square_per_m, double patch, int averages,
-    double centre[blobs * 2], double area[blobs], double similarity[blobs], double skin_share[blobs],
-    double depth[blobs], double depth_sd[blobs]);
+    double least_similarity, double least_skin, double centre[blobs * 2], double area[blobs], double similarity[blobs],
+    double depth[blobs], double depth_sd[blobs], int32_t *kept);
 KERNEL int readings_within(
     int height, int width, const uint16_t raw[height * width], double unit_m, int corners,
     const double corner[corners * 2], double wider, double margin, int step, int most, double pixel[most * 2],
@@ -136,15 +132,28 @@ KERNEL int digits_spread(
     double *unroot, double *along, double *by_constants, double *normal);
 KERNEL int digits_linearised(
     const double *disc_m, const double *unroot, const double *along, const double *by_constants, const double *covariance,
-    const double *rotation, const double *translation, double fx, double fy, double cx, double cy, double mean_middle,
-    double mean_other, double spread_middle, double spread_other, double scale, double *out_value, double *out_slope,
-    double *out_error, double *out_spread, double *centre_m, double *by_place);
-KERNEL int digits_scene(
-    const double *covariance, const double *line_spread, const double *centre_m, const double *by_place,
-    const double *normal, const double *rotation, const double *translation, const double *pose_covariance,
-    const double *bends, const double *visible, double dt_s, double shown_s, double hidden_s, double steepest,
-    double steepest_sd, double least_seen, double most_seen, double least_facing, double fx, double *shift,
-    double *out_spread, double *out_visible, double *tilt, double *facing_m2);
+    const double *rotation, const double *translation, double fx, double fy, double cx, double cy,
+    const double *weights, double *out_value, double *out_slope, double *out_error, double *out_spread,
+    double *centre_m, double *by_place);
+KERNEL int digits_ahead(
+    int modes, double dt, const double motion[159 + modes], const double *unseen_s, const double mean[modes * 105],
+    const double *covariance, const double *probability, const double *roots, double floor, double scale, double *out_mean,
+    double *out_covariance, double *out_probability, double *whole_mean, double *whole, double *disc_m, double *unroot,
+    double *along, double *by_constants, double *normal);
+KERNEL int digits_named(
+    int modes, int blobs, const double *disc_m, const double *unroot, const double *along, const double *by_constants,
+    const double *normal, const double *whole_mean, const double *whole, const double *rotation, const double *translation,
+    const double *pose_covariance, double fx, double fy, double cx, double cy, const double *weights, const double *bends,
+    const double *visible, double dt, double shown_s, double hidden_s, double steepest, double steepest_sd,
+    double least_seen, double most_seen, double least_facing, const double value[blobs * 3],
+    const double variance[blobs * 3], const double area[blobs], const uint8_t is_free[blobs], const double *disc_m2,
+    const double *noise_factor, const uint8_t *has_discs, double prior, double depth_range, double outlier, double gate2,
+    double impossible, double assumed, double whole_from, double shade_share, double radius_m, double crowded_radii,
+    double crowded_px, double pixel_sd, double skin_px, double flat, double learning, const double mean[modes * 105],
+    const double *covariance, const double *probability, double *nine, double *square, double *rows, double *slope,
+    double *centre_m, double *by_place, double *out_mean, double *out_covariance, double *out_probability,
+    int64_t *assigned, uint8_t *with_depth, double *nis, int64_t *dof, const double *most_nis, double was_seen,
+    uint8_t *ordinary, uint8_t *settled);
 KERNEL int digits_measured(
     int blobs, const int64_t *assigned, const uint8_t *with_depth, const double *value, const double *blob_variance,
     const double *area_px, const double *whole_px, const double *expected, const double *noise_factor, double whole_from,
@@ -152,13 +161,20 @@ KERNEL int digits_measured(
     double skin_px, double *measured, double *variance);
 KERNEL int digits_read(
     const double *mean, const double *covariance, const double *slope, const double *centre_m, const double *by_place,
-    const double *roots, const double *rotation, const double *translation, const double *turn_covariance, double fx,
-    double fy, double across_m, double depth_stays, double share, double narrow2, int coupled, double *inherited,
-    double *centres, double *disc_cam);
-KERNEL int digits_limited(
-    int modes, int size, const double *mean, const double *covariance, const double *slots, const double *limits,
-    const double *direction, double abduction, double soft, double near_sd, double *out_mean, double *out_covariance,
-    uint8_t *pulled);
+    const double *palm_m, const double *rotation, const double *translation, const double *turn_covariance,
+    const double *cup, const double *cup_sd, const double settings[10], int joints_read,
+    const int64_t chain[joints_read], const double weight[joints_read * 5], int sites_read, const int64_t site[sites_read],
+    double angle[joints_read], double sd[joints_read], double rate[joints_read], double place[sites_read * 3],
+    double *disc_cam);
+KERNEL int digits_settled(
+    int modes, const double mean[modes * 105], const double *covariance, const double *probability, const double *limits,
+    const double *direction, double abduction, double soft, double near_sd, double most_beyond, double *out_mean,
+    double *out_covariance, double *whole_mean, double *whole, uint8_t *misread);
+KERNEL int digits_accepted(
+    double dt, const int64_t *assigned, const double *visible, double missed, double most_seen, const uint8_t *shows,
+    const double *unseen_s, const int64_t *missing, int least_discs, const double *residual, const double *measured,
+    const double *factor, double weight, double least, double most, const double *disc_m2, const double *now_m2, double grows,
+    double shrinks, double *out_visible, double *out_unseen_s, int64_t *out_missing, double *out_factor, double *out_m2);
 KERNEL int knuckles_bent(
     int count, const int64_t asked[count], const double mean[105], const double root[15], const double rotation[9],
     const double translation[3], double fx, double fy, double cx, double cy, int readings,

@@ -43,15 +43,15 @@ static double between(double x, double least, double most)
     return x < most ? x : most;
 }
 
+/* Less than `least` used: it says nothing. */
 int surface_fit(
-    int count, const double *pixel, const double *depth, double fx, double fy, double cx, double cy,
-    const double *rotation_w0_cam,
-    const double *translation, const double *estimate_rotation, const double *value, int rows, int columns,
-    const double *plane, const double *to_node, const double *middle, int steps, double huber, double most, int least,
-    double share_in, double reading_per_m, double reading_fixed, double reading_square, double stays_fixed,
-    double stays_square, double stays_px, double patch, int averages, double turn_sd, double up_sd, double goes_on,
-    double *used, double *out_value, double *out_covariance, double *out_slope)
+    int count, const double *pixel, const double *depth, const double *view, const double *estimate_rotation,
+    const double *value, int rows, int columns, const double *plane, const double *to_node, const double *middle, int steps,
+    double huber, double most, int least, double share_in, double reading_per_m, double turn_sd, double up_sd,
+    double goes_on, int *used, double *out_value, double *out_covariance, double *out_slope)
 {
+    const double fx = view[FX], fy = view[FY], cx = view[CX], cy = view[CY], patch = view[PATCH];
+    const double *rotation_w0_cam = view + INTO_CAMERA, *translation = view + CAMERA_AT;
     double *work = malloc(sizeof(double) * (size_t)(16 * count + 1));
     if (!work)
         return NO_MEMORY;
@@ -122,7 +122,7 @@ int surface_fit(
         times33(rotation, by, next);
         memcpy(rotation, next, sizeof rotation);
     }
-    used[0] = near;
+    *used = near;
     if (failed || near < least) {
         free(work);
         return failed;
@@ -170,11 +170,11 @@ int surface_fit(
     }
     qsort(memcpy(over, depth, sizeof(double) * (size_t)count), (size_t)count, sizeof(double), by_size);
     const double depth_m = 0.5 * (over[(count - 1) / 2] + over[count / 2]), depth2 = depth_m * depth_m;
-    double reading_m = reading_fixed + reading_square * depth2;
+    double reading_m = view[READING_FIXED] + view[READING_SQUARE] * depth2;
     if (reading_per_m * depth2 > reading_m)
         reading_m = reading_per_m * depth2;
     const double scatter2 = spread2 > reading_m * reading_m ? spread2 : reading_m * reading_m;
-    const double part = averages ? 1.0 : share_in;
+    const double part = view[AVERAGES] != 0.0 ? 1.0 : share_in;
     for (int k = 0; k < 9; k++)
         alike[k] = part * alike[k] + (1.0 - part) * alone[k];
     double half[9];
@@ -182,7 +182,8 @@ int surface_fit(
     times33(half, inverse, out_covariance);
     for (int k = 0; k < 9; k++)
         out_covariance[k] *= goes_on * scatter2;
-    const double up_m = stays_px != 0.0 ? stays_fixed + stays_square * depth2 : 0.0;
+    const double stays_px = view[STAYS_PX];
+    const double up_m = stays_px != 0.0 ? view[STAYS_FIXED] + view[STAYS_SQUARE] * depth2 : 0.0;
     const double turn_rad = up_m * fx / ((stays_px > 1.0 ? stays_px : 1.0) * depth_m);
     out_covariance[0] += turn_sd * turn_sd + turn_rad * turn_rad;
     out_covariance[4] += turn_sd * turn_sd + turn_rad * turn_rad;

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Generic, Protocol, TypeVar
 
 from carpus.core.detection.detector import Detector
@@ -97,9 +96,8 @@ class FramePipeline(Generic[AnyTracker]):
             frame = given.seen(None)
             blobs = self.detector.detect(frame, None)
         if expected is not None:
-            blobs = replace(
-                blobs,
-                surface=surface_samples(frame, expected.back_px, self.sampling),
-                fingers=finger_samples(frame, expected.finger_px, self.sampling),
+            blobs = blobs.with_readings(
+                surface_samples(frame, expected.back_px, self.sampling),
+                finger_samples(frame, expected.finger_px, self.sampling),
             )
         return self.tracker.step(frame.index, frame.timestamp_s, blobs, frame.dropped_before)

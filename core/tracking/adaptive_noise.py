@@ -19,7 +19,7 @@ def adapted_factor(
 
     Squared residuals should average one; the factor moves towards what makes them so over ``adapt_s``.
     """
-    if not measured.any() or dt_s <= 0.0:
+    if dt_s <= 0.0:
         return factor
     weight = 1.0 - math.exp(-dt_s / noise.adapt_s)
     if (kernels := in_c()) is not None:

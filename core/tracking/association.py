@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,6 +55,17 @@ class LogOdds:
     with_depth: NDArray[np.bool_]
 
 
+@lru_cache(maxsize=8)
+def log_densities(
+    resolution_px2: float, depth_outlier: float, settings: AssociationSettings
+) -> tuple[float, float, float]:
+    """Logs of a marker's prior and clutter's density in the picture, of clutter's in depth (both but for those of the
+    normal density), and of the chance that a depth is of something else."""
+    prior = settings.prior_marker / settings.prior_clutter * resolution_px2 / (2.0 * math.pi)
+    by_depth = settings.depth_range_m / math.sqrt(2.0 * math.pi)
+    return math.log(prior), math.log(by_depth), math.log(depth_outlier)
+
+
 def log_odds(
     predicted: FloatArray,
     covariance: FloatArray,
@@ -70,13 +82,13 @@ def log_odds(
     ``noise_variance`` (D, 3). A disc whose depth is of something before or behind it is still that disc,
     with the chance ``depth_outlier``.
     """
-    prior = math.log(settings.prior_marker / settings.prior_clutter * resolution_px2 / (2.0 * math.pi))
-    by_depth, gate2 = math.log(settings.depth_range_m / math.sqrt(2.0 * math.pi)), settings.gate_sd**2
+    prior, by_depth, by_outlier = log_densities(resolution_px2, depth_outlier, settings)
+    gate2 = settings.gate_sd**2
     if (kernels := in_c()) is not None:
         shape = len(predicted), len(measured)
         value, with_depth = np.empty(shape), np.empty(shape, dtype=np.bool_)
         kernels.log_odds(
-            *shape, predicted, covariance, measured, noise_variance, prior, by_depth, math.log(depth_outlier), gate2,
+            *shape, predicted, covariance, measured, noise_variance, prior, by_depth, by_outlier, gate2,
             IMPOSSIBLE, value, with_depth,
         )  # fmt: skip
         return LogOdds(value, with_depth)
@@ -98,7 +110,7 @@ def log_odds(
     has_depth = np.isfinite(measured[:, 2])
     flat = prior - 0.5 * (flat2 + np.log(s_u * s_v))
     full = flat + by_depth - 0.5 * (z2 + np.log(s_z))
-    flat += math.log(depth_outlier) * has_depth
+    flat += by_outlier * has_depth
     flat[flat2 > gate2] = IMPOSSIBLE
     full[~(full2 <= gate2)] = IMPOSSIBLE  # and where there is no depth
     return LogOdds(np.maximum(full, flat), has_depth & (full >= flat))

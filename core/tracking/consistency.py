@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.types import FloatArray
+from carpus.core.camera import Camera
+from carpus.core.types import Detections, FloatArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,26 +73,25 @@ class ConsistencyTest:
 
 
 def passed_over(
-    disc_px: FloatArray,
-    disc_depth_m: FloatArray,
+    disc_cam_m: FloatArray,
     assigned: NDArray[np.int64],
-    blob_px: FloatArray,
-    blob_depth_m: FloatArray,
-    focal_px: float,
+    blobs: Detections,
+    camera: Camera,
     settings: ConsistencySettings,
 ) -> NDArray[np.bool_]:
-    """Markers (M,) without a blob although one that is nobody's lies at their place ``disc_px`` (M, 2).
+    """Markers (M,) without a blob although one that is nobody's lies at their place ``disc_cam_m`` (M, 3).
 
-    ``assigned`` (M,) blob of every marker or -1; ``blob_px`` (B, 2) and ``blob_depth_m`` (B,) of all blobs.
+    ``assigned`` (M,) of all ``blobs``, as a camera without distortion would see them, that of every marker or -1.
     """
     out = np.zeros(assigned.size, dtype=bool)
     is_named = assigned >= 0
     named = assigned[is_named]
-    if named.size in (assigned.size, len(blob_px)):
+    if named.size in (assigned.size, len(blobs)):
         return out
-    missing, unassigned = np.flatnonzero(~is_named), np.delete(np.arange(len(blob_px)), named)
-    apart_px = blob_px[unassigned] - disc_px[missing][:, None]
-    near = np.hypot(apart_px[..., 0], apart_px[..., 1]) < settings.near_m * focal_px / disc_depth_m[missing][:, None]
-    deep = np.abs(blob_depth_m[unassigned][None] - disc_depth_m[missing][:, None]) < settings.near_depth_m
-    out[missing] = (near & (deep | ~np.isfinite(blob_depth_m[unassigned])[None])).any(axis=1)
+    missing, unassigned = np.flatnonzero(~is_named), np.delete(np.arange(len(blobs)), named)
+    apart_px = blobs.pixel[unassigned] - camera.project(disc_cam_m[missing])[:, None]
+    depth_m, blob_depth_m = disc_cam_m[missing, 2, None], blobs.depth_m[unassigned]
+    near = np.hypot(apart_px[..., 0], apart_px[..., 1]) < settings.near_m * camera.fx_px / depth_m
+    deep = np.abs(blob_depth_m - depth_m) < settings.near_depth_m
+    out[missing] = (near & (deep | ~np.isfinite(blob_depth_m))).any(axis=1)
     return out

@@ -80,7 +80,14 @@ class DigitScene:
 def associate_digits(estimates: ModeMixture, scene: DigitScene, settings: TrackerSettings) -> UpdatedDigits:
     """Names and corrects all digits."""
     names = _each_by_itself(scene, settings)
-    found = updated_as_associated(estimates, scene, names, settings)
+    return jointly_checked(updated_as_associated(estimates, scene, names, settings), estimates, scene, settings)
+
+
+def jointly_checked(
+    found: UpdatedDigits, estimates: ModeMixture, scene: DigitScene, settings: TrackerSettings
+) -> UpdatedDigits:
+    """The digits as found, or where one's names are not jointly compatible or would be where they cannot be, anew."""
+    names = found.names
     nis, dof = found.update.nis.tolist(), found.update.dof.tolist()
     doubtful = [r for r in range(CHAINS) if not is_jointly_compatible(nis[r], dof[r], settings.association)]
     if doubtful:

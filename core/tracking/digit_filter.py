@@ -27,10 +27,10 @@ from carpus.core.tracking.hand_geometry import (
     slope_by_constants,
 )
 from carpus.core.tracking.kernel import Linearisation, ModeMixture, predicted
-from carpus.core.tracking.unscented import Spread, weights_for
+from carpus.core.tracking.unscented import Spread, Weights, weights_for
 from carpus.core.types import FloatArray
 
-_FLOOR = 1e-14
+FLOOR = 1e-14
 _SLOT = np.arange(SLOTS)
 _ROLL = 4
 _BENT = np.arange(SLOTS + 1)
@@ -149,24 +149,40 @@ class DigitPoints:
     mean: FloatArray
     covariance: FloatArray
 
+    @staticmethod
+    def to_be_filled(mean: FloatArray | None = None, covariance: FloatArray | None = None) -> DigitPoints:
+        """Before a kernel has worked them out."""
+        bends, others = _BENT.size, _OTHER_CONSTANT.size
+        return DigitPoints(
+            np.empty((CHAINS, 2 * bends + 1, DISCS, 3)),
+            np.empty((CHAINS, bends, bends)),
+            np.empty((CHAINS, bends, others)),
+            np.empty((CHAINS, DISCS, 3, others)),
+            np.empty((CHAINS, DISCS, 3)),
+            np.empty((CHAINS, DIGIT_SIZE)) if mean is None else mean,
+            np.empty((CHAINS, DIGIT_SIZE, DIGIT_SIZE)) if covariance is None else covariance,
+        )
+
+    @property
+    def parts(self) -> tuple[FloatArray, ...]:
+        """What a kernel fills in."""
+        return self.disc_m, self.unroot, self.along, self.by_constants, self.normal
+
+
+def bent_weights(spread: Spread) -> Weights:
+    """Weights of the points."""
+    return weights_for(_BENT.size, spread)
+
 
 def spread_points(mean: FloatArray, covariance: FloatArray, root_disc_m: FloatArray, spread: Spread) -> DigitPoints:
     """Sigma points of states (5, n) with covariances (5, n, n); ``root_disc_m`` (5, 3) discs under which they begin."""
     if (kernels := in_c()) is not None:
-        bends, others = _BENT.size, _OTHER_CONSTANT.size
-        points = DigitPoints(
-            np.empty((CHAINS, 2 * bends + 1, DISCS, 3)), np.empty((CHAINS, bends, bends)),
-            np.empty((CHAINS, bends, others)), np.empty((CHAINS, DISCS, 3, others)), np.empty((CHAINS, DISCS, 3)),
-            mean, covariance,
-        )  # fmt: skip
-        kernels.digits_spread(
-            mean, covariance, root_disc_m, _FLOOR, weights_for(bends, spread).scale,
-            points.disc_m, points.unroot, points.along, points.by_constants, points.normal,
-        )  # fmt: skip
+        points = DigitPoints.to_be_filled(mean, covariance)
+        kernels.digits_spread(mean, covariance, root_disc_m, FLOOR, bent_weights(spread).scale, *points.parts)
         return points
     bent, other = _BENT_AT, _OTHER_AT
     block = covariance[:, bent[:, None], bent]
-    block[:, _BENT, _BENT] += _FLOOR
+    block[:, _BENT, _BENT] += FLOOR
     root = np.asarray(np.linalg.cholesky(block), dtype=np.float64)
     unroot = np.asarray(np.linalg.inv(root), dtype=np.float64)
     along = unroot @ covariance[:, bent[:, None], other]
@@ -238,7 +254,7 @@ def digits_linearised(points: DigitPoints, view: DigitView, spread: Spread) -> D
         )  # fmt: skip
         kernels.digits_linearised(
             points.disc_m, points.unroot, points.along, points.by_constants, points.covariance, view.rotation,
-            view.translation_m, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, *weights.numbers,
+            view.translation_m, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px, weights.numbers,
             linearised.value, linearised.slope, linearised.error, linearised.spread, linearised.centre_m,
             linearised.by_place,
         )  # fmt: skip

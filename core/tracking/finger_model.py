@@ -12,17 +12,21 @@ from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand.sites import DIGITS
-from carpus.core.kernels.choice import in_c
+from carpus.core.kernels.choice import NOTHING, Kernels, in_c
 from carpus.core.tracking.anatomy_refinement import DigitStart, digit_start
 from carpus.core.tracking.digit_filter import (
     DIGIT_SIZE,
+    FLOOR,
     JOINTS,
     RATES,
     SEEN,
     DigitMotion,
+    DigitPoints,
     DigitsLinearisation,
     DigitView,
     Forgetting,
+    bent_weights,
+    spread_points,
 )
 from carpus.core.tracking.finger_depth import FLEXION
 from carpus.core.tracking.geometry import palm_of
@@ -37,10 +41,10 @@ from carpus.core.tracking.hand_geometry import (
     digit_joints_m,
     direct_markers,
 )
-from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD, constrained, outside_limits
-from carpus.core.tracking.kernel import ModeMixture, switching
+from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD, constrained, settled
+from carpus.core.tracking.kernel import ModeMixture, like, switching
 from carpus.core.tracking.motion import REFERENCE_DT_S
-from carpus.core.tracking.palm_state import POSE, PalmEstimate
+from carpus.core.tracking.palm_state import PalmEstimate
 from carpus.core.tracking.palm_view import View
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
@@ -66,19 +70,8 @@ class Seat:
 
 def seat_of(estimate: PalmEstimate, view: View, readout: Readout) -> Seat:
     """The seat that an estimate about the palm gives to the fingers."""
-    palm, turn_covariance = readout.palm(estimate)
-    body_cam = view.rotation_w0_cam @ estimate.rotation_w2_w0
-    to_camera = np.zeros((6, 6))
-    to_camera[:3, :3], to_camera[3:, 3:] = view.rotation_w0_cam, body_cam
-    pose = to_camera @ estimate.covariance[POSE[:, None], POSE] @ to_camera.T
-    return Seat(palm, digit_view(estimate, view, palm), pose, body_cam @ turn_covariance @ body_cam.T)
-
-
-def digit_view(estimate: PalmEstimate, view: View, palm: PalmInBody) -> DigitView:
-    """How the camera sees W2 of a right hand on that palm."""
-    body_cam = view.rotation_w0_cam @ estimate.rotation_w2_w0
-    origin = body_cam @ palm.origin_m + view.rotation_w0_cam @ estimate.position_m + view.translation_w0_cam_m
-    return DigitView(body_cam @ palm.axes, origin, view.camera)
+    palm, rotation, translation_m, pose, turn = readout.seat(estimate, view)
+    return Seat(palm, DigitView(rotation, translation_m, view.camera), pose, turn)
 
 
 class FingerModel:
@@ -96,7 +89,7 @@ class FingerModel:
         self._dip_free = dip_free
         self.markers = np.array(list(protocol.chains.values()))[:, 2:]
         """Rows (R, 3) of the moving discs of those digits."""
-        self._sites = list(protocol.sites)
+        self._sites = np.array(list(protocol.sites), dtype=np.int64)
         self.resolution_px2 = float(camera.width_px * camera.height_px)
         self.calibrated_palm = PalmInBody.of(palm_of(calibration).marker_position_w0_m, np.eye(3), self.side)
         self.scales = np.array(settings.mode_scales)
@@ -126,6 +119,16 @@ class FingerModel:
         self._range2 = np.where(self._moves, RANGE_SD_RAD**2, self._stationary2)
         drift = own.drift_per_s * np.diagonal(self._start.fit.digits.covariance, axis1=1, axis2=2)
         self.motion = DigitMotion(sd**2 * REFERENCE_DT_S, self.scales, drift, stationary2, own.settles_s)
+        parts = (
+            (own.settles_s, settings.mode_dwell_s, settings.rate_memory_s, own.range_after_s), sd**2 * REFERENCE_DT_S,
+            stationary2, self._moves, RANGE_SD_RAD**2, drift, self.scales**2,
+        )  # fmt: skip
+        self._numbers = np.concatenate([np.ravel(part) for part in parts])
+        """Of this what goes into a step, in one row for the kernel."""
+        self._read_by = np.array(
+            [camera.fx_px, camera.fy_px, own.across_m, own.depth_stays_m, own.inherited, _NARROW2, not dip_free,
+             self._wrist_depth_m, -1.0 if self.side == "left" else 1.0, own.skin_offsets * own.skin_sd_rad**2]
+        )  # fmt: skip
 
     def at_neutral(self) -> ModeMixture:
         """At the neutral pose, at rest."""
@@ -179,12 +182,8 @@ class FingerModel:
         """Estimates with the limits taken into account, and digits (5,) that a picture has bent as no finger bends: it
         was misread there, so their joints may be anywhere, on the anatomy as it was ``before``. Between them the
         estimates merged."""
-        merged = estimates.merged()
-        kept = constrained(estimates, merged[0][:, :SLOTS], self.settings.fingers.limits)
-        if kept is not estimates:
-            merged = kept.merged()
-        beyond_rad = np.abs(outside_limits(merged[0][:, :SLOTS]))
-        misread = np.asarray((beyond_rad > self.settings.fingers.most_beyond_rad).any(axis=1))
+        own = self.settings.fingers
+        kept, merged, misread = settled(estimates, own.most_beyond_rad, own.limits)
         if misread.any():
             kept = self.begun_anew(kept, misread, before)
             merged = kept.merged()
@@ -208,6 +207,10 @@ class FingerModel:
         """
         if dt_s <= 0.0:
             return estimates
+        if (kernels := in_c()) is not None and self._is_plain(dt_s):
+            out = like(estimates)
+            self._stepped(kernels, estimates, unseen_s, dt_s, NOTHING, out, (NOTHING,) * 7)
+            return out
         switch = switching(self.scales.size, self.settings.mode_dwell_s, dt_s)
         mean = (estimates.probability[:, None] @ estimates.mean)[:, 0]
         if dt_s >= self.settings.fingers.range_after_s:
@@ -216,6 +219,38 @@ class FingerModel:
         if dt_s < self.settings.fingers.gap_s:
             return ahead
         return constrained(ahead, ahead.merged()[0][:, :SLOTS], self.settings.fingers.limits)
+
+    def ahead(
+        self, estimates: ModeMixture, unseen_s: FloatArray, dt_s: float, root_disc_m: FloatArray
+    ) -> tuple[ModeMixture, DigitPoints]:
+        """The digits ``dt_s`` later, and sigma points of them under ``root_disc_m`` (5, 3)."""
+        if (kernels := in_c()) is not None and dt_s > 0.0 and self._is_plain(dt_s):
+            out, points = like(estimates), DigitPoints.to_be_filled()
+            into = points.mean, points.covariance, *points.parts
+            self._stepped(kernels, estimates, unseen_s, dt_s, root_disc_m, out, into)
+            return out, points
+        ahead = self.predicted(estimates, unseen_s, dt_s)
+        return ahead, spread_points(*ahead.merged(), root_disc_m, self.settings.spread)
+
+    def _is_plain(self, dt_s: float) -> bool:
+        """Whether a step is so short that it is linear."""
+        return dt_s < min(self.settings.fingers.range_after_s, self.settings.fingers.gap_s)
+
+    def _stepped(
+        self,
+        kernels: Kernels,
+        estimates: ModeMixture,
+        unseen_s: FloatArray,
+        dt_s: float,
+        root_disc_m: FloatArray,
+        out: ModeMixture,
+        points: tuple[FloatArray, ...],
+    ) -> None:
+        kernels.digits_ahead(
+            self.scales.size, dt_s, self._numbers, unseen_s, estimates.mean, estimates.covariance,
+            estimates.probability, root_disc_m, FLOOR, bent_weights(self.settings.spread).scale, out.mean,
+            out.covariance, out.probability, *points,
+        )  # fmt: skip
 
     def forgetting(self, mean: FloatArray, unseen_s: FloatArray, dt_s: float) -> Forgetting | None:
         """What becomes of the slots of digits at ``mean`` (5, n) that nothing shows; None where all are shown.
@@ -266,15 +301,31 @@ class FingerModel:
     ) -> JointMoment:
         """Joints of digits (5, n) with covariance (5, n, n) on that palm; ``linearised`` as the camera saw them."""
         palm, joints = seat.palm, covariance[:, :SLOTS, :SLOTS]
-        inherited, joint_m, disc_cam = self.placed(mean, covariance, seat, linearised)
+        if (kernels := in_c()) is not None:
+            (angles, sd, rates), disc_cam = np.empty((3, self.reading.chain.size)), np.empty((CHAINS, DISCS, 3))
+            place = np.empty((self._sites.size, 3))
+            kernels.digits_read(
+                mean, covariance, linearised.slope, linearised.centre_m, linearised.by_place, palm.disc_m,
+                seat.view.rotation, seat.view.translation_m, seat.turn_covariance, palm.cup_rad, palm.cup_sd_rad,
+                self._read_by, self.reading.chain.size, self.reading.chain, self.reading.weight,
+                self._sites.size, self._sites, angles, sd, rates, place, disc_cam,
+            )  # fmt: skip
+            return JointMoment(angles, sd, rates, place, disc_cam)
+        state = mean[:, SEEN]
+        frames = digit_frames(state)
+        joint_m = digit_joints_m(palm.disc_m[1:], state, frames)
+        disc = joint_m[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal
+        disc_cam = disc @ seat.view.rotation.T + seat.view.translation_m
+        inherited = self._inherited(joints, seat, linearised, frames.normal)
+        joint_m = joint_m if self._dip_free else self._coupled(palm, state)
         # A knuckle's flexion is against its own metacarpal.
-        slots, own = mean[:, :SLOTS].copy(), joints.copy()
+        slots, unsure = mean[:, :SLOTS].copy(), joints + inherited
         slots[:, FLEXION] -= palm.cup_rad
-        own[:, FLEXION, FLEXION] += palm.cup_sd_rad**2
+        unsure[:, FLEXION, FLEXION] += palm.cup_sd_rad**2
         if self.settings.fingers.skin_offsets:
-            own[:, _SLOT, _SLOT] += self.settings.fingers.skin_sd_rad**2
+            unsure[:, _SLOT, _SLOT] += self.settings.fingers.skin_sd_rad**2
         angles = self.reading.angles(slots)
-        variance = self.reading.variances(own + inherited)
+        variance = self.reading.variances(unsure)
         rates = self.reading.angles(mean[:, RATES])
         centre = np.empty((1 + CHAINS * (DISCS + 1), 3))
         centre[0] = 0.0, 0.0, -self._wrist_depth_m
@@ -282,30 +333,6 @@ class FingerModel:
         if self.side == "left":
             centre[:, 1] *= -1.0
         return JointMoment(angles, np.sqrt(np.maximum(variance, 0.0)), rates, centre[self._sites], disc_cam)
-
-    def placed(
-        self, mean: FloatArray, covariance: FloatArray, seat: Seat, linearised: DigitsLinearisation
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Of digits (5, n) with covariance (5, n, n): the covariance (5, 5, 5) that the slots inherit, joint centres
-        (5, 4, 3) in W of a right hand as the angles have them, and the discs (5, 3, 3) in camera axes."""
-        palm, own = seat.palm, self.settings.fingers
-        if (kernels := in_c()) is not None:
-            out = np.empty((CHAINS, SLOTS, SLOTS)), np.empty((CHAINS, DISCS + 1, 3)), np.empty((CHAINS, DISCS, 3))
-            kernels.digits_read(
-                mean, covariance, linearised.slope, linearised.centre_m, linearised.by_place, palm.disc_m[1:],
-                seat.view.rotation, seat.view.translation_m, seat.turn_covariance, *self._focal_px.tolist(),
-                own.across_m, own.depth_stays_m, own.inherited, _NARROW2, not self._dip_free, *out,
-            )  # fmt: skip
-            return out
-        state = mean[:, SEEN]
-        frames = digit_frames(state)
-        joint_m = digit_joints_m(palm.disc_m[1:], state, frames)
-        disc = joint_m[:, 1:] + state[:, SLOTS + 8 :, None] * frames.normal
-        return (
-            self._inherited(covariance[:, :SLOTS, :SLOTS], seat, linearised, frames.normal),
-            joint_m if self._dip_free else self._coupled(palm, state),
-            disc @ seat.view.rotation.T + seat.view.translation_m,
-        )
 
     def _inherited(
         self, joints: FloatArray, seat: Seat, linearised: DigitsLinearisation, normal: FloatArray

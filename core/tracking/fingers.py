@@ -10,16 +10,18 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
-from carpus.core.kernels.choice import in_c
+from carpus.core.kernels.choice import Kernels, in_c
 from carpus.core.tracking.adaptive_noise import adapted_factor
-from carpus.core.tracking.association import AssociationSettings
+from carpus.core.tracking.association import IMPOSSIBLE, AssociationSettings, log_densities
 from carpus.core.tracking.digit_association import (
     BENDS,
+    DigitAssignment,
     DigitScene,
     UpdatedDigits,
     associate_digits,
     beyond_reach,
     far_digits,
+    jointly_checked,
     seen_chance,
     tilt_to,
     tilt_variance,
@@ -32,6 +34,7 @@ from carpus.core.tracking.digit_filter import (
     SEEN,
     DigitPoints,
     DigitsLinearisation,
+    bent_weights,
     digits_linearised,
     spread_points,
 )
@@ -41,8 +44,8 @@ from carpus.core.tracking.finger_model import FingerModel, Seat
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SHOWS, SLOTS, JointMoment
-from carpus.core.tracking.joint_association import is_jointly_compatible
-from carpus.core.tracking.kernel import ModeMixture
+from carpus.core.tracking.joint_association import is_jointly_compatible, most_chi2_row
+from carpus.core.tracking.kernel import ModeMixture, Update, like
 from carpus.core.tracking.palm_association import Measurements
 from carpus.core.tracking.predicted_measurement import PredictedDigits
 from carpus.core.tracking.settings import TrackerSettings
@@ -86,12 +89,12 @@ class FingerTrial:
     @property
     def nis(self) -> float:
         """Normalised innovation squared of all digits together."""
-        return float(self.named.update.nis.sum())
+        return float(sum(self.named.update.nis.tolist()))
 
     @property
     def dof(self) -> int:
         """Its degrees of freedom."""
-        return int(self.named.update.dof.sum())
+        return int(sum(self.named.update.dof.tolist()))
 
     def is_jointly_compatible(self, chains: NDArray[np.int64], settings: AssociationSettings) -> bool:
         """Whether what was measured of those digits is what was foreseen."""
@@ -159,7 +162,9 @@ class Fingers:
         if self._speeds is None:
             unsure = np.where(self._unseen_s > 0.0, self._covariance[:, _RATE, _RATE], 0.0)
             square = self._mean[:, _RATE] ** 2 + unsure
-            thumb, fingers = square[0, _THUMB_BASE].mean(), square[1:, FLEXION].mean()
+            thumb, fingers = (
+                float(np.add.reduce(of)) / of.size for of in (square[0, _THUMB_BASE], square[1:, FLEXION])
+            )
             fastest = self._settings.tissue.fastest_rad_s
             self._speeds = DigitSpeeds(min(math.sqrt(thumb), fastest), min(math.sqrt(fingers), fastest))
         return self._speeds
@@ -171,9 +176,7 @@ class Fingers:
 
     def ahead(self, dt_s: float) -> PredictedDigits:
         """The digits ``dt_s`` later, and their discs on the palm as it was known last."""
-        estimates = self.model.predicted(self._estimates, self._unseen_s, dt_s)
-        mean, covariance = estimates.merged()
-        points = spread_points(mean, covariance, self._palm.disc_m[1:], self._settings.spread)
+        estimates, points = self.model.ahead(self._estimates, self._unseen_s, dt_s, self._palm.disc_m[1:])
         return PredictedDigits(estimates, points, self._palm)
 
     def weigh(
@@ -264,6 +267,8 @@ class Fingers:
         given_up: NDArray[np.bool_],
     ) -> dict[int, FloatArray]:
         """Postures (5,) of digits just given up or missing for some frames, if the blobs left over show them."""
+        if not (given_up.any() or self._missing.any()):
+            return {}
         named = np.count_nonzero(trial.blob >= 0, axis=1)
         is_due = given_up | ((self._missing >= self._settings.fingers.patience_frames) & (self._missing % 2 == 0))
         chains = np.flatnonzero((named < self._settings.fingers.search.least_discs) & is_due & self.model.has_discs)
@@ -288,8 +293,11 @@ class Fingers:
         area_px: FloatArray,
         free: NDArray[np.bool_],
     ) -> FingerTrial:
+        own, learning = self._settings.fingers, self.model.learning(seat)
+        if (kernels := in_c()) is not None:
+            return self._tried_in_c(kernels, estimates, points, dt_s, seat, blobs, area_px, free, learning)
         linearised = digits_linearised(points, seat.view, self._settings.spread)
-        visibility = disc_visibility(points, linearised, seat, self._visible, dt_s, self._settings.fingers)
+        visibility = disc_visibility(points, linearised, seat, self._visible, dt_s, own)
         scene = DigitScene(
             points.covariance,
             linearised,
@@ -303,19 +311,77 @@ class Fingers:
             self._noise_factor,
             self.model.resolution_px2,
             seat.view,
-            self.model.learning(seat),
+            learning,
             self.model.has_discs,
         )
         named = associate_digits(estimates, scene, self._settings)
-        assigned = named.names.assigned
-        disc_m2 = np.full((CHAINS, DISCS), np.nan)
-        if area_px.size:
-            disc_m2 = np.where(
-                (assigned >= 0) & (visibility.tilt_rad < self._settings.fingers.flat_rad),
-                area_px[assigned] / visibility.facing_m2,
-                np.nan,
-            )
-        return FingerTrial(seat, scene, named, disc_m2, {})
+        return FingerTrial(
+            seat, scene, named, areas_m2(named, area_px, visibility.tilt_rad, visibility.facing_m2, own), {}
+        )
+
+    def _tried_in_c(
+        self,
+        kernels: Kernels,
+        estimates: ModeMixture,
+        points: DigitPoints,
+        dt_s: float,
+        seat: Seat,
+        blobs: Measurements,
+        area_px: FloatArray,
+        free: NDArray[np.bool_],
+        learning: float,
+    ) -> FingerTrial:
+        """The same in one kernel, up to what becomes of names that are not jointly compatible."""
+        settings, own, names, noise = (
+            self._settings,
+            self._settings.fingers,
+            self._settings.association,
+            self._settings.noise,
+        )
+        camera, out, seen = seat.view.camera, like(estimates), 3 * DISCS
+        nine, square, rows = (
+            np.empty((4, CHAINS, seen)),
+            np.empty((4, CHAINS, seen, seen)),
+            np.empty((5, CHAINS, DISCS)),
+        )
+        value, measured, variance, residual = nine
+        error, by_digits, by_palm, by_both = square
+        visible, tilt_rad, facing_m2, whole_px, disc_m2 = rows
+        slope = np.empty((CHAINS, seen, DIGIT_SIZE))
+        centre_m, by_place = np.empty((CHAINS, DISCS, 3)), np.empty((CHAINS, DISCS, 3, 3))
+        assigned, with_depth = np.empty((CHAINS, DISCS), dtype=np.int64), np.empty((CHAINS, DISCS), dtype=np.bool_)
+        nis, dof, (ordinary, settled) = (
+            np.empty(CHAINS),
+            np.empty(CHAINS, dtype=np.int64),
+            np.empty((2, 1), dtype=np.bool_),
+        )
+        kernels.digits_named(
+            self.model.scales.size, len(blobs), *points.parts, points.mean, points.covariance, seat.view.rotation,
+            seat.view.translation_m, seat.pose_covariance, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px,
+            bent_weights(settings.spread).numbers, BENDS, self._visible, dt_s, own.shown_s, own.hidden_s,
+            own.steepest_rad, own.steepest_sd_rad, own.least_seen, own.most_seen, own.least_facing, blobs.value,
+            blobs.variance, area_px, free, self._disc_m2, self._noise_factor, self.model.has_discs,
+            *log_densities(self.model.resolution_px2 / own.clutter, noise.depth_outlier, names), names.gate_sd**2,
+            IMPOSSIBLE, math.log(names.prior_marker / names.prior_clutter), noise.whole_from, noise.shade_share,
+            settings.marker_radius_m, own.crowded_radii, own.crowded_px, noise.pixel_sd_px, own.skin_px, own.flat_rad,
+            learning, estimates.mean, estimates.covariance, estimates.probability, nine, square, rows, slope, centre_m,
+            by_place, out.mean, out.covariance, out.probability, assigned, with_depth, nis, dof,
+            most_chi2_row(names.consistent), own.was_seen, ordinary, settled,
+        )  # fmt: skip
+        scene = DigitScene(
+            points.covariance, DigitsLinearisation(value, slope, error, points.mean, by_digits, centre_m, by_place),
+            by_both, by_palm, visible, blobs, free, area_px, whole_px, self._noise_factor, self.model.resolution_px2,
+            seat.view, learning, self.model.has_discs,
+        )  # fmt: skip
+        if not ordinary.item():
+            named = associate_digits(estimates, scene, settings)
+        else:
+            update = Update(out, nis, dof, residual)
+            first = UpdatedDigits(DigitAssignment(assigned, with_depth), update, measured, variance)
+            named = first if settled.item() else jointly_checked(first, estimates, scene, settings)
+            if named is first:
+                return FingerTrial(seat, scene, named, disc_m2, {})
+        return FingerTrial(seat, scene, named, areas_m2(named, area_px, tilt_rad, facing_m2, own), {})
 
     def start(self, timestamp_s: float, is_lost: bool) -> FingerStart:
         """What is believed now, for smoothing over the frames to come."""
@@ -324,26 +390,43 @@ class Fingers:
     def accept(self, trial: FingerTrial, timestamp_s: float, dt_s: float) -> FingerStep:
         """Go on from a trial; what the smoother needs of it."""
         named = trial.named
-        is_named = named.names.assigned >= 0
-        own, visible = self._settings.fingers, trial.scene.visible
-        # Bayes: a disc that is in sight goes without a name with the chance ``missed``.
-        unnamed = visible * own.missed / (1.0 - (1.0 - own.missed) * visible)
-        self._visible = np.where(is_named, own.most_seen, unnamed)
-        shown = (SHOWS & is_named[:, None, :]).any(axis=-1)
-        self._unseen_s = np.where(shown, 0.0, self._unseen_s + dt_s)
-        count = np.count_nonzero(is_named, axis=1)
-        self._missing = np.where(count < self._settings.fingers.search.least_discs, self._missing + 1, 0)
-        residual, measured = (values.reshape(CHAINS, DISCS, 3) for values in (named.update.residual, named.measured))
-        factor = self._noise_factor.reshape(CHAINS, DISCS, 3)
-        adapted = adapted_factor(factor, residual, np.isfinite(measured), dt_s, self._settings.noise)
-        self._noise_factor = adapted.reshape(CHAINS, 3 * DISCS)
-        self._disc_m2 = learnt_sizes(self._disc_m2, trial.disc_m2, self._settings.fingers)
+        is_named, own, noise = named.names.assigned >= 0, self._settings.fingers, self._settings.noise
+        if (kernels := in_c()) is not None:
+            visible, disc_m2 = np.empty((2, CHAINS, DISCS))
+            unseen_s, missing = np.empty((CHAINS, SLOTS)), np.empty(CHAINS, dtype=np.int64)
+            factor = np.empty((CHAINS, 3 * DISCS))
+            kernels.digits_accepted(
+                dt_s, named.names.assigned, trial.scene.visible, own.missed, own.most_seen, SHOWS, self._unseen_s,
+                self._missing, own.search.least_discs, named.update.residual, named.measured, self._noise_factor,
+                1.0 - math.exp(-dt_s / noise.adapt_s), noise.least_adapted, noise.most_adapted, self._disc_m2,
+                trial.disc_m2, own.size_grows, own.size_shrinks, visible, unseen_s, missing, factor, disc_m2,
+            )  # fmt: skip
+            self._visible, self._unseen_s, self._missing = visible, unseen_s, missing
+            self._noise_factor, self._disc_m2 = factor, disc_m2
+        else:
+            self._remember(trial, is_named, dt_s)
         kept, merged, misread = self.model.within_reach(named.update.mixture, self._estimates)
         self._missing[misread] = self._settings.fingers.patience_frames
         self._take(kept, merged)
         self._palm = trial.seat.palm
         begins, self._begins = self._begins, False
         return FingerStep(timestamp_s, named.measured, named.variance, is_named, trial.postures, begins, trial.bends)
+
+    def _remember(self, trial: FingerTrial, is_named: NDArray[np.bool_], dt_s: float) -> None:
+        """Which discs are seen, how noisy and how large, after an accepted frame."""
+        named, own, visible = trial.named, self._settings.fingers, trial.scene.visible
+        # Bayes: a disc that is in sight goes without a name with the chance ``missed``.
+        unnamed = visible * own.missed / (1.0 - (1.0 - own.missed) * visible)
+        self._visible = np.where(is_named, own.most_seen, unnamed)
+        shown = (SHOWS & is_named[:, None, :]).any(axis=-1)
+        self._unseen_s = np.where(shown, 0.0, self._unseen_s + dt_s)
+        count = np.count_nonzero(is_named, axis=1)
+        self._missing = np.where(count < own.search.least_discs, self._missing + 1, 0)
+        residual, measured = (values.reshape(CHAINS, DISCS, 3) for values in (named.update.residual, named.measured))
+        factor = self._noise_factor.reshape(CHAINS, DISCS, 3)
+        adapted = adapted_factor(factor, residual, np.isfinite(measured), dt_s, self._settings.noise)
+        self._noise_factor = adapted.reshape(CHAINS, 3 * DISCS)
+        self._disc_m2 = learnt_sizes(self._disc_m2, trial.disc_m2, own)
 
     def read(self, trial: FingerTrial) -> JointMoment:
         """The joints after that trial was accepted."""
@@ -372,22 +455,22 @@ def disc_visibility(
     own: FingerSettings,
 ) -> DiscVisibility:
     """How the discs at ``points`` are to be seen ``dt_s`` after they were ``visible`` (5, 3)."""
-    if (kernels := in_c()) is not None:
-        visibility = DiscVisibility(np.empty((CHAINS, 9, 9)), np.empty((CHAINS, 9, 9)), *np.empty((3, CHAINS, DISCS)))
-        kernels.digits_scene(
-            points.covariance, linearised.spread, linearised.centre_m, linearised.by_place, points.normal,
-            seat.view.rotation, seat.view.translation_m, seat.pose_covariance, BENDS, visible, dt_s, own.shown_s,
-            own.hidden_s, own.steepest_rad, own.steepest_sd_rad, own.least_seen, own.most_seen, own.least_facing,
-            seat.view.camera.fx_px, visibility.palm_part, visibility.spread, visibility.visible,
-            visibility.tilt_rad, visibility.facing_m2,
-        )  # fmt: skip
-        return visibility
     tilt = tilt_to(seat.view, points.normal, linearised.centre_m)
     chance = seen_chance(visible, tilt, np.sqrt(tilt_variance(points.covariance)), dt_s, own)
     shift = FingerModel.palm_part(linearised, seat)
     facing = np.maximum(np.cos(tilt), own.least_facing)
     facing_m2 = facing * (seat.view.camera.fx_px / linearised.centre_m[..., 2]) ** 2
     return DiscVisibility(shift, linearised.spread + shift, chance, tilt, facing_m2)
+
+
+def areas_m2(
+    named: UpdatedDigits, area_px: FloatArray, tilt_rad: FloatArray, facing_m2: FloatArray, own: FingerSettings
+) -> FloatArray:
+    """Areas (5, 3) of the discs as seen, NaN where not or too tilted."""
+    assigned = named.names.assigned
+    if not area_px.size:
+        return np.full(assigned.shape, np.nan)
+    return np.where((assigned >= 0) & (tilt_rad < own.flat_rad), area_px[assigned] / facing_m2, np.nan)
 
 
 def learnt_sizes(known_m2: FloatArray, seen_m2: FloatArray, own: FingerSettings) -> FloatArray:

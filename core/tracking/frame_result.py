@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.hand.marker_protocol import MarkerProtocol
-from carpus.core.tracking.consistency import ConsistencyTest, Inconsistency, passed_over
+from carpus.core.kernels.choice import NOTHING, in_c
+from carpus.core.tracking.consistency import ConsistencyTest, passed_over
 from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.hand_filter import Posterior, Scan
 from carpus.core.tracking.hand_geometry import JointMoment
@@ -20,6 +21,20 @@ from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
 _SAME_AXIS = np.eye(2)
+
+
+@dataclass(frozen=True, slots=True)
+class _Rows:
+    """Of M markers the ``blob`` (M,) or -1, ``expected_px`` and ``seen_px`` (M, 2), ``seen_depth_m`` (M,),
+    ``expected_cov_px2`` (M, 2, 2) and ``disc_cam_m`` (M, 3); the ``worst`` of them contributes most to the NIS."""
+
+    blob: NDArray[np.int64]
+    expected_px: FloatArray
+    seen_px: FloatArray
+    seen_depth_m: FloatArray
+    expected_cov_px2: FloatArray
+    disc_cam_m: FloatArray
+    worst: int
 
 
 class FrameResults:
@@ -57,22 +72,17 @@ class FrameResults:
         dropped_before: int,
     ) -> TrackedFrame:
         """The row of a tracked or predicted frame."""
-        estimate, fingers, by_marker = posterior.estimate, posterior.fingers, self._order.by_marker
-        assigned = by_marker(posterior.palm.assigned, None if fingers is None else fingers.blob)
-        self._remember(scan.timestamp_s, self._directly(posterior.seen, assigned))
-        used = np.flatnonzero(assigned >= 0)
-        measured_px, measured_depth_m = np.full((assigned.size, 2), np.nan), np.full(assigned.size, np.nan)
-        measured_px[used], measured_depth_m[used] = detections.pixel[assigned[used]], detections.depth_m[assigned[used]]
-        predicted_px, predicted_cov_px2 = self._predicted_px(posterior)
-        view = posterior.predicted.view
-        discs, moment = view.discs_cam_m(estimate), self._readout.moment(estimate)
+        fingers, view = posterior.fingers, posterior.predicted.view
+        row = self._by_marker(posterior, joints, detections)
+        self._remember(scan.timestamp_s, self._directly(posterior.seen, row.blob))
+        moment = self._readout.moment(posterior.estimate)
         if joints is not None:
-            moment = self._readout.with_joints(moment, joints, estimate)
-            discs = by_marker(discs, joints.disc_cam_m)
+            moment = self._readout.with_joints(moment, joints, posterior.estimate)
         nis, dof = posterior.palm.nis, posterior.palm.dof
         if fingers is not None:
-            nis, dof = float(np.nansum([nis, fingers.nis])), dof + fingers.dof
-        doubt = self._doubted(posterior, scan, assigned, discs, nis, dof)
+            nis, dof = sum(part for part in (nis, fingers.nis) if not math.isnan(part)), dof + fingers.dof
+        over = passed_over(row.disc_cam_m, row.blob, scan.ideal, view.camera, self._settings.doubt)
+        doubt = self._doubt.watch(scan.dt_s, over, nis, dof, row.worst)
         if doubt.is_any and status is TrackStatus.TRACKED:
             status, moment = TrackStatus.DOUBTFUL, _widened(moment, doubt.widens)
         return TrackedFrame(
@@ -80,11 +90,11 @@ class FrameResults:
             timestamp_s=scan.timestamp_s,
             status=status,
             moment=moment,
-            marker_position_cam_m=discs,
-            marker_predicted_px=view.camera.distort(predicted_px),
-            marker_predicted_cov_px2=predicted_cov_px2 + self._settings.noise.pixel_sd_px**2 * _SAME_AXIS,
-            marker_measured_px=measured_px,
-            marker_measured_depth_m=measured_depth_m,
+            marker_position_cam_m=row.disc_cam_m,
+            marker_predicted_px=view.camera.distort(row.expected_px),
+            marker_predicted_cov_px2=row.expected_cov_px2,
+            marker_measured_px=row.seen_px,
+            marker_measured_depth_m=row.seen_depth_m,
             detections=detections,
             dropped_before=dropped_before,
             measured_share=self._share(),
@@ -101,33 +111,42 @@ class FrameResults:
             index, timestamp_s, self.lost_moment, self._markers, detections, dropped_before, self._share()
         )
 
-    def _predicted_px(self, posterior: Posterior) -> tuple[FloatArray, FloatArray]:
-        """Where each disc was predicted (M, 2) and its covariance (M, 2, 2): the palm's before the update, the fingers'
-        on the palm as updated."""
-        predicted, fingers = posterior.predicted, posterior.fingers
+    def _by_marker(self, posterior: Posterior, joints: JointMoment | None, detections: Detections) -> _Rows:
+        """Of each disc where it was predicted and how surely, the palm's before the update, the fingers' on the palm as
+        updated; the blob taken for it, and where it is by now."""
+        predicted, palm, fingers, order = posterior.predicted, posterior.palm, posterior.fingers, self._order
+        noise = self._settings.noise
+        if (kernels := in_c()) is not None:
+            count = order.source.size
+            expected_px, seen_px = np.empty((2, count, 2))
+            blob, covariance = np.empty(count, dtype=np.int64), np.empty((count, 2, 2))
+            seen_depth_m, disc_cam_m = np.empty(count), np.empty((count, 3))
+            worst, digits = np.empty(1, dtype=np.int64), (NOTHING,) * 5
+            if fingers is not None and joints is not None:
+                scene, update = fingers.scene, fingers.named.update
+                digits = fingers.blob, scene.linearised.value, scene.spread, update.residual, joints.disc_cam_m
+            kernels.markers_told(
+                count, len(detections), order.source, palm.assigned, predicted.mean, predicted.covariance,
+                palm.raw_residual, posterior.estimate.value, posterior.estimate.rotation_w2_w0, predicted.view.numbers,
+                *digits, detections.pixel, detections.depth_m, noise.pixel_sd_px, blob, seen_px, seen_depth_m,
+                expected_px, covariance, disc_cam_m, worst,
+            )  # fmt: skip
+            return _Rows(blob, expected_px, seen_px, seen_depth_m, covariance, disc_cam_m, worst.item())
+        blob = order.by_marker(palm.assigned, None if fingers is None else fingers.blob)
+        used = np.flatnonzero(blob >= 0)
+        seen_px, seen_depth_m = np.full((blob.size, 2), np.nan), np.full(blob.size, np.nan)
+        seen_px[used], seen_depth_m[used] = detections.pixel[blob[used]], detections.depth_m[blob[used]]
         pixel, covariance = predicted.mean[:, :2], predicted.covariance[:, :2, :2]
-        if fingers is None:
-            return pixel, covariance
-        by_marker = self._order.by_marker
-        return by_marker(pixel, fingers.predicted_px), by_marker(covariance, fingers.predicted_cov_px2)
-
-    def _doubted(
-        self,
-        posterior: Posterior,
-        scan: Scan,
-        assigned: NDArray[np.int64],
-        discs_cam_m: FloatArray,
-        nis: float,
-        dof: int,
-    ) -> Inconsistency:
-        camera, fingers = posterior.predicted.view.camera, posterior.fingers
-        surprise = (posterior.palm.raw_residual**2).sum(axis=-1)
-        surprise = self._order.by_marker(surprise, None if fingers is None else fingers.surprise)
-        over = passed_over(
-            camera.project(discs_cam_m), discs_cam_m[:, 2], assigned, scan.ideal.pixel, scan.ideal.depth_m,
-            camera.fx_px, self._settings.doubt,
-        )  # fmt: skip
-        return self._doubt.watch(scan.dt_s, over, nis, dof, int(surprise.argmax()))
+        discs, surprise = predicted.view.discs_cam_m(posterior.estimate), (palm.raw_residual**2).sum(axis=-1)
+        if fingers is not None and joints is not None:
+            pixel = order.by_marker(pixel, fingers.predicted_px)
+            covariance = order.by_marker(covariance, fingers.predicted_cov_px2)
+            discs, surprise = (
+                order.by_marker(discs, joints.disc_cam_m),
+                order.by_marker(surprise, fingers.surprise),
+            )
+        covariance = covariance + noise.pixel_sd_px**2 * _SAME_AXIS
+        return _Rows(blob, pixel, seen_px, seen_depth_m, covariance, discs, int(surprise.argmax()))
 
     def _directly(self, palm_seen: int, assigned: NDArray[np.int64]) -> NDArray[np.int64]:
         """Discs of the palm (3,), or whether each joint (J,), that were measured directly."""

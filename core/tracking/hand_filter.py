@@ -24,7 +24,7 @@ from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_geometry import CHAINS, JointMoment
 from carpus.core.tracking.joint_association import is_jointly_compatible
 from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.tracking.motion import PalmMotion, palm_ahead, slowing, slowing_unseen, unseen_turns
+from carpus.core.tracking.motion import PalmMotion, slowing, slowing_unseen, unseen_turns
 from carpus.core.tracking.operator_hints import NamedSpot
 from carpus.core.tracking.palm_association import Measurements, UpdatedPalm, associate_and_update, measurements_of
 from carpus.core.tracking.palm_smoother import FilterStep
@@ -40,16 +40,14 @@ from carpus.core.tracking.palm_state import (
     PalmEstimate,
     resting_estimate,
 )
-from carpus.core.tracking.palm_view import View, error_reset
-from carpus.core.tracking.predicted_measurement import MarkerOrder, PredictedMeasurement, predicted_measurement
+from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.predicted_measurement import MarkerOrder, PredictedMeasurement, predicted_ahead
 from carpus.core.tracking.reacquire import Facing, FoundPalm, find_palm
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.shape_learning import (
-    fresh_share,
     hidden_by_calibration,
     shape_covariance,
-    shape_partial_update,
 )
 from carpus.core.tracking.soft_tissue import (
     NO_DIGITS,
@@ -59,9 +57,11 @@ from carpus.core.tracking.soft_tissue import (
     resting_or_moving,
     stationary_covariance,
 )
-from carpus.core.tracking.surface_fit import calibrated_covariance, levelled_mixture, surface_measurement
+from carpus.core.tracking.surface_fit import calibrated_covariance, reset_and_levelled
 from carpus.core.types import Detections, FloatArray
 
+_TURN_VARIANCES = tuple((SIZE + 1) * row for row in range(TURN.start, TURN.stop))
+"""Where they stand in the covariance, counted row by row."""
 _NEAREST_M = 0.1
 """No camera sees a hand nearer: keeps the size of a disc finite."""
 
@@ -116,7 +116,7 @@ class Posterior:
     @property
     def turn_sd_rad(self) -> float:
         """How surely the hand's turn was predicted, all axes and modes together."""
-        return math.sqrt(sum(self.predicted.nominal.covariance.diagonal()[TURN].tolist()))
+        return math.sqrt(sum(map(self.predicted.nominal.covariance.item, _TURN_VARIANCES)))
 
 
 class HandFilter:
@@ -201,14 +201,11 @@ class HandFilter:
         return self._ahead[3]
 
     def _predicted(self, estimate: PalmEstimate, mixture: ModeMixture, dt_s: float) -> PredictedMeasurement:
-        settings, fresh = self._settings, 0.0
-        if dt_s > 0.0:
-            before = estimate
-            estimate, mixture = palm_ahead(estimate, mixture, self.motion, dt_s, self._unseen, self._digit_speeds)
-            fresh = fresh_share(self.view.discs_cam_m(before), self.view.discs_cam_m(estimate), self.view.camera)
-        partial = shape_partial_update(settings.shape_news * max(fresh, settings.shape_stale))
         digits = None if self.fingers is None else self.fingers.ahead(dt_s)
-        return predicted_measurement(estimate, mixture, self.view, settings.spread, partial, digits, self.order)
+        return predicted_ahead(
+            estimate, mixture, self.view, self.motion, dt_s, self._unseen, self._digit_speeds, self._settings, digits,
+            self.order,
+        )  # fmt: skip
 
     def scan(self, predicted: PredictedMeasurement, ideal: Detections, timestamp_s: float, dt_s: float) -> Scan:
         """The blobs as measurements at the distance at which the hand was predicted."""
@@ -220,9 +217,10 @@ class HandFilter:
         """Associate the blobs with the discs that were predicted and update by them."""
         blobs, enough = scan.blobs, self._settings.holding.least_discs + 1
         palm = associate_and_update(predicted, blobs, enough, self._resolution_px2, self._noise_factor, self._settings)
-        estimate, mixture = error_reset(predicted.nominal, palm.mixture)
-        by_surface = self._by_surface(scan, estimate, mixture, predicted.partial)
-        estimate, mixture = by_surface or (estimate, mixture)
+        estimate, mixture, levelled = reset_and_levelled(
+            predicted.nominal, palm.mixture, scan.ideal.surface, self._surface, self.view, predicted.partial,
+            self._settings.surface,
+        )  # fmt: skip
         unassigned, is_finger = np.ones(len(blobs), dtype=bool), np.zeros(len(blobs), dtype=bool)
         is_named = palm.assigned >= 0
         unassigned[palm.assigned[is_named]] = False
@@ -233,21 +231,10 @@ class HandFilter:
                 predicted.digits, scan.dt_s, seat, blobs, scan.ideal.area_px, unassigned, scan.ideal.fingers
             )
             is_finger[fingers.blob[fingers.blob >= 0]] = True
-        seen, levelled = int(np.count_nonzero(is_named)), by_surface is not None
+        seen = int(np.count_nonzero(is_named))
         return Posterior(
             predicted, palm, estimate, mixture, seen, fingers, unassigned & ~is_finger, is_finger, levelled
         )
-
-    def _by_surface(
-        self, scan: Scan, estimate: PalmEstimate, mixture: ModeMixture, partial: FloatArray | None
-    ) -> tuple[PalmEstimate, ModeMixture] | None:
-        """The palm updated by the surface of the back of the hand; None where that says nothing."""
-        if self._surface is None or scan.ideal.surface is None:
-            return None
-        own = self._settings.surface
-        found = surface_measurement(estimate, scan.ideal.surface, self._surface, self.view, own)
-        levelled = None if found is None else levelled_mixture(mixture, found, partial, own)
-        return None if levelled is None else error_reset(estimate, levelled)
 
     def fits(self, posterior: Posterior) -> bool:
         """Whether the discs lie where the updated pose puts them."""

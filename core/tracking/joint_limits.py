@@ -9,15 +9,16 @@ known ends up spread over its range.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carpus.core.hand.anatomy import ABDUCTION_LIMIT_RAD, HARD_LIMITS_RAD
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.kernels.choice import in_c
 from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
-from carpus.core.tracking.kernel import ModeMixture
+from carpus.core.tracking.kernel import ModeMixture, like
 from carpus.core.types import FloatArray
 
 _ROOT_HALF = math.sqrt(0.5)
@@ -85,16 +86,6 @@ def constrained(estimates: ModeMixture, slots: FloatArray, settings: LimitSettin
     Each angle's pull is found by itself, then all pulls of a digit act together, as measurements with independent
     errors.
     """
-    if (kernels := in_c()) is not None:
-        pulled = ModeMixture(
-            np.empty(estimates.mean.shape), np.empty(estimates.covariance.shape), estimates.probability
-        )
-        chains = np.empty(CHAINS, dtype=np.bool_)
-        kernels.digits_limited(
-            *estimates.mean.shape[1:], estimates.mean, estimates.covariance, slots, _LIMITS, _DIRECTION,
-            ABDUCTION_LIMIT_RAD, settings.soft_rad, settings.near_sd, pulled.mean, pulled.covariance, chains,
-        )  # fmt: skip
-        return pulled if chains.any() else estimates
     angle = np.einsum("rks,rjs->rkj", estimates.mean[..., :SLOTS], _DIRECTION)
     across = estimates.covariance[..., :SLOTS] @ np.swapaxes(_DIRECTION, 1, 2)[:, None]  # (5, K, n, 5)
     shared = _DIRECTION[:, None] @ across[..., :SLOTS, :]  # (5, K, 5, 5)
@@ -118,3 +109,28 @@ def constrained(estimates: ModeMixture, slots: FloatArray, settings: LimitSettin
     mean[chain] += (gain @ pull[..., None])[..., 0]
     covariance[chain] -= (gain * precision[..., None, :]) @ np.swapaxes(across[chain], -1, -2)
     return ModeMixture(mean, covariance, estimates.probability)
+
+
+def settled(
+    estimates: ModeMixture, most_beyond_rad: float, settings: LimitSettings
+) -> tuple[ModeMixture, tuple[FloatArray, FloatArray], NDArray[np.bool_]]:
+    """Estimates :func:`constrained` and those merged, and digits (5,) that are ``most_beyond_rad`` beyond a limit even
+    so."""
+    if (kernels := in_c()) is not None:
+        kept = replace(like(estimates), probability=estimates.probability)
+        merged, misread = (
+            (np.empty(kept.mean[:, 0].shape), np.empty(kept.covariance[:, 0].shape)),
+            np.empty(CHAINS, bool),
+        )
+        kernels.digits_settled(
+            kept.mean.shape[1], estimates.mean, estimates.covariance, estimates.probability, _LIMITS, _DIRECTION,
+            ABDUCTION_LIMIT_RAD, settings.soft_rad, settings.near_sd, most_beyond_rad, kept.mean, kept.covariance,
+            *merged, misread,
+        )  # fmt: skip
+        return kept, merged, misread
+    merged = estimates.merged()
+    kept = constrained(estimates, merged[0][:, :SLOTS], settings)
+    if kept is not estimates:
+        merged = kept.merged()
+    beyond_rad = np.abs(outside_limits(merged[0][:, :SLOTS]))
+    return kept, merged, np.asarray((beyond_rad > most_beyond_rad).any(axis=1))

@@ -86,13 +86,6 @@ def predicted(
 ) -> ModeMixture:
     """P <- F P F' + Q with ``forward`` (C, n, n) and ``noise`` (C, K, n, n), the modes :func:`mixed` before
     where there is a ``switch``."""
-    if (kernels := in_c()) is not None:
-        out = _like(mixture)
-        kernels.predicted(
-            *mixture.mean.shape, NOTHING if switch is None else switch, mixture.mean, mixture.covariance,
-            mixture.probability, forward, noise, out.mean, out.covariance, out.probability,
-        )  # fmt: skip
-        return out
     mixture = mixture if switch is None else mixed(mixture, switch)
     forward = forward[:, None]
     mean = (forward @ mixture.mean[..., None])[..., 0]
@@ -119,14 +112,6 @@ def transitioned(
     """The mixture after the step, of errors from a ``nominal`` (n,) that moves with its first m numbers and else stays:
     what of that a mode does not keep is an error of the mode. Its modes are :func:`mixed` before where there is a
     ``switch``."""
-    if (kernels := in_c()) is not None:
-        out, (_, modes, n) = _like(mixture), mixture.mean.shape
-        kernels.transitioned(
-            modes, n, len(step.moving), step.relaxing.shape[1], NOTHING if switch is None else switch,
-            mixture.mean, mixture.covariance, mixture.probability, step.moving, step.driven, step.kept,
-            step.relaxing, nominal, out.mean, out.covariance, out.probability,
-        )  # fmt: skip
-        return out
     mixture = mixture if switch is None else mixed(mixture, switch)
     mixing, first = len(step.moving), step.kept.shape[1] - step.relaxing.shape[1]
     mean = mixture.mean * step.kept + (step.kept - 1.0) * nominal
@@ -141,7 +126,7 @@ def transitioned(
     return ModeMixture(mean, covariance, mixture.probability)
 
 
-def _like(mixture: ModeMixture) -> ModeMixture:
+def like(mixture: ModeMixture) -> ModeMixture:
     """A mixture of the same shape, to be filled."""
     return ModeMixture(
         np.empty(mixture.mean.shape), np.empty(mixture.covariance.shape), np.empty(mixture.probability.shape)
@@ -199,7 +184,7 @@ def corrected(
     orders of magnitude.
     """
     if (kernels := in_c()) is not None:
-        out, nis, dof = _like(mixture), np.empty(len(mixture.mean)), np.empty(len(mixture.mean), dtype=np.int64)
+        out, nis, dof = like(mixture), np.empty(len(mixture.mean)), np.empty(len(mixture.mean), dtype=np.int64)
         residual = np.empty(measured.shape)
         kernels.corrected(
             *mixture.mean.shape, measured.shape[1], mixture.mean, mixture.covariance, mixture.probability,

@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core import so3
-from carpus.core.kernels.choice import NOTHING, in_c
 from carpus.core.tracking.kernel import ModeMixture, Transition, switching, transitioned
 from carpus.core.tracking.palm_state import MOVING, POSITION, RATE, SIZE, SKIN, SOFT, TURN, VELOCITY, PalmEstimate
 from carpus.core.tracking.soft_tissue import HOME, NO_DIGITS, STILL, DigitSpeeds, TissueModes
@@ -70,6 +69,8 @@ class PalmMotion:
     scale_of: FloatArray = field(init=False, repr=False, compare=False)
     tissue_of: NDArray[np.int64] = field(init=False, repr=False, compare=False)
     """Of each of the K modes (K,), those at rest first: the factor on the motion's noise, and the tissue's mode."""
+    numbers: FloatArray = field(init=False, repr=False, compare=False)
+    """All of it in one row, for the kernels."""
 
     def __post_init__(self) -> None:
         resting, count = self.tissue.resting, self.tissue.count
@@ -77,6 +78,16 @@ class PalmMotion:
         object.__setattr__(self, "scale_of", np.array(scale, dtype=np.float64))
         tissue = [*np.tile(np.arange(resting), self.scales.size), *range(resting, count)]
         object.__setattr__(self, "tissue_of", np.array(tissue))
+        own, told = self.tissue, self.noise
+        parts = (
+            (
+                self.dwell_s, told.acceleration_m_s2**2 * REFERENCE_DT_S,
+                told.turn_acceleration_rad_s2**2 * REFERENCE_DT_S, self.unseen_scale, own.turning_rad_s, own.lasts_rad,
+                own.leaving_per_rad,
+            ),
+            scale, tissue, own.lasts_s, own.rates, own.stationary,
+        )  # fmt: skip
+        object.__setattr__(self, "numbers", np.concatenate([np.ravel(part) for part in parts]).astype(np.float64))
 
     @property
     def modes(self) -> int:
@@ -170,22 +181,6 @@ def palm_ahead(
     digits: DigitSpeeds = NO_DIGITS,
 ) -> tuple[PalmEstimate, ModeMixture]:
     """The palm ``dt_s`` later, its modes as errors from the nominal estimate, whose covariance is that of them all."""
-    if (kernels := in_c()) is not None:
-        noise, tissue, turning_rad_s = motion.noise, motion.tissue, float(np.linalg.norm(estimate.rate_rad_s))
-        later = ModeMixture(
-            np.empty(mixture.mean.shape), np.empty(mixture.covariance.shape), np.empty(mixture.probability.shape)
-        )
-        nominal = PalmEstimate(np.empty((3, 3)), np.empty(SIZE), np.empty((SIZE, SIZE)))
-        kernels.palm_ahead(
-            motion.modes, tissue.count, tissue.resting, motion.scales.size, dt_s, motion.scale_of, motion.tissue_of,
-            tissue.stationary, tissue.switch(turning_rad_s, dt_s, digits), tissue.kept(dt_s, turning_rad_s, digits),
-            motion.dwell_s,
-            noise.acceleration_m_s2**2 * REFERENCE_DT_S, noise.turn_acceleration_rad_s2**2 * REFERENCE_DT_S,
-            motion.unseen_scale, NOTHING if unseen is None else unseen, mixture.mean, mixture.covariance,
-            mixture.probability, estimate.value, estimate.rotation_w2_w0, later.mean, later.covariance,
-            later.probability, nominal.value, nominal.rotation_w2_w0, nominal.covariance,
-        )  # fmt: skip
-        return nominal, later
     step = palm_transition(estimate.rate_rad_s, motion, dt_s, unseen, digits)
     later = transitioned(mixture, step, estimate.value, motion.switch(estimate.rate_rad_s, dt_s, digits))
     return step.carries(estimate, dt_s, later.merged()[1][0]), later

@@ -159,7 +159,7 @@ class OperatorHints:
         if heard is not None:
             self._add_no_discs(heard, timestamp_s, expected_px)
         no_disc = self._without(timestamp_s, detections.pixel, expected_px)
-        left = detections.only(~no_disc)
+        left = detections.only(~no_disc) if self._no_discs else detections
         return Hinted(left, no_disc, None if heard is None else self._named(heard, left.pixel))
 
     def _heard(self, index: int, timestamp_s: float) -> SpotAnswer | None:

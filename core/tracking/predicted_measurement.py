@@ -9,13 +9,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.kernels.choice import in_c
-from carpus.core.tracking.digit_filter import DigitPoints
-from carpus.core.tracking.finger_model import digit_view
+from carpus.core.kernels.choice import NOTHING, in_c
+from carpus.core.tracking.digit_filter import DigitPoints, DigitView
 from carpus.core.tracking.hand_geometry import CHAINS, DISCS, PalmInBody
-from carpus.core.tracking.kernel import Linearisation, ModeMixture
-from carpus.core.tracking.palm_state import PALM_DISCS, PalmEstimate
-from carpus.core.tracking.palm_view import View, palm_linearised
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, like
+from carpus.core.tracking.motion import PalmMotion, palm_ahead
+from carpus.core.tracking.palm_state import PALM_DISCS, POSE, SIZE, PalmEstimate
+from carpus.core.tracking.palm_view import ABOUT, COMPONENTS, FLOOR, View, palm_linearised
+from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.shape_learning import fresh_share, shape_partial_update
+from carpus.core.tracking.soft_tissue import DigitSpeeds
 from carpus.core.tracking.unscented import Spread, weights_for
 from carpus.core.types import FloatArray
 
@@ -33,21 +36,21 @@ class MarkerOrder:
     digits: NDArray[np.int64]
     has_discs: NDArray[np.bool_]
 
-    _source: NDArray[np.int64] = field(init=False, repr=False, compare=False)
+    source: NDArray[np.int64] = field(init=False, repr=False, compare=False)
     """Where each marker's row stands among the palm's and, after them, those of all digits."""
 
     def __post_init__(self) -> None:
         source = np.empty(self.palm.size + self.digits.size, dtype=np.int64)
         source[self.palm] = np.arange(self.palm.size)
         source[self.digits] = self.palm.size + np.arange(CHAINS * DISCS).reshape(CHAINS, DISCS)[self.has_discs]
-        object.__setattr__(self, "_source", source)
+        object.__setattr__(self, "source", source)
 
     def by_marker(self, palm: NDArray[Any], digits: NDArray[Any] | None) -> NDArray[Any]:
         """Rows (M, ...) of the protocol from those of the palm (6, ...) and of the digits' discs (5, 3, ...)."""
         if digits is None:
             return palm
         every = digits.reshape(CHAINS * DISCS, *palm.shape[1:])
-        return np.asarray(np.concatenate((palm, every)).take(self._source, 0))
+        return np.asarray(np.concatenate((palm, every)).take(self.source, 0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +63,8 @@ class PredictedDigits:
 
     def image(self, estimate: PalmEstimate, view: View, spread: Spread) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Pixels (5, 3, 2) with covariance (5, 3, 2, 2) given the palm, and depths (5, 3)."""
-        own_view, count = digit_view(estimate, view, self.palm), self.points.unroot.shape[-1]
+        count = self.points.unroot.shape[-1]
+        own_view = DigitView(*view.of_palm(estimate, self.palm.axes, self.palm.origin_m), view.camera)
         if (kernels := in_c()) is not None:
             camera = view.camera
             pixel, own, depth_m = (
@@ -161,14 +165,15 @@ def predicted_measurement(
     order: MarkerOrder | None = None,
 ) -> PredictedMeasurement:
     """What to expect of a mixture of errors about ``nominal``, whose covariance is that of the whole mixture."""
-    linearised = palm_linearised(nominal, view, spread)
     if (kernels := in_c()) is not None:
-        mean, own = np.empty((PALM_DISCS, 3)), np.empty((PALM_DISCS, 3, 3))
-        kernels.palm_expected(
-            mixture.mean.shape[1], nominal.covariance, mixture.mean, mixture.probability, linearised.value,
-            linearised.slope, linearised.error, mean, own,
+        line, mean, own = _to_be_filled()
+        kernels.palm_sighted(
+            mixture.mean.shape[1], mixture.mean, mixture.probability, nominal.value, nominal.covariance,
+            nominal.rotation_w2_w0, view.numbers, weights_for(POSE.size, spread).numbers, FLOOR,
+            line.value, line.slope, line.error, mean, own,
         )  # fmt: skip
-        return PredictedMeasurement(nominal, mixture, linearised, mean, own, view, spread, partial, digits, order)
+        return PredictedMeasurement(nominal, mixture, line, mean, own, view, spread, partial, digits, order)
+    linearised = palm_linearised(nominal, view, spread)
     slope = linearised.slope[0]
     mean = (linearised.value[0] + slope @ (mixture.probability[0] @ mixture.mean[0])).reshape(PALM_DISCS, 3)
     # Linear: what it makes of the whole mixture's covariance is that of what it makes of the modes.
@@ -176,3 +181,47 @@ def predicted_measurement(
     whole += linearised.error[0]
     own = whole.reshape(PALM_DISCS, 3, PALM_DISCS, 3)[_DISC, :, _DISC, :]
     return PredictedMeasurement(nominal, mixture, linearised, mean, own, view, spread, partial, digits, order)
+
+
+def _to_be_filled() -> tuple[Linearisation, FloatArray, FloatArray]:
+    """The line, where each disc should be and its covariance, before a kernel has worked them out."""
+    line = Linearisation(
+        np.empty((1, COMPONENTS)), np.empty((1, COMPONENTS, SIZE)), np.empty((1, COMPONENTS, COMPONENTS)), ABOUT
+    )
+    return line, np.empty((PALM_DISCS, 3)), np.empty((PALM_DISCS, 3, 3))
+
+
+def predicted_ahead(
+    estimate: PalmEstimate,
+    mixture: ModeMixture,
+    view: View,
+    motion: PalmMotion,
+    dt_s: float,
+    unseen: FloatArray | None,
+    speeds: DigitSpeeds,
+    settings: TrackerSettings,
+    digits: PredictedDigits | None = None,
+    order: MarkerOrder | None = None,
+) -> PredictedMeasurement:
+    """What to expect of the palm ``dt_s`` later, and how much of its shape that picture may tell."""
+    spread = settings.spread
+    if dt_s > 0.0 and (kernels := in_c()) is not None:
+        tissue, modes = motion.tissue, motion.modes
+        later = like(mixture)
+        nominal = PalmEstimate(np.empty((3, 3)), np.empty(SIZE), np.empty((SIZE, SIZE)))
+        partial, (line, mean, own) = np.empty(SIZE), _to_be_filled()
+        kernels.palm_predicted(
+            modes, tissue.count, tissue.resting, motion.scales.size, dt_s, motion.numbers, *speeds, settings.shape_news,
+            settings.shape_stale, view.numbers, weights_for(POSE.size, spread).numbers, FLOOR,
+            NOTHING if unseen is None else unseen, mixture.mean, mixture.covariance, mixture.probability,
+            estimate.value, estimate.rotation_w2_w0, later.mean, later.covariance, later.probability, nominal.value,
+            nominal.rotation_w2_w0, nominal.covariance, partial, line.value, line.slope, line.error, mean, own,
+        )  # fmt: skip
+        return PredictedMeasurement(nominal, later, line, mean, own, view, spread, partial, digits, order)
+    fresh = 0.0
+    if dt_s > 0.0:
+        before = estimate
+        estimate, mixture = palm_ahead(estimate, mixture, motion, dt_s, unseen, speeds)
+        fresh = fresh_share(view.discs_cam_m(before), view.discs_cam_m(estimate), view.camera)
+    partial = shape_partial_update(settings.shape_news * max(fresh, settings.shape_stale))
+    return predicted_measurement(estimate, mixture, view, spread, partial, digits, order)

@@ -8,7 +8,7 @@ with the place the part that no number of pictures takes away: the filter counts
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,8 +18,9 @@ from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
 from carpus.core.hand.wrist_frame import wrist_axes_sensitivity
 from carpus.core.kernels.choice import NOTHING, in_c
-from carpus.core.tracking.hand_geometry import NO_CUP, JointMoment, PalmInBody
-from carpus.core.tracking.palm_state import SHAPE, SIZE, SKIN, TURN, PalmEstimate
+from carpus.core.tracking.hand_geometry import CHAINS, NO_CUP, JointMoment, PalmInBody
+from carpus.core.tracking.palm_state import PALM_DISCS, POSE, SHAPE, SIZE, SKIN, TURN, PalmEstimate
+from carpus.core.tracking.palm_view import View
 from carpus.core.tracking.soft_tissue import LOOSE
 from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
@@ -60,26 +61,42 @@ class Readout:
         self._disc_m = calibration.marker_position_w0_m
         self._start = clinical_angles.rotation_from_angles(calibration.start_angles_rad, self._side)
         self._has_start = bool(np.any(calibration.start_angles_rad))
-        self._axes_shape = np.full(_SHAPE_SIZE, np.nan)
+        self._axes_shape = np.full(_SHAPE_SIZE, np.inf)
         self._axes = np.eye(3)
         self._sensitivity = np.zeros((3, _SHAPE_SIZE))
-        self._last: tuple[FloatArray, tuple[FloatArray, FloatArray]] | None = None
 
     def _axes_of(self, estimate: PalmEstimate) -> tuple[FloatArray, FloatArray]:
-        if self._last is None or self._last[0] is not estimate.value:
-            self._last = estimate.value, self._axes_of_shape(estimate.value[SHAPE])
-        return self._last[1]
-
-    def _axes_of_shape(self, shape: FloatArray) -> tuple[FloatArray, FloatArray]:
+        shape = estimate.value[SHAPE]
         moved_m = shape - self._axes_shape
-        if not np.abs(moved_m).max() <= self._settings.shape_moved_m:  # so too at first
-            self._axes, self._sensitivity = wrist_axes_sensitivity(self._disc_m + shape.reshape(-1, 3), _DORSAL)
-            self._axes_shape = shape.copy()
-            return self._axes, self._sensitivity
+        if np.abs(moved_m).max() > self._settings.shape_moved_m:  # so too at first
+            self._work_out_axes(shape)
+            moved_m = np.zeros(_SHAPE_SIZE)
         return self._axes @ so3.exp(self._sensitivity @ moved_m), self._sensitivity
 
-    def palm(self, estimate: PalmEstimate) -> tuple[PalmInBody, FloatArray]:
-        """The palm as refined, for the fingers, and the covariance (3, 3) of its axes' turn, in the body."""
+    def _work_out_axes(self, shape: FloatArray) -> None:
+        self._axes, self._sensitivity = wrist_axes_sensitivity(self._disc_m + shape.reshape(-1, 3), _DORSAL)
+        self._axes_shape = shape.copy()
+
+    def seat(
+        self, estimate: PalmEstimate, view: View
+    ) -> tuple[PalmInBody, FloatArray, FloatArray, FloatArray, FloatArray]:
+        """The palm as refined, for the fingers; how the camera sees W of it, rotation (3, 3) and translation (3,); in
+        camera axes the covariances of the body's place and turn (6, 6) and of the turn of the palm's axes (3, 3)."""
+        if (kernels := in_c()) is not None:
+            (axes, rotation, turn), (cup, cup_sd) = np.empty((3, 3, 3)), np.empty((2, CHAINS))
+            (origin_m, translation_m), disc_m, pose = np.empty((2, 3)), np.empty((PALM_DISCS, 3)), np.empty((6, 6))
+            is_near = np.empty(1, dtype=np.bool_)
+            for _ in range(2):
+                kernels.palm_seat(
+                    self._axes, self._sensitivity, self._axes_shape, self._settings.shape_moved_m, self._disc_m,
+                    self._settings.metacarpal_m, -1.0 if self._side == "left" else 1.0, estimate.value,
+                    estimate.rotation_w2_w0, estimate.covariance, view.numbers, axes, origin_m, disc_m, cup, cup_sd,
+                    rotation, translation_m, pose, turn, is_near,
+                )  # fmt: skip
+                if is_near.item():
+                    break
+                self._work_out_axes(estimate.value[SHAPE])
+            return PalmInBody(axes, origin_m, disc_m, cup, cup_sd), rotation, translation_m, pose, turn
         axes, sensitivity = self._axes_of(estimate)
         error = np.zeros((3, SIZE))
         error[_AXES, TURN.start + _AXES] = 1.0
@@ -92,28 +109,38 @@ class Readout:
         down = SKIN.start + 3 * LOOSE + 2
         cup_sd[-2:] = np.sqrt(estimate.covariance[down, down]) / self._settings.metacarpal_m
         palm = PalmInBody.of(disc_m, axes, self._side, cup, cup_sd)
-        return palm, error @ estimate.covariance @ error.T
+        body_cam = view.rotation_w0_cam @ estimate.rotation_w2_w0
+        to_camera = np.zeros((6, 6))
+        to_camera[:3, :3], to_camera[3:, 3:] = view.rotation_w0_cam, body_cam
+        pose = to_camera @ estimate.covariance[POSE[:, None], POSE] @ to_camera.T
+        turn = body_cam @ (error @ estimate.covariance @ error.T) @ body_cam.T
+        return palm, *view.of_palm(estimate, palm.axes, palm.origin_m), pose, turn
 
     def moment(self, estimate: PalmEstimate) -> Moment:
         """Wrist pose, rates, angles and their standard deviations of a single estimate.
 
         The origin of W2 is the WRIST disc where the skin has carried it; the axes are those of the fixed unit.
         """
-        axes, sensitivity = self._axes_of(estimate)
         if (kernels := in_c()) is not None:
             position, rate, angles, sd, zyz = np.empty((5, 3))
-            shown = np.empty((3, 3))
-            kernels.wrist_read(
-                axes, sensitivity, self._disc_m[0], estimate.value, estimate.rotation_w2_w0, estimate.covariance,
-                self._start if self._has_start else NOTHING,
-                self._tilt_covariance(estimate) if self._has_stays else NOTHING,
-                clinical_angles.side_sign(self._side), clinical_angles.ZYZ_UNDEFINED_BELOW_RAD,
-                position, shown, rate, angles, sd, zyz,
-            )  # fmt: skip
+            (axes, shown), is_near = np.empty((2, 3, 3)), np.empty(1, dtype=np.bool_)
+            for _ in range(2):
+                kernels.wrist_read(
+                    self._axes, self._sensitivity, self._axes_shape, self._settings.shape_moved_m, self._disc_m,
+                    estimate.value, estimate.rotation_w2_w0, estimate.covariance,
+                    self._start if self._has_start else NOTHING,
+                    self._tilt_covariance(estimate) if self._has_stays else NOTHING,
+                    clinical_angles.side_sign(self._side), clinical_angles.ZYZ_UNDEFINED_BELOW_RAD,
+                    axes, position, shown, rate, angles, sd, zyz, is_near,
+                )  # fmt: skip
+                if is_near.item():
+                    break
+                self._work_out_axes(estimate.value[SHAPE])
             w0_turn = so3.log(axes @ self._start.T)
             return Moment(
                 position, estimate.velocity_m_s, w0_turn, shown, rate, angles, sd, zyz, _NONE, _NONE, _NONE, _NOWHERE
             )
+        axes, sensitivity = self._axes_of(estimate)
         place = self._disc_m[0] + estimate.shape_m[0] + estimate.skin_m[0]
         position = estimate.position_m + estimate.rotation_w2_w0 @ place
         rotation = axes.T @ estimate.rotation_w2_w0 @ axes
@@ -163,13 +190,11 @@ class Readout:
         skin."""
         rotation = so3.exp(moment.w0_turn_rad) @ moment.rotation_w2_w0
         origin_m = moment.position_m - estimate.rotation_w2_w0 @ estimate.skin_m[0]
-        return replace(
-            moment,
-            joint_angles_rad=joints.angles_rad,
-            joint_angles_sd_rad=joints.sd_rad,
-            joint_velocity_rad_s=joints.rate_rad_s,
-            joint_position_m=origin_m + joints.joint_w2_m @ rotation.T,
-        )
+        return Moment(
+            moment.position_m, moment.velocity_m_s, moment.w0_turn_rad, moment.rotation_w2_w0,
+            moment.angular_velocity_rad_s, moment.angles_rad, moment.angles_sd_rad, moment.angles_zyz_rad,
+            joints.angles_rad, joints.sd_rad, joints.rate_rad_s, origin_m + joints.joint_w2_m @ rotation.T,
+        )  # fmt: skip
 
 
 def lost_moment(joint_count: int, marker_count: int) -> Moment:

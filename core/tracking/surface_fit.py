@@ -13,10 +13,10 @@ import numpy as np
 
 from carpus.core import so3
 from carpus.core.hand.back_surface import BackSurface
-from carpus.core.kernels.choice import in_c
-from carpus.core.tracking.kernel import Linearisation, ModeMixture, corrected
+from carpus.core.kernels.choice import NOTHING, in_c
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, corrected, like
 from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate
-from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.palm_view import View, error_reset
 from carpus.core.types import FloatArray, SurfaceSamples
 
 _KEPT = np.array([0, 1, 5])
@@ -67,21 +67,6 @@ def surface_measurement(
     estimate: PalmEstimate, samples: SurfaceSamples, surface: BackSurface, view: View, settings: SurfaceSettings
 ) -> SurfaceMeasurement | None:
     """Fit the surface to the readings, from the estimate's pose on; None where too few lie on it."""
-    if (kernels := in_c()) is not None:
-        camera, sensor, used = view.camera, view.camera.sensor, np.empty(1)
-        told = np.empty(3), np.empty((3, 3)), np.empty((3, SIZE))
-        kernels.surface_fit(
-            len(samples.depth_m), samples.pixel, samples.depth_m,
-            camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px,
-            view.rotation_w0_cam, view.translation_w0_cam_m, estimate.rotation_w2_w0, estimate.value,
-            *surface.height_m.shape, surface._plane, surface._to_node, surface.middle_m,
-            settings.steps, settings.huber_m, settings.most_m, settings.least, settings.shared, settings.reading_per_m,
-            sensor.reading.fixed_m, sensor.reading.square_per_m, sensor.stays.fixed_m, sensor.stays.square_per_m,
-            sensor.stays_px, sensor.patch_px, sensor.averages, settings.turn_sd_rad, settings.up_sd_m, settings.goes_on,
-            used, *told,
-        )  # fmt: skip
-        count = int(used[0])
-        return None if count < settings.least else SurfaceMeasurement(*told, count)
     in_camera = view.camera.back_project(samples.pixel, samples.depth_m)
     in_w0 = np.ones((len(in_camera), 4))
     in_w0[:, :3] = (in_camera - view.translation_w0_cam_m) @ view.rotation_w0_cam
@@ -165,6 +150,43 @@ def levelled_mixture(
     # Its noise has no scale of its own: the covariance is all there is.
     update = corrected(mixture, found.linearised(), found.value[None], _NO_NOISE, partial=partial)
     return None if float(update.nis[0]) > settings.most_nis else update.mixture
+
+
+def reset_and_levelled(
+    nominal: PalmEstimate,
+    mixture: ModeMixture,
+    samples: SurfaceSamples | None,
+    surface: BackSurface | None,
+    view: View,
+    partial: FloatArray | None,
+    settings: SurfaceSettings,
+) -> tuple[PalmEstimate, ModeMixture, bool]:
+    """The palm after an update by its discs: :func:`error_reset`, then corrected by the surface of the back of the hand
+    and reset once more; and whether the surface said anything."""
+    if (kernels := in_c()) is not None:
+        out, estimate = like(mixture), PalmEstimate(np.empty((3, 3)), np.empty(SIZE), np.empty((SIZE, SIZE)))
+        levelled, fitted = np.empty(1, dtype=np.bool_), (0, *(NOTHING,) * 3, 0, 0, *(NOTHING,) * 3)
+        if surface is not None and samples is not None:
+            fitted = (
+                len(samples.depth_m), samples.pixel, samples.depth_m, view.numbers, *surface.height_m.shape,
+                surface._plane, surface._to_node, surface.middle_m,
+            )  # fmt: skip
+        kernels.palm_reset(
+            mixture.mean.shape[1], mixture.mean, mixture.covariance, mixture.probability, nominal.value,
+            nominal.rotation_w2_w0, *fitted, settings.steps, settings.huber_m, settings.most_m, settings.least,
+            settings.shared, settings.reading_per_m, settings.turn_sd_rad, settings.up_sd_m, settings.goes_on,
+            settings.most_nis, NOTHING if partial is None else partial, out.mean, out.covariance, out.probability,
+            estimate.covariance, estimate.value, estimate.rotation_w2_w0, levelled,
+        )  # fmt: skip
+        if levelled.item():
+            return estimate, out, True
+        return estimate, ModeMixture(out.mean, mixture.covariance, mixture.probability), False
+    estimate, mixture = error_reset(nominal, mixture)
+    if surface is None or samples is None:
+        return estimate, mixture, False
+    found = surface_measurement(estimate, samples, surface, view, settings)
+    after = None if found is None else levelled_mixture(mixture, found, partial, settings)
+    return (estimate, mixture, False) if after is None else (*error_reset(estimate, after), True)
 
 
 def _turns_and_shifts(place: FloatArray, plane: FloatArray) -> FloatArray:

@@ -89,7 +89,7 @@ class Tracker:
         hinted = self._hints.screened(index, timestamp_s, detections, lambda: self._expected_px(timestamp_s))
         frame = self._tracked(index, timestamp_s, hinted, dropped_before)
         self._hints.hold(frame.marker_measured_px)
-        if hinted.no_disc.any():
+        if hinted.detections is not detections:
             frame = replace(frame, detections=detections, no_disc=hinted.no_disc)
         return frame
 

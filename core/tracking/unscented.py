@@ -21,16 +21,13 @@ class Spread:
 
 @dataclass(frozen=True, slots=True)
 class Weights:
-    """``mean`` and ``covariance`` (2n+1,), the centre first; ``scale`` sqrt(n + lambda)."""
+    """``mean`` and ``covariance`` (2n+1,), the centre first; ``scale`` sqrt(n + lambda). ``numbers`` (5,): of ``mean``
+    the centre's and the others', of ``covariance`` likewise, and ``scale``."""
 
     mean: FloatArray
     covariance: FloatArray
     scale: float
-
-    @property
-    def numbers(self) -> tuple[float, float, float, float, float]:
-        """Of ``mean`` the centre's and the others', of ``covariance`` likewise, and ``scale``."""
-        return self.mean.item(0), self.mean.item(1), self.covariance.item(0), self.covariance.item(1), self.scale
+    numbers: FloatArray
 
 
 @lru_cache(maxsize=64)
@@ -44,7 +41,8 @@ def weights_for(dimension: int, spread: Spread) -> Weights:
     covariance[0] = mean[0] + 1.0 - spread.alpha**2 + spread.beta
     mean.setflags(write=False)
     covariance.setflags(write=False)
-    return Weights(mean, covariance, float(np.sqrt(total)))
+    scale = float(np.sqrt(total))
+    return Weights(mean, covariance, scale, np.array([*mean[:2], *covariance[:2], scale]))
 
 
 def deviations(covariance: FloatArray, scale: float) -> FloatArray:

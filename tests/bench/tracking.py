@@ -123,15 +123,10 @@ class spied:  # noqa: N801  (read as a word)
         spy = self._spy
         whole_picture = lambda _, region=None: int(region is None)  # noqa: E731
         spy.watch(self._pipeline.detector, "detect", "narrow", "wide", choose=whole_picture)
-        spy.watch(palm_association.association, "log_odds", "names")
-        spy.watch(palm_association.association, "resolve", "names")
+        spy.watch(hand_filter, "associate_and_update", "names")
         spy.watch(palm_association, "associate_jointly", "joint")
-        spy.watch(palm_association, "corrected", "update")
-        spy.watch(hand_filter, "levelled_mixture", "update")
-        spy.watch(hand_filter, "error_reset", "update")
-        spy.watch(hand_filter, "palm_ahead", "predict")
-        spy.watch(hand_filter, "predicted_measurement", "forecast")
-        spy.watch(hand_filter, "surface_measurement", "surface")
+        spy.watch(hand_filter, "predicted_ahead", "predict")
+        spy.watch(hand_filter, "reset_and_levelled", "surface")
         spy.watch(frame_pipeline, "surface_samples", "surface")
         spy.watch(hand_filter, "find_palm", "find")
         return spy
@@ -146,7 +141,7 @@ def _parts(pipeline: FramePipeline, frame: Frame, spy: Spy, whole: float, costs:
     pipeline(frame)
     part = {label: spy.cpu_since(label, before[label]) for label in spy.times}
     detection = part["narrow"] + part["wide"]
-    association, filtering = part["names"] + part["joint"], part["predict"] + part["forecast"] + part["update"]
+    association, filtering = part["names"] + part["joint"], part["predict"] + part["update"]
     costs.detection.append(detection)
     costs.association.append(association)
     costs.filter.append(filtering)

@@ -11,7 +11,7 @@ from carpus.core.pipeline import frame_pipeline
 from carpus.core.pipeline.frame_pipeline import FramePipeline
 from carpus.core.simulation.recording import cached_recording
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking import digit_association, hand_filter, palm_association
+from carpus.core.tracking import digit_association, hand_filter
 from carpus.core.types import Frame
 from tests.bench.timing import HEAD, Spy, line
 from tests.bench.tracking import Costs, beside_the_plain, frames_of, pipeline_of, whole_frames
@@ -40,11 +40,9 @@ def measure(folder: Path, costs: Costs, rounds: int) -> None:
         pipeline, ends_s = pipeline_of(folder, frames)
         spy = Spy()
         spy.watch(pipeline.detector, "detect", "detect")
-        spy.watch(palm_association.association, "log_odds", "names")
-        spy.watch(palm_association.association, "resolve", "names")
-        spy.watch(palm_association, "associate_jointly", "names")
+        spy.watch(hand_filter, "associate_and_update", "names")
         spy.watch(digit_association, "_digit_jointly", "names")
-        spy.watch(hand_filter, "surface_measurement", "surface")
+        spy.watch(hand_filter, "reset_and_levelled", "surface")
         spy.watch(frame_pipeline, "surface_samples", "surface")
         try:
             for (frame, step_ms), whole in zip(beside_the_plain(frames, ends_s), whole_ms, strict=True):

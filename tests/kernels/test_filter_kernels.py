@@ -7,7 +7,7 @@ import pytest
 
 from carpus.core.kernels import choice
 from carpus.core.tracking import kernel
-from carpus.core.tracking.kernel import Linearisation, ModeMixture, Transition, partial_update, switching
+from carpus.core.tracking.kernel import Linearisation, ModeMixture, partial_update
 from carpus.core.types import FloatArray
 from tests.kernels.pairs import LEVELS, both
 
@@ -70,30 +70,9 @@ def test_a_number_unknown_is_not_passed_over_where_nothing_depends_on_it(
 
 
 @pytest.mark.parametrize(("chains", "modes", "n", "m"), SIZES)
-@pytest.mark.parametrize("switches", [False, True])
-def test_prediction_and_merging(chains: int, modes: int, n: int, m: int, switches: bool) -> None:
-    rng = np.random.default_rng(8)
-    mixture = mixture_of(rng, chains, modes, n)
-    switch = switching(modes, 0.5, 0.033) if switches else None
-    forward, noise = np.eye(n) + 0.1 * rng.normal(size=(chains, n, n)), covariances(rng, chains, modes, n)
-    both(lambda: kernel.predicted(mixture, forward, noise, switch))
-    both(mixture.merged)
+def test_merging(chains: int, modes: int, n: int, m: int) -> None:
+    both(mixture_of(np.random.default_rng(8), chains, modes, n).merged)
     assert m
-
-
-@pytest.mark.parametrize("modes", [1, 8])
-@pytest.mark.parametrize("switches", [False, True])
-def test_carrying(modes: int, switches: bool) -> None:
-    rng = np.random.default_rng(9)
-    mixture = mixture_of(rng, 1, modes, 54)
-    step = Transition(
-        np.eye(12) + 0.1 * rng.normal(size=(12, 12)),
-        covariances(rng, modes, 12),
-        np.where(np.arange(54) < 12, 1.0, rng.uniform(0.0, 1.0, size=(modes, 54))),
-        covariances(rng, modes, 21),
-    )
-    nominal, switch = rng.normal(size=54), switching(modes, 0.5, 0.033) if switches else None
-    both(lambda: kernel.transitioned(mixture, step, nominal, switch))
 
 
 def test_arrays_that_are_not_stored_row_by_row_are_read_as_they_are() -> None:
@@ -152,15 +131,6 @@ def test_an_array_of_another_size_is_refused_before_it_is_read(level: str, wrong
         given[wrong] = given[wrong][:1]
     with choice.forced(level), pytest.raises(ValueError):
         kernel.corrected(mixture, linearised, **given)
-
-
-@pytest.mark.parametrize("modes", [2, 3])
-@pytest.mark.parametrize("level", LEVELS)
-def test_a_switch_of_fewer_modes_is_refused(level: str, modes: int) -> None:
-    rng = np.random.default_rng(14)
-    mixture, noise = mixture_of(rng, 1, modes, 6), covariances(rng, 1, modes, 6)
-    with choice.forced(level), pytest.raises(ValueError):
-        kernel.predicted(mixture, np.eye(6)[None], noise, switching(1, 0.5, 0.033))
 
 
 def test_numbers_of_another_byte_order_are_read_as_they_are() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,16 +12,18 @@ import pytest
 from carpus.core import so3
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.hand.back_surface import BackSurface
+from carpus.core.tracking import palm_association
 from carpus.core.tracking.adaptive_noise import adapted_factor
 from carpus.core.tracking.association import AssociationSettings, log_odds
 from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.tracking.motion import MotionNoise, PalmMotion, palm_ahead
-from carpus.core.tracking.palm_association import measurements_of
-from carpus.core.tracking.palm_state import BACK, RELIEF, SIZE, TURN, PalmEstimate
-from carpus.core.tracking.palm_view import View, error_reset, palm_linearised
-from carpus.core.tracking.predicted_measurement import predicted_measurement
+from carpus.core.tracking.motion import MotionNoise, PalmMotion
+from carpus.core.tracking.palm_association import Measurements, associate_and_update, measurements_of
+from carpus.core.tracking.palm_state import BACK, RELIEF, SIZE, PalmEstimate
+from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.predicted_measurement import PredictedMeasurement, predicted_ahead, predicted_measurement
 from carpus.core.tracking.readout import Readout, ReadoutSettings
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
+from carpus.core.tracking.shape_learning import shape_partial_update
 from carpus.core.tracking.soft_tissue import (
     DigitSpeeds,
     SoftTissue,
@@ -29,7 +32,7 @@ from carpus.core.tracking.soft_tissue import (
     moved_by_joints,
     resting_or_moving,
 )
-from carpus.core.tracking.surface_fit import SurfaceSettings, surface_measurement
+from carpus.core.tracking.surface_fit import SurfaceSettings, reset_and_levelled
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import Detections, FloatArray, Side, SurfaceSamples
 from tests.kernels.pairs import both
@@ -57,21 +60,20 @@ def mixture_about(estimate: PalmEstimate, rng: np.random.Generator, modes: int) 
     )
 
 
+def told(of: PredictedMeasurement) -> tuple[object, ...]:
+    """What a kernel tells of it."""
+    return of.nominal, of.mixture, of.linearised, of.mean, of.covariance, of.partial
+
+
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("modes", [1, 8])
 def test_sight_and_what_is_expected(seed: int, modes: int) -> None:
     rng = np.random.default_rng(seed)
     estimate, view = moving(seed), view_of(rng)
-    both(lambda: palm_linearised(estimate, view, Spread()))
     both(lambda: view.discs_cam_m(estimate))
     mixture = mixture_about(estimate, rng, modes)
-
-    def expected() -> tuple[FloatArray, FloatArray]:
-        predicted = predicted_measurement(estimate, mixture, view, Spread())
-        return predicted.mean, predicted.covariance
-
-    both(expected)
-    both(lambda: error_reset(estimate, mixture))
+    both(lambda: told(predicted_measurement(estimate, mixture, view, Spread())))
+    both(lambda: reset_and_levelled(estimate, mixture, None, None, view, None, SurfaceSettings()))
 
 
 def test_a_palm_that_is_not_known_at_all_is_no_covariance() -> None:
@@ -86,7 +88,8 @@ def _sight_by(level: str, estimate: PalmEstimate) -> None:
     from carpus.core.kernels import choice
 
     with choice.forced(level):
-        palm_linearised(estimate, view_of(np.random.default_rng(0)), Spread())
+        rng = np.random.default_rng(0)
+        predicted_measurement(estimate, mixture_about(estimate, rng, 2), view_of(rng), Spread())
 
 
 @pytest.mark.parametrize("blobs", [0, 1, 25])
@@ -114,34 +117,78 @@ def test_surface(surface: BackSurface, sensor: DepthSensor, seed: int) -> None:
     estimate = replace(estimate, rotation_w2_w0=rotation @ so3.exp(0.01 * rng.normal(size=3)))
     view = View(replace(CAMERA, sensor=sensor), FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, np.zeros((6, 18)))
     samples = place_on(rotation, position)
+    mixture, partial = mixture_about(estimate, rng, 3), shape_partial_update(0.2)
+    off = mixture.mean + np.where(np.arange(SIZE) == RELIEF.start, 0.5, 0.0)
+    far = replace(mixture, mean=off, covariance=1e-6 * mixture.covariance)
+    broken = replace(mixture, covariance=np.full(mixture.covariance.shape, np.nan))
+
+    def after(some: SurfaceSamples | None, of: ModeMixture = mixture, partial: FloatArray | None = partial) -> Any:
+        return both(lambda: reset_and_levelled(estimate, of, some, surface, view, partial, SurfaceSettings()))
+
     for every in (7, 8, 900):  # an odd and an even number of readings, and too few
         some = SurfaceSamples(samples.pixel[::every], samples.depth_m[::every] + 1e-3 * rng.normal(size=1))
-        found = both(lambda some=some: surface_measurement(estimate, some, surface, view, SurfaceSettings()))
-        assert (found is None) == (every == 900)
-    assert estimate.value[TURN].any() == False  # noqa: E712
-    away = SurfaceSamples(samples.pixel[::9] + 1e4, samples.depth_m[::9])
-    assert both(lambda: surface_measurement(estimate, away, surface, view, SurfaceSettings())) is None
-    none = SurfaceSamples(np.empty((0, 2)), np.empty(0))
-    assert both(lambda: surface_measurement(estimate, none, surface, view, SurfaceSettings())) is None
+        assert after(some)[2] == (every != 900)
+    assert after(some, partial=None)[2] is False
+    thinned = SurfaceSamples(samples.pixel[::9], samples.depth_m[::9])
+    assert after(thinned, partial=None)[2]
+    assert not after(thinned, far)[2]
+    with np.errstate(invalid="ignore"):
+        after(thinned, broken)
+    assert not after(SurfaceSamples(samples.pixel[::9] + 1e4, samples.depth_m[::9]))[2]
+    assert not after(SurfaceSamples(np.empty((0, 2)), np.empty(0)))[2]
+    assert not after(None)[2]
+
+
+@pytest.mark.parametrize("modes", [1, 8])
+@pytest.mark.parametrize("learns", [False, True])
+def test_names_and_update_in_the_ordinary_case(modes: int, learns: bool) -> None:
+    rng, settings = np.random.default_rng(20), TrackerSettings()
+    estimate, view, as_it_is = moving(1), view_of(rng), np.ones((6, 3))
+    estimate = replace(estimate, covariance=1e-3 * estimate.covariance)
+    partial = shape_partial_update(0.2) if learns else None
+    mixture = mixture_about(estimate, rng, modes)
+    mixture.mean[:] *= 1e-2
+    expected = predicted_measurement(estimate, mixture, view, Spread(), partial)
+    noise = np.broadcast_to([0.04, 0.04, 1e-6], (6, 3))
+    seen = expected.mean + rng.normal(size=(6, 3)) * np.sqrt(noise)
+    no_depth, covered, outlier, twice = (seen.copy() for _ in range(4))
+    no_depth[::2, 2] = np.nan
+    covered[3, 2] -= 0.3
+    outlier[2, 0] += 3.0
+    outlier[4, 2] += 0.01
+    twice[1] = twice[0]
+    cases = [seen[::-1], seen[:5], seen[:2], seen[:0], no_depth, covered, outlier, twice, np.full((3, 3), np.nan)]
+    cases += [
+        np.concatenate((seen, seen + 40.0)),
+        seen + [6.0, -6.0, 0.02],
+        np.where(np.arange(3) == 2, seen - 0.3, seen),
+    ]
+    ordinary = []
+    for blobs in cases:
+        measured = Measurements(blobs, noise[:1].repeat(len(blobs), axis=0))
+        both(lambda of=measured: associate_and_update(expected, of, 4, 3e5, as_it_is, settings))
+        ordinary.append(palm_association._in_ordinary_case(expected, measured, 4, 3e5, as_it_is, settings) is not None)
+    assert ordinary[0]
+    assert not any((ordinary[3], ordinary[8]))
 
 
 @pytest.mark.parametrize("tissue", [always_pushed, resting_or_moving, moved_by_joints])
 @pytest.mark.parametrize("scales", [(1.0,), (0.5, 4.0)])
-@pytest.mark.parametrize("dt_s", [0.033, 3.0])
-def test_the_palm_ahead(tissue: Callable[[SoftTissue], TissueModes], scales: tuple[float, ...], dt_s: float) -> None:
+@pytest.mark.parametrize("dt_s", [0.0, 0.033, 3.0])
+def test_what_is_expected_ahead(
+    tissue: Callable[[SoftTissue], TissueModes], scales: tuple[float, ...], dt_s: float
+) -> None:
     rng = np.random.default_rng(13)
     motion, along = PalmMotion(MotionNoise(), tissue(SoftTissue()), np.array(scales)), rng.normal(size=3)
     unseen = np.outer(along, along) / (along @ along)
-    for seed, some in ((1, None), (2, unseen)):
-        estimate = moving(seed)
-        mixture = mixture_about(estimate, rng, motion.modes)
+    still = replace(moving(3), value=np.zeros(SIZE))
+    for estimate, some in ((moving(1), None), (moving(2), unseen), (still, None)):
+        mixture, view = mixture_about(estimate, rng, motion.modes), view_of(rng)
         both(
-            lambda estimate=estimate, mixture=mixture, some=some: palm_ahead(
-                estimate, mixture, motion, dt_s, some, SPEEDS
+            lambda estimate=estimate, mixture=mixture, view=view, some=some: told(
+                predicted_ahead(estimate, mixture, view, motion, dt_s, some, SPEEDS, TrackerSettings())
             )
         )
-    still = replace(moving(3), value=np.zeros(SIZE))
-    both(lambda: palm_ahead(still, mixture_about(still, np.random.default_rng(1), motion.modes), motion, dt_s))
 
 
 @pytest.mark.parametrize("side", ["right", "left"])

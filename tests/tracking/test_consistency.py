@@ -10,7 +10,7 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.tracking.consistency import ConsistencySettings, ConsistencyTest, passed_over
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import SpotAnswer, TrackedFrame
+from carpus.core.types import Detections, SpotAnswer, TrackedFrame
 from tests.tracking.hands import CAMERA, MCP3, angles_deg, blobs, calibration, discs_cam_m, swing, truth_deg
 
 DT_S = 1.0 / 30.0
@@ -47,13 +47,12 @@ def test_nothing_measured_is_no_contradiction() -> None:
 
 
 def test_only_a_free_blob_at_the_place_and_depth_is_passed_over() -> None:
-    disc_px, depth = np.array([[100.0, 100.0], [200.0, 100.0]]), np.array([0.7, 0.7])
-    settings = ConsistencySettings()
+    disc_m = CAMERA.back_project(np.array([[100.0, 100.0], [200.0, 100.0]]), np.array([0.7, 0.7]))
 
     def over(assigned: list[int], blob_px: list[list[float]], blob_m: list[float]) -> list[bool]:
-        return passed_over(
-            disc_px, depth, np.array(assigned), np.array(blob_px).reshape(-1, 2), np.array(blob_m), 525.0, settings
-        ).tolist()
+        seen, some = Detections.none(), np.array(blob_px).reshape(-1, 2)
+        seen = replace(seen, pixel=some, depth_m=np.array(blob_m))
+        return passed_over(disc_m, np.array(assigned), seen, CAMERA, ConsistencySettings()).tolist()
 
     assert over([-1, 0], [[200.0, 100.0], [103.0, 101.0]], [0.7, 0.7]) == [True, False]
     assert over([-1, 0], [[200.0, 100.0]], [0.7]) == [False, False]
