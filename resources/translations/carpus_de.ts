@@ -9726,6 +9726,25 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>KeysCard</name>
+    <message>
+        <source>Usual keys again</source>
+        <translation>Übliche Tasten wieder</translation>
+    </message>
+    <message>
+        <source>Click a key and press another one. While measuring only the space bar and function keys are safe.</source>
+        <translation>Klicken Sie eine Taste an und drücken Sie eine andere. Beim Messen sind nur Leertaste und Funktionstasten sicher.</translation>
+    </message>
+    <message>
+        <source>Keys</source>
+        <translation>Tasten</translation>
+    </message>
+    <message>
+        <source>{key} already does: {action}.</source>
+        <translation>{key} tut schon: {action}.</translation>
+    </message>
+</context>
+<context>
     <name>LandingMap</name>
     <message>
         <source>Where lines land</source>
@@ -12681,11 +12700,11 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Click a key and press another one. While measuring only the space bar and function keys are safe.</source>
-        <translation>Klicken Sie eine Taste an und drücken Sie eine andere. Beim Messen sind nur Leertaste und Funktionstasten sicher.</translation>
+        <translation type="vanished">Klicken Sie eine Taste an und drücken Sie eine andere. Beim Messen sind nur Leertaste und Funktionstasten sicher.</translation>
     </message>
     <message>
         <source>Usual keys again</source>
-        <translation>Übliche Tasten wieder</translation>
+        <translation type="vanished">Übliche Tasten wieder</translation>
     </message>
     <message>
         <source>About Carpus</source>
@@ -12749,7 +12768,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>{key} already does: {action}.</source>
-        <translation>{key} tut schon: {action}.</translation>
+        <translation type="vanished">{key} tut schon: {action}.</translation>
     </message>
 </context>
 <context>

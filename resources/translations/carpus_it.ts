@@ -9726,6 +9726,25 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>KeysCard</name>
+    <message>
+        <source>Usual keys again</source>
+        <translation>Ripristina i tasti usuali</translation>
+    </message>
+    <message>
+        <source>Click a key and press another one. While measuring only the space bar and function keys are safe.</source>
+        <translation>Fare clic su un tasto e premerne un altro. Durante la misura sono sicuri solo la barra spaziatrice e i tasti funzione.</translation>
+    </message>
+    <message>
+        <source>Keys</source>
+        <translation>Tasti</translation>
+    </message>
+    <message>
+        <source>{key} already does: {action}.</source>
+        <translation>{key} fa già: {action}.</translation>
+    </message>
+</context>
+<context>
     <name>LandingMap</name>
     <message>
         <source>Where lines land</source>
@@ -12681,11 +12700,11 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Click a key and press another one. While measuring only the space bar and function keys are safe.</source>
-        <translation>Fare clic su un tasto e premerne un altro. Durante la misura sono sicuri solo la barra spaziatrice e i tasti funzione.</translation>
+        <translation type="vanished">Fare clic su un tasto e premerne un altro. Durante la misura sono sicuri solo la barra spaziatrice e i tasti funzione.</translation>
     </message>
     <message>
         <source>Usual keys again</source>
-        <translation>Ripristina i tasti usuali</translation>
+        <translation type="vanished">Ripristina i tasti usuali</translation>
     </message>
     <message>
         <source>About Carpus</source>
@@ -12749,7 +12768,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>{key} already does: {action}.</source>
-        <translation>{key} fa già: {action}.</translation>
+        <translation type="vanished">{key} fa già: {action}.</translation>
     </message>
 </context>
 <context>

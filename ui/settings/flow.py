@@ -10,7 +10,7 @@ from carpus.ui.background import Background
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.ports import Preferences
 from carpus.ui.settings.licences import LicencesWindow
-from carpus.ui.settings.screen import Part, SettingsScreen
+from carpus.ui.settings.screen import PartName, SettingsScreen
 
 
 class SettingsFlow(Flow):
@@ -25,7 +25,7 @@ class SettingsFlow(Flow):
         self.screen.done.connect(context.way.back)
         self.screen.licences.clicked.connect(lambda: LicencesWindow(self.screen, context.theme, licence_texts()).exec())
 
-    def show(self, part: Part | None = None) -> None:
+    def show(self, part: PartName | None = None) -> None:
         """Where help and settings can be opened now; as it was left, or at a part."""
         if part is not None:
             self.screen.choose(part)

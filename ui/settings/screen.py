@@ -7,13 +7,10 @@ from dataclasses import replace
 from typing import Literal, get_args
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import (
     QApplication,
     QButtonGroup,
     QFileDialog,
-    QGridLayout,
-    QKeySequenceEdit,
     QLineEdit,
     QStackedWidget,
     QVBoxLayout,
@@ -27,17 +24,17 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices, DegreesField
-from carpus.ui.controls.layouts import fill, in_column, in_line
+from carpus.ui.controls.layouts import Part, fill, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.controls.tick import Tick
-from carpus.ui.keys import DEFAULT_KEYS, action_words
 from carpus.ui.language import LANGUAGES
 from carpus.ui.ports import Preferences
+from carpus.ui.settings.keys_card import KeysCard
 from carpus.ui.settings.limits import limits_card
 from carpus.ui.theme import GAP_PX, MARGIN_PX, TEXT_SCALES, Theme
 
 MOST_AGREEMENT_DEG = 45
-Part = Literal["camera", "measuring", "report", "safety", "looks", "keys", "research", "about"]
+PartName = Literal["camera", "measuring", "report", "safety", "looks", "keys", "research", "about"]
 
 
 class SettingsScreen(QWidget):
@@ -92,19 +89,102 @@ class SettingsScreen(QWidget):
         self.agreement = DegreesField(theme, MOST_AGREEMENT_DEG, self.tr("none"))
         self.agreement.set_value(preferences.agreement_limit_deg or math.nan)
         self.agreement.setAccessibleName(self.tr("Agree within"))
-        self.keys: dict[str, QKeySequenceEdit] = {}
+        self.keys_card = KeysCard(theme, preferences.keys)
+        self.keys, self.fault, self.reset = self.keys_card.fields, self.keys_card.fault, self.keys_card.reset
         self.research = Tick(theme, self.tr("For research"))
         self.research.setChecked(preferences.research)
-        self.fault = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.back = Button(theme, self.tr("Done"), "primary", hint=self.tr("Esc"))
         self._lay_out()
         self._connect()
 
     def _lay_out(self) -> None:
+        theme, narrow = self._theme, Qt.AlignmentFlag.AlignLeft
+        self._folded = (
+            self._card(
+                self.tr("Order of the angles"),
+                self.tr(
+                    "Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ "
+                    "order; sessions in different orders are never compared."
+                ),
+                self.angle_order,
+            ),
+            self._card(
+                self.tr("Agreement"),
+                self.tr(
+                    "The most that Carpus and another measurement may differ by and still stand for each other: what "
+                    "would not change your treatment. Set it before you compare; with none, nothing is judged."
+                ),
+                (self.agreement, 0, narrow),
+            ),
+            self._card(
+                self.tr("Other programs"),
+                self.tr(
+                    "While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any "
+                    "computer in the same network can read them; no name and no picture is in them. From the next "
+                    "set-up on."
+                ),
+                self.stream,
+            ),
+        )
+        self.therapist.setMaximumWidth(theme.px(220))
+        self._limits = Card(theme, 0)  # what is in it changes when new limits are put into force
+        self._limits.set_colors("canvas", "canvas")
+        self.retest = Button(theme, self.tr("Measure the clinic’s own limits…"), height_px=40)
+        self.show_limits(self._measured)
+        self._pages: dict[PartName, QVBoxLayout] = {part: QVBoxLayout() for part in get_args(PartName)}
+        cards: dict[PartName, tuple[QWidget, ...]] = {
+            "camera": (), "measuring": (*self._measuring_cards(), self._limits),
+            "report": (self._card(self.tr("Initials on reports"), "", self.therapist),),
+            "safety": (
+                self._card(
+                    self.tr("Data"),
+                    self.tr("Sessions and the list of patients. Private to you; nothing leaves this computer."),
+                    in_line((self.folder, 1), self.folder_button),
+                ),
+            ),
+            "looks": (self._looks_card(),), "keys": (self.keys_card,),
+            "research": (
+                self._card(
+                    self.tr("Research"),
+                    self.tr(
+                        "Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in "
+                        "reports, all formats of an export, the order of the angles, streaming, agreement. No value "
+                        "changes by it."
+                    ),
+                    (self.research, 0, narrow),
+                ),
+                *self._folded,
+            ),
+            "about": (self._about_card(),),
+        }  # fmt: skip
+        self._lay_out_index(cards)
+        self._fold()
+        self.choose("looks")
+        head = in_line((heading(theme, self.tr("Settings")), 1), self.back, margins=(0, 0, 8, 0))
+        beside = in_line(self._left, (self._stack, 1), gap=GAP_PX)
+        in_column(head, (beside, 1), gap=12, margins=(MARGIN_PX, GAP_PX, MARGIN_PX - 8, GAP_PX), within=self)
+
+    def _measuring_cards(self) -> tuple[Card, Card]:
+        start = self._card(
+            self.tr("Start of a recording"),
+            self.tr(
+                "For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide "
+                "show, is a keyboard with a few keys. Page Down goes on, records and stops; another key is chosen "
+                "under Keys. A start by itself is counted down, and Space takes it back."
+            ),
+            self.start,
+        )
+        words = self.tr(
+            "A second screen, or a window of its own, that shows the patient what to do. It opens from the screen one "
+            "measures on; whether it speaks to a child or an adult is chosen with the exercise."
+        )
+        return start, self._card(self.tr("The patient’s view"), words, self.patient_sound)
+
+    def _looks_card(self) -> Card:
         theme = self._theme
-        looks = self._card(self.tr("Looks"))
-        fill(
-            looks.body,
+        return self._card(
+            self.tr("Looks"),
+            "",
             Text(theme, self.tr("Colours"), 14, REGULAR, "text2"),
             self.looks,
             8,
@@ -115,112 +195,34 @@ class SettingsScreen(QWidget):
             self.language,
             self.language_note,
         )
-        data = self._card(self.tr("Data"))
-        note = self.tr("Sessions and the list of patients. Private to you; nothing leaves this computer.")
-        data.body.addWidget(Text(theme, note, 14, REGULAR, "text2", wrap=True))
-        data.body.addLayout(in_line((self.folder, 1), self.folder_button))
-        initials = self._card(self.tr("Initials on reports"))
-        self.therapist.setMaximumWidth(theme.px(220))
-        initials.body.addWidget(self.therapist)
-        research = self._card(self.tr("Research"))
-        words = self.tr(
-            "Shows what a clinic’s day does not need: path and axes, speeds, the page of movement in reports, all "
-            "formats of an export, the order of the angles, streaming, agreement. No value changes by it."
-        )
-        research.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        research.body.addWidget(self.research, 0, Qt.AlignmentFlag.AlignLeft)
-        order = self._card(self.tr("Order of the angles"))
-        words = self.tr(
-            "Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ order; "
-            "sessions in different orders are never compared."
-        )
-        order.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        order.body.addWidget(self.angle_order)
-        stream = self._card(self.tr("Other programs"))
-        words = self.tr(
-            "While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any computer "
-            "in the same network can read them; no name and no picture is in them. From the next set-up on."
-        )
-        stream.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        stream.body.addWidget(self.stream)
-        start = self._card(self.tr("Start of a recording"))
-        words = self.tr(
-            "For hands that hold the patient’s arm. The key may be far away: a pedal, or the clicker of a slide show, "
-            "is a keyboard with a few keys. Page Down goes on, records and stops; another key is chosen under Keys. A "
-            "start by itself is counted down, and Space takes it back."
-        )
-        start.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        start.body.addWidget(self.start)
-        patient = self._card(self.tr("The patient’s view"))
-        words = self.tr(
-            "A second screen, or a window of its own, that shows the patient what to do. It opens from the screen one "
-            "measures on; whether it speaks to a child or an adult is chosen with the exercise."
-        )
-        patient.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        patient.body.addWidget(self.patient_sound)
-        agreement = self._card(self.tr("Agreement"))
-        words = self.tr(
-            "The most that Carpus and another measurement may differ by and still stand for each other: what would not "
-            "change your treatment. Set it before you compare; with none, nothing is judged."
-        )
-        agreement.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        agreement.body.addWidget(self.agreement, 0, Qt.AlignmentFlag.AlignLeft)
-        keys = self._card(self.tr("Keys"))
-        words = self.tr(
-            "Click a key and press another one. While measuring only the space bar and function keys are safe."
-        )
-        keys.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        grid = QGridLayout()
-        grid.setHorizontalSpacing(24)
-        names = list(DEFAULT_KEYS)
-        half = (len(names) + 1) // 2
-        for place, name in enumerate(names):
-            field = QKeySequenceEdit(QKeySequence(self._preferences.keys.get(name, DEFAULT_KEYS[name])))
-            field.setMaximumSequenceLength(1)
-            field.setAccessibleName(action_words(name))
-            field.editingFinished.connect(lambda name=name: self._take_key(name))
-            column = 2 * (place // half)
-            grid.addWidget(Text(theme, action_words(name), 14, wrap=True), place % half, column)
-            grid.addWidget(field, place % half, column + 1)
-            self.keys[name] = field
-        theme.changed.connect(self._fit_keys)
-        self._fit_keys()
-        grid.setColumnStretch(0, 1)
-        grid.setColumnStretch(2, 1)
-        keys.body.addLayout(grid)
-        self.reset = Button(theme, self.tr("Usual keys again"), height_px=40)
-        keys.body.addWidget(self.fault)
-        keys.body.addWidget(self.reset, 0, Qt.AlignmentFlag.AlignLeft)
-        self.fault.hide()
-        about = self._card(self.tr("About Carpus"))
-        about.body.addWidget(Text(theme, self.tr("Version {version}, MIT licence.").format(version=self._version), 14))
-        about.body.addWidget(Text(theme, terms.LEGAL_SENTENCE, 14, SEMIBOLD, wrap=True))
+
+    def _about_card(self) -> Card:
+        theme = self._theme
         words = self.tr(
             "Carpus asks nobody whether there is a newer version, and sends nothing. To look yourself, compare this "
             "version with the newest one where you got Carpus from; its list of changes says what is new. Install it "
             "over this one: patients, sessions and settings stay. Make a back-up before."
         )
         self.newer = Text(theme, words, 14, REGULAR, "text2", wrap=True)
-        about.body.addWidget(self.newer)
         self.licences = Button(theme, self.tr("Parts and their licences"), height_px=40)
-        about.body.addWidget(self.licences, 0, Qt.AlignmentFlag.AlignLeft)
-        self.retest = Button(theme, self.tr("Measure the clinic’s own limits…"), height_px=40)
-        self._limits = Card(theme, 0)  # what is in it changes when new limits are put into force
-        self._limits.set_colors("canvas", "canvas")
-        self.show_limits(self._measured)
-        self._folded = (order, agreement, stream)
-        self._pages: dict[Part, QVBoxLayout] = {part: QVBoxLayout() for part in get_args(Part)}
-        cards: dict[Part, tuple[QWidget, ...]] = {
-            "camera": (), "measuring": (start, patient, self._limits), "report": (initials,), "safety": (data,),
-            "looks": (looks,), "keys": (keys,), "research": (research, *self._folded), "about": (about,),
-        }  # fmt: skip
-        titles: dict[Part, str] = {
+        return self._card(
+            self.tr("About Carpus"),
+            "",
+            Text(theme, self.tr("Version {version}, MIT licence.").format(version=self._version), 14),
+            Text(theme, terms.LEGAL_SENTENCE, 14, SEMIBOLD, wrap=True),
+            self.newer,
+            (self.licences, 0, Qt.AlignmentFlag.AlignLeft),
+        )
+
+    def _lay_out_index(self, cards: dict[PartName, tuple[QWidget, ...]]) -> None:
+        """A button for each part on the left, what is in it on the right."""
+        titles: dict[PartName, str] = {
             "camera": self.tr("Camera"), "measuring": self.tr("Measuring"), "report": self.tr("Report and clinic"),
             "safety": self.tr("Safety"), "looks": self.tr("Looks and language"), "keys": self.tr("Keys"),
             "research": self.tr("Research"), "about": self.tr("About Carpus"),
         }  # fmt: skip
         self._stack = QStackedWidget()
-        self.index: dict[Part, Button] = {}
+        self.index: dict[PartName, Button] = {}
         group = QButtonGroup(self)
         index = in_column(gap=4)
         for number, (part, page) in enumerate(self._pages.items()):
@@ -232,22 +234,15 @@ class SettingsScreen(QWidget):
             host = ScrolledColumn()
             host.setLayout(page)
             self._stack.addWidget(scroll_area(host))
-            button = self.index[part] = Button(theme, titles[part], "quiet", height_px=40)
+            button = self.index[part] = Button(self._theme, titles[part], "quiet", height_px=40)
             button.setCheckable(True)
             group.addButton(button, number)
             index.addWidget(button)
         index.addStretch(1)
-        group.idClicked.connect(lambda number: self.choose(get_args(Part)[number]))
-        beside = in_line(gap=GAP_PX)
+        group.idClicked.connect(lambda number: self.choose(get_args(PartName)[number]))
         self._left = QWidget()
         index.setContentsMargins(0, 4, 0, 4)
         self._left.setLayout(index)
-        beside.addWidget(self._left)
-        beside.addWidget(self._stack, 1)
-        self._fold()
-        self.choose("looks")
-        head = in_line((heading(theme, self.tr("Settings")), 1), self.back, margins=(0, 0, 8, 0))
-        in_column(head, (beside, 1), gap=12, margins=(MARGIN_PX, GAP_PX, MARGIN_PX - 8, GAP_PX), within=self)
 
     def show_limits(self, measured: ErrorLimits) -> None:
         """The limits that hold from now on."""
@@ -269,20 +264,16 @@ class SettingsScreen(QWidget):
         self.language_note.setText(why)
         self.language_note.show()
 
-    def _fit_keys(self) -> None:
-        for field in self.keys.values():
-            field.setFixedWidth(self._theme.px(104))
-
-    def add_cards(self, part: Part, *cards: Card) -> None:
+    def add_cards(self, part: PartName, *cards: Card) -> None:
         """Cards of others, before what else the part has."""
         for number, card in enumerate(cards):
             self._pages[part].insertWidget(number, card)
         self._fold()
 
-    def choose(self, part: Part) -> None:
+    def choose(self, part: PartName) -> None:
         """Show one part."""
         self.index[part].setChecked(True)
-        self._stack.setCurrentIndex(get_args(Part).index(part))
+        self._stack.setCurrentIndex(get_args(PartName).index(part))
 
     def _fold(self) -> None:
         """What only research needs is there for who switched it on; a part with nothing in it is not offered."""
@@ -295,9 +286,12 @@ class SettingsScreen(QWidget):
         self._change(replace(self._preferences, research=on))
         self._fold()
 
-    def _card(self, title: str) -> Card:
+    def _card(self, title: str, words: str, *parts: Part) -> Card:
         card = Card(self._theme, 24)
         card.body.addWidget(Text(self._theme, title, 20, SEMIBOLD))
+        if words:
+            card.body.addWidget(Text(self._theme, words, 14, REGULAR, "text2", wrap=True))
+        fill(card.body, *parts)
         return card
 
     def _connect(self) -> None:
@@ -312,7 +306,7 @@ class SettingsScreen(QWidget):
         self.therapist.editingFinished.connect(self._take_therapist)
         self.agreement.editingFinished.connect(self._take_agreement)
         self.folder_button.clicked.connect(self.ask_folder)
-        self.reset.clicked.connect(self._reset_keys)
+        self.keys_card.changed.connect(lambda keys: self._change(replace(self._preferences, keys=keys)))
         self.retest.clicked.connect(self.retest_wanted)
         self.back.clicked.connect(self.done)
 
@@ -355,32 +349,3 @@ class SettingsScreen(QWidget):
         if path:
             self.folder.setText(path)
             self._change(replace(self._preferences, data_folder=path))
-
-    def _take_key(self, name: str) -> None:
-        key = self.keys[name].keySequence().toString(QKeySequence.SequenceFormat.PortableText)
-        taken = [other for other in self._sharing(name) if key and self._key_of(other) == key]
-        if taken or not key:
-            self.keys[name].setKeySequence(QKeySequence(self._key_of(name)))
-            words = (
-                self.tr("{key} already does: {action}.").format(key=key, action=action_words(taken[0])) if taken else ""
-            )
-            self.fault.setText(words)
-            self.fault.setVisible(bool(words))
-            return
-        self.fault.hide()
-        keys = {**self._preferences.keys, name: key}
-        self._change(replace(self._preferences, keys={n: k for n, k in keys.items() if k != DEFAULT_KEYS[n]}))
-
-    def _key_of(self, name: str) -> str:
-        return self._preferences.keys.get(name, DEFAULT_KEYS[name])
-
-    def _sharing(self, name: str) -> list[str]:
-        """Actions that are live at the same time: by default some share a key because they never meet."""
-        default = DEFAULT_KEYS[name]
-        return [other for other in DEFAULT_KEYS if other != name and DEFAULT_KEYS[other] != default]
-
-    def _reset_keys(self) -> None:
-        for name, field in self.keys.items():
-            field.setKeySequence(QKeySequence(DEFAULT_KEYS[name]))
-        self.fault.hide()
-        self._change(replace(self._preferences, keys={}))
