@@ -14,13 +14,13 @@ from carpus.app.settings import load_sound_settings, sessions_folder
 from carpus.app.standard_streams import tell
 from carpus.core.errors import CarpusFault
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
 
 if TYPE_CHECKING:
     from carpus.core.formats.export import Exported
     from carpus.core.records.log import Deed, Kind
     from carpus.core.records.of_sessions import MadeKind
+    from carpus.core.results.repetition_rows import RepetitionChoices
 
 
 STORE_FILE = "records.sqlite3"
@@ -46,6 +46,8 @@ def is_of_practice(path: Path) -> bool:
 
 def read_choices(path: Path) -> RepetitionChoices:
     """What a person left out or moved of a session; nothing outside every data folder."""
+    from carpus.core.results.repetition_rows import RepetitionChoices
+
     folder = data_folder_of(path)
     if folder is None:
         return RepetitionChoices()

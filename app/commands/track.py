@@ -30,7 +30,6 @@ from carpus.core.papers.settings import PaperSettings
 from carpus.core.pipeline.live import Listener
 from carpus.core.pipeline.told_settings import Told, differences, settings_told
 from carpus.core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording
-from carpus.core.results.session_lines import range_lines
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.tracking.settings import Profile
 
@@ -406,6 +405,8 @@ def warn(verdict: Verdict) -> None:
 
 def print_report(report: TrackReport) -> None:
     """Where the session is and its main figures."""
+    from carpus.core.results.session_lines import range_lines  # all measures: nobody waits for them at the start
+
     print(f"Session: {report.output}")
     doubtful = f", doubtful {report.doubtful}" if report.doubtful else ""
     print(

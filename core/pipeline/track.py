@@ -32,7 +32,6 @@ from carpus.core.pipeline.live import Listener
 from carpus.core.pipeline.said_again import answers_in, notes_in
 from carpus.core.pipeline.session_source import SessionPictures
 from carpus.core.provenance import revision, sha256_of_file, sha256_of_recording, sha256_of_settings
-from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session.plausible import check_calibration
 from carpus.core.session.reader import has_raw, read_detections, read_session
 from carpus.core.session.values import SET_UP, Event, Session, motion_of, new_header
@@ -399,6 +398,8 @@ def _written(
         if look_back is not None and done:  # of no frame there is nothing to look back at
             writer.write_smoothed(motion_of(look_back()))
         if done:
+            from carpus.core.results.repetition_rows import repetitions_of  # nobody waits for it at the start
+
             writer.write_repetitions(repetitions_of(writer.read_back()))
         writer.close()
     except DiskFull:
