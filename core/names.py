@@ -1,5 +1,5 @@
-"""Names: what a pseudonym, a name or a passphrase may be, one rule for window, commands, store and files; and what is
-told of one that nobody knows."""
+"""Names: what a pseudonym, a name or a passphrase may be, one rule for window, commands, store and files; what is
+told of one that nobody knows; where what is known of cameras lies, by their serial numbers."""
 
 from __future__ import annotations
 
@@ -77,3 +77,16 @@ def known_names(word: str, known: Iterable[str]) -> str:
     if meant is None:
         return phrase("there are: {names}", names=listed)
     return phrase("did you mean “{meant}”? There are: {names}", meant=meant, names=listed)
+
+
+CAMERAS = "cameras"
+"""Folder of stored calibrations and checks inside the data folder, where back-ups find it."""
+
+
+def file_stem(serial: str) -> str:
+    """A serial number as part of a file's name.
+
+    >>> file_stem("1206/a b")
+    '1206-a-b'
+    """
+    return re.sub(r"[^A-Za-z0-9.]+", "-", serial).strip("-.") or "camera"

@@ -13,9 +13,10 @@ from PySide6.QtWidgets import QWidget
 from carpus.app.desktop.camera_at_hand import CameraAtHand, Look
 from carpus.app.desktop.naming import Naming
 from carpus.core.calibration.camera.board import Board, board_sheet
-from carpus.core.calibration.camera.calibrate import calibrate_camera, keep_calibration, stored_of
+from carpus.core.calibration.camera.calibrate import calibrate_camera
 from carpus.core.calibration.camera.effect import effect_of
 from carpus.core.calibration.camera.gather import Gathering
+from carpus.core.calibration.camera.keep import keep_calibration, stored_of
 from carpus.core.calibration.camera.views import ASKED_VIEWS, next_step, target_outline
 from carpus.core.capture.calibrated import SERIAL, stored_calibration
 from carpus.core.capture.source import FrameSource, Notice, SourceInfo, is_simulated

@@ -9,7 +9,8 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.app.desktop.patient_view import PatientViewing
 from carpus.core.errors import CarpusFault
-from carpus.core.records.exercise_sets import USUAL_SETS, ExerciseSet, keep_sets, next_part, read_sets
+from carpus.core.records.exercise_sets import USUAL_SETS, ExerciseSet, next_part
+from carpus.core.records.kept_sets import keep_sets, read_sets
 from carpus.core.records.library import Library
 from carpus.core.records.set_up import SetUp
 from carpus.ui import numbers

@@ -1,8 +1,7 @@
-"""What is stored of cameras, and a source seen through its calibration: its intrinsics, and depth put right."""
+"""A source seen through a stored calibration: its intrinsics, and depth put right."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -15,20 +14,8 @@ from carpus.core.capture.camera_info import CameraInfo, StoredCalibration, read_
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.dates import is_moment
 from carpus.core.errors import CarpusFault
+from carpus.core.names import CAMERAS, file_stem
 from carpus.core.types import DepthImage, Frame
-
-CAMERAS = "cameras"
-"""Folder of stored calibrations and checks inside the data folder, where back-ups find it."""
-
-
-def file_stem(serial: str) -> str:
-    """A serial number as part of a file's name.
-
-    >>> file_stem("1206/a b")
-    '1206-a-b'
-    """
-    return re.sub(r"[^A-Za-z0-9.]+", "-", serial).strip("-.") or "camera"
-
 
 SUFFIX = ".camera_info.yaml"
 SERIAL = "serial"

@@ -7,10 +7,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.core.capture.calibrated import CAMERAS, SERIAL
+from carpus.core.capture.calibrated import SERIAL
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.durable import replace_file
 from carpus.core.errors import OutputNotWritable
+from carpus.core.names import CAMERAS
 from carpus.core.types import Frame
 
 GIVEN = "serial_given"

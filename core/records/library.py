@@ -32,7 +32,7 @@ from carpus.core.records import of_patients, of_sessions
 from carpus.core.records.changes import changed, is_identity
 from carpus.core.records.coming_home import bring_home, fallback_place
 from carpus.core.records.erasure import finish_erasing
-from carpus.core.records.exercise_sets import keep_set_up, last_set_up
+from carpus.core.records.kept_sets import keep_set_up, last_set_up
 from carpus.core.records.log import By, Log, Notes, was_erased
 from carpus.core.records.of_sessions import MOST_CHARACTERS, MadeKind
 from carpus.core.records.patients import Patients

@@ -11,8 +11,8 @@ from functools import lru_cache
 from pathlib import Path
 
 from carpus.core.calibration.card.chart import CardCheck, chart_path, read_checks
-from carpus.core.capture.calibrated import CAMERAS
 from carpus.core.dates import is_moment
+from carpus.core.names import CAMERAS
 from carpus.core.provenance import said_in
 from carpus.core.session.values import Session
 

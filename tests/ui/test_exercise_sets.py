@@ -16,15 +16,8 @@ from carpus.app.desktop.patient_view import PatientViewing
 from carpus.core.errors import ChangedMeanwhile
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.records.changes import dropped
-from carpus.core.records.exercise_sets import (
-    USUAL_SETS,
-    ExerciseSet,
-    begun,
-    keep_set_up,
-    keep_sets,
-    next_part,
-    read_sets,
-)
+from carpus.core.records.exercise_sets import USUAL_SETS, ExerciseSet, begun, next_part
+from carpus.core.records.kept_sets import keep_set_up, keep_sets, read_sets
 from carpus.core.records.library import Library
 from carpus.core.records.schema import EXERCISE_SET, PATIENT
 from carpus.core.records.set_up import CoursePart

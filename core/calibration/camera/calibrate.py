@@ -1,21 +1,15 @@
-"""The whole calibration of a camera: intrinsics, depth, what is said of both, and how it is kept."""
+"""The whole calibration of a camera: intrinsics, depth, and what is said of both."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from datetime import datetime
-from pathlib import Path
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from carpus.core.calibration.camera.depth import MOST_APART_PX, DepthCheck, check_depth
 from carpus.core.calibration.camera.solve import FAIR_PX, Intrinsics, solve_intrinsics
 from carpus.core.calibration.camera.views import BoardView, Judgement, board_of, judge
 from carpus.core.camera import Camera
-from carpus.core.capture.calibrated import new_calibration_path
-from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
-from carpus.core.dates import iso
-from carpus.core.errors import OutputNotWritable
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,41 +58,3 @@ def calibration_lines(made: CameraCalibration) -> list[str]:
     apart = float((depth.apart_px**2).sum() ** 0.5)
     judged = f"good: below {MOST_APART_PX:g} px" if depth.is_registered else "depth does not lie on colour"
     return [*out, f"Colour and depth: {apart:.1f} ± {depth.apart_sd_px:.1f} px apart ({judged})"]
-
-
-def stored_of(
-    made: CameraCalibration, serial: str, when: datetime, settings: Mapping[str, str] | None = None
-) -> StoredCalibration:
-    """What is kept of a calibration. ``settings`` of the source: depth that was corrected already counts in."""
-    scale, offset_m = (1.0, 0.0) if made.depth is None else (made.depth.scale, made.depth.offset_m)
-    before = settings or {}
-    old_scale = float(before.get("depth_scale_corrected", 1.0))
-    old_offset_m = 1e-3 * float(before.get("depth_offset_corrected_mm", 0.0))
-    found = made.intrinsics
-    return StoredCalibration(
-        serial,
-        iso(when),
-        old_scale * scale,
-        old_scale * offset_m + old_offset_m,
-        found.error_px,
-        len(found.used),
-    )
-
-
-def write_calibration(path: Path, made: CameraCalibration, stored: StoredCalibration) -> Path:
-    """Write the camera file. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
-    try:
-        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
-    registered = None if made.depth is None else made.depth.is_registered
-    name = stored.serial or "carpus"
-    camera = replace(made.intrinsics.camera, sensor=made.before.sensor)
-    write_camera_info(path, camera, camera_name=name, registered=registered, calibration=stored)
-    return path
-
-
-def keep_calibration(data_folder: Path, made: CameraCalibration, stored: StoredCalibration) -> Path:
-    """Keep it for the camera of ``stored``; earlier ones stay."""
-    when = datetime.fromisoformat(stored.calibrated)
-    return write_calibration(new_calibration_path(data_folder, stored.serial, when), made, stored)

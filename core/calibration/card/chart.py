@@ -21,10 +21,10 @@ from carpus.core.calibration.card.card import (
     within_angles,
     within_lengths,
 )
-from carpus.core.capture.calibrated import CAMERAS, file_stem
 from carpus.core.dates import is_moment
 from carpus.core.durable import private
 from carpus.core.errors import OutputNotWritable
+from carpus.core.names import CAMERAS, file_stem
 from carpus.core.phrase import Phrase, phrase
 
 SUFFIX = ".checks.jsonl"

@@ -10,12 +10,13 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus.core.calibration.card.chart import OLD_DAYS, SUFFIX, CardCheck, Verdict, chart_path, read_checks, verdict_of
-from carpus.core.capture.calibrated import CAMERAS, age_days, file_stem, stored_calibration
 from carpus.core.capture.calibrated import SUFFIX as CALIBRATION_SUFFIX
+from carpus.core.capture.calibrated import age_days, stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.dates import is_moment
 from carpus.core.errors import CarpusFault
 from carpus.core.installing import Finding, State
+from carpus.core.names import CAMERAS, file_stem
 
 
 @dataclass(frozen=True, slots=True)
