@@ -25,7 +25,6 @@ from carpus import __version__
 from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.journey import Journey, Parts
 from carpus.app.desktop.no_folder import NoFolder
-from carpus.app.desktop.patients import PatientShelf
 from carpus.app.desktop.practice import practice_beginning, practice_take
 from carpus.app.desktop.preferences import PreferenceKeeper
 from carpus.app.desktop.sources import Sources
@@ -108,7 +107,7 @@ class Desktop:
     def show(self) -> None:
         """Bring up the first screen and tell of what was recovered."""
         # The newest session is on top, but for simulated ones, which count nowhere.
-        self.journey.show_patients(self.library.index.last_owner() if self.journey.is_demo else "")
+        self.journey.patients.show(self.library.index.last_owner() if self.journey.is_demo else "")
         put_in_place(self.shell, LastPlaces(self.library.store).window())
         self.shell.create()  # what hides the names must be there before anything is seen
         self.safe.locking.lock_at_start()
@@ -137,7 +136,7 @@ class Desktop:
             application.exit(1)
             return
         self.journey.now.choice = now.choice
-        self.journey.show_patients()
+        self.journey.patients.show()
         self.journey.show_again_at(place, now)
         put_in_place(self.shell, LastPlaces(self.library.store).window())
         self.shell.create()
@@ -247,19 +246,18 @@ def compose(
     sources = Sources(settings, library, take, speed, beginning)
     parts = Parts(
         library,
-        PatientShelf(library),
         sources,
+        CareCameras(settings, speed),
         settings,
         is_demo,
         date.today if today is None else lambda: today,
-        CareCameras(settings, speed),
     )
     shell = Shell(theme)
     journey = Journey(shell, theme, Keys(settings.screen.keys), parts)
     keeper = PreferenceKeeper(
         journey, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen), library.error_limits
     )
-    keeper.screen.retest_wanted.connect(journey.show_retest)
+    keeper.screen.retest_wanted.connect(journey.retest.show)
     journey.retest.in_force.connect(lambda: keeper.screen.show_limits(library.error_limits))
     follows = qt.styleHints().colorSchemeChanged.connect(lambda _: keeper.follow_system())
     library.who = lambda: journey.settings.report.therapist
@@ -267,10 +265,10 @@ def compose(
     sources.streams = lambda: journey.settings.stream.on
     Witness(journey, library)
     camera_card = CameraCard(theme)
-    camera_card.calibrate.connect(journey.show_board)
-    camera_card.check.connect(journey.show_card)
-    journey.care.changed.connect(lambda: camera_card.show_standing(*card_words(journey.care.standing)))
-    camera_card.show_standing(*card_words(journey.care.standing))
+    camera_card.calibrate.connect(journey.board.show)
+    camera_card.check.connect(lambda: journey.card.show())
+    journey.camera_state.changed.connect(lambda: camera_card.show_standing(*card_words(journey.camera_state.standing)))
+    camera_card.show_standing(*card_words(journey.camera_state.standing))
     safe = _safekeeping(journey, keeper, settings, settings_folder)
     keeper.screen.add_cards("camera", camera_card)
     keeper.screen.add_cards("report", journey.report.forms.card)
@@ -285,12 +283,14 @@ def compose(
     keeper.keeps_language = desktop.why_no_other_language
     for found in recovered:
         words = journey.messages.recovered_words(found)
-        place = journey.patients.notice_place
-        journey.messages.strip(place, words, tr("Re&view it"), partial(journey.review_recovered, found))
+        place = journey.patients.screen.notice_place
+        journey.messages.strip(
+            place, words, tr("Re&view it"), partial(journey.review.show, found.session_id, found.patient_id)
+        )
     for fault in (*told, *faults):
         said = fault_words(fault)
         journey.messages.strip(
-            journey.patients.notice_place,
+            journey.patients.screen.notice_place,
             said,
             tr("I have read it"),
             lambda: None,
@@ -301,7 +301,7 @@ def compose(
 
 def _safekeeping(journey: Journey, keeper: PreferenceKeeper, settings: Settings, folder: Path | None) -> Safe:
     """The flows about records, back-up and lock, and their cards among the settings."""
-    context, sessions, patients = journey.context, journey.sessions.screen, journey.patients
+    context, sessions, patients = journey.context, journey.sessions.screen, journey.patients.screen
     records = Records(context.library)
     backing_up = BackingUp(
         context, settings.backup, folder or own_settings_folder(), keep=lambda chosen: keeper.keep(backup=chosen)
@@ -318,7 +318,7 @@ def _safekeeping(journey: Journey, keeper: PreferenceKeeper, settings: Settings,
         context, key=context.keys["lock"], minutes=settings.lock.after_min,
         keep_minutes=lambda minutes: keeper.keep(lock=LockSettings(minutes)),
     )  # fmt: skip
-    view = journey.patient_view
+    view = journey.live.patient_view
     locking.hides.connect(lambda hides: view.hide_all() if hides else view.show_again())
     keeper.screen.add_cards("safety", backing_up.card, locking.card, lists.card)
     backing_up.remind(patients.notice_place)

@@ -15,12 +15,14 @@ from PySide6.QtWidgets import QWidget
 from carpus.core.records.library import Library
 from carpus.core.results.report_form import ReportSettings
 from carpus.ui.background import Background
+from carpus.ui.camera_state import Cameras, CameraState
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.keys import Keys
 from carpus.ui.last_places import Kind, LastPlaces
 from carpus.ui.messages.files_written import tell_written
 from carpus.ui.messages.messages import Messages
 from carpus.ui.now_open import NowOpen
+from carpus.ui.opening import Opener
 from carpus.ui.ports import PatientRow
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
@@ -46,6 +48,9 @@ class ScreenContext:
     messages: Messages
     way: Navigator
     now: NowOpen
+    opener: Opener
+    camera: CameraState
+    cameras: Cameras
     places: LastPlaces
     report: ReportSettings
     """As chosen now."""
@@ -54,6 +59,8 @@ class ScreenContext:
     version: str
     """Of Carpus, for what is written."""
     is_demo: bool = False
+    patient_sound: bool = False
+    """Whether the patient's view beeps where a goal is reached."""
 
 
 class Flow(QObject):
@@ -109,6 +116,11 @@ class Flow(QObject):
     def close(self) -> None:
         """The window closes: what runs ends, and is waited for."""
 
+    @property
+    def is_at_work(self) -> bool:
+        """Whether something is worked on here that would end with the window."""
+        return False
+
     def sign_lines(self) -> list[str]:
         """What must not be forgotten of what is on the screen."""
         return []
@@ -116,11 +128,17 @@ class Flow(QObject):
     def show_research(self, *, on: bool) -> None:
         """Show what only research needs, or fold it away; no value changes by it."""
 
-    def open_patient(self, patient_id: str) -> None:
+    def open_patient(self, patient_id: str) -> PatientRow:
         """From now on this patient is open."""
         now = self.context.now
         if now.patient is None or now.patient.patient_id != patient_id:
             now.patient = PatientRow.of(self.context.library.patients.one(patient_id))
+        return now.patient
+
+    def close_patient(self) -> None:
+        """Whoever was open is not any more, and the camera is let go."""
+        self.context.opener.close_source()
+        self.context.now.close()
 
     def run(
         self,
@@ -147,10 +165,11 @@ class Flow(QObject):
 
 class Navigator(QObject):
     """The table of places, and the way between them: ``leaving`` with the new place before it is shown, ``arrived``
-    after."""
+    after. ``changed``: what is said over the screen that is shown is another."""
 
     leaving = Signal(str)
     arrived = Signal(str)
+    changed = Signal()
 
     def __init__(self, shell: Shell, is_asked: Callable[[], bool], is_recording: Callable[[], bool]) -> None:
         super().__init__(shell)

@@ -39,6 +39,11 @@ class NowOpen:
     session_id: str = ""
     choice: SourceChoice = field(default_factory=lambda: SourceChoice("camera"))
 
+    def close(self) -> None:
+        """Nobody and nothing is looked at any more."""
+        self.patient = self.set_up = None
+        self.session_id = ""
+
     @property
     def kind(self) -> SourceKind:
         """Kind of the source last asked for."""

@@ -89,18 +89,6 @@ class PatientCard:
     """What a reach or a touch of finger tips came to, in place of ``results``; empty for other exercises."""
 
 
-@dataclass(frozen=True, slots=True)
-class SessionRow:
-    """One stored session of a patient."""
-
-    session_id: str
-    when: datetime
-    exercise: str
-    side: str
-    duration_s: float
-    complete: bool = True
-
-
 MOST_ROWS = 500
 """Of patients that are shown at once; of more, searching finds the others."""
 
@@ -118,10 +106,6 @@ class PatientStore(Protocol):
         ...
 
     def card(self, patient_id: str) -> PatientCard: ...
-
-    def sessions(self, patient_id: str) -> Sequence[SessionRow]:
-        """Stored sessions, newest first."""
-        ...
 
     def suggest_pseudonym(self) -> str:
         """A speakable random name that is not taken yet."""

@@ -76,8 +76,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     from carpus.core.calibration.camera.calibrate import calibrate_camera, calibration_lines
     from carpus.core.calibration.camera.gather import Gathering
     from carpus.core.calibration.camera.keep import keep_calibration, stored_of, write_calibration
-    from carpus.core.capture.calibrated import SERIAL
-    from carpus.core.capture.given_name import is_nameless, keep_name
+    from carpus.core.capture.given_name import keep_name
     from carpus.core.dates import is_moment
     from carpus.core.errors import OutputExists
 
@@ -98,7 +97,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
         print("carpus: warning: depth does not lie on colour; switch registration on, or depths are read beside the "
               "markers.", file=sys.stderr)  # fmt: skip
     when = datetime.fromisoformat(info.recorded) if is_moment(info.recorded) else datetime.now().astimezone()
-    serial = arguments.serial or info.settings.get(SERIAL, "")
+    serial = arguments.serial or info.serial
     stored = stored_of(made, serial, when, info.settings)
     if arguments.output is not None:
         print(f"Written: {write_calibration(arguments.output, made, stored)}")
@@ -106,7 +105,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
         from carpus.app.settings import load_settings
 
         folder = load_settings().data_folder
-        if arguments.recording is None and arguments.serial and is_nameless(info.settings):
+        if arguments.recording is None and arguments.serial and info.is_nameless:
             serial = keep_name(folder, info.name, serial)
             stored = replace(stored, serial=serial)
         path = keep_calibration(folder, made, stored)

@@ -68,8 +68,7 @@ def _check(arguments: argparse.Namespace) -> int:
         verdict_of,
     )
     from carpus.core.calibration.card.measure import measure_card
-    from carpus.core.capture.calibrated import SERIAL
-    from carpus.core.capture.given_name import is_nameless, keep_name
+    from carpus.core.capture.given_name import keep_name
     from carpus.core.dates import is_moment, iso
 
     data_folder = load_settings().data_folder
@@ -80,8 +79,8 @@ def _check(arguments: argparse.Namespace) -> int:
     finally:
         source.close()
     when = info.recorded if is_moment(info.recorded) else iso(datetime.now().astimezone())
-    serial = arguments.serial or info.settings.get(SERIAL, "")
-    if arguments.recording is None and arguments.serial and is_nameless(info.settings):
+    serial = arguments.serial or info.serial
+    if arguments.recording is None and arguments.serial and info.is_nameless:
         serial = keep_name(data_folder, info.name, serial)
     check = check_of(reading, serial, when, info.settings.get("calibrated", ""))
     path = chart_path(data_folder, serial)

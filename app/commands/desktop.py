@@ -69,7 +69,7 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
     try:
         desktop.show()
         if is_demo and not desktop.closed:
-            desktop.journey.patients.refresh(PRACTICE_PATIENT)
+            desktop.journey.patients.screen.refresh(PRACTICE_PATIENT)
         if session is not None and not desktop.closed:
             desktop.open_session(session)
         return 0 if desktop.closed else qt.exec()

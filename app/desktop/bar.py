@@ -2,58 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from datetime import datetime
 from pathlib import Path
-from typing import Protocol
 
 from PySide6.QtCore import QObject
 
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.pipeline.live_values import LiveCounters
-from carpus.core.results.figures import SessionFigures
 from carpus.ui import numbers, terms
+from carpus.ui.check_card.standing_words import bar_words
 from carpus.ui.fault_words import finding_words, shortened
-from carpus.ui.flow import STEPS, TABS, Navigator
-from carpus.ui.icons import State
-from carpus.ui.now_open import NowOpen
-from carpus.ui.shell import Shell
+from carpus.ui.flow import STEPS, TABS, ScreenContext
+from carpus.ui.review.screen import ReviewScreen
 
 MOST_NAME = 24
 """Letters of a recording's name in the top bar."""
 
 
-class OnReview(Protocol):
-    """The session on the review screen."""
-
-    @property
-    def shown(self) -> bool: ...
-
-    @property
-    def saved_at(self) -> datetime | None: ...
-
-    figures: SessionFigures | None
-
-
 class Bar(QObject):
     """Tells who is open, where one is, how camera, disk and recording are."""
 
-    def __init__(
-        self,
-        shell: Shell,
-        now: NowOpen,
-        way: Navigator,
-        camera_there: Callable[[], bool],
-        review: OnReview,
-        *,
-        is_demo: bool,
-        care: Callable[[], tuple[State, str] | None] = lambda: None,
-    ) -> None:
-        super().__init__(shell)
-        self._shell, self._now, self._way = shell, now, way
+    def __init__(self, context: ScreenContext, review: ReviewScreen) -> None:
+        super().__init__(context.shell)
+        self._shell, self._now, self._way = context.shell, context.now, context.way
+        self._camera, self._review, self._is_demo = context.camera, review, context.is_demo
         self._again = (-1, 0)
-        self._care = care
-        self._camera_there, self._review, self._is_demo = camera_there, review, is_demo
+        self._way.arrived.connect(lambda _: self.show())
+        self._way.changed.connect(self.show)
+        self._camera.changed.connect(self.show)
+        self._camera.looked.connect(self.show_camera)
 
     def show(self) -> None:
         """All of it, for the place."""
@@ -115,9 +91,9 @@ class Bar(QObject):
             camera.show_state("good", self.tr("Recording {name}").format(name=shortened(name, MOST_NAME)))
         elif self._is_demo or (now.kind == "practice" and (now.source is not None or place in STEPS)):
             camera.show_state("good", self.tr("Simulated camera"))
-        elif self._camera_there() and (said := self._care()) is not None and place != "card":
+        elif self._camera.there and (said := bar_words(self._camera.standing)) is not None and place != "card":
             camera.show_state(*said)
-        elif self._camera_there():
+        elif self._camera.there:
             camera.show_state("good", self.tr("Camera ready"))
         else:
             camera.show_state("bad", self.tr("No camera"))

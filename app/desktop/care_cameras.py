@@ -2,53 +2,63 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from datetime import datetime
 from pathlib import Path
 
 from carpus.app.settings import Settings
 from carpus.core.calibration.camera.board import Board
 from carpus.core.calibration.card.standing import Standing, known_serials, standing_of
-from carpus.core.capture.calibrated import with_stored_calibration
+from carpus.core.capture.calibrated import stored_calibration, with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
-from carpus.core.capture.devices.cameras import open_camera
-from carpus.core.capture.given_name import with_given_name
+from carpus.core.capture.devices.cameras import name_to_open, open_camera
+from carpus.core.capture.given_name import keep_name, with_given_name
 from carpus.core.capture.source import FrameSource, Notice
+from carpus.core.pipeline.live import LiveSession
 
 PRACTICE_FOLDER = "practice"
 """Inside the data folder: what is known of the simulated camera, which no session of a real one ever reads."""
 
 
 class CareCameras:
-    """Opens them, and knows where what is known of them is kept; ``speed`` above 1 plays the simulated one faster."""
+    """:class:`ui.camera_state.Cameras`; ``speed`` above 1 plays the simulated one faster."""
 
     def __init__(self, settings: Settings, speed: float = 1.0) -> None:
         self._settings, self._speed = settings, speed
         self._met = ""
+
+    def name(self) -> str | None:
+        """Of the camera that would be opened, empty where the system does not tell; None where none is there."""
+        return name_to_open(self._settings.camera.uri)
 
     def folder(self, *, practice: bool) -> Path:
         """Where what is known of it is kept."""
         folder = self._settings.data_folder
         return folder / PRACTICE_FOLDER if practice else folder
 
-    def for_board(self, board: Board, notice: Notice, *, practice: bool) -> FrameSource:
-        """As the camera says itself, without what was calibrated before; ``notice`` hears when it is away."""
+    def for_board(self, board: Board, *, practice: bool) -> LiveSession:
+        """As the camera says itself, without what was calibrated before."""
         folder = self.folder(practice=practice)
         if practice:
             from carpus.core.simulation.practice_camera import board_camera
 
-            return board_camera(board, self._speed)
-        return with_given_name(open_camera(self._settings.camera.uri, notice=notice), folder)
+            return LiveSession(board_camera(board, self._speed))
+        uri = self._settings.camera.uri
+        return session_of(lambda notice: with_given_name(open_camera(uri, notice=notice), folder))
 
-    def for_card(self, notice: Notice, *, practice: bool) -> FrameSource:
-        """As a session would have it, with what was calibrated; ``notice`` hears when it is away."""
-        folder = self.folder(practice=practice)
+    def for_card(self, *, practice: bool) -> LiveSession:
+        """As a session would have it, with what was calibrated."""
         if practice:
             from carpus.core.simulation.practice_camera import card_camera
 
-            return with_stored_calibration(card_camera(self._speed), folder)
-        named = self._settings.camera.intrinsics
-        camera = read_camera_info(Path(named).expanduser()).camera if named else None
-        live = open_camera(self._settings.camera.uri, camera=camera, notice=notice)
+            return LiveSession(with_stored_calibration(card_camera(self._speed), self.folder(practice=True)))
+        return session_of(self.live)
+
+    def live(self, notice: Notice) -> FrameSource:
+        """The camera with its name and what was calibrated; ``notice`` hears when it is away."""
+        camera, folder = self._settings.camera, self._settings.data_folder
+        measured = read_camera_info(Path(camera.intrinsics).expanduser()).camera if camera.intrinsics else None
+        live = open_camera(camera.uri, camera=measured, notice=notice)
         return with_stored_calibration(with_given_name(live, folder), folder)
 
     def serial(self, *, practice: bool) -> str:
@@ -66,6 +76,24 @@ class CareCameras:
         """A camera was opened, and this is its number."""
         self._met = serial or self._met
 
+    def calibrated(self, serial: str, *, practice: bool) -> datetime | None:
+        """When it was calibrated last."""
+        kept = stored_calibration(self.folder(practice=practice), serial)
+        made = kept.calibration if kept is not None else None
+        return datetime.fromisoformat(made.calibrated) if made is not None else None
+
+    def keep_name(self, kind: str, name: str, *, practice: bool) -> str:
+        """The name as it is kept."""
+        return keep_name(self.folder(practice=practice), kind, name)
+
     def standing(self, now: datetime) -> Standing:
         """What is known of the camera; reads the disk."""
         return standing_of(self._settings.data_folder, self.serial(practice=False), now)
+
+
+def session_of(camera: Callable[[Notice], FrameSource]) -> LiveSession:
+    """A camera that tells the session when it is away."""
+    heard: list[Notice] = [lambda _: None]  # until there is a session to be told
+    session = LiveSession(camera(lambda fault: heard[-1](fault)))
+    heard.append(session.notice)
+    return session

@@ -14,12 +14,11 @@ from typing import Any
 
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource
-from carpus.core.records.set_up import SetUp
+from carpus.core.records.set_up import PRACTICE_REPETITIONS, SetUp
 from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.spec import RecordingSpec
 
 _SPEED_HZ, _RANGE_SHARE, _SECONDS = 0.4, 0.8, 9.0
-PRACTICE_REPETITIONS = 3
 _OTHERWISE: dict[str, dict[str, Any]] = {
     "opposition": {"seconds": 11.5, "repetitions": 4, "range_share": 1.0},
     "reach_grasp": {"speed_hz": 0.3, "repetitions": 2, "range_share": 0.6},

@@ -66,7 +66,7 @@ class PreferenceKeeper(QObject):
         self._shown_folder = chosen.data_folder
         self.screen.changed.connect(self.take)
         journey.show_research(on=chosen.research)
-        journey.live.start_mode = chosen.start
+        journey.live.screen.recording.start_mode = chosen.start
 
     def take(self, chosen: Preferences) -> None:
         """Something was changed."""
@@ -87,14 +87,14 @@ class PreferenceKeeper(QObject):
         )
         self._theme.choose(self._theme_of(self._settings), chosen.text_scale)
         self._journey.show_research(on=chosen.research)
-        self._journey.live.start_mode = chosen.start
+        self._journey.live.screen.recording.start_mode = chosen.start
         self._journey.settings = replace(
             self._journey.settings,
             report=self._settings.report,
             stream=self._settings.stream,
-            patient=self._settings.patient,
         )
         self._journey.context.report = self._settings.report
+        self._journey.context.patient_sound = chosen.patient_sound
         self._store()
         if other_language:
             self.language_chosen.emit()

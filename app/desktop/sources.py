@@ -17,7 +17,7 @@ from carpus.app.sources import open_recording
 from carpus.core.calibration.result import Calibration
 from carpus.core.capture.calibrated import with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
-from carpus.core.capture.devices.cameras import name_to_open, open_camera
+from carpus.core.capture.devices.cameras import open_camera
 from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.paced import PacedSource, PracticeSource
 from carpus.core.capture.source import FrameSource, is_simulated
@@ -28,16 +28,11 @@ from carpus.core.pipeline.track import TrackSettings
 from carpus.core.records.set_up import SetUp
 from carpus.core.types import Frame
 from carpus.ui.now_open import OpenSource
+from carpus.ui.opening import NobodyWaitsError, Progress
 from carpus.ui.setup.choice import SourceChoice
 
-Progress = Callable[[int, int], None]
-"""Called with pictures done and pictures in all."""
 RECENT_FRAMES = 16
 """Half a second: what the neutral pose is averaged over at most."""
-
-
-class NobodyWaitsError(Exception):
-    """Ends a long opening or drawing from inside."""
 
 
 class Sources:
@@ -55,10 +50,6 @@ class Sources:
         self._practice_beginning = practice_beginning
         self.streams: Callable[[], bool] = lambda: settings.stream.on
         """Whether live values go out to other programs; asked whenever tracking begins."""
-
-    def camera_name(self) -> str | None:
-        """Name of the camera that would be opened, empty where the system does not tell, None when none is there."""
-        return name_to_open(self._settings.camera.uri)
 
     def open(self, choice: SourceChoice, set_up: SetUp, progress: Progress) -> OpenSource:
         """Open the chosen source; waits for camera, disk or renderer, so it is called in the background."""

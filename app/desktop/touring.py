@@ -27,10 +27,10 @@ class Tour(QObject):
         self._read: frozenset[Bubble] = frozenset()
         self._saved = False
         self._views: dict[str, BubbleView] = {
-            "patients": journey.patients.card.bubble,
-            "camera": journey.camera.bubble,
-            "markers": journey.markers.bubble,
-            "live": journey.live.bubble,
+            "patients": journey.patients.screen.card.bubble,
+            "camera": journey.camera.screen.bubble,
+            "markers": journey.markers.screen.bubble,
+            "live": journey.live.screen.bubble,
             "review": journey.review.screen.bubble,
             "report": journey.report.screen.bubble,
         }
@@ -42,7 +42,7 @@ class Tour(QObject):
         self._clock.timeout.connect(self.look)
         journey.report.screen.saved.connect(self._report_saved)
         journey.way.arrived.connect(self._arrived)
-        journey.help.tour.connect(self._show_around)
+        journey.help.screen.tour.connect(self._show_around)
         journey.takes_escape = self._take_escape
 
     @property
@@ -102,18 +102,18 @@ class Tour(QObject):
     def moment(self) -> TourMoment:
         """Where the person is."""
         journey = self._journey
-        place, recording = journey.place, journey.live.recording_state
+        place, recording = journey.place, journey.live.screen.recording.state
         busy = {
-            "camera": journey.camera.is_opening,
-            "live": journey.live.storing,
+            "camera": journey.camera.screen.is_opening,
+            "live": journey.live.screen.recording.storing,
             "review": not journey.review.screen.shown,
         }.get(place, False)
         return TourMoment(
             place,
             is_meant=self._asked_for or place == "patients" or journey.now.is_practice,
-            is_covered=journey.messages.busy or is_covered(journey.patients.window()),
+            is_covered=journey.messages.busy or is_covered(journey.patients.screen.window()),
             is_busy=busy,
-            work=journey.markers.work,
+            work=journey.markers.screen.naming.work,
             is_recording=recording != "off",
             is_saved=self._saved,
         )
@@ -122,15 +122,15 @@ class Tour(QObject):
         """The control that a bubble speaks of."""
         journey = self._journey
         buttons: dict[Bubble, Callable[[], QAbstractButton]] = {
-            "patient": lambda: journey.patients.card.start_button,
-            "camera": lambda: journey.camera.primary,
-            "record": lambda: journey.live.main,
-            "stop": lambda: journey.live.main,
+            "patient": lambda: journey.patients.screen.card.start_button,
+            "camera": lambda: journey.camera.screen.primary,
+            "record": lambda: journey.live.screen.controls.main,
+            "stop": lambda: journey.live.screen.controls.main,
             "results": lambda: journey.review.screen.report_button,
             "report": lambda: journey.review.screen.report_button,
             "save": lambda: journey.report.screen.save_button,
         }
-        return buttons.get(bubble, lambda: journey.markers.primary)()
+        return buttons.get(bubble, lambda: journey.markers.screen.primary)()
 
     def _report_saved(self, _: str) -> None:
         self._saved = True

@@ -83,13 +83,13 @@ class Walker:
     def start_practice(self) -> None:
         """Choose the practice patient and press Enter."""
         journey = self.journey
-        journey.patients.refresh(PRACTICE_PATIENT)
-        self.press(Qt.Key.Key_Return, journey.patients.search)
+        journey.patients.screen.refresh(PRACTICE_PATIENT)
+        self.press(Qt.Key.Key_Return, journey.patients.screen.search)
 
     def take_picture(self) -> None:
         """Space as soon as the hand has been seen for half a second."""
         self.at("markers")
-        markers, source = self.journey.markers, self.journey.source
+        markers, source = self.journey.markers.screen, self.journey.now.source
         assert source is not None
         feed = source.measuring.feed
         self.until(
@@ -100,7 +100,7 @@ class Walker:
 
     def click_markers(self, pixel: FloatArray) -> None:
         """Click on pixels of the picture, in the order of the protocol, and start."""
-        markers = self.journey.markers
+        markers = self.journey.markers.screen
         for u, v in pixel:
             self.desktop.application.processEvents()  # what came or went beside the picture may still make it smaller
             spot: QPoint = markers.picture.to_screen(float(u), float(v)).toPoint()
@@ -114,19 +114,19 @@ class Walker:
 
     def record(self, repetitions: int, progress: Callable[[int], None] = lambda _: None) -> str:
         """Space; wait for so many repetitions; Space again. The session that is then reviewed."""
-        live = self.journey.live
+        live = self.journey.live.screen
         self.press(Qt.Key.Key_Space, live)
-        self.until(lambda: live.recording_state == "recording")
+        self.until(lambda: live.recording.state == "recording")
 
         def enough() -> bool:
-            progress(live.repetitions)
-            return live.repetitions >= repetitions
+            progress(live.recording.repetitions)
+            return live.recording.repetitions >= repetitions
 
         self.until(enough)
         self.press(Qt.Key.Key_Space, live)
         self.at("review")
         self.until(lambda: self.journey.review.screen.shown)
-        return self.journey.session_id
+        return self.journey.now.session_id
 
     def tab(self, place: str) -> None:
         """Click a tab of the patient."""
@@ -159,7 +159,7 @@ def walk(settings: Settings, progress: Progress, *, repetitions: int = REPETITIO
         desktop.journey.opener.progressed.connect(lambda done, total: progress(done, total))
         walker.start_practice()
         walker.until(lambda: desktop.journey.place == "markers", patience_s=1800.0)
-        set_up = desktop.journey.set_up
+        set_up = desktop.journey.now.set_up
         assert set_up is not None
         walker.take_picture()
         walker.click_markers(clicks_of(SimulatedPictures(practice_spec(set_up)).truth).pixel)

@@ -48,8 +48,8 @@ class Welcome(QObject):
         panel.later.connect(self._decline)
         panel.again.connect(self.look)
         panel.folder.connect(self._keeper.screen.ask_folder)
-        panel.close_wanted.connect(self._journey.patients.window().close)
-        self._journey.patients.show_welcome(panel)
+        panel.close_wanted.connect(self._journey.patients.screen.window().close)
+        self._journey.patients.screen.show_welcome(panel)
         self.look()
 
     def end(self) -> None:
@@ -119,8 +119,8 @@ class Welcome(QObject):
     def _close(self) -> None:
         if self.panel is not None:
             self.panel = None
-            self._journey.patients.show_welcome(None)
-            self._journey.patients.search.setFocus(Qt.FocusReason.OtherFocusReason)
+            self._journey.patients.screen.show_welcome(None)
+            self._journey.patients.screen.search.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _remember(self) -> None:
         self._keeper.keep(first_start=FirstStartSettings(answered=True))
@@ -130,7 +130,7 @@ class Welcome(QObject):
             return True
         if self.panel is None or self._journey.place != "patients":
             return False
-        if self._journey.patients.findChildren(NoticeStrip):
+        if self._journey.patients.screen.findChildren(NoticeStrip):
             return False  # what stands above the list is answered first
         self._decline()
         return True

@@ -18,8 +18,6 @@ from carpus.core.names import CAMERAS, file_stem
 from carpus.core.types import DepthImage, Frame
 
 SUFFIX = ".camera_info.yaml"
-SERIAL = "serial"
-"""The setting of a source that says which camera it is."""
 ORIGIN = "calibration"
 _FINE_M = 1e-4
 """Corrected depth is kept in steps of this: 16 bits reach 6.5 m."""
@@ -71,7 +69,7 @@ def correction_table(made: StoredCalibration, unit_m: float) -> DepthImage:
 def with_stored_calibration(source: FrameSource, data_folder: Path, now: datetime | None = None) -> FrameSource:
     """``source`` as the newest stored calibration of its camera has it; itself where there is none, where nobody
     knows which camera it was, or where it brings intrinsics of its own."""
-    serial = source.info.settings.get(SERIAL, "")
+    serial = source.info.serial
     if not serial or source.info.camera.origin not in _GIVE_WAY:
         return source
     info = stored_calibration(data_folder, serial)

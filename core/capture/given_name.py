@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.core.capture.calibrated import SERIAL
-from carpus.core.capture.source import FrameSource, SourceInfo
+from carpus.core.capture.source import GIVEN, SERIAL, FrameSource, SourceInfo
 from carpus.core.durable import replace_file
 from carpus.core.errors import OutputNotWritable
 from carpus.core.names import CAMERAS
 from carpus.core.types import Frame
 
-GIVEN = "serial_given"
-"""The setting of a source whose number is a name that a person gave."""
 MOST_LETTERS = 40
 _FILE = "names.json"
 
@@ -39,15 +36,10 @@ class NamedSource:
 
 def with_given_name(source: FrameSource, data_folder: Path) -> FrameSource:
     """``source`` under the name that its kind of camera was given; itself where it tells its number, or has no name."""
-    if source.info.settings.get(SERIAL):
+    if source.info.serial:
         return source
     name = _names(data_folder).get(source.info.name, "")
     return NamedSource(source, name) if name else source
-
-
-def is_nameless(settings: Mapping[str, str]) -> bool:
-    """Whether a camera with these settings does not tell its number by itself."""
-    return not settings.get(SERIAL) or GIVEN in settings
 
 
 def tidy_name(typed: str) -> str:

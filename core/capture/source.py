@@ -11,6 +11,8 @@ from carpus.core.depth_sensor import DepthSensor
 from carpus.core.errors import CarpusFault
 from carpus.core.types import SIMULATED, Frame
 
+SERIAL, GIVEN = "serial", "serial_given"
+"""Settings of a source: which camera it is, and that its number is a name that a person gave."""
 Notice = Callable[[CarpusFault], None]
 """Hears of faults that are told and not raised: the source goes on. Called where it is opened or frames are read."""
 
@@ -41,6 +43,16 @@ class SourceInfo:
     def sensor(self) -> DepthSensor:
         """The depth sensor; it goes with the camera to whoever weighs its readings."""
         return self.camera.sensor
+
+    @property
+    def serial(self) -> str:
+        """Which camera it is; empty where nobody knows."""
+        return self.settings.get(SERIAL, "")
+
+    @property
+    def is_nameless(self) -> bool:
+        """Whether the camera does not tell its number by itself."""
+        return not self.serial or GIVEN in self.settings
 
 
 def is_simulated(info: SourceInfo) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from carpus.core.hand.exercises import Exercise
+from carpus.core.hand.exercises import EXERCISES, Exercise
 from carpus.core.hand.marker_protocol import MarkerProtocol
 from carpus.core.hand.protocols import protocol_named, protocol_names
 from carpus.core.types import Side
@@ -14,6 +14,7 @@ MARKERS_SUFFIX = ".markers.jpg"
 """Ends, in place of ``.h5``, the picture of the discs as they were stuck: the hand and nothing of the room."""
 PRACTICE_PATIENT = "practice"
 """Identity of the practice patient: always the last row, simulated camera, nothing counts."""
+PRACTICE_REPETITIONS = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,3 +78,9 @@ class SetUp:
     def protocol(self) -> MarkerProtocol:
         """The discs on the hand."""
         return protocol_named(self.discs) if self.discs in protocol_names() else self.exercise.protocol
+
+
+def practice_set_up(pseudonym: str) -> SetUp:
+    """What the practice patient does first."""
+    nothing = float("nan")
+    return SetUp(PRACTICE_PATIENT, pseudonym, "right", EXERCISES[0], PRACTICE_REPETITIONS, nothing, nothing)

@@ -25,8 +25,7 @@ from carpus.core.calibration.card.card import (
     wedge_sheet,
 )
 from carpus.core.camera import DEFAULT_CAMERA, Camera
-from carpus.core.capture.calibrated import SERIAL
-from carpus.core.capture.source import SourceInfo
+from carpus.core.capture.source import SERIAL, SourceInfo
 from carpus.core.simulation.appearance import appearance_of, linear
 from carpus.core.simulation.depth_kinds import depth_pictures
 from carpus.core.simulation.scene import Scene

@@ -7499,6 +7499,10 @@
         <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
         <translation>Gehen Sie zurück und versuchen Sie es noch einmal. Kommt es wieder, starten Sie Carpus neu und melden Sie es.</translation>
     </message>
+    <message>
+        <source>Side · {finger}</source>
+        <translation>Seite · {finger}</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -7646,6 +7650,13 @@
     <message>
         <source>{low} to {high}</source>
         <translation>{low} bis {high}</translation>
+    </message>
+</context>
+<context>
+    <name>AtCameraFlow</name>
+    <message>
+        <source>Simulated camera: nothing here is of a real one.</source>
+        <translation>Simulierte Kamera: Nichts hier kommt von einer echten.</translation>
     </message>
 </context>
 <context>
@@ -8178,6 +8189,25 @@
     </message>
 </context>
 <context>
+    <name>BoardFlow</name>
+    <message>
+        <source>Camera calibration</source>
+        <translation>Kamerakalibrierung</translation>
+    </message>
+    <message>
+        <source>Save the board to print</source>
+        <translation>Tafel zum Drucken speichern</translation>
+    </message>
+    <message>
+        <source>Save one page</source>
+        <translation>Eine Seite speichern</translation>
+    </message>
+    <message>
+        <source>Show it some more, tilted more and nearer: {why}.</source>
+        <translation>Zeigen Sie sie weiter, stärker geneigt und näher: {why}.</translation>
+    </message>
+</context>
+<context>
     <name>BoardResultView</name>
     <message>
         <source>Take &amp;again</source>
@@ -8444,15 +8474,15 @@
     <name>Calibrating</name>
     <message>
         <source>Save the board to print</source>
-        <translation>Tafel zum Drucken speichern</translation>
+        <translation type="vanished">Tafel zum Drucken speichern</translation>
     </message>
     <message>
         <source>Save one page</source>
-        <translation>Eine Seite speichern</translation>
+        <translation type="vanished">Eine Seite speichern</translation>
     </message>
     <message>
         <source>Show it some more, tilted more and nearer: {why}.</source>
-        <translation>Zeigen Sie sie weiter, stärker geneigt und näher: {why}.</translation>
+        <translation type="vanished">Zeigen Sie sie weiter, stärker geneigt und näher: {why}.</translation>
     </message>
 </context>
 <context>
@@ -8472,6 +8502,25 @@
     <message>
         <source>Cali&amp;brate the camera…</source>
         <translation>Kamera kali&amp;brieren…</translation>
+    </message>
+</context>
+<context>
+    <name>CameraFlow</name>
+    <message>
+        <source>The camera is being opened.</source>
+        <translation>Die Kamera wird geöffnet.</translation>
+    </message>
+    <message>
+        <source>The recording is being opened.</source>
+        <translation>Die Aufnahme wird geöffnet.</translation>
+    </message>
+    <message>
+        <source>The simulated patient is being drawn.</source>
+        <translation>Der simulierte Patient wird gezeichnet.</translation>
+    </message>
+    <message>
+        <source>Choose the source again</source>
+        <translation>Quelle neu wählen</translation>
     </message>
 </context>
 <context>
@@ -8609,6 +8658,33 @@
     </message>
 </context>
 <context>
+    <name>CardFlow</name>
+    <message>
+        <source>Check card</source>
+        <translation>Prüfkarte</translation>
+    </message>
+    <message>
+        <source>Save the card to print</source>
+        <translation>Karte zum Drucken speichern</translation>
+    </message>
+    <message>
+        <source>not with a board</source>
+        <translation>nicht mit einer Tafel</translation>
+    </message>
+    <message>
+        <source>Calibrated</source>
+        <translation>Kalibriert</translation>
+    </message>
+    <message>
+        <source>Checks</source>
+        <translation>Prüfungen</translation>
+    </message>
+    <message>
+        <source>Save one page</source>
+        <translation>Eine Seite speichern</translation>
+    </message>
+</context>
+<context>
     <name>CardScreen</name>
     <message>
         <source>The camera</source>
@@ -8738,23 +8814,23 @@
     <name>Checking</name>
     <message>
         <source>Save the card to print</source>
-        <translation>Karte zum Drucken speichern</translation>
+        <translation type="vanished">Karte zum Drucken speichern</translation>
     </message>
     <message>
         <source>Save one page</source>
-        <translation>Eine Seite speichern</translation>
+        <translation type="vanished">Eine Seite speichern</translation>
     </message>
     <message>
         <source>not with a board</source>
-        <translation>nicht mit einer Tafel</translation>
+        <translation type="vanished">nicht mit einer Tafel</translation>
     </message>
     <message>
         <source>Calibrated</source>
-        <translation>Kalibriert</translation>
+        <translation type="vanished">Kalibriert</translation>
     </message>
     <message>
         <source>Checks</source>
-        <translation>Prüfungen</translation>
+        <translation type="vanished">Prüfungen</translation>
     </message>
 </context>
 <context>
@@ -8882,6 +8958,65 @@
     <message>
         <source>Checks of this camera</source>
         <translation>Prüfungen dieser Kamera</translation>
+    </message>
+</context>
+<context>
+    <name>Controls</name>
+    <message>
+        <source>Note</source>
+        <translation>Notiz</translation>
+    </message>
+    <message>
+        <source>Pain</source>
+        <translation>Schmerz</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Anhalten</translation>
+    </message>
+    <message>
+        <source>Pain {score} noted</source>
+        <translation>Schmerz {score} vermerkt</translation>
+    </message>
+    <message>
+        <source>Storing…</source>
+        <translation>Wird gespeichert…</translation>
+    </message>
+    <message>
+        <source>Passive</source>
+        <translation>Passiv</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Weiter</translation>
+    </message>
+    <message>
+        <source>Play and record</source>
+        <translation>Abspielen und aufnehmen</translation>
+    </message>
+    <message>
+        <source>Record</source>
+        <translation>Aufnehmen</translation>
+    </message>
+    <message>
+        <source>Stop and go on</source>
+        <translation>Beenden und weiter</translation>
+    </message>
+    <message>
+        <source>Stop and review</source>
+        <translation>Beenden und auswerten</translation>
+    </message>
+    <message>
+        <source>Starts in {seconds}: not yet</source>
+        <translation>Beginn in {seconds}: noch nicht</translation>
+    </message>
+    <message>
+        <source>Space</source>
+        <translation>Leertaste</translation>
+    </message>
+    <message>
+        <source>Space · pedal</source>
+        <translation>Leertaste · Pedal</translation>
     </message>
 </context>
 <context>
@@ -9710,15 +9845,15 @@ Umschalt+F8 von der Seite</translation>
     <name>Journey</name>
     <message>
         <source>Camera calibration</source>
-        <translation>Kamerakalibrierung</translation>
+        <translation type="vanished">Kamerakalibrierung</translation>
     </message>
     <message>
         <source>Check card</source>
-        <translation>Prüfkarte</translation>
+        <translation type="vanished">Prüfkarte</translation>
     </message>
     <message>
         <source>Simulated camera: nothing here is of a real one.</source>
-        <translation>Simulierte Kamera: Nichts hier kommt von einer echten.</translation>
+        <translation type="vanished">Simulierte Kamera: Nichts hier kommt von einer echten.</translation>
     </message>
     <message>
         <source>Simulated hand: this is not a patient’s, and does not count.</source>
@@ -9891,18 +10026,73 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>LiveFlow</name>
+    <message>
+        <source>Recording paused by itself at {time}.</source>
+        <translation>Die Aufnahme hielt um {time} von selbst an.</translation>
+    </message>
+    <message>
+        <source>{time} and {count} full repetitions are stored.</source>
+        <translation>{time} und {count} ganze Wiederholungen sind gespeichert.</translation>
+    </message>
+    <message>
+        <source>Stop and review</source>
+        <translation>Beenden und auswerten</translation>
+    </message>
+    <message>
+        <source>Choose another source</source>
+        <translation>Andere Quelle wählen</translation>
+    </message>
+    <message>
+        <source>To the patients</source>
+        <translation>Zu den Patienten</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Weiter messen</translation>
+    </message>
+    <message>
+        <source>The recording has only just begun.</source>
+        <translation>Die Aufnahme hat gerade erst begonnen.</translation>
+    </message>
+    <message>
+        <source>It goes on while you choose, and everything is kept.</source>
+        <translation>Sie läuft weiter, während Sie wählen, und alles bleibt erhalten.</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or stop it already?</source>
+        <translation>Weiter messen oder schon beenden?</translation>
+    </message>
+    <message>
+        <source>Stop, save and close</source>
+        <translation>Beenden, speichern, schließen</translation>
+    </message>
+    <message>
+        <source>A recording is running.</source>
+        <translation>Eine Aufnahme läuft.</translation>
+    </message>
+    <message>
+        <source>Everything measured up to now is kept, whatever you choose.</source>
+        <translation>Alles bisher Gemessene bleibt erhalten, was Sie auch wählen.</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or stop: the session is saved and Carpus closes.</source>
+        <translation>Messen Sie weiter, oder beenden Sie: Die Sitzung wird gespeichert, und Carpus schließt sich.</translation>
+    </message>
+</context>
+<context>
     <name>LiveScreen</name>
     <message>
         <source>Note</source>
-        <translation>Notiz</translation>
+        <translation type="vanished">Notiz</translation>
     </message>
     <message>
         <source>Pain</source>
-        <translation>Schmerz</translation>
+        <translation type="vanished">Schmerz</translation>
     </message>
     <message>
         <source>Pause</source>
-        <translation>Anhalten</translation>
+        <translation type="vanished">Anhalten</translation>
     </message>
     <message>
         <source>Speeds</source>
@@ -9926,7 +10116,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Storing…</source>
-        <translation>Wird gespeichert…</translation>
+        <translation type="vanished">Wird gespeichert…</translation>
     </message>
     <message>
         <source>Angles</source>
@@ -9938,11 +10128,11 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Pain {score} noted</source>
-        <translation>Schmerz {score} vermerkt</translation>
+        <translation type="vanished">Schmerz {score} vermerkt</translation>
     </message>
     <message>
         <source>Passive</source>
-        <translation>Passiv</translation>
+        <translation type="vanished">Passiv</translation>
     </message>
     <message>
         <source>Plug the camera in again</source>
@@ -9966,39 +10156,39 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation>Fortsetzen</translation>
+        <translation type="vanished">Fortsetzen</translation>
     </message>
     <message>
         <source>Play and record</source>
-        <translation>Abspielen und aufnehmen</translation>
+        <translation type="vanished">Abspielen und aufnehmen</translation>
     </message>
     <message>
         <source>Record</source>
-        <translation>Aufnehmen</translation>
+        <translation type="vanished">Aufnehmen</translation>
     </message>
     <message>
         <source>Stop and go on</source>
-        <translation>Beenden und weiter</translation>
+        <translation type="vanished">Beenden und weiter</translation>
     </message>
     <message>
         <source>Stop and review</source>
-        <translation>Beenden und auswerten</translation>
+        <translation type="vanished">Beenden und auswerten</translation>
     </message>
     <message>
         <source>Starts in {seconds}: not yet</source>
-        <translation>Beginn in {seconds}: noch nicht</translation>
+        <translation type="vanished">Beginn in {seconds}: noch nicht</translation>
     </message>
     <message>
         <source>Space</source>
-        <translation>Leertaste</translation>
+        <translation type="vanished">Leertaste</translation>
     </message>
     <message>
         <source>Space · pedal</source>
-        <translation>Leertaste · Pedal</translation>
+        <translation type="vanished">Leertaste · Pedal</translation>
     </message>
     <message>
         <source>Side · {finger}</source>
-        <translation>Seite · {finger}</translation>
+        <translation type="vanished">Seite · {finger}</translation>
     </message>
 </context>
 <context>
@@ -10201,6 +10391,49 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>{now}, was {size} mm</source>
         <translation>{now}, war {size} mm</translation>
+    </message>
+</context>
+<context>
+    <name>MarkersFlow</name>
+    <message>
+        <source>Leave the markers?</source>
+        <translation>Die Marker verlassen?</translation>
+    </message>
+    <message>
+        <source>The names given on this picture would be lost.</source>
+        <translation>Die Namen, die auf diesem Bild vergeben sind, gingen verloren.</translation>
+    </message>
+    <message>
+        <source>Stay here, or go back to the camera.</source>
+        <translation>Hier bleiben oder zurück zur Kamera.</translation>
+    </message>
+    <message>
+        <source>Back to the camera</source>
+        <translation>Zurück zur Kamera</translation>
+    </message>
+    <message>
+        <source>Stay here</source>
+        <translation>Hier bleiben</translation>
+    </message>
+    <message>
+        <source>The depth of {name} lies {px} pixels beside its colours.</source>
+        <translation>Die Tiefe von {name} liegt {px} Pixel neben den Farben.</translation>
+    </message>
+    <message>
+        <source>The recording itself is not changed. It does not say that its depth was laid on its colours.</source>
+        <translation>Die Aufnahme selbst ist nicht geändert. Sie sagt nicht, dass die Tiefe auf die Farben gelegt wurde.</translation>
+    </message>
+    <message>
+        <source>Open it again with the depth moved onto the colours, then click the markers anew.</source>
+        <translation>Öffnen Sie sie noch einmal, mit der Tiefe auf den Farben, und klicken Sie dann die Marker neu an.</translation>
+    </message>
+    <message>
+        <source>Leave it as it is</source>
+        <translation>So lassen</translation>
+    </message>
+    <message>
+        <source>Open it again</source>
+        <translation>Noch einmal öffnen</translation>
     </message>
 </context>
 <context>
@@ -10435,55 +10668,55 @@ Umschalt+F8 von der Seite</translation>
     <name>MeasuringFlow</name>
     <message>
         <source>Recording paused by itself at {time}.</source>
-        <translation>Die Aufnahme hielt um {time} von selbst an.</translation>
+        <translation type="vanished">Die Aufnahme hielt um {time} von selbst an.</translation>
     </message>
     <message>
         <source>{time} and {count} full repetitions are stored.</source>
-        <translation>{time} und {count} ganze Wiederholungen sind gespeichert.</translation>
+        <translation type="vanished">{time} und {count} ganze Wiederholungen sind gespeichert.</translation>
     </message>
     <message>
         <source>Stop and review</source>
-        <translation>Beenden und auswerten</translation>
+        <translation type="vanished">Beenden und auswerten</translation>
     </message>
     <message>
         <source>Choose another source</source>
-        <translation>Andere Quelle wählen</translation>
+        <translation type="vanished">Andere Quelle wählen</translation>
     </message>
     <message>
         <source>To the patients</source>
-        <translation>Zu den Patienten</translation>
+        <translation type="vanished">Zu den Patienten</translation>
     </message>
     <message>
         <source>Go on measuring</source>
-        <translation>Weiter messen</translation>
+        <translation type="vanished">Weiter messen</translation>
     </message>
     <message>
         <source>The recording has only just begun.</source>
-        <translation>Die Aufnahme hat gerade erst begonnen.</translation>
+        <translation type="vanished">Die Aufnahme hat gerade erst begonnen.</translation>
     </message>
     <message>
         <source>It goes on while you choose, and everything is kept.</source>
-        <translation>Sie läuft weiter, während Sie wählen, und alles bleibt erhalten.</translation>
+        <translation type="vanished">Sie läuft weiter, während Sie wählen, und alles bleibt erhalten.</translation>
     </message>
     <message>
         <source>Go on measuring, or stop it already?</source>
-        <translation>Weiter messen oder schon beenden?</translation>
+        <translation type="vanished">Weiter messen oder schon beenden?</translation>
     </message>
     <message>
         <source>Stop, save and close</source>
-        <translation>Beenden, speichern, schließen</translation>
+        <translation type="vanished">Beenden, speichern, schließen</translation>
     </message>
     <message>
         <source>A recording is running.</source>
-        <translation>Eine Aufnahme läuft.</translation>
+        <translation type="vanished">Eine Aufnahme läuft.</translation>
     </message>
     <message>
         <source>Everything measured up to now is kept, whatever you choose.</source>
-        <translation>Alles bisher Gemessene bleibt erhalten, was Sie auch wählen.</translation>
+        <translation type="vanished">Alles bisher Gemessene bleibt erhalten, was Sie auch wählen.</translation>
     </message>
     <message>
         <source>Go on measuring, or stop: the session is saved and Carpus closes.</source>
-        <translation>Messen Sie weiter, oder beenden Sie: Die Sitzung wird gespeichert, und Carpus schließt sich.</translation>
+        <translation type="vanished">Messen Sie weiter, oder beenden Sie: Die Sitzung wird gespeichert, und Carpus schließt sich.</translation>
     </message>
 </context>
 <context>
@@ -12489,59 +12722,59 @@ Umschalt+F8 von der Seite</translation>
     <name>SettingUp</name>
     <message>
         <source>The camera is being opened.</source>
-        <translation>Die Kamera wird geöffnet.</translation>
+        <translation type="vanished">Die Kamera wird geöffnet.</translation>
     </message>
     <message>
         <source>The recording is being opened.</source>
-        <translation>Die Aufnahme wird geöffnet.</translation>
+        <translation type="vanished">Die Aufnahme wird geöffnet.</translation>
     </message>
     <message>
         <source>Choose the source again</source>
-        <translation>Quelle neu wählen</translation>
+        <translation type="vanished">Quelle neu wählen</translation>
     </message>
     <message>
         <source>The depth of {name} lies {px} pixels beside its colours.</source>
-        <translation>Die Tiefe von {name} liegt {px} Pixel neben den Farben.</translation>
+        <translation type="vanished">Die Tiefe von {name} liegt {px} Pixel neben den Farben.</translation>
     </message>
     <message>
         <source>The recording itself is not changed. It does not say that its depth was laid on its colours.</source>
-        <translation>Die Aufnahme selbst ist nicht geändert. Sie sagt nicht, dass die Tiefe auf die Farben gelegt wurde.</translation>
+        <translation type="vanished">Die Aufnahme selbst ist nicht geändert. Sie sagt nicht, dass die Tiefe auf die Farben gelegt wurde.</translation>
     </message>
     <message>
         <source>Open it again with the depth moved onto the colours, then click the markers anew.</source>
-        <translation>Öffnen Sie sie noch einmal, mit der Tiefe auf den Farben, und klicken Sie dann die Marker neu an.</translation>
+        <translation type="vanished">Öffnen Sie sie noch einmal, mit der Tiefe auf den Farben, und klicken Sie dann die Marker neu an.</translation>
     </message>
     <message>
         <source>Leave it as it is</source>
-        <translation>So lassen</translation>
+        <translation type="vanished">So lassen</translation>
     </message>
     <message>
         <source>Open it again</source>
-        <translation>Noch einmal öffnen</translation>
+        <translation type="vanished">Noch einmal öffnen</translation>
     </message>
     <message>
         <source>Leave the markers?</source>
-        <translation>Die Marker verlassen?</translation>
+        <translation type="vanished">Die Marker verlassen?</translation>
     </message>
     <message>
         <source>The names given on this picture would be lost.</source>
-        <translation>Die Namen, die auf diesem Bild vergeben sind, gingen verloren.</translation>
+        <translation type="vanished">Die Namen, die auf diesem Bild vergeben sind, gingen verloren.</translation>
     </message>
     <message>
         <source>Stay here, or go back to the camera.</source>
-        <translation>Hier bleiben oder zurück zur Kamera.</translation>
+        <translation type="vanished">Hier bleiben oder zurück zur Kamera.</translation>
     </message>
     <message>
         <source>Back to the camera</source>
-        <translation>Zurück zur Kamera</translation>
+        <translation type="vanished">Zurück zur Kamera</translation>
     </message>
     <message>
         <source>Stay here</source>
-        <translation>Hier bleiben</translation>
+        <translation type="vanished">Hier bleiben</translation>
     </message>
     <message>
         <source>The simulated patient is being drawn.</source>
-        <translation>Der simulierte Patient wird gezeichnet.</translation>
+        <translation type="vanished">Der simulierte Patient wird gezeichnet.</translation>
     </message>
 </context>
 <context>

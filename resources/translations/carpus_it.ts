@@ -7499,6 +7499,10 @@
         <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
         <translation>Tornare indietro e riprovare. Se si ripete, riavviare Carpus e segnalarlo.</translation>
     </message>
+    <message>
+        <source>Side · {finger}</source>
+        <translation>Di lato · {finger}</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -7646,6 +7650,13 @@
     <message>
         <source>{low} to {high}</source>
         <translation>{low} a {high}</translation>
+    </message>
+</context>
+<context>
+    <name>AtCameraFlow</name>
+    <message>
+        <source>Simulated camera: nothing here is of a real one.</source>
+        <translation>Telecamera simulata: qui non c’è nulla di una vera.</translation>
     </message>
 </context>
 <context>
@@ -8178,6 +8189,25 @@
     </message>
 </context>
 <context>
+    <name>BoardFlow</name>
+    <message>
+        <source>Camera calibration</source>
+        <translation>Calibrazione della telecamera</translation>
+    </message>
+    <message>
+        <source>Save the board to print</source>
+        <translation>Salva la tavola da stampare</translation>
+    </message>
+    <message>
+        <source>Save one page</source>
+        <translation>Salva una pagina</translation>
+    </message>
+    <message>
+        <source>Show it some more, tilted more and nearer: {why}.</source>
+        <translation>Mostrarla ancora, più inclinata e più vicina: {why}.</translation>
+    </message>
+</context>
+<context>
     <name>BoardResultView</name>
     <message>
         <source>Take &amp;again</source>
@@ -8444,15 +8474,15 @@
     <name>Calibrating</name>
     <message>
         <source>Save the board to print</source>
-        <translation>Salva la tavola da stampare</translation>
+        <translation type="vanished">Salva la tavola da stampare</translation>
     </message>
     <message>
         <source>Save one page</source>
-        <translation>Salva una pagina</translation>
+        <translation type="vanished">Salva una pagina</translation>
     </message>
     <message>
         <source>Show it some more, tilted more and nearer: {why}.</source>
-        <translation>Mostrarla ancora, più inclinata e più vicina: {why}.</translation>
+        <translation type="vanished">Mostrarla ancora, più inclinata e più vicina: {why}.</translation>
     </message>
 </context>
 <context>
@@ -8472,6 +8502,25 @@
     <message>
         <source>Cali&amp;brate the camera…</source>
         <translation>Cali&amp;bra la telecamera…</translation>
+    </message>
+</context>
+<context>
+    <name>CameraFlow</name>
+    <message>
+        <source>The camera is being opened.</source>
+        <translation>Apertura della telecamera.</translation>
+    </message>
+    <message>
+        <source>The recording is being opened.</source>
+        <translation>Apertura della registrazione.</translation>
+    </message>
+    <message>
+        <source>The simulated patient is being drawn.</source>
+        <translation>Il paziente simulato viene disegnato.</translation>
+    </message>
+    <message>
+        <source>Choose the source again</source>
+        <translation>Scegli di nuovo la sorgente</translation>
     </message>
 </context>
 <context>
@@ -8609,6 +8658,33 @@
     </message>
 </context>
 <context>
+    <name>CardFlow</name>
+    <message>
+        <source>Check card</source>
+        <translation>Cartoncino di controllo</translation>
+    </message>
+    <message>
+        <source>Save the card to print</source>
+        <translation>Salva il cartoncino da stampare</translation>
+    </message>
+    <message>
+        <source>not with a board</source>
+        <translation>non con una tavola</translation>
+    </message>
+    <message>
+        <source>Calibrated</source>
+        <translation>Calibrata</translation>
+    </message>
+    <message>
+        <source>Checks</source>
+        <translation>Controlli</translation>
+    </message>
+    <message>
+        <source>Save one page</source>
+        <translation>Salva una pagina</translation>
+    </message>
+</context>
+<context>
     <name>CardScreen</name>
     <message>
         <source>The camera</source>
@@ -8738,23 +8814,23 @@
     <name>Checking</name>
     <message>
         <source>Save the card to print</source>
-        <translation>Salva il cartoncino da stampare</translation>
+        <translation type="vanished">Salva il cartoncino da stampare</translation>
     </message>
     <message>
         <source>Save one page</source>
-        <translation>Salva una pagina</translation>
+        <translation type="vanished">Salva una pagina</translation>
     </message>
     <message>
         <source>not with a board</source>
-        <translation>non con una tavola</translation>
+        <translation type="vanished">non con una tavola</translation>
     </message>
     <message>
         <source>Calibrated</source>
-        <translation>Calibrata</translation>
+        <translation type="vanished">Calibrata</translation>
     </message>
     <message>
         <source>Checks</source>
-        <translation>Controlli</translation>
+        <translation type="vanished">Controlli</translation>
     </message>
 </context>
 <context>
@@ -8882,6 +8958,65 @@
     <message>
         <source>Checks of this camera</source>
         <translation>Controlli di questa telecamera</translation>
+    </message>
+</context>
+<context>
+    <name>Controls</name>
+    <message>
+        <source>Note</source>
+        <translation>Nota</translation>
+    </message>
+    <message>
+        <source>Pain</source>
+        <translation>Dolore</translation>
+    </message>
+    <message>
+        <source>Pause</source>
+        <translation>Pausa</translation>
+    </message>
+    <message>
+        <source>Pain {score} noted</source>
+        <translation>Dolore {score} annotato</translation>
+    </message>
+    <message>
+        <source>Storing…</source>
+        <translation>Salvataggio…</translation>
+    </message>
+    <message>
+        <source>Passive</source>
+        <translation>Passivo</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Continua</translation>
+    </message>
+    <message>
+        <source>Play and record</source>
+        <translation>Riproduci e registra</translation>
+    </message>
+    <message>
+        <source>Record</source>
+        <translation>Registra</translation>
+    </message>
+    <message>
+        <source>Stop and go on</source>
+        <translation>Ferma e continua</translation>
+    </message>
+    <message>
+        <source>Stop and review</source>
+        <translation>Ferma e rivedi</translation>
+    </message>
+    <message>
+        <source>Starts in {seconds}: not yet</source>
+        <translation>Inizio tra {seconds}: non ancora</translation>
+    </message>
+    <message>
+        <source>Space</source>
+        <translation>Spazio</translation>
+    </message>
+    <message>
+        <source>Space · pedal</source>
+        <translation>Spazio · pedale</translation>
     </message>
 </context>
 <context>
@@ -9710,15 +9845,15 @@ Maiusc+F8 di lato</translation>
     <name>Journey</name>
     <message>
         <source>Camera calibration</source>
-        <translation>Calibrazione della telecamera</translation>
+        <translation type="vanished">Calibrazione della telecamera</translation>
     </message>
     <message>
         <source>Check card</source>
-        <translation>Cartoncino di controllo</translation>
+        <translation type="vanished">Cartoncino di controllo</translation>
     </message>
     <message>
         <source>Simulated camera: nothing here is of a real one.</source>
-        <translation>Telecamera simulata: qui non c’è nulla di una vera.</translation>
+        <translation type="vanished">Telecamera simulata: qui non c’è nulla di una vera.</translation>
     </message>
     <message>
         <source>Simulated hand: this is not a patient’s, and does not count.</source>
@@ -9891,18 +10026,73 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>LiveFlow</name>
+    <message>
+        <source>Recording paused by itself at {time}.</source>
+        <translation>La registrazione si è messa in pausa da sola a {time}.</translation>
+    </message>
+    <message>
+        <source>{time} and {count} full repetitions are stored.</source>
+        <translation>Salvati {time} e {count} ripetizioni complete.</translation>
+    </message>
+    <message>
+        <source>Stop and review</source>
+        <translation>Ferma e rivedi</translation>
+    </message>
+    <message>
+        <source>Choose another source</source>
+        <translation>Scegli un’altra sorgente</translation>
+    </message>
+    <message>
+        <source>To the patients</source>
+        <translation>Ai pazienti</translation>
+    </message>
+    <message>
+        <source>Go on measuring</source>
+        <translation>Continua a misurare</translation>
+    </message>
+    <message>
+        <source>The recording has only just begun.</source>
+        <translation>La registrazione è appena iniziata.</translation>
+    </message>
+    <message>
+        <source>It goes on while you choose, and everything is kept.</source>
+        <translation>Prosegue durante la scelta, e tutto è conservato.</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or stop it already?</source>
+        <translation>Continuare a misurare, o fermare già?</translation>
+    </message>
+    <message>
+        <source>Stop, save and close</source>
+        <translation>Ferma, salva e chiudi</translation>
+    </message>
+    <message>
+        <source>A recording is running.</source>
+        <translation>È in corso una registrazione.</translation>
+    </message>
+    <message>
+        <source>Everything measured up to now is kept, whatever you choose.</source>
+        <translation>Tutto ciò che è stato misurato finora resta, qualunque sia la scelta.</translation>
+    </message>
+    <message>
+        <source>Go on measuring, or stop: the session is saved and Carpus closes.</source>
+        <translation>Continuare a misurare, o fermare: la seduta viene salvata e Carpus si chiude.</translation>
+    </message>
+</context>
+<context>
     <name>LiveScreen</name>
     <message>
         <source>Note</source>
-        <translation>Nota</translation>
+        <translation type="vanished">Nota</translation>
     </message>
     <message>
         <source>Pain</source>
-        <translation>Dolore</translation>
+        <translation type="vanished">Dolore</translation>
     </message>
     <message>
         <source>Pause</source>
-        <translation>Pausa</translation>
+        <translation type="vanished">Pausa</translation>
     </message>
     <message>
         <source>Speeds</source>
@@ -9926,7 +10116,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Storing…</source>
-        <translation>Salvataggio…</translation>
+        <translation type="vanished">Salvataggio…</translation>
     </message>
     <message>
         <source>Angles</source>
@@ -9938,11 +10128,11 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Pain {score} noted</source>
-        <translation>Dolore {score} annotato</translation>
+        <translation type="vanished">Dolore {score} annotato</translation>
     </message>
     <message>
         <source>Passive</source>
-        <translation>Passivo</translation>
+        <translation type="vanished">Passivo</translation>
     </message>
     <message>
         <source>Plug the camera in again</source>
@@ -9966,39 +10156,39 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Go on</source>
-        <translation>Continua</translation>
+        <translation type="vanished">Continua</translation>
     </message>
     <message>
         <source>Play and record</source>
-        <translation>Riproduci e registra</translation>
+        <translation type="vanished">Riproduci e registra</translation>
     </message>
     <message>
         <source>Record</source>
-        <translation>Registra</translation>
+        <translation type="vanished">Registra</translation>
     </message>
     <message>
         <source>Stop and go on</source>
-        <translation>Ferma e continua</translation>
+        <translation type="vanished">Ferma e continua</translation>
     </message>
     <message>
         <source>Stop and review</source>
-        <translation>Ferma e rivedi</translation>
+        <translation type="vanished">Ferma e rivedi</translation>
     </message>
     <message>
         <source>Starts in {seconds}: not yet</source>
-        <translation>Inizio tra {seconds}: non ancora</translation>
+        <translation type="vanished">Inizio tra {seconds}: non ancora</translation>
     </message>
     <message>
         <source>Space</source>
-        <translation>Spazio</translation>
+        <translation type="vanished">Spazio</translation>
     </message>
     <message>
         <source>Space · pedal</source>
-        <translation>Spazio · pedale</translation>
+        <translation type="vanished">Spazio · pedale</translation>
     </message>
     <message>
         <source>Side · {finger}</source>
-        <translation>Di lato · {finger}</translation>
+        <translation type="vanished">Di lato · {finger}</translation>
     </message>
 </context>
 <context>
@@ -10201,6 +10391,49 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>{now}, was {size} mm</source>
         <translation>{now}, era {size} mm</translation>
+    </message>
+</context>
+<context>
+    <name>MarkersFlow</name>
+    <message>
+        <source>Leave the markers?</source>
+        <translation>Lasciare i marcatori?</translation>
+    </message>
+    <message>
+        <source>The names given on this picture would be lost.</source>
+        <translation>I nomi dati su questa immagine andrebbero perduti.</translation>
+    </message>
+    <message>
+        <source>Stay here, or go back to the camera.</source>
+        <translation>Restare qui, o tornare alla telecamera.</translation>
+    </message>
+    <message>
+        <source>Back to the camera</source>
+        <translation>Torna alla telecamera</translation>
+    </message>
+    <message>
+        <source>Stay here</source>
+        <translation>Resta qui</translation>
+    </message>
+    <message>
+        <source>The depth of {name} lies {px} pixels beside its colours.</source>
+        <translation>La profondità di {name} è spostata di {px} pixel rispetto ai colori.</translation>
+    </message>
+    <message>
+        <source>The recording itself is not changed. It does not say that its depth was laid on its colours.</source>
+        <translation>La registrazione stessa non cambia. Non dice che la sua profondità era stata sovrapposta ai colori.</translation>
+    </message>
+    <message>
+        <source>Open it again with the depth moved onto the colours, then click the markers anew.</source>
+        <translation>Riaprirla con la profondità spostata sui colori, poi rifare i clic sui marcatori.</translation>
+    </message>
+    <message>
+        <source>Leave it as it is</source>
+        <translation>Lascia così</translation>
+    </message>
+    <message>
+        <source>Open it again</source>
+        <translation>Riapri</translation>
     </message>
 </context>
 <context>
@@ -10435,55 +10668,55 @@ Maiusc+F8 di lato</translation>
     <name>MeasuringFlow</name>
     <message>
         <source>Recording paused by itself at {time}.</source>
-        <translation>La registrazione si è messa in pausa da sola a {time}.</translation>
+        <translation type="vanished">La registrazione si è messa in pausa da sola a {time}.</translation>
     </message>
     <message>
         <source>{time} and {count} full repetitions are stored.</source>
-        <translation>Salvati {time} e {count} ripetizioni complete.</translation>
+        <translation type="vanished">Salvati {time} e {count} ripetizioni complete.</translation>
     </message>
     <message>
         <source>Stop and review</source>
-        <translation>Ferma e rivedi</translation>
+        <translation type="vanished">Ferma e rivedi</translation>
     </message>
     <message>
         <source>Choose another source</source>
-        <translation>Scegli un’altra sorgente</translation>
+        <translation type="vanished">Scegli un’altra sorgente</translation>
     </message>
     <message>
         <source>To the patients</source>
-        <translation>Ai pazienti</translation>
+        <translation type="vanished">Ai pazienti</translation>
     </message>
     <message>
         <source>Go on measuring</source>
-        <translation>Continua a misurare</translation>
+        <translation type="vanished">Continua a misurare</translation>
     </message>
     <message>
         <source>The recording has only just begun.</source>
-        <translation>La registrazione è appena iniziata.</translation>
+        <translation type="vanished">La registrazione è appena iniziata.</translation>
     </message>
     <message>
         <source>It goes on while you choose, and everything is kept.</source>
-        <translation>Prosegue durante la scelta, e tutto è conservato.</translation>
+        <translation type="vanished">Prosegue durante la scelta, e tutto è conservato.</translation>
     </message>
     <message>
         <source>Go on measuring, or stop it already?</source>
-        <translation>Continuare a misurare, o fermare già?</translation>
+        <translation type="vanished">Continuare a misurare, o fermare già?</translation>
     </message>
     <message>
         <source>Stop, save and close</source>
-        <translation>Ferma, salva e chiudi</translation>
+        <translation type="vanished">Ferma, salva e chiudi</translation>
     </message>
     <message>
         <source>A recording is running.</source>
-        <translation>È in corso una registrazione.</translation>
+        <translation type="vanished">È in corso una registrazione.</translation>
     </message>
     <message>
         <source>Everything measured up to now is kept, whatever you choose.</source>
-        <translation>Tutto ciò che è stato misurato finora resta, qualunque sia la scelta.</translation>
+        <translation type="vanished">Tutto ciò che è stato misurato finora resta, qualunque sia la scelta.</translation>
     </message>
     <message>
         <source>Go on measuring, or stop: the session is saved and Carpus closes.</source>
-        <translation>Continuare a misurare, o fermare: la seduta viene salvata e Carpus si chiude.</translation>
+        <translation type="vanished">Continuare a misurare, o fermare: la seduta viene salvata e Carpus si chiude.</translation>
     </message>
 </context>
 <context>
@@ -12489,59 +12722,59 @@ Maiusc+F8 di lato</translation>
     <name>SettingUp</name>
     <message>
         <source>The camera is being opened.</source>
-        <translation>Apertura della telecamera.</translation>
+        <translation type="vanished">Apertura della telecamera.</translation>
     </message>
     <message>
         <source>The recording is being opened.</source>
-        <translation>Apertura della registrazione.</translation>
+        <translation type="vanished">Apertura della registrazione.</translation>
     </message>
     <message>
         <source>Choose the source again</source>
-        <translation>Scegli di nuovo la sorgente</translation>
+        <translation type="vanished">Scegli di nuovo la sorgente</translation>
     </message>
     <message>
         <source>The depth of {name} lies {px} pixels beside its colours.</source>
-        <translation>La profondità di {name} è spostata di {px} pixel rispetto ai colori.</translation>
+        <translation type="vanished">La profondità di {name} è spostata di {px} pixel rispetto ai colori.</translation>
     </message>
     <message>
         <source>The recording itself is not changed. It does not say that its depth was laid on its colours.</source>
-        <translation>La registrazione stessa non cambia. Non dice che la sua profondità era stata sovrapposta ai colori.</translation>
+        <translation type="vanished">La registrazione stessa non cambia. Non dice che la sua profondità era stata sovrapposta ai colori.</translation>
     </message>
     <message>
         <source>Open it again with the depth moved onto the colours, then click the markers anew.</source>
-        <translation>Riaprirla con la profondità spostata sui colori, poi rifare i clic sui marcatori.</translation>
+        <translation type="vanished">Riaprirla con la profondità spostata sui colori, poi rifare i clic sui marcatori.</translation>
     </message>
     <message>
         <source>Leave it as it is</source>
-        <translation>Lascia così</translation>
+        <translation type="vanished">Lascia così</translation>
     </message>
     <message>
         <source>Open it again</source>
-        <translation>Riapri</translation>
+        <translation type="vanished">Riapri</translation>
     </message>
     <message>
         <source>Leave the markers?</source>
-        <translation>Lasciare i marcatori?</translation>
+        <translation type="vanished">Lasciare i marcatori?</translation>
     </message>
     <message>
         <source>The names given on this picture would be lost.</source>
-        <translation>I nomi dati su questa immagine andrebbero perduti.</translation>
+        <translation type="vanished">I nomi dati su questa immagine andrebbero perduti.</translation>
     </message>
     <message>
         <source>Stay here, or go back to the camera.</source>
-        <translation>Restare qui, o tornare alla telecamera.</translation>
+        <translation type="vanished">Restare qui, o tornare alla telecamera.</translation>
     </message>
     <message>
         <source>Back to the camera</source>
-        <translation>Torna alla telecamera</translation>
+        <translation type="vanished">Torna alla telecamera</translation>
     </message>
     <message>
         <source>Stay here</source>
-        <translation>Resta qui</translation>
+        <translation type="vanished">Resta qui</translation>
     </message>
     <message>
         <source>The simulated patient is being drawn.</source>
-        <translation>Il paziente simulato viene disegnato.</translation>
+        <translation type="vanished">Il paziente simulato viene disegnato.</translation>
     </message>
 </context>
 <context>

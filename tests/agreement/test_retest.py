@@ -344,8 +344,8 @@ def test_the_study_in_the_window_from_people_to_limits_in_force(
         assert "On 14 Nov 2026 with 10 people in 20 sessions" in said
         qtbot.waitUntil(lambda: "0 of 3 statements change" in words_of(screen))
         screen.measure_button.click()
-        assert journey.patient is not None
-        assert journey.patient.pseudonym == "P11"
+        assert journey.now.patient is not None
+        assert journey.now.patient.pseudonym == "P11"
     finally:
         desktop.close()
         qtbot.waitUntil(lambda: not journey.background.busy)

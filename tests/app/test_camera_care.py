@@ -72,7 +72,7 @@ def press(qtbot: QtBot, key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.Keyboard
 def test_from_the_settings_over_board_and_card_to_their_pages(
     qtbot: QtBot, desktop: Desktop, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    journey, board, card = desktop.journey, desktop.journey.board, desktop.journey.card
+    journey, board, card = desktop.journey, desktop.journey.board.screen, desktop.journey.card.screen
     practice = data / "practice"
 
     def saved_as(name: str) -> Path:
@@ -121,8 +121,8 @@ def test_from_the_settings_over_board_and_card_to_their_pages(
     card.page_button.click()
     qtbot.waitUntil(page.exists)
     card.check_button.click()
-    qtbot.waitUntil(lambda: journey.checking.hand._session is not None)
-    journey.checking.hand.failed.emit(CameraLost("simulated"))
+    qtbot.waitUntil(lambda: journey.card.hand._session is not None)
+    journey.card.hand.failed.emit(CameraLost("simulated"))
     assert not card.is_measuring
     told = [one for one in desktop.shell.findChildren(StopCard) if one.isVisible()]
     assert told
@@ -134,12 +134,12 @@ def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(
     qtbot: QtBot, desktop: Desktop, data: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     journey = desktop.journey
-    monkeypatch.setattr(journey.watch, "_name", lambda: "Xtion PRO LIVE")
-    journey.watch.look()
+    monkeypatch.setattr(journey.context.cameras, "name", lambda: "Xtion PRO LIVE")
+    journey.camera_state.look()
     last = camera_checks(out=True).checks[-1]
     add_check(chart_path(data, "77"), replace(last, serial="77", when=datetime.now().astimezone().isoformat()))
-    journey.care.look()
-    qtbot.waitUntil(lambda: journey.care.standing.is_out)
+    journey.camera_state.read()
+    qtbot.waitUntil(lambda: journey.camera_state.standing.is_out)
     assert desktop.shell.bar.camera.text() == "Camera out: check it"
     journey.way.show("settings")
     card = desktop.shell.findChild(CameraCard)
@@ -147,11 +147,13 @@ def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(
     assert "out of its limits" in card._state.text()
     disk, answers = care_cameras.known_serials, threading.Event()
     monkeypatch.setattr(care_cameras, "known_serials", lambda folder: disk(folder) if answers.wait(600) else set())
-    journey.show_card()
-    assert (journey.place, journey.card.checks.newest) == ("card", None), "a disk that hangs does not hold the window"
+    journey.card.show()
+    assert (journey.place, journey.card.screen.checks.newest) == ("card", None), (
+        "a disk that hangs does not hold the window"
+    )
     answers.set()
-    qtbot.waitUntil(lambda: journey.card.checks.verdict == "out")
-    assert journey.card.check_button.text() == "Check once more"
+    qtbot.waitUntil(lambda: journey.card.screen.checks.verdict == "out")
+    assert journey.card.screen.check_button.text() == "Check once more"
     heard: list[Notice] = []
 
     def opened(_uri: str, *, camera: Camera | None = None, notice: Notice) -> FrameSource:
@@ -159,10 +161,10 @@ def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(
         return practice_camera.card_camera(20.0)
 
     monkeypatch.setattr(care_cameras, "open_camera", opened)
-    journey.card.check_button.click()
-    qtbot.waitUntil(lambda: journey.checking.hand._session is not None)
+    journey.card.screen.check_button.click()
+    qtbot.waitUntil(lambda: journey.card.hand._session is not None)
     told: list[object] = []
-    journey.checking.hand.lost.connect(told.append)
+    journey.card.hand.lost.connect(told.append)
     heard[0](CameraLost("Xtion PRO LIVE", "unplugged"))
     qtbot.waitUntil(lambda: bool(told))
 
@@ -170,9 +172,9 @@ def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(
 def test_a_camera_without_a_number_is_asked_for_its_name_before_the_check(
     qtbot: QtBot, desktop: Desktop, data: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    journey, card = desktop.journey, desktop.journey.card
-    monkeypatch.setattr(journey.watch, "_name", lambda: "Xtion PRO LIVE")
-    journey.watch.look()
+    journey, card = desktop.journey, desktop.journey.card.screen
+    monkeypatch.setattr(journey.context.cameras, "name", lambda: "Xtion PRO LIVE")
+    journey.camera_state.look()
 
     def opened(_uri: str, *, camera: Camera | None = None, notice: Notice) -> FrameSource:
         made = practice_camera.card_camera(20.0)
@@ -180,7 +182,7 @@ def test_a_camera_without_a_number_is_asked_for_its_name_before_the_check(
         return made
 
     monkeypatch.setattr(care_cameras, "open_camera", opened)
-    journey.show_card()
+    journey.card.show()
     card.check_button.click()
     qtbot.waitUntil(card.name_sheet.isVisible)
     assert not card.name_sheet.take.isEnabled()
@@ -189,10 +191,8 @@ def test_a_camera_without_a_number_is_asked_for_its_name_before_the_check(
     card.check_button.click()
     qtbot.waitUntil(card.name_sheet.isVisible)
     card.name_sheet.named.emit("left")
-    journey.checking.back()  # while the name is being kept
-    qtbot.waitUntil(
-        lambda: (data / "cameras" / "names.json").exists() and not desktop.journey.checking._background.busy
-    )
+    journey.card.back()  # while the name is being kept
+    qtbot.waitUntil(lambda: (data / "cameras" / "names.json").exists() and not desktop.journey.background.busy)
     assert not card.is_measuring, "the camera is opened after everybody left"
     (data / "cameras" / "names.json").unlink()
     card.check_button.click()
@@ -208,5 +208,5 @@ def test_a_camera_without_a_number_is_asked_for_its_name_before_the_check(
     assert "room 3" in card.name_sheet.title.text()
     press(qtbot, Qt.Key.Key_Return)
     qtbot.waitUntil(lambda: card.progress is not None and card.progress.pixel is not None)
-    journey.checking.back()
+    journey.card.back()
     desktop.close()

@@ -130,8 +130,8 @@ def test_from_the_review_to_saved_tables(
 
 def test_from_the_list_of_sessions_with_another_one(qtbot: QtBot, desktop: Desktop) -> None:
     journey = desktop.journey
-    assert journey.patient is not None
-    journey.sessions.show(journey.patient.patient_id)
+    assert journey.now.patient is not None
+    journey.sessions.show(journey.now.patient.patient_id)
     journey.sessions.screen.reference_button.click()
     assert journey.place == "agreement"
     sheet = journey.agreement.reference
@@ -155,7 +155,7 @@ def test_a_file_that_is_no_measurement_is_said_in_words(
     wrong.write_text("one line only\n", encoding="utf-8")
     choosing(monkeypatch, wrong, tmp_path)
     journey = desktop.journey
-    journey.agreement.show(journey.session_id)
+    journey.agreement.show(journey.now.session_id)
     journey.agreement.reference.file_button.click()
     qtbot.waitUntil(lambda: journey.messages.busy)
     assert journey.agreement.screen.compared is None
@@ -170,7 +170,7 @@ def test_a_comparison_is_given_up_when_the_screen_is_left(
     held = tmp_path / "movement.csv"
     held.write_text(optical.read_text(encoding="utf-8").replace("Zeit,FlexExt", "time,flexion"), encoding="utf-8")
     choosing(monkeypatch, held, tmp_path)
-    comparing.show(journey.session_id)
+    comparing.show(journey.now.session_id)
     asked: list[bool] = []
     real = WorkWatch.at
 

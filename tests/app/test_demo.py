@@ -10,14 +10,14 @@ from PySide6.QtWidgets import QAbstractButton, QLabel
 from pytestqt.qtbot import QtBot
 
 from carpus.app.compose import Desktop
-from carpus.app.desktop.sources import Sources
+from carpus.app.desktop.care_cameras import CareCameras
 from carpus.core.records.library import Library
 from tests.records.samples import HERON, LINDEN, T0, record
 
 
 @pytest.fixture
 def demo(open_desktop: Callable[..., Desktop], monkeypatch: pytest.MonkeyPatch) -> Callable[[], Desktop]:
-    monkeypatch.setattr(Sources, "camera_name", lambda _: None)
+    monkeypatch.setattr(CareCameras, "name", lambda _: None)
     return lambda: open_desktop(is_demo=True)
 
 
@@ -44,18 +44,18 @@ def test_no_screen_of_a_demo_misses_a_camera(qtbot: QtBot, demo: Callable[[], De
     looks_well()
     linden = desktop.library.patients.add(LINDEN)
     desktop.library.patients.add(HERON)
-    journey.show_patients(linden)
+    journey.patients.show(linden)
     looks_well()
-    assert "file" not in journey.patients.card.start_button.text()
-    journey.setting_up.choose_exercise(linden)
+    assert "file" not in journey.patients.screen.card.start_button.text()
+    journey.exercise.show(linden)
     looks_well()
-    journey.exercise.primary.click()
+    journey.exercise.screen.primary.click()
     assert journey.place == "camera"
-    assert journey.camera.sources.value() == "practice"
-    assert journey.camera.primary.isEnabled()
+    assert journey.camera.screen.sources.value() == "practice"
+    assert journey.camera.screen.primary.isEnabled()
     looks_well()
-    journey.show_patients()
-    for show in (journey.show_card, journey.show_board):
+    journey.patients.show()
+    for show in (journey.card.show, journey.board.show):
         show()
         looks_well()
 
@@ -67,6 +67,6 @@ def test_who_was_measured_last_is_chosen_at_the_next_start(demo: Callable[[], De
     library.index.enter(record(path, LINDEN.pseudonym, T0, simulated=True), linden)
     library.patients.add(HERON)
     library.close()
-    patients = demo().journey.patients
+    patients = demo().journey.patients.screen
     assert patients.list.rows.find(linden) > 0, "what is simulated counts nowhere, also not for the order"
     assert patients.list.currentIndex().row() == patients.list.rows.find(linden)

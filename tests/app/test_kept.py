@@ -12,7 +12,6 @@ import pytest
 
 import carpus
 from carpus.app.__main__ import main
-from carpus.app.desktop.patients import PatientShelf
 from carpus.app.of_file import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.errors import OutputNotWritable
@@ -23,6 +22,7 @@ from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.ui.patients.shelf import PatientShelf
 from carpus.ui.sessions.flow import SessionShelf
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces

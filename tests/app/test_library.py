@@ -14,7 +14,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.app.desktop.patients import PatientShelf
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, SessionUnreadable
 from carpus.core.hand.exercises import exercise_named
@@ -27,6 +26,7 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
+from carpus.ui.patients.shelf import PatientShelf
 from carpus.ui.sessions.flow import SessionShelf
 from carpus.ui.sessions.listing import remark
 from tests.session.samples import CAMERA, make_calibration, make_frame

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from carpus.app.desktop.practice import practice_beginning, practice_spec
-from carpus.app.desktop.sources import NobodyWaitsError, Progress, TakesDrawn
+from carpus.app.desktop.sources import TakesDrawn
 from carpus.core.capture.paced import PracticeSource
 from carpus.core.capture.source import is_simulated
 from carpus.core.errors import CarpusFault, DiskFull
@@ -18,6 +18,7 @@ from carpus.core.hand.exercises import exercise_named
 from carpus.core.records.set_up import SetUp
 from carpus.core.simulation import recording
 from carpus.core.simulation.recording import SimulatedPictures
+from carpus.ui.opening import NobodyWaitsError, Progress
 from tests.capture.test_practice import Take
 from tests.ui.fakes import set_up
 

@@ -101,25 +101,25 @@ def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: 
         return [one.entry.pseudonym for one in desktop.library.patients.listed()]
 
     def archive_patient() -> NoticeStrip:
-        journey.patients.change_patient(who)
-        return archive(journey.patients.form.remove, lambda: names() == ["Heron 17"])
+        journey.patients.screen.change_patient(who)
+        return archive(journey.patients.screen.form.remove, lambda: names() == ["Heron 17"])
 
     archive_patient().button.click()
-    qtbot.waitUntil(lambda: journey.patients.list.rows.find(who) >= 0)
+    qtbot.waitUntil(lambda: journey.patients.screen.list.rows.find(who) >= 0)
     archive_patient().later_button.click()
-    journey.patients.search.setText("linden")
-    assert journey.patients.archive_button.isVisible()
-    assert "Linden 42" in journey.patients.archive_button.text()
-    journey.patients.archive_button.click()
+    journey.patients.screen.search.setText("linden")
+    assert journey.patients.screen.archive_button.isVisible()
+    assert "Linden 42" in journey.patients.screen.archive_button.text()
+    journey.patients.screen.archive_button.click()
     lists = desktop.safe.lists
     qtbot.waitUntil(lists.sheet.isVisible)
     assert [one.accessibleName() for one in lists.sheet.buttons] == ["Bring back Linden 42", "Erase… Linden 42"]
     lists.sheet.buttons[0].click()
     qtbot.waitUntil(lambda: lists.sheet.buttons == [])
     lists.sheet.close_sheet()
-    assert not journey.patients.archive_button.isVisible()
-    assert journey.patients.list.rows.find(who) >= 0, "the list below knows it too"
-    journey.patients.search.clear()
+    assert not journey.patients.screen.archive_button.isVisible()
+    assert journey.patients.screen.list.rows.find(who) >= 0, "the list below knows it too"
+    journey.patients.screen.search.clear()
 
     journey.sessions.show(who)
     lines = journey.sessions.screen.list.rows
@@ -151,7 +151,7 @@ def test_it_is_said_to_whom_a_session_was_given(qtbot: QtBot, opened: Open) -> N
 
 def test_a_patient_is_erased_from_the_form(qtbot: QtBot, opened: Open, data: Path) -> None:
     desktop = opened()
-    patients, sheet = desktop.journey.patients, desktop.safe.erasing.sheet
+    patients, sheet = desktop.journey.patients.screen, desktop.safe.erasing.sheet
     patients.change_patient(linden(desktop))
     assert patients.form.remove.isVisible()
     patients.form.remove.click()
@@ -210,12 +210,12 @@ def test_it_locks_by_key_and_by_itself_but_never_over_a_recording(
     journey.sessions.show(linden(desktop))
     journey.sessions.screen.rename_button.click()
     assert journey.sessions.screen.rename_sheet.isVisible()
-    monkeypatch.setattr(type(journey.live), "recording_state", "recording")
+    monkeypatch.setattr(type(journey.live.screen.recording), "state", "recording")
     locking.lock_by_key()
     locking.idle.passed.emit()
     assert not locking.locked
     assert 0 < locking.idle.left_ms <= 66_000, "it waits for the recording to end"
-    monkeypatch.setattr(type(journey.live), "recording_state", "off")
+    monkeypatch.setattr(type(journey.live.screen.recording), "state", "off")
     locking.idle.passed.emit()
     assert locking.locked
     assert "after 10 minutes" in locking.sheet.why.text()
@@ -252,7 +252,7 @@ def test_back_up_now_reminder_and_restore(
     disk = tmp_path / "disk"
     desktop = opened(replace(Settings(), backup=BackupSettings(folder=str(disk))))
     backing, journey = desktop.safe.backing_up, desktop.journey
-    strips = journey.patients.findChildren(NoticeStrip)
+    strips = journey.patients.screen.findChildren(NoticeStrip)
     assert ["There is no back-up yet." in strip.words.happened for strip in strips] == [True]
     disk.mkdir()
     backing.back_up()

@@ -131,11 +131,11 @@ def take(set_up: SetUp, progress: Callable[[int, int], None]) -> tuple[FrameSour
 
 def choose_whole_hand(journey: Journey) -> None:
     """The way to the practice patient's fist with 21 markers."""
-    journey.setting_up.choose_exercise(PRACTICE_PATIENT)
-    journey.exercise.choose(exercise_named("FIST_COMPOSITE"))
-    journey.exercise.primary.click()
-    journey.camera.sources.choose("practice")
-    journey.camera.primary.click()
+    journey.exercise.show(PRACTICE_PATIENT)
+    journey.exercise.screen.choose(exercise_named("FIST_COMPOSITE"))
+    journey.exercise.screen.primary.click()
+    journey.camera.screen.sources.choose("practice")
+    journey.camera.screen.primary.click()
 
 
 def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -> tuple[Run, dict[str, Any]]:
@@ -154,15 +154,15 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
         else:
             walker.start_practice()
         walker.until(lambda: journey.place == "markers", patience_s=1800.0)
-        set_up, source = journey.set_up, journey.source
+        set_up, source = journey.now.set_up, journey.now.source
         assert set_up is not None
         assert source is not None
         source.measuring._set_up = replace(source.measuring._set_up, keep_pictures=pictures)
         walker.take_picture()
         walker.click_markers(read_clicks(cached_recording(spec_of(set_up)) / CLICKS_FILE).pixel)
-        live, feed = journey.live, source.measuring.feed
-        live.toggle_recording()
-        walker.until(lambda: live.recording_state == "recording")
+        live, feed = journey.live.screen, source.measuring.feed
+        live.recording.toggle()
+        walker.until(lambda: live.recording.state == "recording")
         watcher = Watcher(live, run)
         again = QTimer(live)
         again.timeout.connect(source.measuring._on_recording)
@@ -196,10 +196,10 @@ def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -
         weigh.stop()
         again.stop()
         stop_s = time.monotonic()
-        live.stop()
+        live.recording.stop()
         walker.at("review")
         facts["stop_s"] = time.monotonic() - stop_s
-        session = read_session(desktop.library.entry(journey.session_id).path)
+        session = read_session(desktop.library.entry(journey.now.session_id).path)
         facts["looked_back"] = "all rows" if session.smoothed is not None else "no"
         return run, facts
     finally:

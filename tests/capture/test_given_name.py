@@ -8,9 +8,8 @@ from pathlib import Path
 import pytest
 
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture.calibrated import SERIAL
-from carpus.core.capture.given_name import is_nameless, keep_name, with_given_name
-from carpus.core.capture.source import SourceInfo
+from carpus.core.capture.given_name import keep_name, with_given_name
+from carpus.core.capture.source import SERIAL, SourceInfo
 from carpus.core.errors import OutputNotWritable
 from carpus.core.types import Frame
 
@@ -32,13 +31,13 @@ def test_only_a_camera_without_a_number_takes_the_name_of_its_kind(tmp_path: Pat
     plain, numbered = Camera("Xtion"), Camera("Xtion", serial="77")
     assert with_given_name(plain, tmp_path) is plain
     keep_name(tmp_path, "Xtion", "  room\n3 ")
-    named = with_given_name(plain, tmp_path).info.settings
-    assert (named[SERIAL], is_nameless(named)) == ("room 3", True)
+    named = with_given_name(plain, tmp_path).info
+    assert (named.serial, named.is_nameless) == ("room 3", True)
     assert with_given_name(numbered, tmp_path) is numbered
-    assert not is_nameless(numbered.info.settings)
+    assert not numbered.info.is_nameless
     assert SERIAL not in with_given_name(Camera("Astra"), tmp_path).info.settings
     assert keep_name(tmp_path, "Astra", "room\t 3") == "room 3 (Astra)"
-    of_both = [with_given_name(Camera(kind), tmp_path).info.settings[SERIAL] for kind in ("Xtion", "Astra")]
+    of_both = [with_given_name(Camera(kind), tmp_path).info.serial for kind in ("Xtion", "Astra")]
     assert of_both == ["room 3", "room 3 (Astra)"], "one would be seen through the other's calibration"
 
 

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import QApplication
 from carpus.app.compose import Desktop, application, compose
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.pipeline import looking_back
-from carpus.ui.live import screen as live_screen
+from carpus.ui.live import recording as live_recording
 from tests.journeys.takes import render, take_of
 
 SPEED = 1.5
@@ -56,7 +56,7 @@ def open_desktop(
 ) -> Iterator[Open]:
     """Puts the application together; may be called again after closing. Whatever is open is closed at the end."""
     QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
-    monkeypatch.setattr(live_screen, "HASTY_S", 0.0)  # a take is over in a few seconds
+    monkeypatch.setattr(live_recording, "HASTY_S", 0.0)  # a take is over in a few seconds
     settings = replace(
         Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(data), keep_pictures=False)
     )

@@ -32,13 +32,13 @@ def test_a_session_of_nobody_here_is_shown_and_stays_where_it_is(
     desktop.called(session)
     qtbot.waitUntil(lambda: journey.review.screen.shown, timeout=30_000)
     assert journey.place == "review"
-    assert journey.patient is not None
-    assert journey.patient.pseudonym == "Linden 42"
+    assert journey.now.patient is not None
+    assert journey.now.patient.pseudonym == "Linden 42"
     assert journey.review.screen.again_button.isHidden(), "there is nobody to measure"
     for tab in range(4):  # every tab of the bar leads somewhere
         journey.take_tab(tab)
         assert journey.place == ("sessions", "review", "progress", "report")[tab] or tab == 3
-    journey.show_patients()
+    journey.patients.show()
     assert not list((data / "sessions").rglob("*.h5"))
     assert session.read_bytes() == before
     assert [path.name for path in session.parent.iterdir()] == [session.name]
@@ -52,9 +52,9 @@ def test_a_session_of_a_patient_is_opened_as_theirs_also_by_a_copy(
     journey = (desktop := open_desktop()).journey
     desktop.called(session)
     qtbot.waitUntil(lambda: journey.review.screen.shown, timeout=30_000)
-    assert journey.patient is not None
-    assert journey.patient.patient_id
-    assert journey.patient.session_count == 1
+    assert journey.now.patient is not None
+    assert journey.now.patient.patient_id
+    assert journey.now.patient.session_count == 1
 
 
 def test_behind_the_lock_nothing_is_opened_until_somebody_has_the_pin(
@@ -67,7 +67,7 @@ def test_behind_the_lock_nothing_is_opened_until_somebody_has_the_pin(
     assert locking.locked
     desktop.called(session)
     assert desktop.journey.place == "patients"
-    assert desktop.journey.patient is None
+    assert desktop.journey.now.patient is None
     locking.sheet.tried.emit("4711")
     qtbot.waitUntil(lambda: desktop.journey.review.screen.shown, timeout=30_000)
 

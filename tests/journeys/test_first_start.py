@@ -30,7 +30,7 @@ def test_the_first_session_is_led_from_control_to_control(
     journey, tour, panel = desktop.journey, desktop.tour, desktop.welcome.panel
     assert panel is not None
     qtbot.waitUntil(panel.isVisible)
-    assert desktop.shell.focusWidget() in (journey.patients.search, None), "the search keeps the keyboard"
+    assert desktop.shell.focusWidget() in (journey.patients.screen.search, None), "the search keeps the keyboard"
     qtbot.waitUntil(lambda: len(panel.checks) >= 5)
     assert {"Camera driver", "Data folder", "Disk", "Fonts", "Screen"} <= {row.check.name for row in panel.checks}
     click(qtbot, panel.tour_button)
@@ -52,7 +52,7 @@ def test_the_first_session_is_led_from_control_to_control(
     click_discs(qtbot, desktop, take)
     go_on("check")
     qtbot.waitUntil(lambda: shown(desktop, "record"))
-    assert journey.live.bubble.isVisible()
+    assert journey.live.screen.bubble.isVisible()
     journey.way.go("report")
     qtbot.waitUntil(lambda: shown(desktop, "save"))
     journey.report.screen.saved.emit(str(tmp_path / "report.pdf"))
@@ -67,11 +67,11 @@ def test_typing_goes_to_the_search_and_escape_says_not_now(qtbot: QtBot, open_de
     desktop = open_desktop()
     journey = desktop.journey
     assert desktop.welcome.panel is not None
-    QTest.keyClicks(journey.patients.search, "prac")
-    assert journey.patients.search.text() == "prac"
+    QTest.keyClicks(journey.patients.screen.search, "prac")
+    assert journey.patients.screen.search.text() == "prac"
     desktop.shell.key.emit("back")
     assert desktop.welcome.panel is None
-    assert journey.patients.welcome is None
+    assert journey.patients.screen.welcome is None
     assert load_settings(tmp_path / "settings").first_start.answered
 
 
@@ -80,7 +80,7 @@ def test_escape_leaves_the_guide_and_not_the_screen(qtbot: QtBot, open_desktop: 
     journey, tour = desktop.journey, desktop.tour
     desktop.shell.key.emit("help")
     at(qtbot, desktop, "help")
-    click(qtbot, journey.help.tour_button)
+    click(qtbot, journey.help.screen.tour_button)
     at(qtbot, desktop, "patients")
     qtbot.waitUntil(lambda: shown(desktop, "patient"))
     desktop.shell.key.emit("settings")
@@ -88,9 +88,9 @@ def test_escape_leaves_the_guide_and_not_the_screen(qtbot: QtBot, open_desktop: 
     desktop.shell.key.emit("back")
     at(qtbot, desktop, "patients")
     qtbot.waitUntil(lambda: shown(desktop, "patient"))
-    journey.patients.new_patient()
+    journey.patients.screen.new_patient()
     qtbot.waitUntil(lambda: tour.bubble is None)
-    journey.patients.form.leave()
+    journey.patients.screen.form.leave()
     qtbot.waitUntil(lambda: shown(desktop, "patient"))
     desktop.shell.key.emit("back")
     assert not tour.is_on
@@ -102,7 +102,7 @@ def test_it_is_for_the_practice_patient_unless_it_was_asked_for(qtbot: QtBot, op
     desktop.library.patients.add(_somebody())
     (somebody,) = desktop.library.patients.listed()
     desktop.tour.begin(asked_for=False)
-    desktop.journey.now.patient = desktop.journey.patients._store.card(somebody.patient_id).row
+    desktop.journey.now.patient = desktop.journey.patients.screen._store.card(somebody.patient_id).row
     desktop.journey.way.go("camera")
     desktop.tour.look()
     assert desktop.tour.bubble is None

@@ -20,7 +20,8 @@ from PySide6.QtWidgets import QApplication, QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.app.compose import Desktop
-from carpus.app.desktop.sources import RECENT_FRAMES, Sources
+from carpus.app.desktop.care_cameras import CareCameras
+from carpus.app.desktop.sources import RECENT_FRAMES
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.capture.camera_info import sidecar_path
 from carpus.core.capture.devices import xtion
@@ -61,25 +62,25 @@ def at(qtbot: QtBot, desktop: Desktop, place: str) -> None:
 def still_hand(qtbot: QtBot, desktop: Desktop) -> None:
     """Half a second of the still hand has been seen."""
     at(qtbot, desktop, "markers")
-    source = desktop.journey.source
+    source = desktop.journey.now.source
     assert source is not None
     wait(qtbot, lambda: len(source.measuring.feed.recent_frames(RECENT_FRAMES)) == RECENT_FRAMES)
-    wait(qtbot, lambda: desktop.journey.markers.picture.image is not None)
+    wait(qtbot, lambda: desktop.journey.markers.screen.picture.image is not None)
 
 
 def click_discs(qtbot: QtBot, desktop: Desktop, take: Path) -> None:
-    picture = desktop.journey.markers.picture
+    picture = desktop.journey.markers.screen.picture
     for u, v in clicks_of(take):
         QApplication.processEvents()  # what came or went beside the picture has made it larger or smaller
         click(qtbot, picture, picture.to_screen(float(u), float(v)).toPoint())
-    wait(qtbot, desktop.journey.markers.primary.isEnabled)
+    wait(qtbot, desktop.journey.markers.screen.primary.isEnabled)
 
 
 def reviewed(qtbot: QtBot, desktop: Desktop) -> Path:
     """The session file of the review that is shown."""
     at(qtbot, desktop, "review")
     wait(qtbot, lambda: desktop.journey.review.screen.shown)
-    return desktop.library.entry(desktop.journey.session_id).path
+    return desktop.library.entry(desktop.journey.now.session_id).path
 
 
 def check_file(path: Path, subject: str) -> None:
@@ -110,24 +111,24 @@ def test_the_whole_journey_by_mouse(
 ) -> None:
     desktop = open_desktop()
     journey = desktop.journey
-    click(qtbot, journey.patients.new_button)
-    for chips in (journey.patients.form.side, journey.patients.form.dominance):
+    click(qtbot, journey.patients.screen.new_button)
+    for chips in (journey.patients.screen.form.side, journey.patients.screen.form.dominance):
         click(qtbot, chips.buttons()[0])
-    click(qtbot, journey.patients.form.save)
-    name = journey.patients.list.rows.row(0).pseudonym
-    wait(qtbot, lambda: journey.patients.card.start_button.isVisible())
-    click(qtbot, journey.patients.card.start_button)
+    click(qtbot, journey.patients.screen.form.save)
+    name = journey.patients.screen.list.rows.row(0).pseudonym
+    wait(qtbot, lambda: journey.patients.screen.card.start_button.isVisible())
+    click(qtbot, journey.patients.screen.card.start_button)
     at(qtbot, desktop, "exercise")
-    click(qtbot, journey.exercise.exercises.option("WRIST_FE"))
-    click(qtbot, journey.exercise.primary)
+    click(qtbot, journey.exercise.screen.exercises.option("WRIST_FE"))
+    click(qtbot, journey.exercise.screen.primary)
     at(qtbot, desktop, "camera")
-    click(qtbot, journey.camera.sources.option("practice"))
-    click(qtbot, journey.camera.primary)
+    click(qtbot, journey.camera.screen.sources.option("practice"))
+    click(qtbot, journey.camera.screen.primary)
     still_hand(qtbot, desktop)
-    click(qtbot, journey.markers.primary)
+    click(qtbot, journey.markers.screen.primary)
     click_discs(qtbot, desktop, take)
-    assert journey.markers.panel.states()[0] == "good"
-    click(qtbot, journey.markers.primary)
+    assert journey.markers.screen.guidance.panel.states()[0] == "good"
+    click(qtbot, journey.markers.screen.primary)
     at(qtbot, desktop, "live")
     assert desktop.shell.sign.text == f"Simulated hand: this is not {name}, and does not count."
     source = journey.now.source
@@ -136,11 +137,11 @@ def test_the_whole_journey_by_mouse(
     wait(qtbot, lambda: "drawn" in desktop.shell.bar.camera.text())
     assert not journey.messages.busy, "a card would take Space from the recording"
     journey.now.source = source
-    click(qtbot, journey.live.main)
-    wait(qtbot, lambda: journey.live.recording_state == "recording")
+    click(qtbot, journey.live.screen.controls.main)
+    wait(qtbot, lambda: journey.live.screen.recording.state == "recording")
     wait(qtbot, lambda: desktop.shell.bar.pill.state == "recording")
-    wait(qtbot, lambda: journey.live.repetitions >= 2)
-    click(qtbot, journey.live.main)
+    wait(qtbot, lambda: journey.live.screen.recording.repetitions >= 2)
+    click(qtbot, journey.live.screen.controls.main)
     path = reviewed(qtbot, desktop)
     assert read_session(path).header.simulated
     assert desktop.shell.sign.isVisible()
@@ -169,9 +170,9 @@ def test_the_whole_journey_by_mouse(
     at(qtbot, desktop, "review")
     click(qtbot, desktop.shell.bar.back_button)
     at(qtbot, desktop, "patients")
-    row = journey.patients.list.rows.row(0)
+    row = journey.patients.screen.list.rows.row(0)
     assert (row.pseudonym, row.session_count) == (name, 0), "a simulated hand counts nowhere"
-    assert journey.patients._store.card(row.patient_id).has_sessions
+    assert journey.patients.screen._store.card(row.patient_id).has_sessions
     assert (data_mode(desktop.library.folder), data_mode(path.parent)) == (0o700, 0o700)
 
 
@@ -192,7 +193,7 @@ def test_the_whole_journey_by_keyboard(
     press(Qt.Key.Key_Return)
     still_hand(qtbot, desktop)
     press(Qt.Key.Key_Space)
-    picture = journey.markers.picture
+    picture = journey.markers.screen.picture
     press(Qt.Key.Key_Left)
     for target in clicks_of(take):
         cursor = picture.cursor_px
@@ -208,17 +209,17 @@ def test_the_whole_journey_by_keyboard(
             for _ in range(ones):
                 press(keys[int(step > 0)])
         press(Qt.Key.Key_Space)
-    wait(qtbot, journey.markers.primary.isEnabled)
+    wait(qtbot, journey.markers.screen.primary.isEnabled)
     press(Qt.Key.Key_Return)
     at(qtbot, desktop, "live")
     press(Qt.Key.Key_Space)
-    wait(qtbot, lambda: journey.live.recording_state == "recording")
+    wait(qtbot, lambda: journey.live.screen.recording.state == "recording")
     press(Qt.Key.Key_F5)
     qtbot.keyClicks(shell.focusWidget(), "strap loose")
     press(Qt.Key.Key_Return)
     press(Qt.Key.Key_Escape)  # nothing leaves a running recording
     assert journey.place == "live"
-    wait(qtbot, lambda: journey.live.repetitions >= 2)
+    wait(qtbot, lambda: journey.live.screen.recording.repetitions >= 2)
     press(Qt.Key.Key_Space)
     path = reviewed(qtbot, desktop)
     check_file(path, "practice")
@@ -243,18 +244,18 @@ def test_a_recording_is_measured_from_its_first_picture_to_its_last(
 ) -> None:
     desktop = open_desktop()
     journey = desktop.journey
-    journey.setting_up.start(PRACTICE_PATIENT)
+    journey.camera.show(PRACTICE_PATIENT)
     at(qtbot, desktop, "markers")
     journey.way.back()
     at(qtbot, desktop, "camera")
-    journey.camera.set_path(str(take))
-    click(qtbot, journey.camera.primary)
+    journey.camera.screen.set_path(str(take))
+    click(qtbot, journey.camera.screen.primary)
     at(qtbot, desktop, "markers")
-    assert not journey.markers.new_picture.isVisible()
+    assert not journey.markers.screen.new_picture.isVisible()
     click_discs(qtbot, desktop, take)
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
     at(qtbot, desktop, "live")
-    assert journey.live.recording_state == "off", "it waits for the key, as every source does"
+    assert journey.live.screen.recording.state == "off", "it waits for the key, as every source does"
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Space)
     path = reviewed(qtbot, desktop)  # recorded, played to its end and stopped by itself
     stored = [float(line.split()[0]) for line in (take / "rgb.txt").read_text().splitlines() if line[:1] != "#"]
@@ -276,17 +277,17 @@ def test_a_recording_of_the_camera_plays_through_its_own_library_in_real_time(
     camera_info.write_text(re.sub("registered: .*\n", "", camera_info.read_text()))
     desktop = open_desktop()
     journey = desktop.journey
-    journey.setting_up.start(PRACTICE_PATIENT)
+    journey.camera.show(PRACTICE_PATIENT)
     at(qtbot, desktop, "markers")
     journey.way.back()
-    journey.camera.set_path(str(recording))
-    click(qtbot, journey.camera.primary)
+    journey.camera.screen.set_path(str(recording))
+    click(qtbot, journey.camera.screen.primary)
     at(qtbot, desktop, "markers")  # nothing says that depth lies on colour: it is measured, nobody is asked
     click_discs(qtbot, desktop, take)
     assert not journey.messages.busy
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
     at(qtbot, desktop, "live")
-    journey.live.toggle_recording()
+    journey.live.screen.recording.toggle()
     begun_s = time.monotonic()
     path = reviewed(qtbot, desktop)
     with h5py.File(path) as file:
@@ -302,20 +303,20 @@ def test_depth_that_is_measured_beside_the_colours_is_opened_again_the_other_way
 ) -> None:
     desktop = open_desktop()
     journey = desktop.journey
-    journey.setting_up.start(PRACTICE_PATIENT)
+    journey.camera.show(PRACTICE_PATIENT)
     at(qtbot, desktop, "markers")
-    assert journey.source is not None
+    assert journey.now.source is not None
     verdict = make_calibration().verdict
     off = replace(verdict, findings=(CalibrationFinding("depth_off", (), 11.0, 3.0, "px"),))
-    journey.setting_up.check_registration(off)
+    journey.markers.check_registration(off)
     assert not journey.messages.busy, "a camera says it itself"
-    journey.now.source = replace(journey.source, asks_registration=True)
+    journey.now.source = replace(journey.now.source, asks_registration=True)
     journey.now.choice = SourceChoice("file", str(take))
-    journey.setting_up.check_registration(replace(verdict, findings=()))
+    journey.markers.check_registration(replace(verdict, findings=()))
     assert not journey.messages.busy
     wanted: list[SourceChoice] = []
-    monkeypatch.setattr(journey.setting_up, "open_source", wanted.append)
-    journey.setting_up.check_registration(off)
+    monkeypatch.setattr(journey.opener, "open", wanted.append)
+    journey.markers.check_registration(off)
     assert "11 pixels" in journey.messages.card.what.text()
     click(qtbot, journey.messages.card.answers[-1])
     assert wanted == [SourceChoice("file", str(take), registered=False)]
@@ -326,10 +327,10 @@ def test_a_recording_that_is_being_stored_is_not_stopped_again_by_closing(
 ) -> None:
     desktop = open_desktop()
     to_live(qtbot, desktop, take)
-    desktop.journey.live.toggle_recording()
-    wait(qtbot, lambda: desktop.journey.live.recorded_s > 0.5)
-    desktop.journey.live.stop()
-    assert desktop.journey.live.storing
+    desktop.journey.live.screen.recording.toggle()
+    wait(qtbot, lambda: desktop.journey.live.screen.recording.recorded_s > 0.5)
+    desktop.journey.live.screen.recording.stop()
+    assert desktop.journey.live.screen.recording.storing
     desktop.shell.close_surely()
     assert not [record for record in caplog.records if record.name != "carpus.core.pipeline.measuring"]
     (entry,) = open_desktop().library.sessions(PRACTICE_PATIENT)
@@ -350,33 +351,33 @@ def test_a_second_set_needs_no_new_markers(qtbot: QtBot, open_desktop: Open, tak
 
 
 def to_live(qtbot: QtBot, desktop: Desktop, take: Path) -> None:
-    desktop.journey.setting_up.start(PRACTICE_PATIENT)
+    desktop.journey.camera.show(PRACTICE_PATIENT)
     still_hand(qtbot, desktop)
-    desktop.journey.markers.accept()
+    desktop.journey.markers.screen.accept()
     click_discs(qtbot, desktop, take)
-    click(qtbot, desktop.journey.markers.primary)
+    click(qtbot, desktop.journey.markers.screen.primary)
     at(qtbot, desktop, "live")
 
 
 def one_set(qtbot: QtBot, desktop: Desktop) -> Path:
-    live = desktop.journey.live
-    live.toggle_recording()
-    wait(qtbot, lambda: live.recorded_s > 1.0)
-    live.toggle_recording()
+    live = desktop.journey.live.screen
+    live.recording.toggle()
+    wait(qtbot, lambda: live.recording.recorded_s > 1.0)
+    live.recording.toggle()
     return reviewed(qtbot, desktop)
 
 
 def test_a_window_closed_while_recording_keeps_the_session(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
     desktop = open_desktop()
     to_live(qtbot, desktop, take)
-    desktop.journey.live.toggle_recording()
-    wait(qtbot, lambda: desktop.journey.live.recorded_s > 1.0)
+    desktop.journey.live.screen.recording.toggle()
+    wait(qtbot, lambda: desktop.journey.live.screen.recording.recorded_s > 1.0)
     desktop.shell.close()
     card = desktop.journey.messages.card
     assert card.isVisible(), "it asks first"
     assert desktop.shell.isVisible()
     click(qtbot, card.answers[1])
-    assert desktop.journey.live.recording_state == "recording"
+    assert desktop.journey.live.screen.recording.state == "recording"
     desktop.shell.close()
     click(qtbot, card.answers[0])
     assert not desktop.shell.isVisible()
@@ -384,7 +385,7 @@ def test_a_window_closed_while_recording_keeps_the_session(qtbot: QtBot, open_de
     (entry,) = again.library.sessions(PRACTICE_PATIENT)
     assert entry.complete
     assert entry.duration_s > 0.8
-    assert again.journey.patients.findChildren(NoticeStrip) == []
+    assert again.journey.patients.screen.findChildren(NoticeStrip) == []
 
 
 def test_a_card_takes_every_key_and_its_first_button_does_what_it_says(
@@ -395,25 +396,25 @@ def test_a_card_takes_every_key_and_its_first_button_does_what_it_says(
     to_live(qtbot, desktop, take)
     shell.activateWindow()
     qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Space)
-    wait(qtbot, lambda: journey.live.recorded_s > 0.5)
+    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.5)
     shell.close()
     card = journey.messages.card
     assert card.isVisible()
-    whole = journey.live.picture.shows_whole
+    whole = journey.live.screen.picture.shows_whole
     for key in (Qt.Key.Key_F7, Qt.Key.Key_F9, Qt.Key.Key_F5, Qt.Key.Key_F1, Qt.Key.Key_Escape):
         qtbot.keyClick(shell.focusWidget(), key)
     assert card.isVisible()
-    assert journey.live.recording_state == "recording"
-    assert (journey.live.picture.shows_whole, journey.place) == (whole, "live")
-    journey.live.setFocus()  # as a click beside the card would
+    assert journey.live.screen.recording.state == "recording"
+    assert (journey.live.screen.picture.shows_whole, journey.place) == (whole, "live")
+    journey.live.screen.setFocus()  # as a click beside the card would
     assert card.isAncestorOf(shell.focusWidget())
-    qtbot.mouseClick(journey.live.main, Qt.MouseButton.LeftButton)
-    assert journey.live.recording_state == "recording"
+    qtbot.mouseClick(journey.live.screen.controls.main, Qt.MouseButton.LeftButton)
+    assert journey.live.screen.recording.state == "recording"
     qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Space)  # "Go on measuring"
     assert not card.isVisible()
-    assert journey.live.recording_state == "recording"
+    assert journey.live.screen.recording.state == "recording"
     shell.close()
-    journey.live.stop()  # as the end of the source does
+    journey.live.screen.recording.stop()  # as the end of the source does
     at(qtbot, desktop, "review")
     assert not journey.messages.busy, "the question has answered itself"
     wait(qtbot, lambda: journey.review.screen.shown)
@@ -426,9 +427,9 @@ def test_a_message_moves_with_the_screen(qtbot: QtBot, open_desktop: Open, take:
     journey = desktop.journey
     to_live(qtbot, desktop, take)
     journey.messages.fault(DiskFull("x"))
-    journey.live.toggle_recording()
-    wait(qtbot, lambda: journey.live.recorded_s > 0.5)
-    journey.live.stop()
+    journey.live.screen.recording.toggle()
+    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.5)
+    journey.live.screen.recording.stop()
     at(qtbot, desktop, "review")
     assert journey.messages.card.isVisible()
     assert "disk" in journey.messages.card.what.text()
@@ -440,19 +441,19 @@ def test_a_hasty_end_asks_and_the_recording_goes_on(
     qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop = open_desktop()
-    monkeypatch.setattr("carpus.ui.live.screen.HASTY_S", 3600.0)
+    monkeypatch.setattr("carpus.ui.live.recording.HASTY_S", 3600.0)
     journey = desktop.journey
     to_live(qtbot, desktop, take)
-    journey.live.toggle_recording()
-    wait(qtbot, lambda: journey.live.recorded_s > 0.3)
-    journey.live.toggle_recording()
+    journey.live.screen.recording.toggle()
+    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.3)
+    journey.live.screen.recording.toggle()
     card = journey.messages.card
     assert card.isVisible()
-    assert journey.live.recording_state == "recording"
+    assert journey.live.screen.recording.state == "recording"
     qtbot.keyClick(card.answers[-1], Qt.Key.Key_Return)
     assert not card.isVisible()
-    assert journey.live.recording_state == "recording"
-    journey.live.toggle_recording()
+    assert journey.live.screen.recording.state == "recording"
+    journey.live.screen.recording.toggle()
     card.answers[0].click()
     at(qtbot, desktop, "review")
 
@@ -465,10 +466,10 @@ def test_a_recording_does_not_begin_on_a_full_disk(
     to_live(qtbot, desktop, take)
     usage = shutil.disk_usage(desktop.library.folder)
     monkeypatch.setattr(measuring.shutil, "disk_usage", lambda _: usage._replace(free=20_000_000))
-    journey.live.toggle_recording()
+    journey.live.screen.recording.toggle()
     wait(qtbot, journey.messages.card.isVisible)
     assert "20 MB free" in journey.messages.card.what.text()
-    assert journey.live.recording_state == "off"
+    assert journey.live.screen.recording.state == "off"
     assert list(desktop.library.folder.rglob("*.h5*")) == []
 
 
@@ -476,15 +477,15 @@ def test_a_session_rescued_later_is_in_the_list_as_soon_as_the_list_is_shown(ope
     desktop = open_desktop()
     journey, library = desktop.journey, desktop.library
     linden = library.patients.add(PatientEntry("Linden 42", "right"))
-    journey.show_patients()
+    journey.patients.show()
     folder = library.store.sessions_folder / "Linden-42"
     folder.mkdir()
     writer = SessionWriter.create(folder / "cut.h5", make_header(), CAMERA, make_calibration())
     for row in range(60):
         writer.append(make_frame(row))
     writer.abandon()  # and the disk was too full to finish it
-    journey.show_patients(linden)
-    row = journey.patients.list.rows.row(0)
+    journey.patients.show(linden)
+    row = journey.patients.screen.list.rows.row(0)
     assert (row.pseudonym, row.session_count) == ("Linden 42", 1)
 
 
@@ -492,13 +493,13 @@ def test_stopping_at_once_stores_nothing_and_says_so(qtbot: QtBot, open_desktop:
     desktop = open_desktop()
     journey = desktop.journey
     to_live(qtbot, desktop, take)
-    source = journey.source
+    source = journey.now.source
     assert source is not None
     source.measuring.feed.end_tracking()
     wait(qtbot, lambda: source.measuring.feed.counters().waiting_tracking == 0)
-    journey.live.toggle_recording()
-    wait(qtbot, lambda: journey.live._count is not None)
-    journey.live.toggle_recording()
+    journey.live.screen.recording.toggle()
+    wait(qtbot, lambda: journey.live.screen.recording.count is not None)
+    journey.live.screen.recording.toggle()
     wait(qtbot, journey.messages.card.isVisible)
     assert desktop.library.sessions(PRACTICE_PATIENT) == []
     assert list(desktop.library.folder.rglob("*.h5*")) == []
@@ -510,24 +511,24 @@ def test_stopping_at_once_stores_nothing_and_says_so(qtbot: QtBot, open_desktop:
 def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
     qtbot: QtBot, open_desktop: Open, take: Path, demo: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(Sources, "camera_name", lambda _: None)
+    monkeypatch.setattr(CareCameras, "name", lambda _: None)
     desktop = open_desktop()
     journey = desktop.journey
     if demo:
         journey.now.choice = SourceChoice("practice")
     to_live(qtbot, desktop, take)
-    journey.show_patients()
+    journey.patients.show()
     linden = desktop.library.patients.add(PatientEntry("Linden 42", "right"))
     for _ in range(2):
-        journey.setting_up.choose_exercise(linden)
-        click(qtbot, journey.exercise.primary)
+        journey.exercise.show(linden)
+        click(qtbot, journey.exercise.screen.primary)
         at(qtbot, desktop, "camera")
-        assert journey.camera.sources.value() == "camera"
-        assert not journey.camera.primary.isEnabled()
-        click(qtbot, journey.camera.sources.option("practice"))  # by hand, each time
-        click(qtbot, journey.camera.primary)
+        assert journey.camera.screen.sources.value() == "camera"
+        assert not journey.camera.screen.primary.isEnabled()
+        click(qtbot, journey.camera.screen.sources.option("practice"))  # by hand, each time
+        click(qtbot, journey.camera.screen.primary)
         at(qtbot, desktop, "markers")
-        journey.show_patients()
+        journey.patients.show()
 
 
 def test_an_interrupted_session_is_told_at_the_next_start_and_can_be_reviewed(qtbot: QtBot, open_desktop: Open) -> None:
@@ -540,13 +541,13 @@ def test_an_interrupted_session_is_told_at_the_next_start_and_can_be_reviewed(qt
         writer.append(make_frame(row))
     writer.abandon()
     second = open_desktop()
-    (strip,) = second.journey.patients.findChildren(NoticeStrip)
+    (strip,) = second.journey.patients.screen.findChildren(NoticeStrip)
     assert make_header().subject_id in strip.words.happened
     assert "safe" in strip.words.safe
     click(qtbot, strip.button)
     assert reviewed(qtbot, second) == folder / "cut.h5"
-    assert second.journey.patient is not None
-    assert second.journey.patient.pseudonym == make_header().subject_id
+    assert second.journey.now.patient is not None
+    assert second.journey.now.patient.pseudonym == make_header().subject_id
 
 
 def test_a_camera_that_is_not_there_is_told_with_what_to_do(
@@ -559,18 +560,18 @@ def test_a_camera_that_is_not_there_is_told_with_what_to_do(
         raise CameraMissing("", "no device")
 
     monkeypatch.setattr(xtion, "KIND", replace(xtion.KIND, open=missing))
-    journey.setting_up.start(PRACTICE_PATIENT)
+    journey.camera.show(PRACTICE_PATIENT)
     at(qtbot, desktop, "markers")
     journey.way.back()
-    journey.camera.set_camera_ready(True)
-    click(qtbot, journey.camera.sources.option("camera"))
-    click(qtbot, journey.camera.primary)
+    journey.camera.screen.set_camera_ready(True)
+    click(qtbot, journey.camera.screen.sources.option("camera"))
+    click(qtbot, journey.camera.screen.primary)
     wait(qtbot, journey.messages.card.isVisible)
     assert "camera" in journey.messages.card.what.text()
     assert journey.messages.card.todo.text().startswith("Plug")
     click(qtbot, journey.messages.card.answers[-1])
     assert journey.place == "camera"
-    assert journey.source is None
+    assert journey.now.source is None
 
 
 def test_a_lost_camera_stops_the_eye_and_goes_by_itself_when_it_is_back(
@@ -579,17 +580,17 @@ def test_a_lost_camera_stops_the_eye_and_goes_by_itself_when_it_is_back(
     desktop = open_desktop()
     journey = desktop.journey
     to_live(qtbot, desktop, take)
-    source = journey.source
+    source = journey.now.source
     assert source is not None
-    journey.live.toggle_recording()
-    wait(qtbot, lambda: journey.live.recorded_s > 0.5)
+    journey.live.screen.recording.toggle()
+    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.5)
     source.measuring.feed.notice(CameraLost("Xtion", "unplugged"))
     wait(qtbot, journey.messages.card.isVisible)
     assert "sends no more pictures" in journey.messages.card.what.text()
     assert "stored" in journey.messages.card.safe_detail.text()
     source.measuring.feed.notice(CameraReturned("Xtion", "3 s"))
     wait(qtbot, lambda: not journey.messages.card.isVisible())
-    journey.live.toggle_recording()
+    journey.live.screen.recording.toggle()
     path = reviewed(qtbot, desktop)
     with h5py.File(path) as file:
         assert {"camera_lost", "camera_back"} <= set(file["events/kind"].asstr()[:])
@@ -598,21 +599,21 @@ def test_a_lost_camera_stops_the_eye_and_goes_by_itself_when_it_is_back(
 def test_raw_pictures_are_kept_on_request_and_shown_in_the_review(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
     desktop = open_desktop()
     journey = desktop.journey
-    journey.setting_up.choose_exercise(PRACTICE_PATIENT)
-    journey.exercise.pictures.choose(True)
-    click(qtbot, journey.exercise.primary)
+    journey.exercise.show(PRACTICE_PATIENT)
+    journey.exercise.screen.pictures.choose(True)
+    click(qtbot, journey.exercise.screen.primary)
     at(qtbot, desktop, "camera")
-    click(qtbot, journey.camera.primary)
+    click(qtbot, journey.camera.screen.primary)
     still_hand(qtbot, desktop)
-    journey.markers.accept()
+    journey.markers.screen.accept()
     click_discs(qtbot, desktop, take)
-    click(qtbot, journey.markers.primary)
+    click(qtbot, journey.markers.screen.primary)
     at(qtbot, desktop, "live")
     path = one_set(qtbot, desktop)
-    session = desktop.library.session(journey.session_id)
+    session = desktop.library.session(journey.now.session_id)
     assert path.with_suffix(".carpusraw").exists()
     for row in (0, len(session) - 1):
-        picture = desktop.library.picture(journey.session_id, row)
+        picture = desktop.library.picture(journey.now.session_id, row)
         assert picture is not None
         assert picture.shape == (480, 640, 3)
         known = np.isfinite(session.markers.measured_px[row, :, 0])
@@ -625,9 +626,9 @@ def test_what_was_left_out_is_stored_beside_the_session(qtbot: QtBot, open_deskt
     desktop = open_desktop()
     journey = desktop.journey
     to_live(qtbot, desktop, take)
-    journey.live.toggle_recording()
-    wait(qtbot, lambda: journey.live.repetitions >= 2)
-    journey.live.toggle_recording()
+    journey.live.screen.recording.toggle()
+    wait(qtbot, lambda: journey.live.screen.recording.repetitions >= 2)
+    journey.live.screen.recording.toggle()
     path = reviewed(qtbot, desktop)
     before = path.read_bytes()
     figures = journey.review.screen.figures

@@ -26,7 +26,7 @@ def test_esc_closes_any_sheet_and_leaves_its_screen(qtbot: QtBot, open_desktop: 
     desktop.shell.activateWindow()
     seen: list[str] = []
     for place, screen in (
-        ("patients", journey.patients), ("markers", journey.markers), ("live", journey.live),
+        ("patients", journey.patients.screen), ("markers", journey.markers.screen), ("live", journey.live.screen),
         ("review", journey.review.screen),
     ):  # fmt: skip
         journey.way.go(place)  # type: ignore[arg-type]

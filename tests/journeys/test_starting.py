@@ -122,7 +122,7 @@ def test_a_window_that_is_closed_while_it_comes_up_ends_in_peace(
 
     def closes_at_once(self: compose.Desktop) -> None:
         close_early(self)
-        self.journey.show_patients()  # what it was about to do, on what is closed now
+        self.journey.patients.show()  # what it was about to do, on what is closed now
 
     monkeypatch.setattr(compose.Desktop, "show", closes_at_once)
     assert desktop.open_window(tmp_path / "early", is_demo=True) == 0

@@ -55,29 +55,29 @@ def desktop(qapp: QApplication, hand_take: Path, tmp_path: Path) -> Iterator[Des
 def record(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
     """From the practice patient's exercise to a running recording."""
     journey = desktop.journey
-    journey.setting_up.choose_exercise(PRACTICE_PATIENT)
+    journey.exercise.show(PRACTICE_PATIENT)
     at(qtbot, desktop, "exercise")
-    click(qtbot, journey.exercise.protocol.buttons()[1])
-    click(qtbot, journey.exercise.exercises.option("FIST_COMPOSITE"))
-    click(qtbot, journey.exercise.primary)
+    click(qtbot, journey.exercise.screen.protocol.buttons()[1])
+    click(qtbot, journey.exercise.screen.exercises.option("FIST_COMPOSITE"))
+    click(qtbot, journey.exercise.screen.primary)
     at(qtbot, desktop, "camera")
-    click(qtbot, journey.camera.sources.option("practice"))
-    click(qtbot, journey.camera.primary)
+    click(qtbot, journey.camera.screen.sources.option("practice"))
+    click(qtbot, journey.camera.screen.primary)
     still_hand(qtbot, desktop)
-    click(qtbot, journey.markers.primary)
-    assert journey.markers.clicking is not None
-    assert journey.markers.clicking.order == HAND21.markers
-    wait(qtbot, lambda: bool(journey.markers.clicking and journey.markers.clicking.proposed))
-    assert not journey.markers.clicking.unnamed
-    qtbot.keyClick(journey.markers.picture, Qt.Key.Key_Return)  # the names proposed are right
-    np.testing.assert_allclose(journey.markers.clicking.clicks().pixel, clicks_of(hand_take), atol=4.0)
-    wait(qtbot, lambda: journey.markers._judged is not None)
+    click(qtbot, journey.markers.screen.primary)
+    assert journey.markers.screen.clicking is not None
+    assert journey.markers.screen.clicking.order == HAND21.markers
+    wait(qtbot, lambda: bool(journey.markers.screen.clicking and journey.markers.screen.clicking.proposed))
+    assert not journey.markers.screen.clicking.unnamed
+    qtbot.keyClick(journey.markers.screen.picture, Qt.Key.Key_Return)  # the names proposed are right
+    np.testing.assert_allclose(journey.markers.screen.clicking.clicks().pixel, clicks_of(hand_take), atol=4.0)
+    wait(qtbot, lambda: journey.markers.screen.naming.outcome is not None)
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
     at(qtbot, desktop, "live")
-    wait(qtbot, lambda: len(journey.live.history) > 5)
-    assert "seen" in journey.live.hand_map.seen.values()
-    qtbot.keyClick(journey.live, Qt.Key.Key_Space)
-    wait(qtbot, lambda: journey.live.recording_state == "recording")
+    wait(qtbot, lambda: len(journey.live.screen.history) > 5)
+    assert "seen" in journey.live.screen.hand_map.seen.values()
+    qtbot.keyClick(journey.live.screen, Qt.Key.Key_Space)
+    wait(qtbot, lambda: journey.live.screen.recording.state == "recording")
 
 
 def test_the_whole_hand_from_set_up_to_session_file(
@@ -85,8 +85,8 @@ def test_the_whole_hand_from_set_up_to_session_file(
 ) -> None:
     record(qtbot, desktop, hand_take)
     journey = desktop.journey
-    wait(qtbot, lambda: journey.live.recorded_s > 3.0)
-    qtbot.keyClick(journey.live, Qt.Key.Key_Space)
+    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 3.0)
+    qtbot.keyClick(journey.live.screen, Qt.Key.Key_Space)
     path = reviewed(qtbot, desktop)
     with h5py.File(path) as file:
         assert (file.attrs["protocol"], file.attrs["exercise"]) == ("hand21", "FIST_COMPOSITE")
@@ -108,11 +108,11 @@ def test_the_whole_hand_from_set_up_to_session_file(
 def test_a_killed_looking_back_costs_the_session_nothing_else(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
     record(qtbot, desktop, hand_take)
     journey = desktop.journey
-    wait(qtbot, lambda: journey.live.recorded_s > 0.5)
+    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.5)
     (process,) = (child for child in multiprocessing.active_children() if child.name == "carpus-looking-back")
     process.kill()
-    wait(qtbot, lambda: journey.live.recorded_s > 3.3)
-    qtbot.keyClick(journey.live, Qt.Key.Key_Space)
+    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 3.3)
+    qtbot.keyClick(journey.live.screen, Qt.Key.Key_Space)
     session = read_session(reviewed(qtbot, desktop))
     assert session.complete
     assert session.smoothed is None

@@ -26,7 +26,7 @@ class Reporter:
     def __init__(self, desktop: compose.Desktop, take: Path) -> None:
         self._desktop, self._take = desktop, take
         self._said: set[str] = set()
-        desktop.journey.live.stopped.connect(self._stored)
+        desktop.journey.live.screen.recording.stopped.connect(self._stored)
         desktop.journey.report.screen.saved.connect(lambda path: self.say(f"saved {path}"))
         desktop.journey.messages.told.connect(lambda fault: self.say(f"fault {fault!r}"))
         self._timer = QTimer(desktop.shell)
@@ -50,14 +50,14 @@ class Reporter:
             self._look_at_markers()
         elif journey.place == "live":
             self.say("place live")
-            if journey.live.recording_state == "recording" and journey.live.repetitions >= 2:
+            if journey.live.screen.recording.state == "recording" and journey.live.screen.recording.repetitions >= 2:
                 self.say("repeated")
         elif journey.place != "review" or journey.review.screen.shown:
             self.say(f"place {journey.place}")
 
     def _look_at_markers(self) -> None:
-        journey, markers = self._desktop.journey, self._desktop.journey.markers
-        source = journey.source
+        journey, markers = self._desktop.journey, self._desktop.journey.markers.screen
+        source = journey.now.source
         assert source is not None
         if markers.clicking is None:
             seen = len(source.measuring.feed.recent_frames(RECENT_FRAMES)) == RECENT_FRAMES

@@ -55,6 +55,6 @@ def a_context(theme: Theme, window: QWidget, told: Told, background: Background,
         "shell": window, "theme": theme, "keys": Keys({}), "background": background, "messages": told, "way": told,
         "now": NowOpen(choice=SourceChoice("camera")), "report": ReportSettings("MK"), "today": NOW.date,
         "version": "1.2.3",
-        "is_demo": False,
+        "is_demo": False, "opener": SimpleNamespace(close_source=lambda: None),
     }  # fmt: skip
     return cast("ScreenContext", SimpleNamespace(**(usual | given)))

@@ -52,7 +52,6 @@ from carpus.ui.ports import (
     PatientRow,
     ProposedMarker,
     ResultLine,
-    SessionRow,
     StoredResult,
     VerdictLimits,
 )
@@ -503,9 +502,6 @@ class FakeStore:
         results = [ResultLine("flexion", 55, 3, 21, "improved"), ResultLine("extension", 43, 3, 5, "no_change")]
         note = "Splint off since Monday. Forearm strapped, 10 cm wedge."
         return PatientCard(row, results, "10 repetitions", note, row.last_session, picture())
-
-    def sessions(self, patient_id: str) -> list[SessionRow]:
-        return []
 
     def suggest_pseudonym(self) -> str:
         return f"Alder {51 + len(self.added)}"

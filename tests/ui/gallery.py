@@ -369,7 +369,7 @@ class Gallery:
         feed.picture_number = 0
         feed.step(2)
         screen.tick()
-        screen.toggle_recording()
+        screen.recording.toggle()
         self.settle()
         left = round(30 * seconds) - 1
         while left > 0:  # some at a time, as a busy window looks
@@ -436,7 +436,7 @@ class Gallery:
         feed = LateFeed(seconds=32.0)
         with self._live(feed) as screen:
             feed.ahead_s, feed.waiting = 21.0, 1200
-            screen._stopping = True
+            screen.recording.under_way = True
             screen._show_values()
             feed.waiting = 500
             screen.tick()
@@ -476,8 +476,8 @@ class Gallery:
             self.shell.bar.disk.show_state("bad", "Disk full")
             self.shell.bar.pill.show_state("off", 0.0)
             self.shell.bar.show_recording(False)
-            screen._measuring.feed.recording = False  # type: ignore[union-attr, misc]
-            screen._show_buttons()
+            screen.recording.measuring.feed.recording = False  # type: ignore[union-attr, misc]
+            screen.controls.refresh()
             card = StopCard(screen.stage, self.theme)
             words = fault_words(DiskFull("session.h5", "no space left"))
             answers = [Answer("To the patients", lambda: None, "P"), Answer("Go on measuring", lambda: None, "Space")]
@@ -503,7 +503,7 @@ class Gallery:
         feed = FakeFeed("fist", 32.0, hidden, lost, protocol="hand21")
         with self._live(feed, seconds, exercise="FIST_COMPOSITE", target_deg=90.0) as screen:
             self.shell.bar.show_place("Linden 42", "Right hand · Full fist")
-            screen.toggle_side()
+            screen.on_picture.toggle_side()
             self.settle()
 
     def live_hand(self) -> None:
@@ -845,7 +845,7 @@ class Gallery:
 
     def markers_straight(self) -> None:
         screen = self._proposed()
-        screen.take_all()
+        screen.naming.take_all()
         self.settle()
         screen.straight.buttons[3].click()
         self.settle()

@@ -61,8 +61,8 @@ def test_after_the_key_it_is_counted_whatever_the_hand_does() -> None:
 def shown(qtbot: QtBot, theme: Theme, mode: StartMode) -> tuple[LiveScreen, FakeFeed]:
     feed = FakeFeed(speed_hz=0.01)  # all but still
     screen, measuring = live(qtbot, theme, feed)
-    screen.start_mode = mode
-    screen.begin(measuring, screen._set_up)  # type: ignore[arg-type]
+    screen.recording.start_mode = mode
+    screen.begin(measuring, screen.recording.set_up)  # type: ignore[arg-type]
     screen._timer.stop()
     return screen, feed
 
@@ -72,12 +72,12 @@ def test_the_key_or_a_pedal_counts_down_and_takes_back(qtbot: QtBot, theme: Them
     screen, feed = shown(qtbot, theme, "countdown")
     run(screen, feed, 1.0)
     qtbot.keyClick(screen, key)
-    assert screen.main.text() == "Starts in 3: not yet"
+    assert screen.controls.main.text() == "Starts in 3: not yet"
     run(screen, feed, 1.5)
-    assert (screen.main.text(), screen.glance().starts_s) == ("Starts in 2: not yet", 2)
+    assert (screen.controls.main.text(), screen.glance().starts_s) == ("Starts in 2: not yet", 2)
     qtbot.keyClick(screen, key)
     run(screen, feed, 6.0)
-    assert (screen.main.text(), feed.recording) == ("Record", False)
+    assert (screen.controls.main.text(), feed.recording) == ("Record", False)
     qtbot.keyClick(screen, key)
     run(screen, feed, COUNT_S + 0.2)
     qtbot.waitUntil(lambda: feed.recording, timeout=60_000)
@@ -85,15 +85,15 @@ def test_the_key_or_a_pedal_counts_down_and_takes_back(qtbot: QtBot, theme: Them
 
 def test_over_a_still_hand_a_recording_begins_by_itself_but_in_no_rest(qtbot: QtBot, theme: Theme) -> None:
     screen, feed = shown(qtbot, theme, "still")
-    screen.rest(on=True)
+    screen.recording.rest(on=True)
     run(screen, feed, 6.0)
-    assert not screen._beginning.waits
-    screen.rest(on=False)
+    assert not screen.recording.beginning.waits
+    screen.recording.rest(on=False)
     run(screen, feed, 1.0)
-    assert "Starts by itself when the hand lies still" in screen.light.lamp.remedy
+    assert "Starts by itself when the hand lies still" in screen.controls.light.lamp.remedy
     run(screen, feed, STILL_S + COUNT_S)
-    qtbot.waitUntil(lambda: feed.recording and screen._count is not None, timeout=60_000)
-    assert screen.main.text() == "Stop and review"
+    qtbot.waitUntil(lambda: feed.recording and screen.recording.count is not None, timeout=60_000)
+    assert screen.controls.main.text() == "Stop and review"
 
 
 def test_a_stored_recording_is_played_at_once(qtbot: QtBot, theme: Theme, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,7 +13,8 @@ CORE = ("capture", "detection", "tracking", "simulation", "pipeline.live", "pipe
         "session.writer", "records.store", "calibration.calibrate")  # fmt: skip
 FORBIDDEN = ("h5py", "sqlite3", "sqlalchemy", "numba", *(f"carpus.core.{name}" for name in CORE))
 SHARED = ("flow.py", "last_places.py", "messages.py", "files_written.py",
-          "backing_up.py", "erasing.py", "lists.py", "locking.py")  # fmt: skip
+          "backing_up.py", "erasing.py", "lists.py", "locking.py", "shelf.py", "camera_state.py",
+          "camera_at_hand.py")  # fmt: skip
 PRINTING = ("carpus.ui.report.pdf", "carpus.core.results.figures")
 """What ``carpus report`` needs must not bring widgets with it."""
 

@@ -99,7 +99,7 @@ def test_in_the_window_from_the_patients_to_who_is_due_and_back(
     journey = desktop.journey
     try:
         desktop.show()
-        qtbot.mouseClick(journey.patients.clinic_button, Qt.MouseButton.LeftButton)
+        qtbot.mouseClick(journey.patients.screen.clinic_button, Qt.MouseButton.LeftButton)
         qtbot.waitUntil(lambda: journey.place == "clinic", timeout=60_000)
         assert journey.clinic.screen.due.rows[0][-1] == "2 days overdue"
         page = tmp_path / "clinic.pdf"
@@ -111,7 +111,7 @@ def test_in_the_window_from_the_patients_to_who_is_due_and_back(
         assert not journey.messages.busy
         qtbot.keyClick(journey.clinic.screen.due.buttons[0], Qt.Key.Key_Return)
         assert journey.place == "patients"
-        assert journey.patients.card.isVisible()
+        assert journey.patients.screen.card.isVisible()
     finally:
         desktop.close()
         qtbot.waitUntil(lambda: not journey.background.busy, timeout=60_000)

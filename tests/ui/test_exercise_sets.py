@@ -11,8 +11,6 @@ import pytest
 from pytestqt.qtbot import QtBot
 from sqlalchemy import update
 
-from carpus.app.desktop.courses import LINGER_S, CourseRun
-from carpus.app.desktop.patient_view import PatientViewing
 from carpus.core.errors import ChangedMeanwhile
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.records.changes import dropped
@@ -27,13 +25,16 @@ from carpus.core.results.figures import session_figures
 from carpus.core.results.progress import progress
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
+from carpus.ui.live.course import LINGER_S, CourseRun
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.patient.guide import GuideScene
+from carpus.ui.patient.viewing import PatientViewing
 from carpus.ui.plot.course import Goals, still
 from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.theme import Theme
+from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import FakeFeed, FakeMeasuring, FakeStore, session, set_up
 
 OWN = ExerciseSet(
@@ -128,12 +129,12 @@ def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(qtbot
 def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) -> None:
     live = LiveScreen(theme, Keys(), Background())
     qtbot.addWidget(live)
-    patient = PatientViewing(live, live, theme, lambda: False)
+    patient = PatientViewing(a_context(theme, live, Told(), Background(), patient_sound=False), live)
     measuring = FakeMeasuring(FakeFeed(seconds=2.0))
     now = SimpleNamespace(set_up=begun(OWN, set_up(), {}), source=SimpleNamespace(measuring=measuring))
     run = CourseRun(live, live, patient, now)  # type: ignore[arg-type]
     stops: list[float] = []
-    live.stop = lambda: stops.append(1.0)  # type: ignore[method-assign]
+    live.recording.stop = lambda: stops.append(1.0)  # type: ignore[method-assign]
     run.begun(now.set_up)
     assert "1 of 2" in live.course.text()
     recording = {"state": "recording", "asked": 2}

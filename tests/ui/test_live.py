@@ -18,7 +18,7 @@ from carpus.core.hand.protocols import WRIST6
 from carpus.core.types import Detections, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
-from carpus.ui.live import screen as live_screen
+from carpus.ui.live import recording as live_recording
 from carpus.ui.live.doubt import Doubt, SteadyDoubt, doubt_lamp, doubt_of
 from carpus.ui.live.light import Lamp, SteadyLight, lamp_for
 from carpus.ui.live.number_card import NumberCard, Reading
@@ -68,8 +68,8 @@ def key(qtbot: QtBot, screen: QWidget, name: str) -> None:
 
 def record(qtbot: QtBot, screen: LiveScreen, measuring: FakeMeasuring) -> None:
     key(qtbot, screen, "Space")
-    qtbot.waitUntil(lambda: screen._count is not None)
-    screen._started_at_s -= live_screen.HASTY_S  # a moment ago
+    qtbot.waitUntil(lambda: screen.recording.count is not None)
+    screen.recording._begun_at_s -= live_recording.HASTY_S  # a moment ago
     assert measuring.feed.recording
 
 
@@ -81,7 +81,7 @@ def test_the_number_is_that_of_the_picture_shown(qtbot: QtBot, theme: Theme) -> 
     screen._show_values()
     assert screen.number.reading.value_deg == pytest.approx(shown)
     assert screen.number.movement() == ("Flexion" if shown > 0 else "Extension")
-    assert screen.light.lamp.rank == "good"
+    assert screen.controls.light.lamp.rank == "good"
 
 
 def test_space_records_and_space_stops_and_leads_to_the_session(qtbot: QtBot, theme: Theme) -> None:
@@ -89,13 +89,13 @@ def test_space_records_and_space_stops_and_leads_to_the_session(qtbot: QtBot, th
     screen, measuring = live(qtbot, theme, feed)
     run(screen, feed, 1.0)
     record(qtbot, screen, measuring)
-    assert screen.recording_state == "recording"
+    assert screen.recording.state == "recording"
     run(screen, feed, 4.0)
-    assert screen.recorded_s == pytest.approx(4.0, abs=0.2)
-    with qtbot.waitSignal(screen.stopped) as stopped:
+    assert screen.recording.recorded_s == pytest.approx(4.0, abs=0.2)
+    with qtbot.waitSignal(screen.recording.stopped) as stopped:
         key(qtbot, screen, "Space")
     assert stopped.args == ["session-7"]
-    assert screen.recording_state == "off"
+    assert screen.recording.state == "off"
 
 
 def test_the_large_view_leaves_the_figure_the_light_and_the_keys(qtbot: QtBot, theme: Theme) -> None:
@@ -107,8 +107,8 @@ def test_the_large_view_leaves_the_figure_the_light_and_the_keys(qtbot: QtBot, t
     qtbot.keyClick(screen, Qt.Key.Key_F11)
     qtbot.waitUntil(lambda: screen.number.height() > 2 * height_px)
     run(screen, feed, 0.5)
-    assert screen.light.isVisible()
-    assert not any(part.isVisible() for part in (screen.picture, screen.curves, screen.path, screen.note))
+    assert screen.controls.light.isVisible()
+    assert not any(part.isVisible() for part in (screen.picture, screen.curves, screen.path, screen.controls.note))
     key(qtbot, screen, "F5")
     assert screen.note_sheet.isVisible()
     screen.note_sheet.close_sheet()
@@ -123,16 +123,17 @@ def test_repetitions_and_best_are_counted_from_recorded_frames_only(qtbot: QtBot
     run(screen, feed, 6.0)
     record(qtbot, screen, measuring)
     run(screen, feed, 24.0)
-    assert screen._count is not None
-    assert screen._count.count() in (3, 4)
-    assert 1 <= len(feed.told) <= screen._count.repetitions, "each that is counted is told to the network, at its end"
+    count = screen.recording.count
+    assert count is not None
+    assert count.count() in (3, 4)
+    assert 1 <= len(feed.told) <= count.repetitions, "each that is counted is told to the network, at its end"
     assert {kind for kind, _ in feed.told} == {"repetition"}
-    assert all(screen._count._times[0] < at_s <= screen._count._times[-1] for _, at_s in feed.told)
+    assert all(count._times[0] < at_s <= count._times[-1] for _, at_s in feed.told)
     recorded = np.degrees(
         [
             f.moment.angles_rad[1]
             for f in feed.frames
-            if f.timestamp_s >= screen._count._times[0] - 1e-9 and f.index <= feed.place
+            if f.timestamp_s >= screen.recording.count._times[0] - 1e-9 and f.index <= feed.place
         ]
     )
     screen._show_values()
@@ -147,7 +148,7 @@ def test_frames_from_before_the_recording_that_are_drawn_late_do_not_count(qtbot
     feed.first_recorded = 80
     record(qtbot, screen, measuring)
     screen.tick()
-    assert screen.recorded_s == pytest.approx(10 / 30, abs=0.05)
+    assert screen.recording.recorded_s == pytest.approx(10 / 30, abs=0.05)
 
 
 def test_a_pause_is_not_recorded_time(qtbot: QtBot, theme: Theme) -> None:
@@ -157,11 +158,11 @@ def test_a_pause_is_not_recorded_time(qtbot: QtBot, theme: Theme) -> None:
     record(qtbot, screen, measuring)
     run(screen, feed, 2.0)
     key(qtbot, screen, "F7")
-    assert screen.recording_state == "paused"
+    assert screen.recording.state == "paused"
     run(screen, feed, 3.0)
     key(qtbot, screen, "F7")
     run(screen, feed, 2.0)
-    assert screen.recorded_s == pytest.approx(4.0, abs=0.4)
+    assert screen.recording.recorded_s == pytest.approx(4.0, abs=0.4)
 
 
 def test_note_and_pain_are_stored_by_keyboard(qtbot: QtBot, theme: Theme) -> None:
@@ -169,7 +170,7 @@ def test_note_and_pain_are_stored_by_keyboard(qtbot: QtBot, theme: Theme) -> Non
     screen, measuring = live(qtbot, theme, feed)
     run(screen, feed, 1.0)
     record(qtbot, screen, measuring)
-    screen._show_buttons()
+    screen.controls.refresh()
     key(qtbot, screen, "F5")
     assert screen.note_sheet.isVisible()
     qtbot.keyClicks(screen.note_sheet.line, "strap loose")
@@ -188,7 +189,7 @@ def test_a_recording_that_cannot_start_tells_its_fault_and_shows_no_recording(qt
     with qtbot.waitSignal(screen.told) as told:
         key(qtbot, screen, "Space")
     assert isinstance(told.args[0], DiskFull)
-    assert screen.recording_state == "off"
+    assert screen.recording.state == "off"
 
 
 def test_lost_frames_show_no_number_and_a_red_light(qtbot: QtBot, theme: Theme) -> None:
@@ -197,7 +198,7 @@ def test_lost_frames_show_no_number_and_a_red_light(qtbot: QtBot, theme: Theme) 
     run(screen, feed, 5.0)
     screen._show_values()
     assert math.isnan(screen.number.reading.value_deg)
-    assert screen.light.lamp.rank == "bad"
+    assert screen.controls.light.lamp.rank == "bad"
     assert screen.history.angle(1).gaps_s()
 
 
@@ -211,7 +212,7 @@ def test_predicted_frames_are_marked_and_do_not_count_as_best(qtbot: QtBot, them
     screen._show_values()
     assert screen.number.reading.predicted
     assert math.isnan(screen.number.reading.best_positive_deg)
-    assert screen.light.lamp.rank == "warn"
+    assert screen.controls.light.lamp.rank == "warn"
 
 
 def test_a_lost_camera_leaves_no_old_picture_and_no_old_number(qtbot: QtBot, theme: Theme) -> None:
@@ -224,8 +225,8 @@ def test_a_lost_camera_leaves_no_old_picture_and_no_old_number(qtbot: QtBot, the
     screen._show_values()
     assert screen.picture.image is None
     assert math.isnan(screen.number.reading.value_deg)
-    assert screen.light.lamp.state == "No picture"
-    assert screen.recording_state == "paused"
+    assert screen.controls.light.lamp.state == "No picture"
+    assert screen.recording.state == "paused"
 
 
 @pytest.mark.parametrize(
@@ -266,7 +267,7 @@ def test_large_text_on_a_small_screen_keeps_what_is_read_from_afar(qtbot: QtBot,
     run(screen, feed, 1.0)
     assert not screen.path.isVisible()
     assert screen.number.isVisible()
-    assert screen.light.isVisible()
+    assert screen.controls.light.isVisible()
 
 
 def test_pain_of_ten_is_typed_and_escape_closes_the_card(qtbot: QtBot, theme: Theme) -> None:
@@ -293,12 +294,12 @@ def test_nothing_offers_to_go_on_while_there_is_no_camera(qtbot: QtBot, theme: T
     run(screen, feed, 1.0)
     record(qtbot, screen, measuring)
     screen.set_camera_lost(True)
-    assert not screen.pause.isEnabled()
-    assert screen.pause.text() == "Pause"
-    screen.toggle_pause()
+    assert not screen.controls.pause.isEnabled()
+    assert screen.controls.pause.text() == "Pause"
+    screen.recording.toggle_pause()
     assert not feed.paused
     screen.set_camera_lost(False)
-    assert screen.pause.isEnabled()
+    assert screen.controls.pause.isEnabled()
 
 
 @pytest.mark.parametrize(
@@ -415,16 +416,16 @@ def test_one_key_starts_and_stops_on_every_source_and_a_hasty_end_asks(
     screen, measuring = live(qtbot, theme, feed)
     measuring.starts_with_recording = stored
     asked: list[bool] = []
-    screen.hasty.connect(lambda: asked.append(True))
+    screen.recording.hasty.connect(lambda: asked.append(True))
     clock_s = [100.0]
-    monkeypatch.setattr(live_screen.time, "monotonic", lambda: clock_s[0])
+    monkeypatch.setattr(live_recording.time, "monotonic", lambda: clock_s[0])
     key(qtbot, screen, "Space")
-    qtbot.waitUntil(lambda: feed.recording and not screen._stopping)
+    qtbot.waitUntil(lambda: feed.recording and not screen.recording.under_way)
     clock_s[0] += 2.9
     key(qtbot, screen, "Space")
     assert asked == [True]
     assert feed.recording
-    assert not screen._stopping
+    assert not screen.recording.under_way
     clock_s[0] += 0.2
     key(qtbot, screen, "Space")
     qtbot.waitUntil(lambda: not feed.recording)
@@ -464,7 +465,8 @@ def test_a_question_about_a_spot_is_answered_while_measuring_goes_on(qtbot: QtBo
     screen, measuring = live(qtbot, theme, feed)
     record(qtbot, screen, measuring)
     run(screen, feed, 1.5)
-    places = [widget.geometry() for widget in (screen.picture, screen.path, screen.number, screen.curves, screen.light)]
+    parts = (screen.picture, screen.path, screen.number, screen.curves, screen.controls.light)
+    places = [widget.geometry() for widget in parts]
     assert screen.question.isHidden()
     angle = screen.number.reading.angle
     for _ in range(12):  # whatever the rhythm in which values are shown
@@ -473,7 +475,7 @@ def test_a_question_about_a_spot_is_answered_while_measuring_goes_on(qtbot: QtBo
             break
     assert screen.question.words.text() == "Is this blue spot the middle knuckle?"
     assert [button.text() for button in screen.question.buttons.values() if button.isVisible()] == ["Yes", "No"]
-    assert screen.light.lamp == Lamp("warn", "Another blue spot is here", "Is it the middle knuckle?")
+    assert screen.controls.light.lamp == Lamp("warn", "Another blue spot is here", "Is it the middle knuckle?")
     qtbot.keyClick(screen, Qt.Key.Key_F2)
     assert not measuring.answers, "a key that was meant for something else a moment ago"
     run(screen, feed, 0.6)
@@ -488,9 +490,7 @@ def test_a_question_about_a_spot_is_answered_while_measuring_goes_on(qtbot: QtBo
     assert screen.question.isHidden()
     assert feed.recording
     assert screen.number.reading.angle == angle
-    assert [
-        widget.geometry() for widget in (screen.picture, screen.path, screen.number, screen.curves, screen.light)
-    ] == places, "nothing jumps"
+    assert [widget.geometry() for widget in parts] == places, "nothing jumps"
     run(screen, feed, 1.2)
     qtbot.mouseClick(screen.question.buttons["none"], Qt.MouseButton.LeftButton)
     assert measuring.answers[-1].place_px is None
@@ -521,7 +521,8 @@ def test_a_busy_computer_shows_the_newest_picture_and_says_how_late_the_figures_
     screen._show_slow()
     run(screen, feed, 0.5)
     screen._show_values()
-    assert screen.light.lamp == Lamp("idle", "The figures are 4 s late", "The computer is busy; every picture is kept")
+    late = Lamp("idle", "The figures are 4 s late", "The computer is busy; every picture is kept")
+    assert screen.controls.light.lamp == late
     assert math.isnan(screen.glance().value_deg)
     newest = feed.newest_frame()
     feed.newest_frame = lambda: newest  # type: ignore[method-assign]
@@ -535,12 +536,12 @@ def test_a_busy_computer_shows_the_newest_picture_and_says_how_late_the_figures_
     screen._show_slow()
     screen.tick()
     screen._show_values()
-    assert screen.light.lamp.rank == "warn"
-    assert screen.light.lamp.remedy.startswith("5 pictures are missing")
+    assert screen.controls.light.lamp.rank == "warn"
+    assert screen.controls.light.lamp.remedy.startswith("5 pictures are missing")
     feed.ahead_s = 0.0
     run(screen, feed, 0.5)
     screen._show_values()
-    assert "late" not in screen.light.lamp.state
+    assert "late" not in screen.controls.light.lamp.state
 
 
 def test_a_stop_says_how_long_catching_up_takes(qtbot: QtBot, theme: Theme) -> None:
@@ -551,19 +552,19 @@ def test_a_stop_says_how_long_catching_up_takes(qtbot: QtBot, theme: Theme) -> N
     caught_up = threading.Event()
     measuring.stop_recording = lambda: "session-7" if caught_up.wait(60.0) else ""  # type: ignore[method-assign]
     feed.waiting = 1200
-    with qtbot.waitSignal(screen.stopped, timeout=60_000):
-        screen.stop()
+    with qtbot.waitSignal(screen.recording.stopped, timeout=60_000):
+        screen.recording.stop()
         screen._show_values()
-        assert screen.main.text() == "Catching up: 12 s left"
+        assert screen.controls.main.text() == "Catching up: 12 s left"
         assert screen.catching_up.isVisible()
-        assert not screen.note.isEnabled()
-        assert not screen.pause.isEnabled()
+        assert not screen.controls.note.isEnabled()
+        assert not screen.controls.pause.isEnabled()
         feed.waiting = 300
         screen._show_values()
-        assert screen.main.text() == "Catching up: 3 s left"
+        assert screen.controls.main.text() == "Catching up: 3 s left"
         assert (screen.catching_up.value(), screen.catching_up.maximum()) == (900, 1200)
         feed.waiting = 0
         screen._show_values()
-        assert screen.main.text() == "Storing…"
+        assert screen.controls.main.text() == "Storing…"
         caught_up.set()
     assert not screen.catching_up.isVisible()

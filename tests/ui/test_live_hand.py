@@ -143,8 +143,8 @@ def test_the_band_of_a_hidden_joint_grows() -> None:
 def test_a_hidden_trained_joint_has_no_number_and_does_not_count_as_best(qtbot: QtBot, theme: Theme) -> None:
     feed = feed_of([(1.0, 9.0, "PIP3"), (1.0, 9.0, "DIP3")])
     screen = live(qtbot, theme, feed)
-    screen.toggle_recording()
-    qtbot.waitUntil(lambda: feed.recording and screen._count is not None)
+    screen.recording.toggle()
+    qtbot.waitUntil(lambda: feed.recording and screen.recording.count is not None)
     run(screen, feed, 0.8)
     screen._show_values()
     assert screen.number.reading.best_positive_deg < 10.0
@@ -169,11 +169,11 @@ def test_the_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, theme: The
     assert math.isnan(screen.number.reading.target_positive_deg)  # the target is the trained joint's
     angle = feed.frames[feed.place].moment.joint_angles_rad[joint_angle_names().index("MCP4_flexion")]
     assert screen.number.reading.value_deg == pytest.approx(math.degrees(angle))
-    screen.next_angle()
-    screen.next_finger()
+    screen.choose(screen.number.reading.with_next_angle())
+    screen.choose(screen.number.reading.with_next_finger())
     assert screen.number.movement() == "Little finger, middle joint"
     for _ in range(3):
-        screen.next_angle()
+        screen.choose(screen.number.reading.with_next_angle())
     assert screen.number.movement() == "Little finger, total active motion (TAM)"
 
 
@@ -201,7 +201,7 @@ def test_a_lost_hand_leaves_no_number_anywhere(qtbot: QtBot, theme: Theme) -> No
     screen._show_values()
     assert math.isnan(screen.number.reading.value_deg)
     assert all(math.isnan(value) for value, _, _ in screen.fingers._values.values())
-    assert screen.light.lamp.rank == "bad"
+    assert screen.controls.light.lamp.rank == "bad"
 
 
 def test_the_wrist_keeps_its_own_screen(qtbot: QtBot, theme: Theme) -> None:
@@ -279,7 +279,7 @@ def test_what_is_counted_live_is_what_the_review_counts_though_the_joint_hides(e
 def test_light_map_cells_and_large_number_say_the_same_at_every_moment(qtbot: QtBot, theme: Theme) -> None:
     feed = feed_of([(0.5, 0.6, "PIP4"), (1.0, 2.0, "TIP2"), (1.5, 3.0, "PIP3"), (2.2, 2.5, "MCP1")])
     screen = live(qtbot, theme, feed)
-    screen.choose_figure(Figure(3, "knuckle"))
+    screen.choose(Reading(figure=Figure(3, "knuckle")))
     ranks = set()
     for _ in range(round(15 * 4.0)):
         feed.step(2)
@@ -287,7 +287,7 @@ def test_light_map_cells_and_large_number_say_the_same_at_every_moment(qtbot: Qt
         screen._show_values()
         seen = screen.hand_map.seen
         hidden = {name for name, state in seen.items() if state == "hidden"}
-        lamp = screen.light.lamp
+        lamp = screen.controls.light.lamp
         ranks.add(lamp.rank)
         assert (lamp.rank == "good") == (set(seen.values()) == {"seen"})
         for k, figure in enumerate(FIGURES):

@@ -53,7 +53,7 @@ def test_clicks_snap_to_the_discs_in_the_order_of_the_protocol(qtbot: QtBot, scr
     wait_for_verdict(qtbot, screen)
     np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
     assert calibrator.judged[-1].protocol.markers == WRIST6.markers
-    with qtbot.waitSignal(screen.started):
+    with qtbot.waitSignal(screen.naming.started):
         qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
     assert calibrator.begun is not None
 
@@ -77,7 +77,7 @@ def test_the_whole_way_by_keyboard_alone(qtbot: QtBot, screen: MarkersScreen) ->
         qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
     wait_for_verdict(qtbot, screen)
     np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
-    with qtbot.waitSignal(screen.started):
+    with qtbot.waitSignal(screen.naming.started):
         qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
 
 
@@ -145,7 +145,7 @@ def test_backspace_takes_back_one_marker_and_asks_for_it_again(qtbot: QtBot, scr
     qtbot.keyClick(screen.picture, Qt.Key.Key_Backspace)
     assert screen.clicking.current == WRIST6.markers[2]
     assert set(screen.clicking.pixel) == set(WRIST6.markers[:2])
-    assert "index knuckle" in screen.title.text()
+    assert "index knuckle" in screen.guidance.title.text()
 
 
 def test_tab_chooses_which_marker_is_clicked_next(qtbot: QtBot, screen: MarkersScreen) -> None:
@@ -175,7 +175,7 @@ def test_swapped_markers_are_exchanged_by_enter_and_judged_again(qtbot: QtBot, s
     screen.begin(calibrator)
     click_all(qtbot, screen, calibrator)
     wait_for_verdict(qtbot, screen)
-    assert screen.panel.states()[0] == "bad"
+    assert screen.guidance.panel.states()[0] == "bad"
     assert screen.picture.wrong == {"MCP2", "MCP3"}
     calibrator.findings = ()
     qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
@@ -191,12 +191,12 @@ def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(qtbot: QtB
     screen.begin(calibrator)
     click_all(qtbot, screen, calibrator)
     wait_for_verdict(qtbot, screen)
-    assert screen.panel.states()[0] == "bad"
-    assert screen.step.text() == "Cannot start yet"
+    assert screen.guidance.panel.states()[0] == "bad"
+    assert screen.guidance.step.text() == "Cannot start yet"
     assert not screen.second.isVisible()
     started: list[bool] = []
-    screen.started.connect(lambda: started.append(True))
-    screen._start_doubtful()
+    screen.naming.started.connect(lambda: started.append(True))
+    screen.start_doubtful()
     qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
     assert not started
     assert screen.clicking is not None
@@ -211,7 +211,7 @@ def test_a_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, scre
     wait_for_verdict(qtbot, screen)
     assert screen.second.isVisible()
     started: list[bool] = []
-    screen.started.connect(lambda: started.append(True))
+    screen.naming.started.connect(lambda: started.append(True))
     for _ in range(3):
         qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
     assert not started
@@ -290,14 +290,14 @@ def test_enter_takes_all_proposed_names_and_enter_starts(qtbot: QtBot, screen: M
     qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
     wait_for_verdict(qtbot, screen)
     np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
-    with qtbot.waitSignal(screen.started):
+    with qtbot.waitSignal(screen.naming.started):
         qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
 
 
 def test_doubtful_names_are_said_in_words_and_one_click_settles_each(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = proposed(qtbot, screen, doubtful=("TIP4", "DIP4"))
     assert screen.clicking is not None
-    assert "Ring finger end joint, ring tip" in screen.place.text()
+    assert "Ring finger end joint, ring tip" in screen.guidance.place.text()
     markers = screen.clicking.order
     for name in ("DIP4", "TIP4"):
         spot = place_of(screen, calibrator.disc_px[markers.index(name)])
@@ -324,7 +324,7 @@ def test_a_wrong_proposal_is_dragged_to_its_disc_and_names_change_places(qtbot: 
 def test_a_marker_that_was_not_found_is_asked_for(qtbot: QtBot, screen: MarkersScreen) -> None:
     calibrator = proposed(qtbot, screen, not_found=("TIP1",))
     assert screen.clicking is not None
-    assert "thumb tip" in screen.title.text()
+    assert "thumb tip" in screen.guidance.title.text()
     qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
     assert screen.clicking.missing == ("TIP1",)
     spot = place_of(screen, calibrator.disc_px[screen.clicking.order.index("TIP1")])
@@ -465,8 +465,8 @@ def test_a_proposed_name_dropped_on_a_taken_disc_changes_places_with_it() -> Non
 
 def test_what_is_proposed_is_not_said_to_be_done(qtbot: QtBot, screen: MarkersScreen) -> None:
     proposed(qtbot, screen)
-    assert "21 of 21 found" in [cells[2].text() for cells in screen.panel._lines]
-    assert screen.panel.states()[0] == "open"
+    assert "21 of 21 found" in [cells[2].text() for cells in screen.guidance.panel._lines]
+    assert screen.guidance.panel.states()[0] == "open"
 
 
 def test_the_loupe_keeps_off_the_discs(qtbot: QtBot, screen: MarkersScreen) -> None:
@@ -485,7 +485,7 @@ def test_another_spot_that_may_be_the_disc_is_shown_and_enter_takes_it(qtbot: Qt
     screen.begin(calibrator)
     click_all(qtbot, screen, calibrator)
     wait_for_verdict(qtbot, screen)
-    assert screen.step.text().startswith("Doubtful")
+    assert screen.guidance.step.text().startswith("Doubtful")
     assert screen.picture.spots == [(spot, "MCP3")]
     assert "Take that spot" in screen.primary.text()
     calibrator.findings = ()
@@ -499,10 +499,10 @@ def test_a_picture_without_discs_says_so(screen: MarkersScreen, monkeypatch: pyt
     calibrator = FakeCalibrator()
     monkeypatch.setattr(calibrator, "discs_seen", lambda: 0)
     screen.begin(calibrator)
-    assert "No blue disc" in screen.title.text()
+    assert "No blue disc" in screen.guidance.title.text()
     monkeypatch.setattr(calibrator, "discs_seen", lambda: 6)
     screen.hold()
-    assert "No blue disc" not in screen.title.text()
+    assert "No blue disc" not in screen.guidance.title.text()
 
 
 def test_names_that_are_right_lead_straight_to_measuring_where_all_is_good(qtbot: QtBot, screen: MarkersScreen) -> None:
@@ -510,11 +510,11 @@ def test_names_that_are_right_lead_straight_to_measuring_where_all_is_good(qtbot
     calibrator.not_found = ()
     screen.begin(calibrator)
     qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed), timeout=60_000)
-    with qtbot.waitSignal(screen.started, timeout=60_000):
+    with qtbot.waitSignal(screen.naming.started, timeout=60_000):
         qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
     calibrator.findings = (CalibrationFinding("tilt", (), 19.0, 15.0, "deg"),)
     started: list[bool] = []
-    screen.started.connect(lambda: started.append(True))
+    screen.naming.started.connect(lambda: started.append(True))
     screen.begin(calibrator)
     qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed), timeout=60_000)
     qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
@@ -526,12 +526,12 @@ def test_fingers_lie_straight_until_one_is_said_not_to(qtbot: QtBot, screen: Mar
     calibrator = FakeCalibrator("fist", protocol="hand21")
     screen.begin(calibrator)
     qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed))
-    assert not screen.straight.isVisible()
-    screen.take_all()
+    assert not screen.guidance.straight.isVisible()
+    screen.naming.take_all()
     wait_for_verdict(qtbot, screen)
-    assert screen.straight.isVisible()
+    assert screen.guidance.straight.isVisible()
     assert calibrator.judged[-1].straight_fingers == (True,) * 5
-    qtbot.mouseClick(screen.straight.buttons[3], Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(screen.guidance.straight.buttons[3], Qt.MouseButton.LeftButton)
     wait_for_verdict(qtbot, screen)
     assert calibrator.judged[-1].straight_fingers == (True, True, True, False, True)
     screen.activateWindow()
@@ -539,7 +539,7 @@ def test_fingers_lie_straight_until_one_is_said_not_to(qtbot: QtBot, screen: Mar
     qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_4)
     qtbot.waitUntil(lambda: calibrator.judged[-1].straight_fingers == (True, True, True, True, False))
     wait_for_verdict(qtbot, screen)
-    with qtbot.waitSignal(screen.started):
+    with qtbot.waitSignal(screen.naming.started):
         qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
 
 
@@ -548,7 +548,7 @@ def test_a_wrist_is_not_asked_for_its_fingers(qtbot: QtBot, screen: MarkersScree
     screen.begin(calibrator)
     click_all(qtbot, screen, calibrator)
     wait_for_verdict(qtbot, screen)
-    assert not screen.straight.isVisible()
+    assert not screen.guidance.straight.isVisible()
 
 
 def test_only_what_a_person_named_is_missed(qtbot: QtBot, screen: MarkersScreen) -> None:

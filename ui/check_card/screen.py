@@ -24,6 +24,7 @@ from carpus.ui.picture.photo import label_size, paint_label
 from carpus.ui.picture.view import PictureView
 from carpus.ui.plot.control_view import ControlCharts
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
+from carpus.ui.translate import tr
 
 COLUMN_PX = 352
 MOST_PX = 16777215
@@ -55,7 +56,7 @@ class CardScreen(QWidget):
         self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         self.check_button = Button(theme, "", "primary", icon="play", hint=ENTER)
         self.charts = ControlCharts(theme)
-        self._figures, self._out = Card(theme, 16), Card(theme, 16)
+        self._figures, self._out = Card(theme, 16), _what_to_do(theme)
         self.paper = Choices(theme, [("a4", "A4"), ("letter", "Letter")], "a4")
         self.print_button = Button(theme, self.tr("Print &card…"), icon="file-text")
         self.page_button = Button(theme, self.tr("One page…"), hint="Ctrl+P")
@@ -169,6 +170,11 @@ class CardScreen(QWidget):
         """Whether a check runs."""
         return self._parts.currentWidget() is self.measuring
 
+    @property
+    def shows_simulated(self) -> bool:
+        """Whether what is shown is of the simulated camera."""
+        return self.checks.simulated
+
     def set_camera_there(self, there: bool) -> None:
         """Whether a camera is plugged in."""
         self._camera_there = there
@@ -186,7 +192,8 @@ class CardScreen(QWidget):
         self.page_button.setEnabled(checks.newest is not None)
         self._show_button()
         self._fill_figures()
-        self._fill_out()
+        is_out = checks.verdict == "out" and not checks.recalibrated
+        self._out.set_colors("surface", "bad" if is_out else "line", 2.0 if is_out else 1.0)
         self._show(self.overview)
         self.turned.emit()
 
@@ -264,21 +271,6 @@ class CardScreen(QWidget):
         body.addWidget(table)
         body.addWidget(caption(theme, cause_words(self.checks), wrap=True))
 
-    def _fill_out(self) -> None:
-        body, theme = self._out.body, self._theme
-        _clear(body)
-        out = self.checks.verdict == "out" and not self.checks.recalibrated
-        self._out.set_colors("surface", "bad" if out else "line", 2.0 if out else 1.0)
-        body.addWidget(Text(theme, self.tr("If it is out"), 16, SEMIBOLD))
-        steps = (
-            (self.tr("Check once more"), self.tr("card flat, 60 cm away, its ruler 100 mm long")),
-            (self.tr("Calibrate the camera again"), self.tr("with the board, five minutes")),
-            (self.tr("Still out: do not measure"), self.tr("sessions near this check say that they are not sure")),
-        )
-        for number, (what, how) in enumerate(steps, 1):
-            body.addWidget(Text(theme, f"{number}  {what}", 14, MEDIUM, wrap=True))
-            body.addWidget(caption(theme, how, wrap=True))
-
     def _paint_over(self, painter: QPainter, view: PictureView) -> None:
         if self.checks.simulated:
             words = self.tr("Simulated camera and card")
@@ -294,3 +286,18 @@ def _clear(body: QVBoxLayout) -> None:
         if (old := item.widget()) is not None:
             old.hide()
             old.deleteLater()
+
+
+def _what_to_do(theme: Theme) -> Card:
+    """Where a camera is out."""
+    card = Card(theme, 16)
+    card.body.addWidget(Text(theme, tr("If it is out"), 16, SEMIBOLD))
+    steps = (
+        (tr("Check once more"), tr("card flat, 60 cm away, its ruler 100 mm long")),
+        (tr("Calibrate the camera again"), tr("with the board, five minutes")),
+        (tr("Still out: do not measure"), tr("sessions near this check say that they are not sure")),
+    )
+    for number, (what, how) in enumerate(steps, 1):
+        card.body.addWidget(Text(theme, f"{number}  {what}", 14, MEDIUM, wrap=True))
+        card.body.addWidget(caption(theme, how, wrap=True))
+    return card

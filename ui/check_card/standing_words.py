@@ -25,11 +25,11 @@ def bar_words(now: Standing) -> tuple[State, str] | None:
     return None
 
 
-def session_words(now: Standing) -> str:
+def session_lines(now: Standing) -> list[str]:
     """Over the screens of a session that is measured with a camera which was out; empty otherwise."""
     last = now.check
     if last is None or not now.is_out:
-        return ""
+        return []
     if last.angles_hold:
         share = 100.0 * (last.scale - 1.0)
         pattern = (
@@ -37,10 +37,9 @@ def session_words(now: Standing) -> str:
             if share > 0
             else tr("This camera was out at its last check: lengths {share} % too short. Angles hold. Check once more.")
         )
-        return pattern.format(share=numbers.fixed(abs(share), 1))
-    return tr(
-        "This camera was out at its last check: angles {angle}° off. Check it once more, or calibrate it."
-    ).format(angle=numbers.fixed(last.angle_error_deg, 1))
+        return [pattern.format(share=numbers.fixed(abs(share), 1))]
+    words = tr("This camera was out at its last check: angles {angle}° off. Check it once more, or calibrate it.")
+    return [words.format(angle=numbers.fixed(last.angle_error_deg, 1))]
 
 
 def unsure_words(camera: CameraSaid) -> str:

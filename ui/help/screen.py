@@ -80,6 +80,10 @@ class HelpScreen(QWidget):
         theme.changed.connect(self._fit)
         self._fit()
 
+    def first(self) -> QWidget:
+        """What gets the keyboard."""
+        return self.text
+
     def _fit(self) -> None:
         self._index.setFixedWidth(self._theme.px(272))
         self.show_page(self.page)

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from carpus.core.hand.exercises import AXIS_TICK_DEG, SIDES
 from carpus.ui import numbers, terms
 from carpus.ui.controls.card import paint_card
-from carpus.ui.figures import Figure, side_word
+from carpus.ui.figures import FIGURES, FINGERS, Figure, side_word
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.icons import paint_state
 from carpus.ui.plot.axes import hatch
@@ -56,6 +56,18 @@ class Reading:
     """Whether the joint went out of sight beyond the best that was seen."""
     target_positive_deg: float = math.nan
     target_negative_deg: float = math.nan
+
+    def with_next_angle(self) -> Reading:
+        """Of the next of the three angles of the wrist, or of a finger."""
+        if self.figure is None:
+            return Reading(angle=(self.angle + 1) % 3)
+        own = [figure for figure in FIGURES if figure.finger == self.figure.finger]
+        return Reading(figure=own[(own.index(self.figure) + 1) % len(own)])
+
+    def with_next_finger(self) -> Reading:
+        """Of the same angle of the next finger."""
+        figure = self.figure
+        return self if figure is None else Reading(figure=Figure(figure.finger % len(FINGERS) + 1, figure.row))
 
 
 def speed_words(speed_deg_s: float) -> str:

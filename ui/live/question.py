@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
+from functools import partial
 
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt, Signal
-from PySide6.QtGui import QPainter
-from PySide6.QtWidgets import QGridLayout
+from PySide6.QtGui import QPainter, QShortcut
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.text import Text
 from carpus.ui.fonts import SEMIBOLD
-from carpus.ui.keys import Keys
-from carpus.ui.live.doubt import Chosen, Doubt, lower_name
+from carpus.ui.keys import Keys, bind
+from carpus.ui.live.doubt import Chosen, Doubt, SteadyDoubt, lower_name
 from carpus.ui.picture.overlay import haloed
 from carpus.ui.picture.photo import label_size, paint_label
 from carpus.ui.picture.view import PictureView
@@ -27,17 +29,31 @@ SETTLES_S = 0.5
 
 
 class SpotQuestion(Card):
-    """Stands over the picture while a :class:`Doubt` with another spot is open; ``chosen`` says what is answered."""
+    """Stands over the picture while a :class:`Doubt` with another spot is open; ``answered`` carries the
+    :class:`SpotAnswer`, ``changed`` when another question stands, or none.
 
-    chosen = Signal(str)
+    Its keys, bound on ``host``, answer while it stands and do nothing else; ``now_s`` is the recording's own time.
+    """
 
-    def __init__(self, picture: PictureView, theme: Theme, keys: Keys) -> None:
+    answered = Signal(object)
+    changed = Signal()
+
+    def __init__(
+        self, picture: PictureView, theme: Theme, keys: Keys, host: QWidget, now_s: Callable[[], float]
+    ) -> None:
         super().__init__(theme, PADDING_PX, "surface", "warn")
         self._keys, self._picture = keys, picture
+        self._steady = SteadyDoubt()
+        self.open_doubt: Doubt | None = None
+        """What is in question, also where there is nothing to choose."""
+        self.other_keys: Sequence[QShortcut] = ()
+        """Of the host: a question takes the same keys from them."""
+        self._now_s = now_s
         self.setParent(picture)
         self.set_colors("surface", "warn", 2.0)
         self.setProperty("floats", True)  # over the picture, which goes on under it
         self.doubt: Doubt | None = None
+        """What is asked."""
         self._since_s = math.nan
         self._at_top = False
         self.words = Text(theme, "", 16, SEMIBOLD, wrap=True)
@@ -48,33 +64,65 @@ class SpotQuestion(Card):
         self._grid.setSpacing(GAP_PX)
         for name, button in self.buttons.items():
             button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-            button.clicked.connect(lambda _=False, name=name: self.chosen.emit(name))
+            button.clicked.connect(lambda _=False, name=name: self.answer(name))
         self._grid.setColumnStretch(len(self.buttons), 1)
         self.body.addWidget(self.words)
         self.body.addLayout(self._grid)
         self.hide()
+        names = ("answer_first", "answer_second", "answer_none")
+        self._answer_keys = {name: bind(host, keys, name, partial(self._answer_by_key, name)) for name in names}
+        self._arm_keys()
 
-    def ask(self, doubt: Doubt | None, now_s: float) -> bool:
-        """Show a question, or none; whether it is another than before. ``now_s`` in the recording's own time."""
+    def look(self, doubt: Doubt | None) -> Doubt | None:
+        """What is in question when the newest frame leaves this one."""
+        self.open_doubt = self._steady.show(doubt, self._now_s())
+        self._ask(self.open_doubt)
+        return self.open_doubt
+
+    def withdraw(self) -> None:
+        """Nothing is in question any more, at once."""
+        self._steady.answered()
+        self.open_doubt = None
+        self._ask(None)
+
+    def _ask(self, doubt: Doubt | None) -> None:
         if doubt is not None and not doubt.has_spot:
             doubt = None
         before, self.doubt = self.doubt, doubt
         same = before is not None and doubt is not None and self._key(before) == self._key(doubt)
         if same or (before is None and doubt is None):
-            return False
+            return
         if doubt is None:
             self.hide()
-            return True
-        self._since_s = now_s
-        self._set_faces(doubt)
-        self.place()
-        self.show()
-        self.raise_()
-        return True
+        else:
+            self._since_s = self._now_s()
+            self._set_faces(doubt)
+            self.place()
+            self.show()
+            self.raise_()
+        self._arm_keys()
+        self.changed.emit()
 
-    def takes_answers(self, now_s: float) -> bool:
-        """Whether the question has stood long enough to be what an answer means."""
-        return self.doubt is not None and now_s - self._since_s >= SETTLES_S - 1e-9
+    def _arm_keys(self) -> None:
+        armed = [key for name, key in self._answer_keys.items() if self.key_of(name) is not None]
+        for key in self._answer_keys.values():
+            key.setEnabled(key in armed)
+        for key in self.other_keys:
+            key.setEnabled(key.key() not in [one.key() for one in armed])
+
+    def _answer_by_key(self, name: str) -> None:
+        """Only once the question has stood long enough to be what an answer means."""
+        chosen = self.key_of(name)
+        if chosen is not None and self._now_s() - self._since_s >= SETTLES_S - 1e-9:
+            self.answer(chosen)
+
+    def answer(self, chosen: Chosen) -> None:
+        """What a person says; the question goes."""
+        if self.doubt is not None:
+            answer = self.doubt.answer(chosen)
+            self.withdraw()
+            self._picture.update()
+            self.answered.emit(answer)
 
     def key_of(self, name: str) -> Chosen | None:
         """What the key of an action answers now, None for nothing."""

@@ -130,16 +130,15 @@ class Clicking:
         return name
 
     def clear(self, names: Sequence[str]) -> None:
-        """Take back some markers, to be clicked again."""
+        """Take back some markers, to be clicked again; without names all, as on another picture."""
         for name in names:
             self.pixel.pop(name, None)
-        self._go_on()
-
-    def clear_all(self) -> None:
-        """Begin anew, as on another picture."""
-        self.pixel.clear()
-        self.proposed.clear()
-        self.current = self.order[0]
+        if not names:
+            self.pixel.clear()
+            self.proposed.clear()
+            self.current = self.order[0]
+        else:
+            self._go_on()
 
     def swap(self, one: str, other: str) -> None:
         """Exchange the names of two clicks."""

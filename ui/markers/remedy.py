@@ -34,6 +34,18 @@ def remedy_of(verdict: Verdict, *, is_live: bool) -> Remedy:
     return "correct"
 
 
+def exchanged(verdict: Verdict) -> list[tuple[str, str]]:
+    """Names that stand in for each other: two, or those of two fingers each for each."""
+    names = next((finding.markers for finding in verdict.findings if finding.kind == "swapped"), ())
+    half = len(names) // 2
+    return list(zip(names[:half], names[half:], strict=True))
+
+
+def at_fault(verdict: Verdict) -> tuple[str, ...]:
+    """The markers that something is found with."""
+    return tuple(dict.fromkeys(name for finding in verdict.findings for name in finding.markers))
+
+
 def face(remedy: Remedy) -> tuple[str, str]:
     """Words and key of the primary button."""
     return {

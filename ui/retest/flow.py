@@ -19,12 +19,11 @@ from carpus.ui.retest.screen import RetestScreen
 
 
 class RetestFlow(Flow):
-    """``measure`` carries a person to be measured now; ``in_force`` that the clinic's limits are others now."""
+    """Whoever was open is closed. ``in_force``: the clinic's limits are others now."""
 
     place, guide = "retest", "checking"
     screen: RetestScreen
 
-    measure = Signal(str)
     in_force = Signal()
 
     def __init__(self, context: ScreenContext) -> None:
@@ -37,7 +36,7 @@ class RetestFlow(Flow):
         self.sheet.chosen.connect(self._choose)
         screen.people.connect(self._ask_people)
         screen.exercise_chosen.connect(self._take_exercise)
-        screen.measure.connect(self.measure)
+        screen.measure.connect(lambda patient_id: context.way.show("camera", patient_id))
         screen.use.connect(self._ask_use)
         screen.save.connect(self._save)
 
@@ -47,6 +46,7 @@ class RetestFlow(Flow):
 
     def show(self) -> None:
         """The study as it stands now."""
+        self.close_patient()
         self.context.way.go("retest")
         self._read()
 

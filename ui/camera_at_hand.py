@@ -1,18 +1,24 @@
-"""A camera open for calibrating or checking: its pictures, and who looks at them beside the window's thread."""
+"""A camera open for calibrating or checking: its pictures, who looks at them beside the window's thread, and which
+camera it is."""
 
 from __future__ import annotations
 
 import logging
 import threading
 from collections.abc import Callable
+from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from carpus.core.capture.source import FrameSource, Notice, SourceInfo
+from carpus.core.durable import replace_file
 from carpus.core.errors import CameraLost, CarpusFault
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.types import Frame
 from carpus.ui.background import Background
+from carpus.ui.camera_calibration.screen import BoardScreen
+from carpus.ui.check_card.screen import CardScreen
+from carpus.ui.fault_words import fault_words
+from carpus.ui.flow import Flow, ScreenContext
 
 log = logging.getLogger(__name__)
 
@@ -24,14 +30,14 @@ Look = Callable[[Frame], None]
 class CameraAtHand(QObject):
     """Opens a source, looks at its pictures in a thread of its own, and lets it go; one at a time.
 
-    ``opened`` carries the :class:`SourceInfo`, ``failed`` a fault after which the camera is let go, ``pulled`` the
-    newest frame for the screen, ``lost`` a fault while the camera is away.
+    ``opened`` carries the :class:`LiveSession`, ``failed`` a fault after which the camera is let go, ``pulled`` the
+    newest frame for the screen, ``lost`` what is said while the camera is away.
     """
 
     opened = Signal(object)
     failed = Signal(object)
     pulled = Signal(object)
-    lost = Signal(object)
+    lost = Signal(str)
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
@@ -51,18 +57,14 @@ class CameraAtHand(QObject):
         """Whether a camera is open, or being opened."""
         return self._session is not None or self._number > 0
 
-    def open(self, source: Callable[[Notice], FrameSource], looker: Callable[[SourceInfo], Look]) -> None:
-        """Open what ``source`` gives, which tells by its notice when the camera is away, and have every newest picture
-        looked at by what ``looker`` gives."""
+    def open(self, source: Callable[[], LiveSession], looker: Callable[[LiveSession], Look]) -> None:
+        """Open what ``source`` gives, and have every newest picture looked at by what ``looker`` gives."""
         self.close()
         self._number = abs(self._number) + 1
         number = self._number
 
         def make() -> None:
-            told: list[CarpusFault] = []
-            heard: list[Notice] = [told.append]  # until there is a session to be told
-            session = LiveSession(source(lambda fault: heard[-1](fault)))
-            heard.append(session.notice)
+            session = source()
             self._made.append(session)
             session.start()
 
@@ -74,11 +76,11 @@ class CameraAtHand(QObject):
             self._session, self._fault, self._shown = session, None, -1
             self._ending = threading.Event()
             self._looking = threading.Thread(
-                target=self._look, args=(session, looker(session.info), self._ending), name="looking at the camera"
+                target=self._look, args=(session, looker(session), self._ending), name="looking at the camera"
             )
             self._looking.start()
             self._timer.start()
-            self.opened.emit(session.info)
+            self.opened.emit(session)
 
         def failed(fault: Exception) -> None:
             if number == self._number:
@@ -127,7 +129,8 @@ class CameraAtHand(QObject):
         fault = self._fault
         for event in session.drain_events():
             if event.kind == "camera_lost":
-                self.lost.emit(event.cause)
+                words = fault_words(event.cause if isinstance(event.cause, CarpusFault) else CameraLost())
+                self.lost.emit(f"{words.happened} {words.do}")
             elif event.kind in ("source_failed", "source_ended"):
                 fault = event.cause or CameraLost()
         if fault is not None:
@@ -138,6 +141,87 @@ class CameraAtHand(QObject):
         if frame is not None and frame.index != self._shown:
             self._shown = frame.index
             self.pulled.emit(frame)
+
+
+class AtCameraFlow(Flow):
+    """A screen that opens a camera for itself. Where that does not tell its number it is asked over the screen which
+    one it is, and nobody looks at its pictures before ``_known`` is set."""
+
+    guide, while_aside = "cameracheck", True
+    screen: BoardScreen | CardScreen
+
+    def __init__(self, context: ScreenContext, screen: BoardScreen | CardScreen) -> None:
+        super().__init__(context, screen)
+        self.practice = context.is_demo
+        """Whether the simulated camera is meant."""
+        self._kind, self._now, self._said = "", "", ""
+        self._known = threading.Event()
+        self.hand = CameraAtHand(self)
+        self.hand.failed.connect(self._failed)
+        screen.name_sheet.named.connect(self._take_name)
+        screen.name_sheet.refused.connect(self.back)
+        screen.turned.connect(context.way.changed)
+
+    @property
+    def is_at_work(self) -> bool:
+        """Whether a camera is open."""
+        return self.hand.is_open
+
+    def begin(self) -> None:
+        """Open the camera and look."""
+        raise NotImplementedError
+
+    def back(self) -> None:
+        """From the camera to where it is chosen."""
+        raise NotImplementedError
+
+    def leave(self) -> None:
+        """Let the camera go; what was taken and not kept is forgotten."""
+        self.screen.name_sheet.dismiss()
+        self._known = threading.Event()  # a name that is still being kept opens it no more
+        self.hand.close()
+
+    def close(self) -> None:
+        """Wait until it is let go."""
+        self.hand.wait()
+
+    def sign_lines(self) -> list[str]:
+        """That it is simulated."""
+        simulated = self.screen.shows_simulated
+        return [self.tr("Simulated camera: nothing here is of a real one.")] if simulated else []
+
+    def _failed(self, fault: Exception) -> None:
+        self.back()
+        self.context.messages.fault(fault)
+
+    def _meet(self, session: LiveSession) -> None:
+        """A camera is open: go on, or ask first."""
+        info = session.info
+        self._kind, self._now = info.name, info.serial
+        if not info.is_nameless or (self._now and self._now == self._said):
+            self._said = ""
+            self._known.set()
+        else:
+            self.screen.name_sheet.begin(self._now)
+
+    def _take_name(self, name: str) -> None:
+        kind, known, practice, cameras = self._kind, self._known, self.practice, self.context.cameras
+        if name == self._now:
+            known.set()
+            return
+
+        def kept(as_kept: str) -> None:
+            if known is self._known:  # nobody has left meanwhile
+                self._said = as_kept if as_kept == name else ""  # another than was typed is shown before it is used
+                self.begin()
+
+        self.run(lambda: cameras.keep_name(kind, name, practice=practice), kept, self._failed)
+
+    def save_page(self, name: str, title: str, write: Callable[[Path], Path]) -> None:
+        """Ask where a PDF is to lie, and write it."""
+        path = self.ask_where_to_save("reports", name, title, "PDF (*.pdf)")
+        if path is not None:
+            self.run(lambda: replace_file(path, write))
 
 
 def _ended(session: LiveSession, thread: threading.Thread | None) -> None:

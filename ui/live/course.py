@@ -1,67 +1,23 @@
-"""Sets of exercises: where they are kept and changed, and how one runs, part after part, with rest between them."""
+"""A set of exercises that runs: part after part, with rest between them."""
 
 from __future__ import annotations
 
 import math
 
 from PySide6.QtCore import QObject, QTimer, Signal
-from PySide6.QtWidgets import QWidget
 
-from carpus.app.desktop.patient_view import PatientViewing
-from carpus.core.errors import CarpusFault
-from carpus.core.records.exercise_sets import USUAL_SETS, ExerciseSet, next_part
-from carpus.core.records.kept_sets import keep_sets, read_sets
-from carpus.core.records.library import Library
+from carpus.core.records.exercise_sets import next_part
 from carpus.core.records.set_up import SetUp
 from carpus.ui import numbers
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen
-from carpus.ui.messages.messages import Messages
 from carpus.ui.now_open import NowOpen
-from carpus.ui.setup.exercise import ExerciseScreen
-from carpus.ui.setup.set_sheet import SetSheet
+from carpus.ui.patient.viewing import PatientViewing
 from carpus.ui.setup.set_words import course_words
-from carpus.ui.theme import Theme
 from carpus.ui.translate import say
 
 LINGER_S = 2.0
 """After the last repetition the recording goes on for so long: it has its way back."""
-
-
-class KeptSets(QObject):
-    """What the exercise screen offers; kept in the store."""
-
-    def __init__(self, host: QWidget, screen: ExerciseScreen, tell: Messages, library: Library, theme: Theme) -> None:
-        super().__init__(host)
-        self._screen, self._tell, self._library = screen, tell, library
-        self.sheet = SetSheet(host, theme)
-        self.sets: tuple[ExerciseSet, ...] = ()
-        self.sheet.kept.connect(self._keep)
-        screen.sets_wanted.connect(self._open)
-        self.look()
-
-    def look(self) -> None:
-        """Read them; where that cannot be done the usual ones are offered."""
-        try:
-            self.sets = read_sets(self._library.store)
-        except CarpusFault as fault:
-            self.sets = USUAL_SETS
-            self._tell.fault(fault)
-        self._screen.show_sets(self.sets)
-
-    def _open(self) -> None:
-        chosen = str(self._screen.exercises.value())
-        self.sheet.begin(self.sets, str(self._screen.protocol.value()), chosen.removeprefix("set:"))
-
-    def _keep(self, sets: tuple[ExerciseSet, ...], chosen_id: str) -> None:
-        try:
-            keep_sets(self._library.store, sets, self.sets)
-        except CarpusFault as fault:
-            self._tell.fault(fault)
-            self.look()
-            return
-        self.sets = sets
-        self._screen.show_sets(sets, chosen_id)
 
 
 class CourseRun(QObject):
@@ -114,7 +70,7 @@ class CourseRun(QObject):
         """No rest is kept any more."""
         self._timer.stop()
         self._rest_left_s = 0
-        self._live.rest(on=False)
+        self._live.recording.rest(on=False)
         self._patient.rest(None)
 
     def _second(self) -> None:
@@ -127,7 +83,7 @@ class CourseRun(QObject):
         if self._now.set_up is not None:
             self._show(self._now.set_up)
             course = self._now.set_up.course
-            self._live.rest(on=self.resting)
+            self._live.recording.rest(on=self.resting)
             if self.resting and course is not None:
                 self._patient.rest((self._rest_left_s, self._rest_s, course.number, len(course.parts)))
 
@@ -151,9 +107,9 @@ class CourseRun(QObject):
             self.end()
             self._show(set_up)
         part = course.part
-        if part.seconds and self._live.recorded_s >= part.seconds:
-            self._live.stop()
+        if part.seconds and self._live.recording.recorded_s >= part.seconds:
+            self._live.recording.stop()
         elif part.repetitions:
             self._done_since_s = min(self._done_since_s, glance.at_s) if glance.found >= part.repetitions else math.inf
             if glance.at_s - self._done_since_s >= LINGER_S:
-                self._live.stop()
+                self._live.recording.stop()

@@ -3,26 +3,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QApplication
 
 from carpus.core.records.set_up import SetUp
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.patient.guide import Guide, GuideScene
 from carpus.ui.patient.window import PatientWindow
-from carpus.ui.theme import Theme
+
+if TYPE_CHECKING:  # what a flow works on is stored
+    from carpus.ui.flow import ScreenContext
 
 
 class PatientViewing(QObject):
     """One window at most, made when it is first wanted; it draws what the live screen's own beat tells it."""
 
-    def __init__(self, shell: QWidget, live: LiveScreen, theme: Theme, sound: Callable[[], bool]) -> None:
-        super().__init__(shell)
-        self._shell, self._live, self._theme, self._sound = shell, live, theme, sound
+    def __init__(self, context: ScreenContext, live: LiveScreen) -> None:
+        super().__init__(context.shell)
+        self._context, self._live = context, live
         self._set_up: SetUp | None = None
         self._guide: Guide | None = None
         self._sounded = 0
@@ -45,11 +47,11 @@ class PatientViewing(QObject):
             self.close()
             return
         if self.window is None:
-            self.window = PatientWindow(self._theme)
+            self.window = PatientWindow(self._context.theme)
             self.window.closed.connect(self._closed)
-        self.window.view.sound_on = self._sound()
+        self.window.view.sound_on = self._context.patient_sound
         self.window.view.begin(self._set_up)
-        self.window.open_beside(self._shell)
+        self.window.open_beside(self._context.shell)
         self._live.set_patient_view(True)
 
     def close(self) -> None:
@@ -113,7 +115,7 @@ class PatientViewing(QObject):
         self.window.show_running(self._guide.take(glance))
         if self._guide.reached > self._sounded:
             self._sounded = self._guide.reached
-            if self._sound() and math.isfinite(self.window.view.scene.goal_deg):
+            if self._context.patient_sound and math.isfinite(self.window.view.scene.goal_deg):
                 QApplication.beep()
 
     def _closed(self) -> None:

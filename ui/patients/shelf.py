@@ -13,7 +13,7 @@ from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import compare, compare_rows, unfair_reasons
-from carpus.ui.ports import MOST_ROWS, PatientCard, PatientRow, ResultLine, SessionRow
+from carpus.ui.ports import MOST_ROWS, PatientCard, PatientRow, ResultLine
 from carpus.ui.report.further_rows import main_words
 from carpus.ui.report.hand_rows import compared_figures
 from carpus.ui.report.tables import repetition_words
@@ -62,13 +62,6 @@ class PatientShelf:
         about = main_words(last)
         results = () if about else _results(first, last)
         return PatientCard(row, results, repetition_words(last), note, last.when, picture, said, True, about)
-
-    def sessions(self, patient_id: str) -> Sequence[SessionRow]:
-        """Stored sessions, newest first."""
-        return [
-            SessionRow(entry.session_id, entry.recorded, entry.exercise, entry.hand, entry.duration_s, entry.complete)
-            for entry in self._library.sessions(patient_id)
-        ]
 
     def suggest_pseudonym(self) -> str:
         """A free name."""

@@ -1,0 +1,85 @@
+"""The bar below the live screen: what the camera sees, notes, pause, and the one button that matters."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout
+
+from carpus.core.records.exercise_sets import next_part
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Surface
+from carpus.ui.live.light_view import LightView
+from carpus.ui.live.recording import Recording
+from carpus.ui.theme import MARGIN_PX, Theme
+
+
+class Controls(Surface):
+    """Shows how the recording stands; buttons take no keyboard, for the space bar (or the pedal that sends it) stops
+    whatever has it."""
+
+    def __init__(self, theme: Theme, recording: Recording) -> None:
+        super().__init__(theme)
+        self._recording, self._tight = recording, False
+        self.light = LightView(theme)
+        self.note = Button(theme, self.tr("Note"), "quiet", icon="notebook-pen", hint="F5")
+        self.pain = Button(theme, self.tr("Pain"), "quiet", hint="F6")
+        self.pause = Button(theme, self.tr("Pause"), icon="pause", hint="F7", height_px=52)
+        self.main = Button(theme, "", "primary", height_px=56)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, MARGIN_PX, 0)
+        row.setSpacing(4)
+        row.addWidget(self.light, 1)
+        row.addSpacing(8)
+        row.addWidget(self.note)
+        row.addWidget(self.pain)
+        row.addSpacing(8)
+        row.addWidget(self.pause)
+        row.addSpacing(12)
+        row.addWidget(self.main)
+        for button in (self.note, self.pain, self.pause, self.main):
+            button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        recording.changed.connect(self.refresh)
+
+    def fit(self, *, tight: bool, large: bool) -> None:
+        """With large text on a small screen hints give way; beside one large figure all buttons but one, whose keys go
+        on working."""
+        self._tight = tight
+        for button, hint in ((self.note, "F5"), (self.pain, "F6"), (self.pause, "F7")):
+            button.setVisible(not large)
+            button.set_face(button.text(), hint="" if tight else hint)
+        self.refresh()
+
+    def begin(self) -> None:
+        """A source is shown: no pain was noted."""
+        self.pain.set_face(self.tr("Pain"), icon="")
+
+    def noted_pain(self, score: int) -> None:
+        """The button says so until the next one."""
+        self.pain.set_face(self.tr("Pain {score} noted").format(score=score), icon="check")
+
+    def say_storing(self, words: str = "") -> None:
+        """It was stopped: that it is stored, or how long it takes until all that waits is tracked."""
+        self.main.set_face(words or self.tr("Storing…"), icon="", hint="")
+
+    def refresh(self) -> None:
+        """By the state of the recording."""
+        recording = self._recording
+        state = recording.state
+        runs = state != "off" and not recording.storing  # what is stopped takes no more notes
+        self.note.set_face(self.tr("Passive") if recording.passive else self.tr("Note"))
+        self.note.setEnabled(runs)
+        self.pain.setEnabled(runs)
+        self.pause.setEnabled(runs and not recording.camera_lost)  # nothing can go on without pictures
+        paused = state == "paused" and not recording.camera_lost
+        self.pause.set_face(self.tr("Go on") if paused else self.tr("Pause"), icon="play" if paused else "pause")
+        self.main.setEnabled(not recording.storing)
+        if recording.under_way:
+            return
+        words = self.tr("Play and record") if recording.plays else self.tr("Record")
+        if runs:
+            follows = recording.set_up is not None and next_part(recording.set_up) is not None
+            words = self.tr("Stop and go on") if follows else self.tr("Stop and review")
+        elif recording.left_s:
+            words = self.tr("Starts in {seconds}: not yet").format(seconds=recording.left_s)
+        hint = self.tr("Space") if self._tight else self.tr("Space · pedal")
+        self.main.set_face(words, icon="square" if runs else "", hint=hint)

@@ -1,0 +1,95 @@
+"""What the tracked figures say of this moment: for the card that shows one of them large, and for a second view."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import replace
+
+from carpus.core.measures.validity import LARGEST_SD_RAD
+from carpus.core.types import TrackStatus
+from carpus.ui.figures import FIGURES, FINGERS, Figure, figure_of
+from carpus.ui.live.glance import Glance
+from carpus.ui.live.number_card import Reading
+from carpus.ui.live.recording import Recording
+from carpus.ui.plot.history import History
+
+TIMED_MARKS = 10
+"""What goes by time is told in so many parts."""
+
+
+class Readings:
+    """Read from the history of the figures and from the recording."""
+
+    def __init__(self, history: History, recording: Recording) -> None:
+        self._history, self._recording = history, recording
+
+    def now(self, shown: Reading) -> Reading:
+        """The figures now of what is shown."""
+        history, recording, figure = self._history, self._recording, shown.figure
+        count, lost = recording.count, recording.camera_lost
+        if figure is not None:
+            column = FIGURES.index(figure)
+            value, sd, measured = history.figure_value(column)
+            inferred = history.inferred(column)
+            known, own = (measured or inferred) and not lost, count is not None and count.joint == figure.joint
+            speed = history.figure_speed_deg_s(column)
+            reading = Reading(figure=figure, predicted=known and inferred)
+        else:
+            angle, status = shown.angle, history.status
+            value, sd = float(history.angles_deg[angle]), float(history.sds_deg[angle])
+            known, own = not lost, count is not None and count.angle == angle
+            doubtful = known and status == TrackStatus.DOUBTFUL
+            speed = math.nan if doubtful else float(history.speeds[1])
+            reading = Reading(angle=angle, predicted=known and status == TrackStatus.PREDICTED, doubtful=doubtful)
+        asked = recording.set_up.repetitions if recording.set_up else 0
+        reading = replace(
+            reading, value_deg=value if known else math.nan, sd_deg=sd if known else math.nan,
+            speed_deg_s=speed if known else math.nan, repetitions_done=recording.repetitions, repetitions_asked=asked,
+            repetition_running=recording.state == "recording" and recording.repetitions < asked,
+        )  # fmt: skip
+        if count is not None and own:
+            reading = replace(
+                reading, best_positive_deg=count.best_positive_deg, best_negative_deg=count.best_negative_deg,
+                best_at_least=count.best_at_least,
+            )  # fmt: skip
+        return self.with_targets(reading)
+
+    def with_targets(self, reading: Reading) -> Reading:
+        """With the targets of the exercise, where it trains what is shown."""
+        set_up = self._recording.set_up
+        if set_up is None:
+            return reading
+        figure, exercise = reading.figure, set_up.exercise
+        if figure.joint != exercise.joint if figure is not None else reading.angle != exercise.angle:
+            return reading
+        return replace(
+            reading, target_positive_deg=set_up.target_positive_deg, target_negative_deg=set_up.target_negative_deg
+        )
+
+    def glance(self, *, is_now: bool) -> Glance:
+        """The trained angle of this moment, whichever figure is shown; ``is_now`` whether what was tracked last is of
+        now."""
+        recording, history = self._recording, self._history
+        count, set_up, state, now_s = recording.count, recording.set_up, recording.state, time.monotonic()
+        done, asked = recording.repetitions, set_up.repetitions if set_up else 0
+        if set_up is not None and set_up.course is not None and set_up.course.part.seconds:
+            done, asked = int(TIMED_MARKS * recording.recorded_s / set_up.course.part.seconds), TIMED_MARKS
+        if set_up is None or recording.camera_lost or not is_now:
+            return Glance(now_s, state=state, done=done, asked=asked)
+        deviation, flexion, turned = (float(value) for value in history.angles_deg)
+        seen = history.status == TrackStatus.TRACKED
+        angle, whole_hand = set_up.exercise.angle, set_up.protocol.has_fingers
+        value, sd, measured = math.nan, math.nan, seen
+        if whole_hand and set_up.exercise.joint:
+            value, sd, measured = history.figure_value(FIGURES.index(figure_of(set_up.exercise.joint)))
+        elif angle is not None:
+            value, sd = float(history.angles_deg[angle]), float(history.sds_deg[angle])
+        sure = measured and seen and math.isfinite(value) and sd <= math.degrees(LARGEST_SD_RAD)
+        bent = [history.figure_value(FIGURES.index(Figure(finger, "middle"))) for finger in FINGERS[1:]]
+        bent_deg = [one for one, _, known in bent if known] if whole_hand else []
+        return Glance(
+            now_s, value, sure, seen, (deviation, flexion, turned),
+            sum(bent_deg) / len(bent_deg) if bent_deg else math.nan, state, done, asked, count.found if count else 0,
+            recording.left_s,
+        )  # fmt: skip

@@ -1,0 +1,218 @@
+"""The recording on the live screen: begun by a key, counted down or over a still hand; paused, noted in, stopped."""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from carpus.core.pipeline.live_values import StartMode
+from carpus.core.records.set_up import SetUp
+from carpus.core.results.repetition_rows import ACTIVE, PASSIVE
+from carpus.core.types import SpotAnswer, TrackStatus
+from carpus.ui.background import Background
+from carpus.ui.figures import FIGURES, FINGERS, Figure
+from carpus.ui.live.beginning import Beginning
+from carpus.ui.live.counting import RunningCount
+from carpus.ui.live.glance import RecordingState
+from carpus.ui.plot.history import History
+from carpus.ui.ports import Measuring
+
+HASTY_S = 3.0
+"""So soon after a recording began nobody is taken to mean its end without being asked."""
+
+
+class Recording(QObject):
+    """One after the other on a source. ``changed`` when its state, or what is counted down to it, is another;
+    ``begun`` or ``not_begun`` with a fault; ``stopping``, then ``stopped`` with
+    the session, or ``stop_failed`` with a fault."""
+
+    changed = Signal()
+    begun = Signal()
+    not_begun = Signal(object)
+    stopped = Signal(str)
+    stop_failed = Signal(object)
+    stopping = Signal()
+    hasty = Signal()
+    """A person ends a recording that has only just begun: is it meant?"""
+
+    def __init__(self, background: Background, history: History) -> None:
+        super().__init__()
+        self._background, self._history = background, history
+        self.measuring: Measuring | None = None
+        self.set_up: SetUp | None = None
+        self.count: RunningCount | None = None
+        self.start_mode: StartMode = "key"
+        self.beginning = Beginning()
+        self.left_s = 0
+        """Seconds that are still counted down."""
+        self.camera_lost = self.passive = self._rests = False
+        self.under_way = False
+        """Whether it is being started or stopped, which waits for the disk."""
+        self._begun_at_s = -HASTY_S
+
+    def open(self, measuring: Measuring, set_up: SetUp) -> None:
+        """On this source from now on."""
+        self.measuring, self.set_up, self.count = measuring, set_up, None
+        self.camera_lost = self.under_way = self._rests = False
+        self._arm()
+
+    @property
+    def state(self) -> RecordingState:
+        """What the pill says."""
+        feed = self.measuring.feed if self.measuring else None
+        if feed is None or not feed.recording or (self.under_way and self.count is None):
+            return "off"  # also while it is being started: nothing can be noted in it yet
+        return "paused" if feed.paused or self.camera_lost else "recording"
+
+    @property
+    def storing(self) -> bool:
+        """Whether it is being stored: nobody needs to stop it once more."""
+        return self.under_way and self.count is not None
+
+    @property
+    def plays(self) -> bool:
+        """Whether the source is a stored recording, which plays from its first picture."""
+        return self.measuring is not None and self.measuring.starts_with_recording
+
+    @property
+    def recorded_s(self) -> float:
+        """Seconds stored so far."""
+        return self.count.recorded_s if self.count else 0.0
+
+    @property
+    def repetitions(self) -> int:
+        """Full repetitions so far."""
+        return self.count.repetitions if self.count else 0
+
+    @property
+    def now_s(self) -> float:
+        """Its own time, 0 before the first picture."""
+        now = self._history.now_s
+        return now if math.isfinite(now) else 0.0
+
+    # --- how it begins ------------------------------------------------------------------------------------
+    def toggle(self) -> None:
+        """Start, or stop and go to the review: the same on every source. A hasty end asks; what is counted down is
+        taken back."""
+        if self.measuring is None or self.under_way:
+            return
+        if self.measuring.feed.recording:
+            if time.monotonic() - self._begun_at_s < HASTY_S:
+                self.hasty.emit()
+            else:
+                self.stop()
+        elif self.beginning.counts:
+            self.beginning.stop()
+            self._show_left()
+        elif self.start_mode == "countdown" and not self.plays and len(self._history):
+            self.beginning.count(self.now_s)
+            self._show_left()
+        else:
+            self._record()
+
+    def _record(self) -> None:
+        assert self.measuring is not None
+        assert self.set_up is not None
+        set_up = self.set_up
+        self.beginning.stop()
+        self.under_way = True
+
+        def begun(_: object) -> None:
+            self.under_way = self.passive = False
+            self._begun_at_s = time.monotonic()
+            self.count = RunningCount(set_up.exercise, set_up.protocol)
+            self._history.set_home()
+            self.begun.emit()
+            self.changed.emit()
+
+        def failed(fault: Exception) -> None:
+            self.under_way = False
+            self.changed.emit()
+            self.not_begun.emit(fault)
+
+        self._background.run(self.measuring.start_recording, begun, failed, self)
+
+    def rest(self, *, on: bool) -> None:
+        """Between two exercises of a set nothing begins by itself."""
+        if on != self._rests:
+            self._rests = on
+            self._arm()
+
+    def set_camera_lost(self, *, lost: bool) -> None:
+        """The camera went or came back."""
+        self.camera_lost = lost
+        self._arm()
+        self.changed.emit()
+
+    def _arm(self) -> None:
+        """A hand that lies still begins from now on, where that is wanted."""
+        self.beginning.stop()
+        if self.start_mode == "still" and not (self.plays or self._rests or self.camera_lost):
+            self.beginning.wait()
+
+    def look_for_start(self) -> None:
+        """One look at the hand while a recording may begin without a hand at the keyboard."""
+        history, set_up = self._history, self.set_up
+        if self.measuring is None or self.measuring.feed.recording or self.under_way or not len(history):
+            return
+        fingers = FINGERS[1:] if set_up is not None and set_up.protocol.has_fingers else ()
+        bent = [history.figure_value(FIGURES.index(Figure(finger, "middle")))[0] for finger in fingers]
+        angles = np.array([*history.angles_deg, *bent], dtype=float)
+        if self.beginning.take(angles if history.status == TrackStatus.TRACKED else None, self.now_s):
+            self._record()
+        self._show_left()
+
+    def _show_left(self) -> None:
+        """The seconds on the button, as soon as they change."""
+        left_s = self.beginning.left_s(self.now_s)
+        if left_s != self.left_s:
+            self.left_s = left_s
+            self.changed.emit()
+
+    # --- while it runs, and its end -----------------------------------------------------------------------
+    def toggle_pause(self) -> None:
+        """Pause or go on."""
+        if self.measuring is not None and self.measuring.feed.recording and not (self.camera_lost or self.storing):
+            feed = self.measuring.feed
+            (feed.resume_recording if feed.paused else feed.pause_recording)()
+            self.changed.emit()
+
+    def note(self, kind: str, text: str) -> bool:
+        """Write something down at this moment; whether it could be."""
+        return self.measuring is not None and self.measuring.feed.add_event(kind, text)
+
+    def answer_spot(self, answer: SpotAnswer) -> None:
+        """What a person says of blue spots."""
+        if self.measuring is not None:
+            self.measuring.answer_spot(answer)
+
+    def say_way(self, *, passive: bool) -> None:
+        """Who moves the hand from now on."""
+        if self.note(PASSIVE if passive else ACTIVE, ""):
+            self.passive = passive
+            if self.count is not None:
+                self.count.say_way(self.now_s, passive=passive)
+            self.changed.emit()
+
+    def stop(self) -> None:
+        """Close the file in the background; the answer leads to the review."""
+        if self.measuring is None or self.under_way or not self.measuring.feed.recording:
+            return
+        self.under_way = True
+        self.changed.emit()
+        self.stopping.emit()
+
+        def failed(fault: Exception) -> None:
+            self.under_way = False
+            self.changed.emit()
+            self.stop_failed.emit(fault)
+
+        def done(session_id: object) -> None:
+            self.under_way, self.count = False, None
+            self.changed.emit()
+            self.stopped.emit(str(session_id))
+
+        self._background.run(self.measuring.stop_recording, done, failed, self)

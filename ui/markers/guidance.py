@@ -1,0 +1,195 @@
+"""The column beside the picture of the markers: what is to be done now, what the checks say, and how it goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.default_answer import ENTER
+from carpus.ui.controls.text import MEDIUM, REGULAR, StateText, Text, heading
+from carpus.ui.fault_words import finding_words
+from carpus.ui.hand_drawing import HandDrawing, MarkerState
+from carpus.ui.marker_words import click_instruction, marker_place
+from carpus.ui.markers import proposals
+from carpus.ui.markers.clicking import Clicking
+from carpus.ui.markers.remedy import Remedy, at_fault, face
+from carpus.ui.markers.straight import StraightFingers
+from carpus.ui.markers.verdict import DISC_DOUBTED, NAMES_WRONG, VerdictPanel, headline, rows_before, rows_of
+from carpus.ui.ports import Calibrator, Judged
+from carpus.ui.theme import MARGIN_PX, Theme
+from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
+
+COLUMN_PX = 376
+ALL_FITS_PX = 700
+CROWDED_BELOW_PX = 460
+GUIDED_MORE_PX = 60
+
+
+class Guidance(QWidget):
+    """Keeps its width whatever the words, so that the picture never moves under the cursor."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self.step = StateText(theme, 14, MEDIUM)
+        self.title = heading(theme, wrap=True)
+        self.place = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.hand = HandDrawing(theme)
+        self.straight = StraightFingers(theme)
+        self.straight.hide()
+        self.panel = VerdictPanel(theme)
+        self.bubble = BubbleView(theme)
+        self.primary = Button(theme, "", "primary")
+        self.second = Button(theme, "", "plain", height_px=52)
+        self._column = column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(8)
+        column.addSpacing(8)
+        column.addWidget(self.step)
+        column.addWidget(self.title)
+        column.addWidget(self.place)
+        column.addWidget(self.hand, 1)
+        column.addStretch(0)  # where the drawing has given way its room stays in one piece
+        column.addWidget(self.straight)
+        column.addWidget(self.panel)
+        column.addSpacing(8)
+        column.addWidget(self.bubble)
+        row = QHBoxLayout()
+        row.setSpacing(12)
+        row.addWidget(self.primary, 1)
+        row.addWidget(self.second)
+        column.addLayout(row)
+
+    def fit(self, height_px: int, *, clicks: bool, judged: bool) -> None:
+        """What is read now has the room: ``clicks`` while markers are clicked, ``judged`` once there is a verdict."""
+        self.setFixedWidth(self._theme.px(COLUMN_PX))
+        scale = self._theme.text_scale
+        # The question of the straight fingers and the checks are read; the drawing has done its work by then.
+        asks = not self.straight.isHidden()
+        self.bubble.give_room(height_px >= LEAST_SCREEN_PX * scale)
+        # The bubble takes its height, and the air of a gap more than what gives way for it.
+        guided_px = 0 if self.bubble.isHidden() else self.bubble.sizeHint().height() + self._theme.px(GUIDED_MORE_PX)
+        room_px = height_px - guided_px
+        self.hand.setVisible(not (asks and room_px < ALL_FITS_PX * scale))
+        # With less room still, first the drawing that says where to click, then the question, else the checks.
+        crowded = height_px > 0 and room_px < CROWDED_BELOW_PX * scale
+        self.panel.setVisible(not (crowded and (clicks or asks)))
+        self.panel.show_close(False)
+        if crowded:
+            self.hand.setVisible(clicks)
+            self.panel.show_close(self._needed_px() + guided_px > height_px)
+        elif clicks and height_px > 0:
+            # A long name of a marker may take a line more than there is: the checks, not known yet, wait.
+            self.panel.setVisible(self._needed_px() + guided_px <= height_px)
+        elif judged and not asks and self.bubble.isHidden() and height_px > 0:
+            # The checks are what is read now: where both have no room, the drawing waits.
+            self.hand.setVisible(self._needed_px() <= height_px)
+
+    def _needed_px(self) -> int:
+        self._column.invalidate()
+        return self._column.minimumHeightForWidth(self._theme.px(COLUMN_PX)) + 2 * (MARGIN_PX - 4)
+
+    def show_preview(self, calibrator: Calibrator) -> None:
+        """Before a picture is taken."""
+        self.step.show_state("none", self.tr("Picture"))
+        self.title.setText(self.tr("Lay the hand flat and still"))
+        self.place.setText(
+            self.tr("Palm down, fingers as straight as they go, forearm in line. Then take the picture.")
+        )
+        order = calibrator.protocol.markers
+        self.hand.show_markers(calibrator.side, dict.fromkeys(order, "later"))
+        self.panel.show_rows(self.tr("Checks"), "none", rows_before(0, len(order), calibrator.limits))
+        self.primary.setEnabled(True)
+        self.primary.set_face(self.tr("Take the picture"), icon="", hint=ENTER)
+        self.second.hide()
+
+    def show_clicking(self, clicking: Clicking, calibrator: Calibrator, *, sees_none: bool, waits: bool) -> None:
+        """While markers are clicked, and while they are checked; ``sees_none``: nothing looks like a disc;
+        ``waits``: the program looks for names."""
+        done, asked, to_go = len(clicking.pixel), len(clicking.order), len(clicking.missing)
+        number = clicking.order.index(clicking.current) + 1
+        self.step.show_state("none", self.tr("Marker {number} of {asked}").format(number=number, asked=asked))
+        self.title.setText(click_instruction(clicking.current))
+        self.place.setText(marker_place(clicking.current))
+        if clicking.complete:  # nothing is left to click while they are checked
+            self.step.show_state("good", self.tr("All markers found"))
+            self.title.setText(self.tr("Checking the markers…"))
+            self.place.setText(self.tr("Hold the hand in this position until the measuring begins."))
+        self.hand.show_markers(clicking.side, _hand_states(clicking, ()))
+        words = self.tr("Checking…") if clicking.complete else self.tr("Good so far") if done else self.tr("Checks")
+        state = "good" if done and not clicking.complete else "none"
+        self.panel.show_rows(words, state, rows_before(done, asked, calibrator.limits))  # type: ignore[arg-type]
+        left = self.tr("1 marker to go") if to_go == 1 else self.tr("{count} markers to go").format(count=to_go)
+        words = self.tr("Start measuring · {left}").format(left=left) if to_go else self.tr("Checking the markers…")
+        self.primary.setEnabled(False)
+        self.primary.set_face(words, icon="", hint="")
+        self.second.hide()
+        if sees_none:  # said at once, before anybody looks for what is not there
+            self.step.show_state("warn", self.tr("No blue disc in the picture"), token="warn")
+            self.title.setText(self.tr("No blue disc is to be seen"))
+            self.place.setText(
+                self.tr(
+                    "Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc."
+                )
+            )
+        if waits:
+            self.step.show_state("none", self.tr("Looking for the markers…"))
+        elif clicking.proposed:
+            self._show_proposals(clicking, calibrator)
+
+    def _show_proposals(self, clicking: Clicking, calibrator: Calibrator) -> None:
+        words = proposals.words_for(clicking)
+        self.step.show_state(words.state, words.step, token="warn" if words.state == "warn" else "text2")
+        self.title.setText(words.title)
+        self.place.setText(words.place)
+        self.primary.setEnabled(True)
+        self.primary.set_face(words.primary, icon="", hint=ENTER)
+        self.second.set_face(self.tr("Click by hand"), hint="C")
+        self.second.show()
+        asked, proposed = len(clicking.order), len(clicking.proposed) + len(clicking.pixel)
+        checks = self.tr("Names to confirm")
+        self.panel.show_rows(checks, "none", rows_before(proposed, asked, calibrator.limits, proposed=True))
+
+    def show_verdict(self, clicking: Clicking, calibrator: Calibrator, outcome: Judged, remedy: Remedy) -> None:
+        """What the checks say, and the likeliest way out of what is not good."""
+        verdict = outcome.verdict
+        words, state = headline(verdict)
+        self.hand.show_markers(clicking.side, _hand_states(clicking, at_fault(verdict)))
+        said = words if verdict.is_good else self.tr("Checks")
+        self.panel.show_rows(said, state, rows_of(verdict, calibrator.limits))
+        self.primary.setEnabled(True)
+        if verdict.is_good:
+            self.step.show_state("good", self.tr("All markers found"))
+            self.title.setText(self.tr("Ready to measure"))
+            self.place.setText(self.tr("Hold the hand in this position until the measuring begins."))
+            self.primary.set_face(self.tr("Start measuring"), icon="play", hint=ENTER)
+            self.second.hide()
+        else:
+            first = max(
+                verdict.findings,
+                key=lambda finding: (finding.blocks, finding.kind in NAMES_WRONG, finding.kind in DISC_DOUBTED),
+            )
+            self.step.show_state(state, words, token="bad" if state == "bad" else "warn")
+            told = finding_words(first)
+            self.title.setText(told.happened.rstrip("."))
+            self.place.setText(" ".join(part for part in (told.safe, told.do) if part))
+            words, key = face(remedy)
+            self.primary.set_face(words, icon="", hint=key)
+            swap = remedy == "swap"
+            self.second.set_face(self.tr("Correct names") if swap else self.tr("Start although &doubtful"), hint="")
+            self.second.setVisible(swap or verdict.can_start)
+        self.primary.setFocus(Qt.FocusReason.OtherFocusReason)
+
+
+def _hand_states(clicking: Clicking, wrong: Sequence[str]) -> dict[str, MarkerState]:
+    states: dict[str, MarkerState] = {}
+    for name in clicking.order:
+        states[name] = "wrong" if name in wrong else "done" if name in clicking.pixel else "later"
+    for name, one in clicking.proposed.items():
+        states[name] = "proposed" if one.is_sure else "doubtful"
+    if (clicking.missing and not clicking.proposed) or clicking.current in clicking.unnamed:
+        states[clicking.current] = "next"
+    return states

@@ -1,0 +1,223 @@
+"""The names on a hand's discs and the calibration that they give: the work of the screen without the screen."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from carpus.core.types import FloatArray, Frame
+from carpus.ui.background import Background
+from carpus.ui.markers.clicking import Clicking
+from carpus.ui.markers.remedy import Remedy, at_fault, exchanged, remedy_of
+from carpus.ui.ports import Calibrator, Judged, ProposedMarker
+from carpus.ui.tour.order import Work
+
+
+class Naming(QObject):
+    """On a live picture first, then on one that is held. ``edited`` when names are others, so that an old verdict
+    counts no longer; ``changed`` when something else is to be shown; ``doubted`` carries a disc to be looked at.
+
+    ``started`` when tracking has begun; ``judged`` carries each verdict; ``told`` a fault.
+    """
+
+    edited = Signal()
+    changed = Signal()
+    doubted = Signal(object)
+    started = Signal()
+    judged = Signal(object)
+    told = Signal(object)
+
+    def __init__(self, background: Background) -> None:
+        super().__init__()
+        self._background = background
+        self.calibrator: Calibrator | None = None
+        self.clicking: Clicking | None = None
+        self.outcome: Judged | None = None
+        """Of the names as they are; None before."""
+        self.start_angles_rad = np.zeros(3)
+        self.waits = False
+        """Whether the program still looks for names."""
+        self._by_hand = self._goes_on = False
+        self._proposing = self._judging = 0
+
+    def begin(self, calibrator: Calibrator) -> None:
+        """On another source."""
+        self.calibrator, self.start_angles_rad = calibrator, np.zeros(3)
+        self.aim()
+
+    def aim(self) -> None:
+        """On a live picture: nothing has a name."""
+        self.clicking = self.outcome = None
+
+    def hold(self) -> Frame:
+        """Fix the picture; the program proposes names."""
+        assert self.calibrator is not None
+        calibrator = self.calibrator
+        frame = calibrator.hold()
+        straight = calibrator.last_straight_fingers
+        self.clicking = Clicking(calibrator.protocol, calibrator.side, straight_fingers=straight)
+        self.outcome, self._by_hand = None, False
+        return frame
+
+    @property
+    def work(self) -> Work:
+        """How far the markers are."""
+        if self.clicking is None:
+            return "aiming"
+        if self.outcome is None:
+            return "clicking"
+        return "checked" if self.outcome.verdict.is_good else "doubtful"
+
+    # --- names --------------------------------------------------------------------------------------------
+    def click(self, pixel: FloatArray) -> str | None:
+        """Put the current name on the disc at a place; None where that was done, else the name that the disc has
+        already, empty where there is no disc."""
+        assert self.clicking is not None
+        assert self.calibrator is not None
+        found = self.calibrator.marker_at(pixel)
+        if found is None:
+            return ""
+        if taken := self.clicking.taken_by(found.pixel):
+            return taken
+        agreed = self.clicking.confirms(found.pixel)
+        swapped = self.clicking.place(found.pixel, found.width_px)
+        if not agreed and not swapped:
+            self.ask_for_names()  # of two that changed places the person has said all there is to say
+        self.edit()
+        return None
+
+    def ask_for_names(self) -> None:
+        """Let the program propose the names no person has given; each click of a person is one more thing it knows."""
+        self._proposing += 1
+        self.waits = False
+        if self._by_hand or self.clicking is None or self.calibrator is None or self.clicking.complete:
+            return
+        number, calibrator, named = self._proposing, self.calibrator, dict(self.clicking.pixel)
+        self.waits = True
+
+        def take(proposed: Mapping[str, ProposedMarker]) -> None:
+            if number != self._proposing or self.clicking is None:
+                return
+            self.waits = False
+            if set(self.clicking.pixel) != set(named):
+                self.ask_for_names()  # clicked meanwhile
+                return
+            self.clicking.propose(proposed)
+            self._look_at_doubtful()
+            self.changed.emit()
+
+        judging = self._judging
+        self._background.run(
+            lambda: calibrator.propose(named), take, lambda fault: self._take_fault(judging, fault), self
+        )
+
+    def _look_at_doubtful(self) -> None:
+        """The first doubtful disc comes into the loupe, to be confirmed or changed."""
+        clicking = self.clicking
+        if clicking is not None and clicking.doubtful:
+            clicking.current = clicking.doubtful[0]
+            self.doubted.emit(clicking.proposed[clicking.current].pixel)
+
+    def take_all(self, *, goes_on: bool = False) -> None:
+        """Confirm all names that are proposed. ``goes_on``: with all checks good and nothing to ask it measures."""
+        if self.clicking is not None and self.clicking.proposed:
+            self.clicking.take_all()
+            self.edit(goes_on=goes_on)
+
+    def confirm_doubtful(self) -> None:
+        """The doubtful name in the loupe is right; the next one comes into it."""
+        assert self.clicking is not None
+        self.clicking.confirm(self.clicking.doubtful[0])
+        self._look_at_doubtful()
+        self.edit()
+
+    def click_by_hand(self) -> None:
+        """No more proposals: every marker is clicked by the person."""
+        self._by_hand = True
+        self._proposing += 1
+        self.waits = False
+        if self.clicking is not None:
+            self.clicking.propose({})
+            self.edit()
+
+    def undo(self) -> None:
+        """Take back the marker set last."""
+        if self.clicking is not None and self.clicking.undo():
+            self.ask_for_names()
+            self.edit()
+
+    def say_straight(self, answer: tuple[bool, ...]) -> None:
+        """Which fingers lie straight."""
+        if self.clicking is not None and self.clicking.straight_fingers != answer:
+            self.clicking.straight_fingers = answer
+            self.edit()
+
+    # --- the verdict --------------------------------------------------------------------------------------
+    def edit(self, *, goes_on: bool = False) -> None:
+        """Names are different: the old verdict no longer counts, a new one is asked for when all are there."""
+        self.outcome, self._goes_on = None, goes_on
+        self._judging += 1
+        self.edited.emit()
+        calibrator, number = self.calibrator, self._judging
+        if self.clicking is None or not self.clicking.complete or calibrator is None:
+            self.changed.emit()
+            return
+        clicks, angles = self.clicking.clicks(), self.start_angles_rad
+
+        def take(outcome: Judged) -> None:
+            if number != self._judging:
+                return
+            self.outcome = outcome
+            self.changed.emit()
+            self.judged.emit(outcome.verdict)
+            asks = calibrator.protocol.has_fingers  # which of them lie straight
+            if self._goes_on and outcome.verdict.is_good and not asks:  # nothing is left to decide
+                self.start()
+
+        self._background.run(
+            lambda: calibrator.judge(clicks, angles), take, lambda fault: self._take_fault(number, fault), self
+        )
+        self.changed.emit()
+
+    def _take_fault(self, number: int, fault: Exception) -> None:
+        if number == self._judging:
+            self.told.emit(fault)
+
+    def start(self) -> None:
+        """Track from here, unless something blocks it."""
+        if self.outcome is not None and self.outcome.calibration is not None and self.calibrator is not None:
+            self.calibrator.begin(self.outcome.calibration)
+            self.started.emit()
+
+    def remedy(self) -> Remedy:
+        """What mends a verdict that is not good."""
+        assert self.outcome is not None
+        assert self.calibrator is not None
+        return remedy_of(self.outcome.verdict, is_live=self.calibrator.is_live)
+
+    def swap(self) -> None:
+        """Names that stand in for each other change places."""
+        pairs = exchanged(self.outcome.verdict) if self.outcome is not None else []
+        if pairs and self.clicking is not None:
+            for one, other in pairs:
+                self.clicking.swap(one, other)
+            self.edit()
+
+    def click_again(self) -> None:
+        """Take back the markers at fault, or all of them where the fault lies with none."""
+        if self.clicking is None or self.outcome is None:
+            if self.clicking is not None and self.clicking.proposed:
+                self.click_by_hand()
+            return
+        self.clicking.clear(at_fault(self.outcome.verdict))
+        self.edit()
+
+    def take_spot(self) -> None:
+        """The spot in question is the disc: the name moves to it."""
+        for finding in self.outcome.verdict.findings if self.outcome is not None else ():
+            if finding.spot_px and finding.markers and self.clicking is not None:
+                (name,) = finding.markers
+                self.clicking.pixel[name] = np.array(finding.spot_px)
+        self.edit()

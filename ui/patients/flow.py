@@ -1,0 +1,52 @@
+"""The flow of the first screen: who is measured, and what of them is looked at."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QWidget
+
+from carpus.ui.flow import Flow, ScreenContext
+from carpus.ui.messages.strip import put_off_last
+from carpus.ui.patients.screen import PatientsScreen
+from carpus.ui.patients.shelf import PatientShelf
+
+
+class PatientsFlow(Flow):
+    """Whatever was open is closed."""
+
+    place = "patients"
+    screen: PatientsScreen
+
+    def __init__(self, context: ScreenContext) -> None:
+        super().__init__(context, PatientsScreen(context.theme, PatientShelf(context.library), context.today))
+        screen, way, camera = self.screen, context.way, context.camera
+        camera.looked.connect(lambda: screen.set_camera_ready(camera.there))
+        screen.start.connect(lambda patient_id: way.show("camera", patient_id))
+        screen.set_up.connect(lambda patient_id: way.show("exercise", patient_id))
+        screen.review.connect(lambda patient_id: way.show("review", "", patient_id))
+        screen.progress.connect(lambda patient_id: way.show("progress", patient_id))
+        screen.sessions.connect(lambda patient_id: way.show("sessions", patient_id))
+        screen.clinic_wanted.connect(lambda: way.show("clinic"))
+        context.shell.key.connect(self._take_key)
+
+    def show(self, choose: str = "") -> None:
+        """The list; ``choose`` who is chosen in it."""
+        self.close_patient()
+        self.context.library.cut_short()  # what a full disk kept from the list is taken into it
+        self.screen.refresh(choose)
+        self.context.way.go("patients")
+
+    def first(self) -> QWidget:
+        """The search: typing finds."""
+        return self.screen.search
+
+    def up(self) -> None:
+        """Esc closes what is told above the list first."""
+        if not put_off_last(self.screen):
+            self.to_patient()
+
+    def _take_key(self, name: str) -> None:
+        if self.context.way.place == "patients" and name == "search":
+            self.screen.search.setFocus(Qt.FocusReason.ShortcutFocusReason)
+        elif self.context.way.place == "patients" and name == "new_patient":
+            self.screen.new_patient()
