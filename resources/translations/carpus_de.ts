@@ -7503,6 +7503,34 @@
         <source>Side · {finger}</source>
         <translation>Seite · {finger}</translation>
     </message>
+    <message>
+        <source>If it is out</source>
+        <translation>Wenn sie falsch misst</translation>
+    </message>
+    <message>
+        <source>Check once more</source>
+        <translation>Noch einmal prüfen</translation>
+    </message>
+    <message>
+        <source>card flat, 60 cm away, its ruler 100 mm long</source>
+        <translation>Karte flach, 60 cm entfernt, ihr Lineal 100 mm lang</translation>
+    </message>
+    <message>
+        <source>Calibrate the camera again</source>
+        <translation>Kamera neu kalibrieren</translation>
+    </message>
+    <message>
+        <source>with the board, five minutes</source>
+        <translation>mit der Tafel, fünf Minuten</translation>
+    </message>
+    <message>
+        <source>Still out: do not measure</source>
+        <translation>Weiter falsch: nicht messen</translation>
+    </message>
+    <message>
+        <source>sessions near this check say that they are not sure</source>
+        <translation>Sitzungen nahe dieser Prüfung sagen, dass sie unsicher sind</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -8768,27 +8796,27 @@
     </message>
     <message>
         <source>If it is out</source>
-        <translation>Wenn sie falsch misst</translation>
+        <translation type="vanished">Wenn sie falsch misst</translation>
     </message>
     <message>
         <source>card flat, 60 cm away, its ruler 100 mm long</source>
-        <translation>Karte flach, 60 cm entfernt, ihr Lineal 100 mm lang</translation>
+        <translation type="vanished">Karte flach, 60 cm entfernt, ihr Lineal 100 mm lang</translation>
     </message>
     <message>
         <source>Calibrate the camera again</source>
-        <translation>Kamera neu kalibrieren</translation>
+        <translation type="vanished">Kamera neu kalibrieren</translation>
     </message>
     <message>
         <source>with the board, five minutes</source>
-        <translation>mit der Tafel, fünf Minuten</translation>
+        <translation type="vanished">mit der Tafel, fünf Minuten</translation>
     </message>
     <message>
         <source>Still out: do not measure</source>
-        <translation>Weiter falsch: nicht messen</translation>
+        <translation type="vanished">Weiter falsch: nicht messen</translation>
     </message>
     <message>
         <source>sessions near this check say that they are not sure</source>
-        <translation>Sitzungen nahe dieser Prüfung sagen, dass sie unsicher sind</translation>
+        <translation type="vanished">Sitzungen nahe dieser Prüfung sagen, dass sie unsicher sind</translation>
     </message>
     <message>
         <source>Simulated camera and card</source>
@@ -9650,6 +9678,105 @@
     </message>
 </context>
 <context>
+    <name>Guidance</name>
+    <message>
+        <source>Picture</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>Lay the hand flat and still</source>
+        <translation>Legen Sie die Hand flach und ruhig hin</translation>
+    </message>
+    <message>
+        <source>Palm down, fingers as straight as they go, forearm in line. Then take the picture.</source>
+        <translation>Handfläche nach unten, Finger so gerade wie möglich, Unterarm in Linie. Nehmen Sie dann das Bild auf.</translation>
+    </message>
+    <message>
+        <source>Checks</source>
+        <translation>Prüfungen</translation>
+    </message>
+    <message>
+        <source>Take the picture</source>
+        <translation>Bild aufnehmen</translation>
+    </message>
+    <message>
+        <source>Marker {number} of {asked}</source>
+        <translation>Marker {number} von {asked}</translation>
+    </message>
+    <message>
+        <source>All markers found</source>
+        <translation>Alle Marker gefunden</translation>
+    </message>
+    <message>
+        <source>Checking the markers…</source>
+        <translation>Marker werden geprüft…</translation>
+    </message>
+    <message>
+        <source>Hold the hand in this position until the measuring begins.</source>
+        <translation>Halten Sie die Hand in dieser Lage, bis die Messung beginnt.</translation>
+    </message>
+    <message>
+        <source>Checking…</source>
+        <translation>Wird geprüft…</translation>
+    </message>
+    <message>
+        <source>Good so far</source>
+        <translation>So weit gut</translation>
+    </message>
+    <message>
+        <source>1 marker to go</source>
+        <translation>Noch 1 Marker</translation>
+    </message>
+    <message>
+        <source>{count} markers to go</source>
+        <translation>Noch {count} Marker</translation>
+    </message>
+    <message>
+        <source>Start measuring · {left}</source>
+        <translation>Messung starten · {left}</translation>
+    </message>
+    <message>
+        <source>No blue disc in the picture</source>
+        <translation>Kein blauer Punkt im Bild</translation>
+    </message>
+    <message>
+        <source>No blue disc is to be seen</source>
+        <translation>Kein blauer Punkt ist zu sehen</translation>
+    </message>
+    <message>
+        <source>Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc.</source>
+        <translation>Sind die Punkte aufgeklebt, und liegt die Hand unter der Kamera? Mehr Licht hilft; dunkelblauer Stoff ist kein Punkt.</translation>
+    </message>
+    <message>
+        <source>Looking for the markers…</source>
+        <translation>Marker werden gesucht…</translation>
+    </message>
+    <message>
+        <source>Click by hand</source>
+        <translation>Von Hand anklicken</translation>
+    </message>
+    <message>
+        <source>Names to confirm</source>
+        <translation>Namen zu bestätigen</translation>
+    </message>
+    <message>
+        <source>Ready to measure</source>
+        <translation>Bereit zum Messen</translation>
+    </message>
+    <message>
+        <source>Start measuring</source>
+        <translation>Messung starten</translation>
+    </message>
+    <message>
+        <source>Correct names</source>
+        <translation>Namen berichtigen</translation>
+    </message>
+    <message>
+        <source>Start although &amp;doubtful</source>
+        <translation>Trotz &amp;Zweifel starten</translation>
+    </message>
+</context>
+<context>
     <name>HandChart</name>
     <message>
         <source>{name} over the days</source>
@@ -10504,51 +10631,51 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Picture</source>
-        <translation>Bild</translation>
+        <translation type="vanished">Bild</translation>
     </message>
     <message>
         <source>Lay the hand flat and still</source>
-        <translation>Legen Sie die Hand flach und ruhig hin</translation>
+        <translation type="vanished">Legen Sie die Hand flach und ruhig hin</translation>
     </message>
     <message>
         <source>Palm down, fingers as straight as they go, forearm in line. Then take the picture.</source>
-        <translation>Handfläche nach unten, Finger so gerade wie möglich, Unterarm in Linie. Nehmen Sie dann das Bild auf.</translation>
+        <translation type="vanished">Handfläche nach unten, Finger so gerade wie möglich, Unterarm in Linie. Nehmen Sie dann das Bild auf.</translation>
     </message>
     <message>
         <source>Checks</source>
-        <translation>Prüfungen</translation>
+        <translation type="vanished">Prüfungen</translation>
     </message>
     <message>
         <source>Take the picture</source>
-        <translation>Bild aufnehmen</translation>
+        <translation type="vanished">Bild aufnehmen</translation>
     </message>
     <message>
         <source>Marker {number} of {asked}</source>
-        <translation>Marker {number} von {asked}</translation>
+        <translation type="vanished">Marker {number} von {asked}</translation>
     </message>
     <message>
         <source>Checking…</source>
-        <translation>Wird geprüft…</translation>
+        <translation type="vanished">Wird geprüft…</translation>
     </message>
     <message>
         <source>Good so far</source>
-        <translation>So weit gut</translation>
+        <translation type="vanished">So weit gut</translation>
     </message>
     <message>
         <source>1 marker to go</source>
-        <translation>Noch 1 Marker</translation>
+        <translation type="vanished">Noch 1 Marker</translation>
     </message>
     <message>
         <source>{count} markers to go</source>
-        <translation>Noch {count} Marker</translation>
+        <translation type="vanished">Noch {count} Marker</translation>
     </message>
     <message>
         <source>Start measuring · {left}</source>
-        <translation>Messung starten · {left}</translation>
+        <translation type="vanished">Messung starten · {left}</translation>
     </message>
     <message>
         <source>Checking the markers…</source>
-        <translation>Marker werden geprüft…</translation>
+        <translation type="vanished">Marker werden geprüft…</translation>
     </message>
     <message>
         <source>The hand lies flat and still, palm down. Fingers that stay bent are fine.</source>
@@ -10556,47 +10683,47 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Looking for the markers…</source>
-        <translation>Marker werden gesucht…</translation>
+        <translation type="vanished">Marker werden gesucht…</translation>
     </message>
     <message>
         <source>No blue disc in the picture</source>
-        <translation>Kein blauer Punkt im Bild</translation>
+        <translation type="vanished">Kein blauer Punkt im Bild</translation>
     </message>
     <message>
         <source>No blue disc is to be seen</source>
-        <translation>Kein blauer Punkt ist zu sehen</translation>
+        <translation type="vanished">Kein blauer Punkt ist zu sehen</translation>
     </message>
     <message>
         <source>Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc.</source>
-        <translation>Sind die Punkte aufgeklebt, und liegt die Hand unter der Kamera? Mehr Licht hilft; dunkelblauer Stoff ist kein Punkt.</translation>
+        <translation type="vanished">Sind die Punkte aufgeklebt, und liegt die Hand unter der Kamera? Mehr Licht hilft; dunkelblauer Stoff ist kein Punkt.</translation>
     </message>
     <message>
         <source>Click by hand</source>
-        <translation>Von Hand anklicken</translation>
+        <translation type="vanished">Von Hand anklicken</translation>
     </message>
     <message>
         <source>Names to confirm</source>
-        <translation>Namen zu bestätigen</translation>
+        <translation type="vanished">Namen zu bestätigen</translation>
     </message>
     <message>
         <source>All markers found</source>
-        <translation>Alle Marker gefunden</translation>
+        <translation type="vanished">Alle Marker gefunden</translation>
     </message>
     <message>
         <source>Ready to measure</source>
-        <translation>Bereit zum Messen</translation>
+        <translation type="vanished">Bereit zum Messen</translation>
     </message>
     <message>
         <source>Hold the hand in this position until the measuring begins.</source>
-        <translation>Halten Sie die Hand in dieser Lage, bis die Messung beginnt.</translation>
+        <translation type="vanished">Halten Sie die Hand in dieser Lage, bis die Messung beginnt.</translation>
     </message>
     <message>
         <source>Start measuring</source>
-        <translation>Messung starten</translation>
+        <translation type="vanished">Messung starten</translation>
     </message>
     <message>
         <source>Correct names</source>
-        <translation>Namen berichtigen</translation>
+        <translation type="vanished">Namen berichtigen</translation>
     </message>
     <message>
         <source>Click these again</source>

@@ -7503,6 +7503,34 @@
         <source>Side · {finger}</source>
         <translation>Di lato · {finger}</translation>
     </message>
+    <message>
+        <source>If it is out</source>
+        <translation>Se è fuori limite</translation>
+    </message>
+    <message>
+        <source>Check once more</source>
+        <translation>Ripeti il controllo</translation>
+    </message>
+    <message>
+        <source>card flat, 60 cm away, its ruler 100 mm long</source>
+        <translation>cartoncino piatto, a 60 cm, righello di 100 mm</translation>
+    </message>
+    <message>
+        <source>Calibrate the camera again</source>
+        <translation>Calibrare di nuovo la telecamera</translation>
+    </message>
+    <message>
+        <source>with the board, five minutes</source>
+        <translation>con la tavola, cinque minuti</translation>
+    </message>
+    <message>
+        <source>Still out: do not measure</source>
+        <translation>Ancora fuori limite: non misurare</translation>
+    </message>
+    <message>
+        <source>sessions near this check say that they are not sure</source>
+        <translation>le sedute vicine a questo controllo dicono di non essere sicure</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -8768,27 +8796,27 @@
     </message>
     <message>
         <source>If it is out</source>
-        <translation>Se è fuori limite</translation>
+        <translation type="vanished">Se è fuori limite</translation>
     </message>
     <message>
         <source>card flat, 60 cm away, its ruler 100 mm long</source>
-        <translation>cartoncino piatto, a 60 cm, righello di 100 mm</translation>
+        <translation type="vanished">cartoncino piatto, a 60 cm, righello di 100 mm</translation>
     </message>
     <message>
         <source>Calibrate the camera again</source>
-        <translation>Calibrare di nuovo la telecamera</translation>
+        <translation type="vanished">Calibrare di nuovo la telecamera</translation>
     </message>
     <message>
         <source>with the board, five minutes</source>
-        <translation>con la tavola, cinque minuti</translation>
+        <translation type="vanished">con la tavola, cinque minuti</translation>
     </message>
     <message>
         <source>Still out: do not measure</source>
-        <translation>Ancora fuori limite: non misurare</translation>
+        <translation type="vanished">Ancora fuori limite: non misurare</translation>
     </message>
     <message>
         <source>sessions near this check say that they are not sure</source>
-        <translation>le sedute vicine a questo controllo dicono di non essere sicure</translation>
+        <translation type="vanished">le sedute vicine a questo controllo dicono di non essere sicure</translation>
     </message>
     <message>
         <source>Simulated camera and card</source>
@@ -9650,6 +9678,105 @@
     </message>
 </context>
 <context>
+    <name>Guidance</name>
+    <message>
+        <source>Picture</source>
+        <translation>Immagine</translation>
+    </message>
+    <message>
+        <source>Lay the hand flat and still</source>
+        <translation>Mettere la mano piatta e ferma</translation>
+    </message>
+    <message>
+        <source>Palm down, fingers as straight as they go, forearm in line. Then take the picture.</source>
+        <translation>Palmo in giù, dita il più dritte possibile, avambraccio in linea. Poi scattare l’immagine.</translation>
+    </message>
+    <message>
+        <source>Checks</source>
+        <translation>Controlli</translation>
+    </message>
+    <message>
+        <source>Take the picture</source>
+        <translation>Scatta l’immagine</translation>
+    </message>
+    <message>
+        <source>Marker {number} of {asked}</source>
+        <translation>Marcatore {number} di {asked}</translation>
+    </message>
+    <message>
+        <source>All markers found</source>
+        <translation>Trovati tutti i marcatori</translation>
+    </message>
+    <message>
+        <source>Checking the markers…</source>
+        <translation>Controllo dei marcatori…</translation>
+    </message>
+    <message>
+        <source>Hold the hand in this position until the measuring begins.</source>
+        <translation>Tenere la mano in questa posizione finché inizia la misura.</translation>
+    </message>
+    <message>
+        <source>Checking…</source>
+        <translation>Controllo…</translation>
+    </message>
+    <message>
+        <source>Good so far</source>
+        <translation>Finora bene</translation>
+    </message>
+    <message>
+        <source>1 marker to go</source>
+        <translation>manca 1 marcatore</translation>
+    </message>
+    <message>
+        <source>{count} markers to go</source>
+        <translation>mancano {count} marcatori</translation>
+    </message>
+    <message>
+        <source>Start measuring · {left}</source>
+        <translation>Inizia a misurare · {left}</translation>
+    </message>
+    <message>
+        <source>No blue disc in the picture</source>
+        <translation>Nessun dischetto blu nell’immagine</translation>
+    </message>
+    <message>
+        <source>No blue disc is to be seen</source>
+        <translation>Non si vede nessun dischetto blu</translation>
+    </message>
+    <message>
+        <source>Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc.</source>
+        <translation>I dischetti ci sono, e la mano è sotto la telecamera? Più luce aiuta; una stoffa blu scuro non è un dischetto.</translation>
+    </message>
+    <message>
+        <source>Looking for the markers…</source>
+        <translation>Ricerca dei marcatori…</translation>
+    </message>
+    <message>
+        <source>Click by hand</source>
+        <translation>Clic a mano</translation>
+    </message>
+    <message>
+        <source>Names to confirm</source>
+        <translation>Nomi da confermare</translation>
+    </message>
+    <message>
+        <source>Ready to measure</source>
+        <translation>Pronto a misurare</translation>
+    </message>
+    <message>
+        <source>Start measuring</source>
+        <translation>Inizia a misurare</translation>
+    </message>
+    <message>
+        <source>Correct names</source>
+        <translation>Correggi i nomi</translation>
+    </message>
+    <message>
+        <source>Start although &amp;doubtful</source>
+        <translation>Inizia benché &amp;dubbio</translation>
+    </message>
+</context>
+<context>
     <name>HandChart</name>
     <message>
         <source>{name} over the days</source>
@@ -10504,51 +10631,51 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Picture</source>
-        <translation>Immagine</translation>
+        <translation type="vanished">Immagine</translation>
     </message>
     <message>
         <source>Lay the hand flat and still</source>
-        <translation>Mettere la mano piatta e ferma</translation>
+        <translation type="vanished">Mettere la mano piatta e ferma</translation>
     </message>
     <message>
         <source>Palm down, fingers as straight as they go, forearm in line. Then take the picture.</source>
-        <translation>Palmo in giù, dita il più dritte possibile, avambraccio in linea. Poi scattare l’immagine.</translation>
+        <translation type="vanished">Palmo in giù, dita il più dritte possibile, avambraccio in linea. Poi scattare l’immagine.</translation>
     </message>
     <message>
         <source>Checks</source>
-        <translation>Controlli</translation>
+        <translation type="vanished">Controlli</translation>
     </message>
     <message>
         <source>Take the picture</source>
-        <translation>Scatta l’immagine</translation>
+        <translation type="vanished">Scatta l’immagine</translation>
     </message>
     <message>
         <source>Marker {number} of {asked}</source>
-        <translation>Marcatore {number} di {asked}</translation>
+        <translation type="vanished">Marcatore {number} di {asked}</translation>
     </message>
     <message>
         <source>Checking…</source>
-        <translation>Controllo…</translation>
+        <translation type="vanished">Controllo…</translation>
     </message>
     <message>
         <source>Good so far</source>
-        <translation>Finora bene</translation>
+        <translation type="vanished">Finora bene</translation>
     </message>
     <message>
         <source>1 marker to go</source>
-        <translation>manca 1 marcatore</translation>
+        <translation type="vanished">manca 1 marcatore</translation>
     </message>
     <message>
         <source>{count} markers to go</source>
-        <translation>mancano {count} marcatori</translation>
+        <translation type="vanished">mancano {count} marcatori</translation>
     </message>
     <message>
         <source>Start measuring · {left}</source>
-        <translation>Inizia a misurare · {left}</translation>
+        <translation type="vanished">Inizia a misurare · {left}</translation>
     </message>
     <message>
         <source>Checking the markers…</source>
-        <translation>Controllo dei marcatori…</translation>
+        <translation type="vanished">Controllo dei marcatori…</translation>
     </message>
     <message>
         <source>The hand lies flat and still, palm down. Fingers that stay bent are fine.</source>
@@ -10556,47 +10683,47 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Looking for the markers…</source>
-        <translation>Ricerca dei marcatori…</translation>
+        <translation type="vanished">Ricerca dei marcatori…</translation>
     </message>
     <message>
         <source>No blue disc in the picture</source>
-        <translation>Nessun dischetto blu nell’immagine</translation>
+        <translation type="vanished">Nessun dischetto blu nell’immagine</translation>
     </message>
     <message>
         <source>No blue disc is to be seen</source>
-        <translation>Non si vede nessun dischetto blu</translation>
+        <translation type="vanished">Non si vede nessun dischetto blu</translation>
     </message>
     <message>
         <source>Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc.</source>
-        <translation>I dischetti ci sono, e la mano è sotto la telecamera? Più luce aiuta; una stoffa blu scuro non è un dischetto.</translation>
+        <translation type="vanished">I dischetti ci sono, e la mano è sotto la telecamera? Più luce aiuta; una stoffa blu scuro non è un dischetto.</translation>
     </message>
     <message>
         <source>Click by hand</source>
-        <translation>Clic a mano</translation>
+        <translation type="vanished">Clic a mano</translation>
     </message>
     <message>
         <source>Names to confirm</source>
-        <translation>Nomi da confermare</translation>
+        <translation type="vanished">Nomi da confermare</translation>
     </message>
     <message>
         <source>All markers found</source>
-        <translation>Trovati tutti i marcatori</translation>
+        <translation type="vanished">Trovati tutti i marcatori</translation>
     </message>
     <message>
         <source>Ready to measure</source>
-        <translation>Pronto a misurare</translation>
+        <translation type="vanished">Pronto a misurare</translation>
     </message>
     <message>
         <source>Hold the hand in this position until the measuring begins.</source>
-        <translation>Tenere la mano in questa posizione finché inizia la misura.</translation>
+        <translation type="vanished">Tenere la mano in questa posizione finché inizia la misura.</translation>
     </message>
     <message>
         <source>Start measuring</source>
-        <translation>Inizia a misurare</translation>
+        <translation type="vanished">Inizia a misurare</translation>
     </message>
     <message>
         <source>Correct names</source>
-        <translation>Correggi i nomi</translation>
+        <translation type="vanished">Correggi i nomi</translation>
     </message>
     <message>
         <source>Click these again</source>
