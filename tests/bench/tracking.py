@@ -141,7 +141,7 @@ def _parts(pipeline: FramePipeline, frame: Frame, spy: Spy, whole: float, costs:
     pipeline(frame)
     part = {label: spy.cpu_since(label, before[label]) for label in spy.times}
     detection = part["narrow"] + part["wide"]
-    association, filtering = part["names"] + part["joint"], part["predict"] + part["update"]
+    association, filtering = part["names"], part["predict"]
     costs.detection.append(detection)
     costs.association.append(association)
     costs.filter.append(filtering)
@@ -167,9 +167,9 @@ def report(rounds: int) -> Iterator[str]:
     promised = f"nothing measured inside; promised: {MOST_MEDIAN_MS} ms"
     yield line("whole frame", costs.whole, plain, promised)
     yield line("- detection", costs.detection, plain, "the parts: the same frames tracked once more")
-    yield line("- association", costs.association, plain)
-    yield line("- filter", costs.filter, plain, "predict and update, all motion modes")
-    yield line("- surface", costs.surface, plain, "depth on the back of the hand: readings taken, and fitted")
+    yield line("- association", costs.association, plain, "with the update by the discs")
+    yield line("- filter", costs.filter, plain, "predict, and what the camera should see, all motion modes")
+    yield line("- surface", costs.surface, plain, "readings taken, error reset, fitted, and the update by it")
     yield line("- rest", costs.rest, plain, "what is left of the whole: angles, standard deviations, bookkeeping")
     yield line("search where expected", costs.narrow, plain)
     yield line("search of the whole picture", costs.wide + leaving.wide, plain)

@@ -81,7 +81,9 @@ def report(rounds: int, *, compare: bool = False) -> Iterator[str]:
     promised = f"promised: {MOST_MEDIAN_MS} ms, p95 {MOST_P95_MS} ms"
     yield line("whole frame", costs.whole, plain, f"nothing measured inside; {promised}")
     yield line("- detection", costs.detection, plain, "the parts: the same frames tracked once more")
-    yield line("- association", costs.association, plain, "of palm and fingers")
+    yield line(
+        "- association", costs.association, plain, "of the palm with the update by the discs, of fingers what is joint"
+    )
     yield line("- surface", costs.surface, plain, "depth on the back of the hand: readings taken, and fitted")
     yield line("- filter", costs.filter, plain, "what is left: predict, update, all motion modes, angles, their sd")
     if compare:
