@@ -313,10 +313,10 @@ def test_it_backs_up_by_itself_once_a_day_and_not_over_a_recording(
     backing.look()
     assert not backing._running, "the disk is not there"
     disk.mkdir()
-    monkeypatch.setattr(backing, "_is_recording", lambda: True)
+    monkeypatch.setattr(desktop.journey.way, "is_recording", lambda: True)
     backing.look()
     assert not backing._running
-    monkeypatch.setattr(backing, "_is_recording", lambda: False)
+    monkeypatch.setattr(desktop.journey.way, "is_recording", lambda: False)
     backing.look()
     qtbot.waitUntil(lambda: backing.last is not None and not backing._running)
     backing.look()
@@ -330,7 +330,7 @@ def test_it_backs_up_by_itself_once_a_day_and_not_over_a_recording(
 def test_lists_of_records_and_the_log(qtbot: QtBot, opened: Open, data: Path) -> None:
     desktop = opened(replace(Settings(), records=RecordsSettings(10)))
     lists = desktop.safe.lists
-    lists._today = lambda: date(2040, 1, 1)
+    desktop.journey.context.today = lambda: date(2040, 1, 1)
     lists.card.due_button.click()
     qtbot.waitUntil(lists.sheet.isVisible)
     assert [button.accessibleName() for button in lists.sheet.buttons] == ["Archive Linden 42", "Erase… Linden 42"]
