@@ -6608,6 +6608,10 @@
         <translation>Nichts ist verloren; Sitzungen nahe dieser Prüfung sagen, dass sie unsicher sind.</translation>
     </message>
     <message>
+        <source>The last back-up is of {day}.</source>
+        <translation>Letzte Sicherung: {day}.</translation>
+    </message>
+    <message>
         <source>Together</source>
         <translation>Zusammen</translation>
     </message>
@@ -7148,8 +7152,56 @@
         <translation>sie lässt sich nicht als Tabelle lesen: {why}</translation>
     </message>
     <message>
+        <source>not chosen yet</source>
+        <translation>noch nicht gewählt</translation>
+    </message>
+    <message>
         <source>not there now</source>
         <translation>jetzt nicht da</translation>
+    </message>
+    <message>
+        <source>{free} GB free</source>
+        <translation>{free} GB frei</translation>
+    </message>
+    <message>
+        <source>on the same disk as the data</source>
+        <translation>auf derselben Platte wie die Daten</translation>
+    </message>
+    <message>
+        <source>There is no back-up yet.</source>
+        <translation>Es gibt noch keine Sicherung.</translation>
+    </message>
+    <message>
+        <source>Every session is in it.</source>
+        <translation>Jede Sitzung ist darin.</translation>
+    </message>
+    <message>
+        <source>1 session is not in it.</source>
+        <translation>1 Sitzung ist nicht darin.</translation>
+    </message>
+    <message>
+        <source>{n} sessions are not in it.</source>
+        <translation>{n} Sitzungen sind nicht darin.</translation>
+    </message>
+    <message>
+        <source>The last back-up is {days} days old.</source>
+        <translation>Die letzte Sicherung ist {days} Tage alt.</translation>
+    </message>
+    <message>
+        <source>{when} · {n} sessions, {size} GB · read back and compared: all equal</source>
+        <translation>{when} · {n} Sitzungen, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
+    </message>
+    <message>
+        <source>{when} · 1 session, {size} GB · read back and compared: all equal</source>
+        <translation>{when} · 1 Sitzung, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
+    </message>
+    <message>
+        <source>Reminder after {days} days.</source>
+        <translation>Erinnerung nach {days} Tagen.</translation>
+    </message>
+    <message>
+        <source>It lies on the disk that holds the data: if that disk breaks, both are lost.</source>
+        <translation>Sie liegt auf der Platte mit den Daten: Geht diese kaputt, ist beides verloren.</translation>
     </message>
     <message>
         <source>only {time} s are in common: the shift of the clocks is not sure</source>
@@ -7703,51 +7755,51 @@
     </message>
     <message>
         <source>not chosen yet</source>
-        <translation>noch nicht gewählt</translation>
+        <translation type="vanished">noch nicht gewählt</translation>
     </message>
     <message>
         <source>not there now</source>
-        <translation>jetzt nicht da</translation>
+        <translation type="vanished">jetzt nicht da</translation>
     </message>
     <message>
         <source>{free} GB free</source>
-        <translation>{free} GB frei</translation>
+        <translation type="vanished">{free} GB frei</translation>
     </message>
     <message>
         <source>There is no back-up yet.</source>
-        <translation>Es gibt noch keine Sicherung.</translation>
+        <translation type="vanished">Es gibt noch keine Sicherung.</translation>
     </message>
     <message>
         <source>Every session is in it.</source>
-        <translation>Jede Sitzung ist darin.</translation>
+        <translation type="vanished">Jede Sitzung ist darin.</translation>
     </message>
     <message>
         <source>1 session is not in it.</source>
-        <translation>1 Sitzung ist nicht darin.</translation>
+        <translation type="vanished">1 Sitzung ist nicht darin.</translation>
     </message>
     <message>
         <source>{n} sessions are not in it.</source>
-        <translation>{n} Sitzungen sind nicht darin.</translation>
+        <translation type="vanished">{n} Sitzungen sind nicht darin.</translation>
     </message>
     <message>
         <source>The last back-up is {days} days old.</source>
-        <translation>Die letzte Sicherung ist {days} Tage alt.</translation>
+        <translation type="vanished">Die letzte Sicherung ist {days} Tage alt.</translation>
     </message>
     <message>
         <source>{when} · {n} sessions, {size} GB · read back and compared: all equal</source>
-        <translation>{when} · {n} Sitzungen, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
+        <translation type="vanished">{when} · {n} Sitzungen, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
     </message>
     <message>
         <source>{when} · 1 session, {size} GB · read back and compared: all equal</source>
-        <translation>{when} · 1 Sitzung, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
+        <translation type="vanished">{when} · 1 Sitzung, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
     </message>
     <message>
         <source>Reminder after {days} days.</source>
-        <translation>Erinnerung nach {days} Tagen.</translation>
+        <translation type="vanished">Erinnerung nach {days} Tagen.</translation>
     </message>
     <message>
         <source>none</source>
-        <translation>keine</translation>
+        <translation type="vanished">keine</translation>
     </message>
     <message>
         <source>Folder that holds the back-ups</source>
@@ -7775,15 +7827,15 @@
     </message>
     <message>
         <source>The last back-up is of {day}.</source>
-        <translation>Letzte Sicherung: {day}.</translation>
+        <translation type="vanished">Letzte Sicherung: {day}.</translation>
     </message>
     <message>
         <source>on the same disk as the data</source>
-        <translation>auf derselben Platte wie die Daten</translation>
+        <translation type="vanished">auf derselben Platte wie die Daten</translation>
     </message>
     <message>
         <source>It lies on the disk that holds the data: if that disk breaks, both are lost.</source>
-        <translation>Sie liegt auf der Platte mit den Daten: Geht diese kaputt, ist beides verloren.</translation>
+        <translation type="vanished">Sie liegt auf der Platte mit den Daten: Geht diese kaputt, ist beides verloren.</translation>
     </message>
     <message>
         <source>Sealed back-up</source>
@@ -7867,6 +7919,10 @@
     <message>
         <source>One file with everything, closed with a passphrase.</source>
         <translation>Eine Datei mit allem, mit einer Passphrase verschlossen.</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
     </message>
     <message>
         <source>{percent} %</source>

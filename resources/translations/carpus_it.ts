@@ -6596,6 +6596,10 @@
         <translation>Nulla è perso; le sedute vicine a questo controllo dicono di non essere sicure.</translation>
     </message>
     <message>
+        <source>The last back-up is of {day}.</source>
+        <translation>L’ultima copia è del {day}.</translation>
+    </message>
+    <message>
         <source>Together</source>
         <translation>Insieme</translation>
     </message>
@@ -7152,8 +7156,56 @@
         <translation>non si legge come tabella: {why}</translation>
     </message>
     <message>
+        <source>not chosen yet</source>
+        <translation>non ancora scelta</translation>
+    </message>
+    <message>
         <source>not there now</source>
         <translation>ora non c’è</translation>
+    </message>
+    <message>
+        <source>{free} GB free</source>
+        <translation>{free} GB liberi</translation>
+    </message>
+    <message>
+        <source>on the same disk as the data</source>
+        <translation>sullo stesso disco dei dati</translation>
+    </message>
+    <message>
+        <source>There is no back-up yet.</source>
+        <translation>Non c’è ancora nessuna copia.</translation>
+    </message>
+    <message>
+        <source>Every session is in it.</source>
+        <translation>Ogni seduta è compresa.</translation>
+    </message>
+    <message>
+        <source>1 session is not in it.</source>
+        <translation>1 seduta non è compresa.</translation>
+    </message>
+    <message>
+        <source>{n} sessions are not in it.</source>
+        <translation>{n} sedute non sono comprese.</translation>
+    </message>
+    <message>
+        <source>The last back-up is {days} days old.</source>
+        <translation>L’ultima copia è di {days} giorni fa.</translation>
+    </message>
+    <message>
+        <source>{when} · {n} sessions, {size} GB · read back and compared: all equal</source>
+        <translation>{when} · {n} sedute, {size} GB · riletta e confrontata: tutto uguale</translation>
+    </message>
+    <message>
+        <source>{when} · 1 session, {size} GB · read back and compared: all equal</source>
+        <translation>{when} · 1 seduta, {size} GB · riletta e confrontata: tutto uguale</translation>
+    </message>
+    <message>
+        <source>Reminder after {days} days.</source>
+        <translation>Promemoria dopo {days} giorni.</translation>
+    </message>
+    <message>
+        <source>It lies on the disk that holds the data: if that disk breaks, both are lost.</source>
+        <translation>Si trova sul disco che contiene i dati: se si rompe, si perdono entrambi.</translation>
     </message>
     <message>
         <source>only {time} s are in common: the shift of the clocks is not sure</source>
@@ -7703,51 +7755,51 @@
     </message>
     <message>
         <source>not chosen yet</source>
-        <translation>non ancora scelta</translation>
+        <translation type="vanished">non ancora scelta</translation>
     </message>
     <message>
         <source>not there now</source>
-        <translation>ora non c’è</translation>
+        <translation type="vanished">ora non c’è</translation>
     </message>
     <message>
         <source>{free} GB free</source>
-        <translation>{free} GB liberi</translation>
+        <translation type="vanished">{free} GB liberi</translation>
     </message>
     <message>
         <source>There is no back-up yet.</source>
-        <translation>Non c’è ancora nessuna copia.</translation>
+        <translation type="vanished">Non c’è ancora nessuna copia.</translation>
     </message>
     <message>
         <source>Every session is in it.</source>
-        <translation>Ogni seduta è compresa.</translation>
+        <translation type="vanished">Ogni seduta è compresa.</translation>
     </message>
     <message>
         <source>1 session is not in it.</source>
-        <translation>1 seduta non è compresa.</translation>
+        <translation type="vanished">1 seduta non è compresa.</translation>
     </message>
     <message>
         <source>{n} sessions are not in it.</source>
-        <translation>{n} sedute non sono comprese.</translation>
+        <translation type="vanished">{n} sedute non sono comprese.</translation>
     </message>
     <message>
         <source>The last back-up is {days} days old.</source>
-        <translation>L’ultima copia è di {days} giorni fa.</translation>
+        <translation type="vanished">L’ultima copia è di {days} giorni fa.</translation>
     </message>
     <message>
         <source>{when} · {n} sessions, {size} GB · read back and compared: all equal</source>
-        <translation>{when} · {n} sedute, {size} GB · riletta e confrontata: tutto uguale</translation>
+        <translation type="vanished">{when} · {n} sedute, {size} GB · riletta e confrontata: tutto uguale</translation>
     </message>
     <message>
         <source>{when} · 1 session, {size} GB · read back and compared: all equal</source>
-        <translation>{when} · 1 seduta, {size} GB · riletta e confrontata: tutto uguale</translation>
+        <translation type="vanished">{when} · 1 seduta, {size} GB · riletta e confrontata: tutto uguale</translation>
     </message>
     <message>
         <source>Reminder after {days} days.</source>
-        <translation>Promemoria dopo {days} giorni.</translation>
+        <translation type="vanished">Promemoria dopo {days} giorni.</translation>
     </message>
     <message>
         <source>none</source>
-        <translation>nessuna</translation>
+        <translation type="vanished">nessuna</translation>
     </message>
     <message>
         <source>Folder that holds the back-ups</source>
@@ -7775,15 +7827,15 @@
     </message>
     <message>
         <source>The last back-up is of {day}.</source>
-        <translation>L’ultima copia è del {day}.</translation>
+        <translation type="vanished">L’ultima copia è del {day}.</translation>
     </message>
     <message>
         <source>on the same disk as the data</source>
-        <translation>sullo stesso disco dei dati</translation>
+        <translation type="vanished">sullo stesso disco dei dati</translation>
     </message>
     <message>
         <source>It lies on the disk that holds the data: if that disk breaks, both are lost.</source>
-        <translation>Si trova sul disco che contiene i dati: se si rompe, si perdono entrambi.</translation>
+        <translation type="vanished">Si trova sul disco che contiene i dati: se si rompe, si perdono entrambi.</translation>
     </message>
     <message>
         <source>Sealed back-up</source>
@@ -7867,6 +7919,10 @@
     <message>
         <source>One file with everything, closed with a passphrase.</source>
         <translation>Un solo file con tutto, chiuso da una passphrase.</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>nessuna</translation>
     </message>
     <message>
         <source>{percent} %</source>

@@ -36,6 +36,7 @@ from carpus.ui.flow import ScreenContext
 from carpus.ui.messages.stop_card import Answer
 from carpus.ui.records.cards import BackupCard, BackupFacts
 from carpus.ui.records.passphrase_sheet import PassphraseSheet
+from carpus.ui.translate import tr
 
 LOOK_MS = 60_000
 
@@ -90,11 +91,15 @@ class BackingUp(QObject):
     def look_again(self) -> None:
         """Work out how it stands, and show it."""
         store = self._library.store
-        self._background.run(lambda: last_backup(store), self._take_last, self._context.messages.fault, self)
 
-    def _take_last(self, last: LastBackup | None) -> None:
-        self.last = last
-        self.card.show_facts(self._facts())
+        def show(last: LastBackup | None) -> None:
+            self.last = last
+            self.card.show_facts(self._facts())
+
+        self._background.run(lambda: last_backup(store), show, self._context.messages.fault, self)
+
+    def _facts(self) -> BackupFacts:
+        return backup_facts(self.last, self._settings, self._library.folder, self._now(), can_back_up=not self._running)
 
     def is_old(self) -> bool:
         """Whether a person should be reminded: back-ups are wanted, there is something to lose, and the last one is old
@@ -175,76 +180,30 @@ class BackingUp(QObject):
         self._keep(settings)
         self.card.show_facts(self._facts())
 
-    # --- how it stands ------------------------------------------------------------------------------------
-    def _facts(self) -> BackupFacts:
-        last, place, now = self.last, self._settings.folder, self._now()
-        there = bool(place) and Path(place).is_dir()
-        place_words, place_state = self.tr("not chosen yet"), "none"
-        if place:
-            place_state = "good" if there else "warn"
-            place_words = self.tr("not there now")
-            if there:
-                free = shutil.disk_usage(place).free / 1e9
-                place_words = self.tr("{free} GB free").format(free=f"{free:.0f}")
-                if on_same_disk(Path(place), self._library.folder):
-                    place_state, place_words = "warn", self.tr("on the same disk as the data")
-        if last is None:
-            headline, detail, more = self.tr("There is no back-up yet."), "", ""
-            old, beside = True, False
-        else:
-            days = (now.date() - last.made.astimezone(now.tzinfo).date()).days
-            age = numbers.days_ago(last.made.astimezone(now.tzinfo), now.date())
-            missing = {0: self.tr("Every session is in it."), 1: self.tr("1 session is not in it.")}
-            rest = missing.get(last.missing, self.tr("{n} sessions are not in it.").format(n=last.missing))
-            old = is_due(last.made, self._settings.remind_days, now)
-            beside = on_same_disk(Path(last.place), self._library.folder)
-            first = self.tr("The last back-up is {days} days old.").format(days=days)
-            headline = f"{first if days > 1 else self.tr('The last back-up is of {day}.').format(day=age)} {rest}"
-            facts = self.tr("{when} · {n} sessions, {size} GB · read back and compared: all equal")
-            if last.sessions == 1:
-                facts = self.tr("{when} · 1 session, {size} GB · read back and compared: all equal")
-            size = numbers.fixed(last.size_bytes / 1e9, 2) if last.size_bytes < 1e10 else f"{last.size_bytes / 1e9:.0f}"
-            detail = facts.format(when=numbers.report_date(last.made.astimezone()), n=last.sessions, size=size)
-            more = self.tr("Reminder after {days} days.").format(days=self._settings.remind_days)
-            if beside:
-                more = self.tr("It lies on the disk that holds the data: if that disk breaks, both are lost.")
-        return BackupFacts(
-            "warn" if old or beside else "good",
-            headline,
-            detail,
-            more,
-            place or self.tr("none"),
-            place_state,  # type: ignore[arg-type]
-            place_words,
-            not self._running,
-        )
-
     # --- the way back -------------------------------------------------------------------------------------
     def ask_restore(self) -> None:
         """Choose a folder with back-ups; what the newest would change is shown first."""
         title = self.tr("Folder that holds the back-ups")
         folder = QFileDialog.getExistingDirectory(self.card.window(), title, self._settings.folder)
         if folder:
-            self._background.run(
-                lambda: self._plan(*_newest(Path(folder))), lambda found: self._ask(*found), self._failed, self
-            )
+            self._read(lambda: _newest(Path(folder)))
 
     def ask_restore_sealed(self) -> None:
         """The same of a sealed file."""
         title = self.tr("Sealed back-up")
-        folder = str(self._sealed_in())
+        folder = str(_sealed_in(self._settings.folder))
         name, _ = QFileDialog.getOpenFileName(self.card.window(), title, folder, self.tr("Sealed files (*.age)"))
         if name:
-            self.passphrase.begin(
-                lambda typed: self._background.run(
-                    lambda: self._plan(*open_sealed(Path(name), typed)), lambda found: self._ask(*found), self._failed,
-                    self,
-                ),
-                seals=False,
-            )  # fmt: skip
+            self.passphrase.begin(lambda typed: self._read(lambda: open_sealed(Path(name), typed)), seals=False)
 
-    def _plan(self, backup: Backup, content: Content) -> tuple[Backup, Content, RestorePlan]:
-        return backup, content, plan_restore(backup, self._library.folder)
+    def _read(self, found: Callable[[], tuple[Backup, Content]]) -> None:
+        """A back-up, and what it would change; then it is asked about."""
+
+        def read() -> tuple[Backup, Content, RestorePlan]:
+            backup, content = found()
+            return backup, content, plan_restore(backup, self._library.folder)
+
+        self._background.run(read, lambda known: self._ask(*known), self._failed, self)
 
     def _ask(self, backup: Backup, content: Content, plan: RestorePlan) -> None:
         what = self.tr("Restore the back-up of {when}? {come} sessions come, {change} change, {go} go.")
@@ -285,17 +244,11 @@ class BackingUp(QObject):
         """Everything as one file with a passphrase, to be carried away."""
         if self._running:
             return
-        name = str(self._sealed_in() / f"carpus-{self._now():%Y-%m-%d}{ENDING}")
+        name = str(_sealed_in(self._settings.folder) / f"carpus-{self._now():%Y-%m-%d}{ENDING}")
         title = self.tr("Seal into one file")
         chosen, _ = QFileDialog.getSaveFileName(self.card.window(), title, name, self.tr("Sealed files (*.age)"))
         if chosen:
             self.passphrase.begin(lambda typed: self._seal(Path(chosen), typed), seals=True)
-
-    def _sealed_in(self) -> Path:
-        """Where a sealed file is looked for: beside the back-ups, else where a person keeps documents."""
-        place = Path(self._settings.folder)
-        documents = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
-        return place if self._settings.folder and place.is_dir() else Path(documents)
 
     def _seal(self, chosen: Path, passphrase: str) -> None:
         path = chosen if chosen.suffix == Path(ENDING).suffix else chosen.with_name(f"{chosen.name}{ENDING}")
@@ -323,8 +276,61 @@ class BackingUp(QObject):
         self._background.run(work, done, self._failed, self)
 
 
+def backup_facts(
+    last: LastBackup | None, settings: BackupSettings, data_folder: Path, now: datetime, *, can_back_up: bool
+) -> BackupFacts:
+    """How it stands, in words."""
+    place = settings.folder
+    there = bool(place) and Path(place).is_dir()
+    place_words, place_state = tr("not chosen yet"), "none"
+    if place:
+        place_state = "good" if there else "warn"
+        place_words = tr("not there now")
+        if there:
+            free = shutil.disk_usage(place).free / 1e9
+            place_words = tr("{free} GB free").format(free=f"{free:.0f}")
+            if on_same_disk(Path(place), data_folder):
+                place_state, place_words = "warn", tr("on the same disk as the data")
+    if last is None:
+        headline, detail, more = tr("There is no back-up yet."), "", ""
+        old, beside = True, False
+    else:
+        days = (now.date() - last.made.astimezone(now.tzinfo).date()).days
+        age = numbers.days_ago(last.made.astimezone(now.tzinfo), now.date())
+        missing = {0: tr("Every session is in it."), 1: tr("1 session is not in it.")}
+        rest = missing.get(last.missing, tr("{n} sessions are not in it.").format(n=last.missing))
+        old = is_due(last.made, settings.remind_days, now)
+        beside = on_same_disk(Path(last.place), data_folder)
+        first = tr("The last back-up is {days} days old.").format(days=days)
+        headline = f"{first if days > 1 else tr('The last back-up is of {day}.').format(day=age)} {rest}"
+        facts = tr("{when} · {n} sessions, {size} GB · read back and compared: all equal")
+        if last.sessions == 1:
+            facts = tr("{when} · 1 session, {size} GB · read back and compared: all equal")
+        size = numbers.fixed(last.size_bytes / 1e9, 2) if last.size_bytes < 1e10 else f"{last.size_bytes / 1e9:.0f}"
+        detail = facts.format(when=numbers.report_date(last.made.astimezone()), n=last.sessions, size=size)
+        more = tr("Reminder after {days} days.").format(days=settings.remind_days)
+        if beside:
+            more = tr("It lies on the disk that holds the data: if that disk breaks, both are lost.")
+    return BackupFacts(
+        "warn" if old or beside else "good",
+        headline,
+        detail,
+        more,
+        place,
+        place_state,  # type: ignore[arg-type]
+        place_words,
+        can_back_up,
+    )
+
+
 def _newest(place: Path) -> tuple[Backup, Content]:
     there = backups(place)
     if not there:
         raise BackupMissing(place)
     return there[0], content_of(place)
+
+
+def _sealed_in(folder: str) -> Path:
+    """Where a sealed file is looked for: beside the back-ups, else where a person keeps documents."""
+    documents = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
+    return Path(folder) if folder and Path(folder).is_dir() else Path(documents)

@@ -21,7 +21,8 @@ from carpus.ui.theme import Theme
 
 @dataclass(frozen=True, slots=True)
 class BackupFacts:
-    """How it stands: ``state`` good or warn, what is said of it in up to three lines, and where back-ups go."""
+    """How it stands: ``state`` good or warn, what is said of it in up to three lines, and where back-ups go, empty for
+    nowhere."""
 
     state: State
     headline: str
@@ -113,7 +114,7 @@ class BackupCard(Card):
         for text, words in ((self.headline, facts.headline), (self.detail, facts.detail), (self.more, facts.more)):
             text.setText(words)
             text.setVisible(bool(words))
-        self.place.setText(facts.place)
+        self.place.setText(facts.place or self.tr("none"))
         self.place_state.show_state(facts.place_state, facts.place_words)
         self.now_button.setEnabled(facts.can_back_up)
 
