@@ -847,7 +847,7 @@ class Gallery:
         screen = self._proposed()
         screen.naming.take_all()
         self.settle()
-        screen.straight.buttons[3].click()
+        screen.guidance.straight.buttons[3].click()
         self.settle()
 
     def markers_other_spot(self) -> None:
