@@ -40,36 +40,38 @@ COPY = "a copy of "
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
+class SeenFile:
     """A file as it was when it was looked at; ``reason`` why it is no session."""
 
     size: int
     changed_ns: int
     reason: str = ""
 
-    def is_still(self, now: Seen) -> bool:
+    def is_still(self, now: SeenFile) -> bool:
         """Whether a file that looks like ``now`` need not be read again."""
         return (self.size, self.changed_ns) == (now.size, now.changed_ns)
 
 
-def files_there(folder: Path) -> dict[Path, Seen]:
+def files_there(folder: Path) -> dict[Path, SeenFile]:
     """Every file of a folder that is named like a session, as it looks now."""
-    found: dict[Path, Seen] = {}
+    found: dict[Path, SeenFile] = {}
     for path in sorted(folder.rglob("*.h5")):
         try:
             state = path.lstat()
         except OSError:
             continue  # gone meanwhile
-        found[path] = Seen(state.st_size, state.st_mtime_ns, "" if stat.S_ISREG(state.st_mode) else "not a plain file")
+        found[path] = SeenFile(
+            state.st_size, state.st_mtime_ns, "" if stat.S_ISREG(state.st_mode) else "not a plain file"
+        )
     return found
 
 
-def remembered(store: Store) -> dict[str, Seen]:
+def remembered(store: Store) -> dict[str, SeenFile]:
     """What was looked at before, by path."""
-    return {str(row.path): Seen(row.size, row.changed_ns, row.reason) for row in store.rows(select(SEEN))}
+    return {str(row.path): SeenFile(row.size, row.changed_ns, row.reason) for row in store.rows(select(SEEN))}
 
 
-def stored(seen: Mapping[str, Seen]) -> Sequence[Insert]:
+def stored(seen: Mapping[str, SeenFile]) -> Sequence[Insert]:
     """What :meth:`Store.own` does to remember how files looked."""
     out = []
     for path, one in seen.items():
@@ -182,7 +184,7 @@ class ListedSessions:
         columns = _columns(self.stored_path(path), patient_id, outline)
         self._store.do([kept(SESSION, outline.header.session_id, **columns, by=by, archived=archived)])
         state = path.stat()
-        self._store.own(*stored({self.stored_path(path): Seen(state.st_size, state.st_mtime_ns)}))
+        self._store.own(*stored({self.stored_path(path): SeenFile(state.st_size, state.st_mtime_ns)}))
         return self.one(outline.header.session_id)
 
     def move(self, session_id: str, patient_id: str) -> None:
@@ -287,7 +289,7 @@ class FilesOfSessions:
         knows_all = self._store.knows_all()
         before, (there, nameless) = remembered(self._store), self._there()
         known = {row.path: row for row in self._store.rows(select(SESSION))}
-        now_seen: dict[str, Seen] = {}
+        now_seen: dict[str, SeenFile] = {}
         found: list[tuple[str, SessionOutline]] = []
         faults: list[CarpusFault] = []
         for path, look in there.items():
@@ -302,7 +304,7 @@ class FilesOfSessions:
             except SessionUnreadable as fault:
                 faults.append(fault)
                 if tells:
-                    now_seen[path] = Seen(look.size, look.changed_ns, fault.detail or "cannot be read")
+                    now_seen[path] = SeenFile(look.size, look.changed_ns, fault.detail or "cannot be read")
                 else:
                     del now_seen[path]
         if now_seen:  # of what has no name that can be kept nobody knows whether it was told
@@ -317,7 +319,7 @@ class FilesOfSessions:
         found: list[tuple[str, SessionOutline]],
         known: dict[str, Row[Any]],
         there: Iterable[str],
-        now_seen: dict[str, Seen],
+        now_seen: dict[str, SeenFile],
         *,
         knows_all: bool,
     ) -> tuple[int, int]:
@@ -335,7 +337,7 @@ class FilesOfSessions:
         for path, outline in sorted(found, key=lambda one: (one[0] not in known, -one[1].frames, one[0])):
             session_id = outline.header.session_id
             if place.get(session_id, path) != path:
-                now_seen[path] = Seen(now_seen[path].size, now_seen[path].changed_ns, f"{COPY}{place[session_id]}")
+                now_seen[path] = SeenFile(now_seen[path].size, now_seen[path].changed_ns, f"{COPY}{place[session_id]}")
                 continue
             place[session_id], subject = path, outline.header.subject_id.strip()
             of_practice = subject == PRACTICE or path.startswith(f"{PRACTICE}/")
@@ -366,7 +368,7 @@ class FilesOfSessions:
             self._store.do(change[start : start + AT_ONCE])
         return taken, added
 
-    def _there(self) -> tuple[dict[str, Seen], list[str]]:
+    def _there(self) -> tuple[dict[str, SeenFile], list[str]]:
         """Files named like sessions, but for those that are being erased; and those whose names cannot be kept."""
         going = {str(row[0]) for row in self._store.rows(select(SESSION.c.path).where(SESSION.c.erasing == 1))}
         found = {path.relative_to(self._folder).as_posix(): look for path, look in files_there(self._folder).items()}
@@ -384,7 +386,7 @@ class FilesOfSessions:
             except (OSError, ValueError, SessionUnreadable):
                 fresh.append(fault)
                 continue
-            look = Seen(state.st_size, state.st_mtime_ns, fault.detail or "cannot be read")
+            look = SeenFile(state.st_size, state.st_mtime_ns, fault.detail or "cannot be read")
             known = before.get(path)
             if known is None or not known.is_still(look):
                 fresh.append(fault)
@@ -399,7 +401,7 @@ class FilesOfSessions:
             path = self._folder / name
             if path.suffix == ".part" and path.is_file():
                 state = path.stat()
-                if look.is_still(Seen(state.st_size, state.st_mtime_ns)):
+                if look.is_still(SeenFile(state.st_size, state.st_mtime_ns)):
                     found.add(path)
         return found
 
