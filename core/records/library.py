@@ -36,7 +36,7 @@ from carpus.core.records.kept_sets import keep_set_up, last_set_up
 from carpus.core.records.log import By, Log, Notes, was_erased
 from carpus.core.records.of_sessions import MOST_CHARACTERS, MadeKind
 from carpus.core.records.patients import Patients
-from carpus.core.records.pictures import SessionPictures
+from carpus.core.records.pictures import ShownPictures
 from carpus.core.records.schema import PATIENT
 from carpus.core.records.session_list import FilesOfSessions, ListedSessions, free_path, look_for_share
 from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
@@ -108,7 +108,7 @@ class Library:
         self.log = Log(self.store, by, lambda: self.who())
         self.patients, self.index = Patients(self.store), ListedSessions(self.store)
         self.notes = Notes(self.log, self.index.owner, lambda fault: self.log_fault(fault))
-        self.pictures = SessionPictures()
+        self.pictures = ShownPictures()
         self._files = FilesOfSessions(self.store)
         if self.patients.one(PRACTICE_PATIENT).entry.pseudonym != practice_name:
             self.store.do([changed(PATIENT, PRACTICE_PATIENT, pseudonym=practice_name)])

@@ -18,7 +18,7 @@ KEPT_PICTURES = 2
 """Files of pictures that stay open: two sessions are looked at beside each other."""
 
 
-class SessionPictures:
+class ShownPictures:
     """Pictures of the sessions looked at last. May be used from several threads."""
 
     def __init__(self) -> None:
