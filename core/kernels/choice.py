@@ -10,6 +10,7 @@ import os
 import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -37,11 +38,11 @@ _C_TYPES = {
 }
 _BUFFERS = {number: _FFI.typeof(f"{name}[]") for number, name in _C_TYPES.items()}
 _FAULTS = {
-    1: np.linalg.LinAlgError("Matrix is not positive definite"),
-    2: MemoryError("no memory for a kernel"),
-    3: ValueError("a kernel was asked for what lies outside"),
+    1: partial(np.linalg.LinAlgError, "Matrix is not positive definite"),
+    2: partial(MemoryError, "no memory for a kernel"),
+    3: partial(ValueError, "a kernel was asked for what lies outside"),
 }
-"""By what a kernel returns: ``kernels.h``."""
+"""By what a kernel returns: ``kernels.h``. A new one each time: one raised again keeps the frames it came through."""
 _DECLARED = re.compile(r"^KERNEL int (\w+)\(([^;]*)\);", re.M)
 _SIZED = re.compile(r"(\w+)\[([^]]*)\]")
 """An argument that is an array, and how many numbers it has."""
@@ -112,7 +113,7 @@ def call({", ".join(names)}):
     except (TypeError, ValueError, KeyError, BufferError):  # one that is not stored row by row
         status = function({", ".join(f"as_c({name})" for name in names)})
     if status:
-        raise faults[status]
+        raise faults[status]()
 """
     types = {f"as_{name}": _BUFFERS[dtype] for dtype, name in _C_TYPES.items()}
     known = {"function": function, "nothing": NOTHING, "of_array": _FFI.from_buffer, "as_c": _as_c, "faults": _FAULTS}

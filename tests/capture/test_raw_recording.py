@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 import zlib
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -15,7 +16,7 @@ import numpy as np
 import pytest
 
 from carpus.core.camera import Camera
-from carpus.core.capture.files.raw import RawRecording, RawWriter, is_raw_recording
+from carpus.core.capture.files.raw import RawRecording, RawWriter, _record, is_raw_recording
 from carpus.core.capture.files.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
 from carpus.core.capture.source import SourceInfo
 from carpus.core.depth_sensor import D435
@@ -23,6 +24,7 @@ from carpus.core.errors import (
     CarpusFault,
     OutputExists,
     OutputNotWritable,
+    PictureSizeChanged,
     PicturesLost,
     RecordingEmpty,
     RecordingMissing,
@@ -266,6 +268,61 @@ def test_faults_of_the_reader(tmp_path: Path) -> None:
         path.write_bytes(data)
         with pytest.raises(RecordingUnreadable):
             RawRecording(path)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        {"fx_px": 0.0},
+        {"fy_px": float("nan")},
+        {"fx_px": "52"},
+        {"cx_px": float("inf")},
+        {"width_px": "64"},
+        {"height_px": -48},
+        {"distortion": [float("nan")] * 5},
+        {"distortion": "abcde"},
+        {"depth_unit_m": 0.0},
+        {"depth_unit_m": float("nan")},
+    ],
+)
+def test_a_head_that_no_camera_wrote_is_refused(tmp_path: Path, said: dict[str, object]) -> None:
+    path = write(tmp_path / "take.carpusraw", 2)
+    data = path.read_bytes()
+    size = struct.unpack_from("<I", data, 12 + 24)[0]
+    head = json.loads(data[44 : 44 + size])
+    (head if "depth_unit_m" in said else head["camera"]).update(said)
+    path.write_bytes(data[:12] + _record(b"HEAD", 0.0, 0, 0, json.dumps(head).encode(), b"") + data[44 + size :])
+    with pytest.raises(RecordingUnreadable, match="head"):
+        RawRecording(path)
+
+
+@pytest.mark.parametrize("what", ["color", "depth", "both"])
+def test_pictures_of_another_size_than_the_camera_are_refused(tmp_path: Path, what: str) -> None:
+    color, depth = color_picture(1), depth_picture(1)
+    if what != "depth":
+        color = np.ascontiguousarray(color[:24, :32])
+    if what != "color":
+        depth = np.ascontiguousarray(depth[:24, :32])
+    path = tmp_path / "take.carpusraw"
+    with RawWriter(path, INFO) as writer:
+        writer.append_frame(frames(1)[0])
+        writer.append_frame(Frame(1, 9.0, color, depth, 1e-3))
+    walk = RawRecording(path).frames()
+    assert_same(next(walk), next(RawRecording(path).frames()))
+    with pytest.raises(PictureSizeChanged):
+        next(walk)
+
+
+@pytest.mark.parametrize("time_s", [float("nan"), float("inf"), -float("inf"), -1.0])
+def test_a_frame_of_no_time_is_left_out_and_told(tmp_path: Path, time_s: float) -> None:
+    path, told = tmp_path / "take.carpusraw", []
+    written = frames(4)
+    with RawWriter(path, INFO) as writer:
+        for number, frame in enumerate(written):
+            writer.append_frame(replace(frame, timestamp_s=time_s) if number == 2 else frame)
+    read = list(RawRecording(path, notice=told.append).frames())
+    assert [frame.timestamp_s for frame in read] == [written[number].timestamp_s for number in (0, 1, 3)]
+    assert [type(fault) for fault in told] == [PicturesLost]
 
 
 @pytest.mark.parametrize("lossless", [False, True])

@@ -36,6 +36,7 @@ from carpus.core.errors import (
     DiskFull,
     OutputExists,
     OutputNotWritable,
+    PictureSizeChanged,
     PicturesLost,
     RecordingEmpty,
     RecordingMissing,
@@ -274,9 +275,11 @@ class RawRecording:
                 raise ValueError("a lens of no kind")
             camera["sensor"] = sensor_of(head["depth_sensor"]) if "depth_sensor" in head else ASSUMED_SENSOR
             self._depth_unit_m = float(head["depth_unit_m"])
+            lens = Camera(**camera)
+            _check(lens, self._depth_unit_m)
             self._info = SourceInfo(
                 str(head["name"]),
-                Camera(**camera),
+                lens,
                 bool(head["has_depth"]) and any(entry.depth_size for entry in self._entries),
                 len(self._entries),
                 float(head["nominal_fps"]),
@@ -302,20 +305,24 @@ class RawRecording:
         """As :meth:`frames`, each unpacked only where somebody looks."""
         lost = missing = index = 0
         last_s = -math.inf
+        camera = self._info.camera
+        size_px = (camera.width_px, camera.height_px)
         with self._path.open("rb") as file:
             for entry in self._entries:
                 pictures = _read(file, entry)
-                if not pictures or entry.timestamp_s <= last_s:
+                if not pictures or not last_s < entry.timestamp_s < math.inf:
                     lost += 1
                     missing += 1 + entry.dropped_before
                     continue
-                depth = None
+                color, depth = self._color(pictures, entry), None
                 if entry.depth_size:
                     depth = Tiled(self._path, pictures[entry.color_size :], _NO_DEPTH, decode_depth)
+                if color.size_px != size_px or (depth is not None and depth.size_px != size_px):
+                    raise PictureSizeChanged(self._path)
                 yield PackedFrame(
                     index,
                     entry.timestamp_s,
-                    self._color(pictures, entry),
+                    color,
                     depth,
                     self._depth_unit_m,
                     entry.dropped_before + missing,
@@ -388,6 +395,15 @@ def _index(path: Path, file: BinaryIO) -> tuple[Mapping[str, Any], list[_Entry],
             entries.append(entry)
         position = end
     return head, entries, False
+
+
+def _check(camera: Camera, depth_unit_m: float) -> None:
+    """Raises ``TypeError`` or ``ValueError`` for what no camera is."""
+    if not all(map(math.isfinite, (camera.cx_px, camera.cy_px, *camera.distortion))):
+        raise ValueError("no camera's middle or lens")
+    sizes = (camera.fx_px, camera.fy_px, camera.width_px, camera.height_px, depth_unit_m)
+    if not all(0.0 < size < math.inf for size in sizes):
+        raise ValueError("no camera's size")
 
 
 def _json(path: Path, data: bytes) -> Mapping[str, Any]:

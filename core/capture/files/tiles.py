@@ -57,7 +57,7 @@ class Tiled(Generic[AnyImage]):
             raise self._damaged()
         width, height = _SIZE.unpack_from(data)
         shape = (height, width, *blank.shape[2:])
-        if math.prod(shape) * blank.itemsize > MOST_BYTES:
+        if not 0 < math.prod(shape) * blank.itemsize <= MOST_BYTES:
             raise self._damaged()
         self._tiles = _tiles(width, height)
         self._columns = -(-width // SIDE_PX)
@@ -73,9 +73,15 @@ class Tiled(Generic[AnyImage]):
         given.flags.writeable = False
         self._given: AnyImage = given
 
+    @property
+    def size_px(self) -> tuple[int, int]:
+        """Width and height."""
+        height, width = self._picture.shape[:2]
+        return width, height
+
     def seen(self, part: Region | None) -> AnyImage:
         """The picture, read-only, unpacked at least within ``part``, or all of it."""
-        height, width = self._picture.shape[:2]
+        width, height = self.size_px
         part = Region(0, 0, width, height) if part is None else part.clipped(width, height)
         for row in range(part.top // SIDE_PX, -(-part.bottom // SIDE_PX)):
             for column in range(part.left // SIDE_PX, -(-part.right // SIDE_PX)):
