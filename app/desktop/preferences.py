@@ -22,7 +22,6 @@ from carpus.app.settings import (
 from carpus.core.errors import CarpusFault
 from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.records.values import BackupSettings
-from carpus.core.results.report_form import ReportSettings
 from carpus.ui.ports import Preferences
 from carpus.ui.settings.flow import SettingsFlow
 from carpus.ui.theme import Theme, ThemeName
@@ -81,7 +80,12 @@ class PreferenceKeeper(QObject):
             self._settings,
             screen=ScreenSettings(chosen.theme, chosen.text_scale, chosen.keys, chosen.language, chosen.research),
             recording=recording,
-            report=ReportSettings(chosen.therapist, chosen.angle_order, chosen.agreement_limit_deg),
+            report=replace(
+                self._settings.report,
+                therapist=chosen.therapist,
+                angle_order=chosen.angle_order,
+                agreement_limit_deg=chosen.agreement_limit_deg,
+            ),
             stream=StreamSettings(chosen.stream),
             patient=PatientSettings(chosen.patient_sound),
         )

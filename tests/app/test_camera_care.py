@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from PySide6.QtCore import QLocale, Qt
@@ -24,9 +25,10 @@ from carpus.core.capture.calibrated import stored_calibration
 from carpus.core.capture.source import FrameSource, Notice
 from carpus.core.errors import CameraLost
 from carpus.core.simulation import practice_camera
+from carpus.ui.camera_calibration import flow
 from carpus.ui.messages.stop_card import StopCard
 from carpus.ui.settings.camera_card import CameraCard
-from tests.ui.camera_fakes import camera_checks
+from tests.ui.camera_fakes import board_result, camera_checks
 
 FEW = 12
 pytestmark = pytest.mark.timeout(600)
@@ -128,6 +130,22 @@ def test_from_the_settings_over_board_and_card_to_their_pages(
     assert told
     desktop.close()
     assert len(read_checks(chart_path(practice, practice_camera.PRACTICE_SERIAL))) == 1
+
+
+def test_who_left_while_a_calibration_is_written_is_not_sent_to_the_card(
+    qtbot: QtBot, desktop: Desktop, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """There whoever is open is closed, and what is recorded of them ends."""
+    journey, written = desktop.journey, threading.Event()
+    monkeypatch.setattr(flow, "keep_calibration", lambda *_: written.wait(60.0))
+    journey.board.show()
+    monkeypatch.setattr(journey.board, "_session", SimpleNamespace(info=SimpleNamespace(settings={})))
+    journey.board.screen.show_result(board_result())
+    journey.board.screen.result.use_button.click()
+    journey.patients.show()
+    written.set()
+    qtbot.waitUntil(lambda: not journey.background.busy)
+    assert journey.place == "patients"
 
 
 def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from carpus.app.compose import Desktop
 from carpus.app.settings import (
     PREFERENCES_FILE,
     SETTINGS_FILE,
@@ -114,3 +116,10 @@ def test_the_data_folder_is_the_users_own_unless_named(own_folders: Path, monkey
     assert load_settings().data_folder == Path("/clinic")
     monkeypatch.setenv("CARPUS_DATA", "/elsewhere")
     assert load_settings().data_folder == Path("/elsewhere")
+
+
+def test_what_the_window_does_not_show_stays_as_a_file_said(open_desktop: Callable[..., Desktop]) -> None:
+    desktop = open_desktop(Settings(screen=ScreenSettings("light"), report=ReportSettings("AB", retest_days=14)))
+    desktop.keeper.screen.patient_sound.buttons()[1].click()
+    assert desktop.journey.context.patient_sound
+    assert desktop.journey.context.report == ReportSettings("AB", retest_days=14)

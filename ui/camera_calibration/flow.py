@@ -186,7 +186,8 @@ class BoardFlow(AtCameraFlow):
 
         def kept(_: object) -> None:
             self.context.camera.read()
-            self.context.way.show("card", result.simulated)  # it shows at once whether the camera is right now
+            if self.context.way.behind == self.place:  # who has left while the disk was written stays where they are
+                self.context.way.show("card", result.simulated)  # it shows at once whether the camera is right now
 
         self.run(lambda: keep_calibration(folder, result.made, stored), kept)
 
