@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import math
+import threading
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.calibration.result import CalibrationFinding
+from carpus.core.calibration.result import CalibrationFinding, Clicks
 from carpus.core.hand.protocols import HAND21, WRIST6
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.language import speaking
 from carpus.ui.markers.clicking import Clicking
 from carpus.ui.markers.screen import MarkersScreen
-from carpus.ui.ports import ProposedMarker
+from carpus.ui.ports import Judged, ProposedMarker
 from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeCalibrator
 from tests.ui.geometry import painted_texts
@@ -119,6 +120,30 @@ def test_markers_of_the_last_source_are_not_judged_on_the_next(qtbot: QtBot, scr
     assert screen.clicking is None or not screen.clicking.pixel
     qtbot.wait(50)
     assert not following.judged
+
+
+def test_what_is_still_worked_out_of_one_picture_measures_no_other(
+    qtbot: QtBot, screen: MarkersScreen, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calibrator, asked, worked_out = FakeCalibrator(is_live=True), threading.Event(), threading.Event()
+    calibrator.not_found = ()
+
+    def judge(clicks: Clicks, angles: np.ndarray) -> Judged:
+        asked.set()
+        worked_out.wait(60.0)
+        return FakeCalibrator().judge(clicks, angles)
+
+    monkeypatch.setattr(calibrator, "judge", judge)
+    screen.begin(calibrator)
+    screen.accept()
+    qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed))
+    screen.primary.click()
+    qtbot.waitUntil(asked.is_set)
+    screen.preview()
+    worked_out.set()
+    qtbot.waitUntil(lambda: not screen.naming._background.busy)
+    assert screen.naming.work == "aiming"
+    assert calibrator.begun is None
 
 
 def test_a_click_beside_every_disc_sets_nothing_and_says_so(qtbot: QtBot, screen: MarkersScreen) -> None:

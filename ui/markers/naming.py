@@ -48,8 +48,11 @@ class Naming(QObject):
         self.aim()
 
     def aim(self) -> None:
-        """On a live picture: nothing has a name."""
+        """On a live picture: nothing has a name, and what is still worked out of the last one counts no more."""
         self.clicking = self.outcome = None
+        self._judging += 1
+        self._proposing += 1
+        self.waits = False
 
     def hold(self) -> Frame:
         """Fix the picture; the program proposes names."""
