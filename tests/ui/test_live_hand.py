@@ -153,6 +153,9 @@ def test_a_hidden_trained_joint_has_no_number_and_does_not_count_as_best(qtbot: 
     screen._show_values()
     assert math.isnan(screen.number.reading.value_deg)
     assert screen.number.reading.best_positive_deg < 10.0  # by then the finger is bent by 75 degrees
+    assert screen.recording.count is not None
+    screen.recording.count.best_negative_deg = -4.0
+    assert math.isnan(screen.readings.now(screen.number.reading).best_negative_deg), "no mark for a finger laid flat"
     assert screen.number.reading.best_at_least
     assert "no value" not in screen.number.movement()
 

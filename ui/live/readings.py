@@ -49,8 +49,9 @@ class Readings:
             repetition_running=recording.state == "recording" and recording.repetitions < asked,
         )  # fmt: skip
         if count is not None and own:
+            backwards_deg = count.best_negative_deg if figure is None else math.nan  # no joint trains beyond straight
             reading = replace(
-                reading, best_positive_deg=count.best_positive_deg, best_negative_deg=count.best_negative_deg,
+                reading, best_positive_deg=count.best_positive_deg, best_negative_deg=backwards_deg,
                 best_at_least=count.best_at_least,
             )  # fmt: skip
         return self.with_targets(reading)
