@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import time
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,7 @@ from tests.pipeline.live_fakes import HeldSource
 from tests.records.samples import record
 from tests.session.samples import CAMERA, CREATED, make_calibration, make_frame, make_header
 
-INFO = SourceInfo("x", DEFAULT_CAMERA, False, None, 30.0, {})
+INFO = SourceInfo("x", replace(DEFAULT_CAMERA, width_px=64, height_px=48), False, None, 30.0, {})
 
 
 def picture(row: int) -> Frame:

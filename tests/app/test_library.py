@@ -78,8 +78,8 @@ def test_practice_is_never_among_the_patients(library: Library) -> None:
         store(library, set_up(linden, "Linden 42")),
     )
     assert [row.pseudonym for row in shelf.patients()] == ["Linden 42"]
-    assert [row.session_id for row in shelf.sessions(linden)] == [measured]
-    assert [row.session_id for row in shelf.sessions(PRACTICE_PATIENT)] == [practice]
+    assert [row.session_id for row in library.sessions(linden)] == [measured]
+    assert [row.session_id for row in library.sessions(PRACTICE_PATIENT)] == [practice]
     assert len(library.session(practice)) == 40
 
 

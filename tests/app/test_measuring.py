@@ -27,7 +27,7 @@ from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import SPOT_SAID, Detections, Frame, SpotAnswer
+from carpus.core.types import SPOT_SAID, Detections, Frame, Region, SpotAnswer
 from tests.pipeline.live_fakes import HeldSource, wait_until
 from tests.session.samples import make_header
 from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
@@ -53,8 +53,8 @@ class Blobs:
     def detect(self, frame: Frame, _region: object = None) -> Detections:
         return self._blobs[frame.index]
 
-    def region_about(self, *_: object) -> object:
-        return object()
+    def region_about(self, *_: object) -> Region:
+        return Region(0, 0, CAMERA.width_px, CAMERA.height_px)
 
 
 def frames() -> Iterator[Frame]:
