@@ -7,10 +7,10 @@ import pytest
 
 from carpus.core.detection.surface_samples import SamplingSettings
 from carpus.core.pipeline.frame_pipeline import FramePipeline
-from carpus.core.tracking import palm_association
+from carpus.core.tracking import hand_filter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, Frame
+from carpus.core.types import Detections, Frame, Region
 from tests.bench import reference
 from tests.bench.timing import HEAD, line
 from tests.bench.tracking import spied
@@ -38,22 +38,21 @@ def test_the_spy_measures_the_parts_of_a_frame_and_leaves_no_trace() -> None:
         def detect(self, _frame: Frame, _region: object = None) -> Detections:
             return blobs(Pose())
 
-        def region_about(self, *_: object) -> object:
-            return object()
+        def region_about(self, *_: object) -> Region:
+            return Region(0, 0, 1, 1)
 
     pipeline = FramePipeline(Blobs(), Tracker(calibration(), CAMERA, TrackerSettings()), SamplingSettings())  # type: ignore[arg-type]
-    true = palm_association.corrected
+    true = hand_filter.associate_and_update
     with spied(pipeline) as spy:
         for index in range(5):
             pipeline(Frame(index, index / 30.0, np.zeros((1, 1, 3), np.uint8), None, 1e-3))
-        assert palm_association.corrected is not true
-    assert palm_association.corrected is true
+        assert hand_filter.associate_and_update is not true
+    assert hand_filter.associate_and_update is true
     assert spy.calls("narrow") == 5
-    assert spy.calls("update") >= 5
     assert spy.calls("names") >= 5
-    assert spy.calls("predict") == 4  # nothing moves before the first frame
-    assert spy.calls("forecast") == 5  # once for each: what the search expects, its blobs are named by
-    assert spy.cpu_since("update", 0) > 0.0
+    assert spy.calls("predict") == 5  # once for each: what the search expects, its blobs are named by
+    assert spy.calls("surface") == 10  # the readings, and the update by them
+    assert spy.cpu_since("names", 0) > 0.0
 
 
 def test_a_row_of_the_table_tells_median_percentile_and_ratio() -> None:
