@@ -116,6 +116,10 @@ class Flow(QObject):
     def close(self) -> None:
         """The window closes: what runs ends, and is waited for."""
 
+    def asks_before_closing(self) -> bool:
+        """Ask the person where something would be lost or end with the window; False where nothing would."""
+        return False
+
     @property
     def is_at_work(self) -> bool:
         """Whether something is worked on here that would end with the window."""

@@ -121,6 +121,7 @@ class Journey(QObject):
         shell, bar, way = self._shell, self._shell.bar, self.way
         shell.set_keys({name: keys[name] for name in ALL_KEYS})
         shell.key.connect(self._take_key)
+        shell.asks_before_closing = lambda: any(flow.asks_before_closing() for flow in way.flows.values())
         bar.back.connect(way.back)
         bar.tab.connect(self.take_tab)
         bar.step.connect(lambda number: self._go_to_step(STEPS[number]))

@@ -28,6 +28,10 @@ class Told:
         self.faults: list[Exception] = []
         self.shown: list[tuple[object, ...]] = []
 
+    @property
+    def behind(self) -> str:
+        return self.place
+
     def put(self, flow: object) -> None:
         """Nobody looks it up."""
 

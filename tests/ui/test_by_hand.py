@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from datetime import timedelta
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 from PySide6.QtCore import Qt
@@ -23,6 +25,7 @@ from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.ports import PatientRow
 from carpus.ui.progress.tables import write_tables
 from carpus.ui.report.pdf import progress_report, session_report, write_progress_report, write_session_report
+from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import NOW, FakeSessions, hand_values
@@ -137,10 +140,13 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     patient = library.patients.add(PatientEntry("Linden 42", "left"))
     told, window = Told("progress", answer=0), QWidget()
     qtbot.addWidget(window)
+    closed: list[str] = []
+    shell = SimpleNamespace(close_surely=lambda: closed.append("closed"))
     context = a_context(theme, window, told, background, library=library)
     now = context.now
     now.patient = PatientRow(patient, "Linden 42", "left")
     flow = ByHandFlow(context)
+    context.shell = cast("Shell", shell)
     screen = flow.screen
     qtbot.addWidget(screen)
     screen.show()
@@ -167,8 +173,12 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
         flow.show()
         qtbot.waitUntil(lambda person=person: screen.record.patient_id == person, timeout=60_000)
         assert screen.form.rows["FLEXION"].fields[0][1].text() == written, name
-    flow.up()
+    assert flow.asks_before_closing(), "what is written would be lost with the window"
     assert told.asked[1:] == ["Leave without saving?"]
+    assert closed == ["closed"], "let go of, the window closes"
+    flow.up()
+    assert told.asked[1:] == ["Leave without saving?"] * 2
+    assert not flow.asks_before_closing(), "nothing is left to be lost"
     assert not told.faults
     assert [entry.did for entry in read_log(library.store)] == ["entered_by_hand"] * 2
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 
@@ -41,6 +41,16 @@ class ByHandFlow(Flow):
         if not self.screen.has_unsaved:
             self._back()
             return
+        self._ask_to_leave(self._let_go)
+
+    def asks_before_closing(self) -> bool:
+        """The form is open, and what is written in it would be lost with the window."""
+        if self.context.way.behind != self.place or not self.screen.has_unsaved:
+            return False
+        self._ask_to_leave(self.context.shell.close_surely)
+        return True
+
+    def _ask_to_leave(self, let_go: Callable[[], None]) -> None:
         self.context.messages.ask(
             Words(
                 self.tr("Leave without saving?"),
@@ -48,7 +58,7 @@ class ByHandFlow(Flow):
                 self.tr("Save them, or let them go."),
             ),
             (
-                Answer(self.tr("Let them go"), self._let_go, "L", risky=True),
+                Answer(self.tr("Let them go"), let_go, "L", risky=True),
                 Answer(self.tr("Back to the form"), lambda: None),
             ),
             icon="file-text",

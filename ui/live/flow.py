@@ -36,7 +36,6 @@ class LiveFlow(Flow):
         recording.hasty.connect(self._ask_hasty)
         context.way.leaving.connect(self._leaving)
         context.opener.closing.connect(self._source_closes)
-        context.shell.asks_before_closing = self.asks_before_closing
 
     @property
     def is_recording(self) -> bool:
