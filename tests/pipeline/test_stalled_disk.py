@@ -6,6 +6,7 @@ import os
 import threading
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -182,7 +183,9 @@ def test_pictures_go_on_elsewhere_with_the_one_that_hung(tmp_path: Path) -> None
             super().append_frame(frame)
 
     (tmp_path / "share").mkdir()
-    info = SourceInfo("x", DEFAULT_CAMERA, False, None, 30.0, {})
+    height_px, width_px = picture(0).color_rgb.shape[:2]
+    camera = replace(DEFAULT_CAMERA, width_px=width_px, height_px=height_px)
+    info = SourceInfo("x", camera, False, None, 30.0, {})
     told: list[Exception] = []
     recorder = Recorder(
         "pictures",
