@@ -7,7 +7,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 SHAPING = ("hand", "detection", "calibration", "tracking")
-"""Packages of core between the pictures and the stored angles."""
+"""Packages of core between the pictures and the stored angles; not the folders in them, which measure the camera."""
 
 NO_CHOICE = {
     "what keeps numbers finite, far from any that counts": {
@@ -131,7 +131,7 @@ def test_what_shapes_a_number_lies_in_settings() -> None:
     found = {
         f"{path.relative_to(ROOT / 'core').with_suffix('').as_posix()}.{name}"
         for package in SHAPING
-        for path in sorted((ROOT / "core" / package).rglob("*.py"))
+        for path in sorted((ROOT / "core" / package).glob("*.py"))
         for name in shaping_numbers(path)
     }
     told = set().union(*NO_CHOICE.values())
