@@ -32,7 +32,7 @@ from carpus.core.pipeline.pieces import TrackedHand
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, Frame, TrackedFrame
+from carpus.core.types import Detections, Frame, Region, TrackedFrame
 from tests.capture.oni_samples import color_picture
 from tests.capture.played import PlayedSource
 from tests.pipeline.live_fakes import tracked
@@ -53,8 +53,8 @@ class Blobs:
     def detect(self, frame: Frame, _region: object = None) -> Detections:
         return self._blobs[frame.index % BLOBS]
 
-    def region_about(self, *_: object) -> object:
-        return object()
+    def region_about(self, *_: object) -> Region:
+        return Region(0, 0, CAMERA.width_px, CAMERA.height_px)
 
 
 class Camera:
