@@ -241,7 +241,8 @@ def test_a_risky_answer_is_never_the_default(theme: Theme, host: QWidget) -> Non
 
 def _cards() -> Iterator[tuple[str, list[ast.Call]]]:
     """The answers of every card that the program shows, as written."""
-    for path in sorted((Path(__file__).parents[2] / "app").rglob("*.py")):
+    root = Path(__file__).parents[2]
+    for path in sorted((*root.glob("app/**/*.py"), *root.glob("ui/**/*.py"))):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Tuple | ast.List):
                 calls = [
