@@ -79,6 +79,7 @@ from carpus.ui.theme import Theme, ThemeName
 from carpus.ui.welcome.panel import Check, WelcomePanel
 from tests.moments import with_moment
 from tests.ui.camera_fakes import board_progress, board_result, camera_checks, card_progress
+from tests.ui.fake_shelf import FakeShelf
 from tests.ui.fakes import (
     NOW,
     FakeCalibrator,
@@ -86,7 +87,6 @@ from tests.ui.fakes import (
     FakeFeed,
     FakeMeasuring,
     FakeSessions,
-    FakeShelf,
     FakeStore,
     LateFeed,
     clinic,
@@ -529,7 +529,10 @@ class Gallery:
             bar.pill.show_state("paused", 84.0)
             bar.show_recording(False)
             card = StopCard(screen.stage, self.theme)
-            answers = [Answer("Check camera", lambda: None, "C"), Answer("Stop and review", screen.stop, "Space")]
+            answers = [
+                Answer("Check camera", lambda: None, "C"),
+                Answer("Stop and review", screen.recording.stop, "Space"),
+            ]
             card.show_words(
                 LOST, answers, icon="unplug", detail="Recording paused by itself at 01:24.",
                 safe_detail="All 1 min 24 s and 3 full repetitions.",

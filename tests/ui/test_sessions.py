@@ -13,7 +13,7 @@ from carpus.ui.sessions import listing
 from carpus.ui.sessions.listing import cells
 from carpus.ui.sessions.screen import SessionsScreen
 from carpus.ui.theme import Theme
-from tests.ui.fakes import FakeShelf
+from tests.ui.fake_shelf import FakeShelf
 
 
 @pytest.fixture

@@ -51,7 +51,7 @@ class OnPicture:
         if set_up.protocol.has_fingers:
             skeleton.paint_skeleton(painter, frame, set_up.protocol, camera, picture.to_screen, picture.scale)
             if self._side_on and self.figure is not None:
-                name = tr("Side · {finger}").format(finger=inside(long_finger_name(str(self.figure.finger))))
+                name = _side_name(str(self.figure.finger))
                 skeleton.paint_side(
                     painter, self._theme, frame, set_up.protocol, self.figure.finger, name, QRectF(picture.rect()),
                     set_up.side,
@@ -73,3 +73,7 @@ class OnPicture:
         now = doubt_of(frame, measuring.calibration.clicks.protocol.markers, measuring.camera)
         if now is not None and now.marker == asked.marker and now.has_spot and now.hidden == asked.hidden:
             paint_question(painter, self._theme, now, picture, QRectF(self._question.geometry()))
+
+
+def _side_name(finger: str) -> str:
+    return tr("Side · {finger}").format(finger=inside(long_finger_name(finger)))

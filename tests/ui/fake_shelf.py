@@ -1,0 +1,52 @@
+"""A list of sessions without files; apart from the other fakes, which load no widgets."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from datetime import datetime, timedelta
+
+from carpus.ui.sessions.flow import SessionShelf
+from carpus.ui.sessions.listing import SessionLine
+
+
+class FakeShelf(SessionShelf):
+    """A list of sessions that remembers what was done with it."""
+
+    def __init__(self, count: int = 6) -> None:
+        start = datetime(2026, 11, 20, 11, 30)
+        self.all = [
+            SessionLine(f"s{number}", start - timedelta(days=3 * number), "WRIST_FE", "right", 84.0, number != 3)
+            for number in range(count)
+        ]
+        self.done: list[tuple[str, ...]] = []
+
+    def lines(self, patient_id: str) -> list[SessionLine]:
+        return list(self.all)
+
+    def with_figures(self, line: SessionLine) -> SessionLine:
+        number = int(line.session_id[1:])
+        if number == 4:
+            return replace(line, damaged=True)
+        words = "mean of 9 repetitions; number 7 left out: pain"
+        return replace(line, figure=f"Flexion {57 - 3 * number}° ± 2°", counted="9 / 10", counted_words=words)
+
+    def other_patients(self, patient_id: str) -> list[tuple[str, str]]:
+        return [("heron", "Heron 17"), ("alder", "Alder 51")]
+
+    def archived(self, patient_id: str) -> int:
+        return 0
+
+    def _change(self, session_id: str, **values: object) -> None:
+        self.all = [replace(one, **values) if one.session_id == session_id else one for one in self.all]  # type: ignore[arg-type]
+
+    def set_aside(self, session_id: str, reason: str) -> None:
+        self.done.append(("aside", session_id, reason))
+        self._change(session_id, set_aside=reason)
+
+    def move(self, session_id: str, patient_id: str) -> None:
+        self.done.append(("move", session_id, patient_id))
+        self.all = [one for one in self.all if one.session_id != session_id]
+
+    def rename_exercise(self, session_id: str, exercise: str) -> None:
+        self.done.append(("rename", session_id, exercise))
+        self._change(session_id, exercise=exercise)
