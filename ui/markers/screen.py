@@ -47,6 +47,7 @@ class MarkersScreen(QWidget):
         self.picture = MarkerPicture(theme)
         self.last = LastPicture(theme, self.picture)
         self.guidance = Guidance(theme)
+        self._is_fitting = False
         self.bubble, self.primary, self.second = self.guidance.bubble, self.guidance.primary, self.guidance.second
         self.start_angle = Button(theme, self.tr("Wrist cannot lie straight…"), "quiet", height_px=32)
         self.although = Button(theme, self.tr("Start although &doubtful"), "quiet", height_px=32)
@@ -107,12 +108,19 @@ class MarkersScreen(QWidget):
 
     def _fit(self) -> None:
         """Room for two lines and the buttons whether they are there or not: the picture keeps its height too."""
+        if self._is_fitting:  # what is shown meanwhile lays the screen out, which asks again
+            return
+        self._is_fitting = True
         narrow = self.width() - self._theme.px(COLUMN_PX) - 3 * MARGIN_PX < BESIDE_PX * self._theme.text_scale
         direction = QBoxLayout.Direction.TopToBottom if narrow else QBoxLayout.Direction.LeftToRight
         self._below_row.setDirection(direction)
         self._below.setFixedHeight(self._theme.px(TWO_LINES_PX + (BUTTONS_PX if narrow else 0)))
         clicks = self.clicking is not None and not self.clicking.complete
-        self.guidance.fit(self.height(), clicks=clicks, judged=self.naming.outcome is not None)
+        height_px = self.height()
+        self.guidance.fit(height_px, clicks=clicks, judged=self.naming.outcome is not None)
+        self._is_fitting = False
+        if self.height() != height_px:
+            self._fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()
