@@ -89,7 +89,8 @@ class FramePipeline(Generic[AnyTracker]):
         region = part = None
         if expected is not None:
             region = self.detector.region_about(expected.pixel, expected.covariance_px2, expected.depth_m)
-            part = part_read(region, expected.back_px, expected.finger_px, self.sampling)
+            if not isinstance(given, Frame):  # a live picture is whole already
+                part = part_read(region, expected.back_px, expected.finger_px, self.sampling)
         frame = given.seen(part)
         blobs = self.detector.detect(frame, region)
         if region is not None and self.tracker.would_miss(blobs):
