@@ -117,8 +117,10 @@ class MarkersScreen(QWidget):
         self._below.setFixedHeight(self._theme.px(TWO_LINES_PX + (BUTTONS_PX if narrow else 0)))
         clicks = self.clicking is not None and not self.clicking.complete
         height_px = self.height()
-        self.guidance.fit(height_px, clicks=clicks, judged=self.naming.outcome is not None)
-        self._is_fitting = False
+        try:
+            self.guidance.fit(height_px, clicks=clicks, judged=self.naming.outcome is not None)
+        finally:
+            self._is_fitting = False
         if self.height() != height_px:
             self._fit()
 
