@@ -232,7 +232,7 @@ def test_the_sheet_for_home_has_no_bad_news() -> None:
     assert own_way(worse, history, {}) is None
 
 
-def test_the_sheet_for_home_asks_in_the_window_and_goes_back(qtbot: QtBot, theme: Theme) -> None:
+def test_the_sheet_for_home_asks_in_the_window_and_goes_back(qtbot: QtBot, theme: Theme, tmp_path: Path) -> None:
     host = QWidget()
     qtbot.addWidget(host)
     host.resize(1000, 760)
@@ -278,12 +278,16 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(qtbot: QtBot, theme
     wanted = []
     screen.home_wanted.connect(wanted.append)
     screen.begin(asked[0].report, "")
+    with qtbot.waitSignal(screen.saved):
+        screen.save(str(tmp_path / "report"))
     screen.home_button.click()
     assert wanted == [asked[0].report]
     screen.begin(asked[0], "")
+    assert screen.state.text() == "Not saved yet"
     assert suggested_name(asked[0]).endswith("_wrist-fe_home.pdf")
     screen.back_button.click()
     assert screen.shown == asked[0].report
+    assert (screen.state.text(), screen.where.text()) == ("Saved", str(tmp_path / "report.pdf"))
     assert not screen.to_report(), "from the report itself Esc leads on"
 
 

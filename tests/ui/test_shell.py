@@ -146,6 +146,11 @@ def test_a_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, 
     card.show_words(WORDS, [Answer("Go on", lambda: None)], alarm=False)
     assert card.card.edge == "line"  # good news and questions look like no alarm
     card.close_sheet()
+    answers = [Answer("End it", lambda: done.append("end"), risky=True), Answer("Go on", lambda: done.append("on"))]
+    card.show_words(WORDS, answers)
+    qtbot.keyClick(card.answers[-1], Qt.Key.Key_Escape)
+    assert done[-1] == "on", "Esc gives the answer that loses nothing"
+    assert not card.isVisible()
 
 
 def test_settings_act_at_once_and_tell_what_was_chosen(qtbot: QtBot, theme: Theme) -> None:

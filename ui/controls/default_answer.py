@@ -16,9 +16,9 @@ ENTER = "Enter"
 
 
 def is_enter(event: QKeyEvent) -> bool:
-    """Whether Enter alone was pressed, of either block of keys."""
-    plain = event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier == Qt.KeyboardModifier.NoModifier
-    return plain and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+    """Whether Enter was pressed, of either block of keys: alone, or with Ctrl, as from a field of several lines."""
+    left_alone = Qt.KeyboardModifier.KeypadModifier | Qt.KeyboardModifier.ControlModifier
+    return not event.modifiers() & ~left_alone and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
 
 
 def takes_enter(widget: QWidget | None) -> bool:

@@ -33,7 +33,7 @@ class Answer:
 
 class StopCard(Sheet):
     """Shows :class:`Words` with up to two answers; the last one is the primary, has the keyboard, and
-    loses nothing."""
+    loses nothing: where the other one is risky, Esc gives it too."""
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, WIDTH_PX, may_close=False)
@@ -114,6 +114,9 @@ class StopCard(Sheet):
         answer.action()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape and any(answer.risky for _, answer in self._answers):
+            self._answers[-1][0].click()
+            return
         pressed = QKeySequence(event.key())
         for button, answer in self._answers:
             if answer.key and pressed.matches(QKeySequence(answer.key)) == QKeySequence.SequenceMatch.ExactMatch:

@@ -55,7 +55,7 @@ class ReportScreen(QWidget):
         self._report: Report | None = None
         self._folder = ""
         self._name = ""
-        self._saved_path = ""
+        self._saved: tuple[Report, str] | None = None
         self.page = PagePreview(theme)
         self.save_button = Button(theme, self.tr("Save PDF…"), "primary", icon="download", hint="Ctrl+P")
         self.bubble = BubbleView(theme)
@@ -118,7 +118,6 @@ class ReportScreen(QWidget):
         """Show a report; ``folder`` is where saving starts."""
         self._report, self._folder = report, folder
         self._name = suggested_name(report)
-        self._saved_path = ""
         self.panel.setVisible(isinstance(report, SessionReport))
         self.letter_button.setVisible(isinstance(report, SessionReport))
         self.home_button.setVisible(isinstance(report, SessionReport))
@@ -127,14 +126,13 @@ class ReportScreen(QWidget):
             self.panel.begin(report)
         self._show_pages(report)
         self._scroll.verticalScrollBar().setValue(0)
-        self._show_state("none", self.tr("Not saved yet"), "")
+        self._show_saved()
         self.save_button.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _show_changed(self, report: Report) -> None:
         """Other parts, or another comment."""
         self._report = report
-        self._saved_path = ""
-        self._show_state("none", self.tr("Not saved yet"), "")
+        self._show_saved()
         self._show_pages(report)
 
     def _show_pages(self, report: Report) -> None:
@@ -155,11 +153,14 @@ class ReportScreen(QWidget):
         """What is on the screen."""
         return self._report
 
-    def _show_state(self, state: str, words: str, where: str) -> None:
-        self.state.show_state(state, words, icon="file-text", token="text")  # type: ignore[arg-type]
-        self.where.setText(where)
-        self.where.setVisible(bool(where))
-        self.open_button.setVisible(bool(self._saved_path))
+    def _show_saved(self) -> None:
+        """Where what is shown lies as a file, also after a letter or a sheet that was made of it."""
+        path = self._saved[1] if self._saved is not None and self._saved[0] is self._report else ""
+        words = self.tr("Saved") if path else self.tr("Not saved yet")
+        self.state.show_state("good" if path else "none", words, icon="file-text", token="text")
+        self.where.setText(path)
+        self.where.setVisible(bool(path))
+        self.open_button.setVisible(bool(path))
 
     def ask_and_save(self) -> None:
         """Ask for a name, then save."""
@@ -193,7 +194,7 @@ class ReportScreen(QWidget):
         if QPrintDialog(printer, self).exec():
             print_on(printer, self._report)
             if printer.outputFileName():  # printed into a file, which goes with the session when that is erased
-                self._done(printer.outputFileName())
+                self._done(self._report, printer.outputFileName())
 
     def save(self, path: str, *, replace_asked: bool = False) -> None:
         """Write the PDF beside the window's thread. The file dialog has asked before something is replaced."""
@@ -206,12 +207,12 @@ class ReportScreen(QWidget):
             self.setFocus(Qt.FocusReason.OtherFocusReason)  # a button that goes grey hands it to the next one: Print
         self.save_button.setEnabled(False)
         write: Callable[[], Path] = lambda: _written(report, target, replace_asked)  # noqa: E731
-        self._background.run(write, lambda done: self._done(str(done)), self._failed, self)
+        self._background.run(write, lambda done: self._done(report, str(done)), self._failed, self)
 
-    def _done(self, path: str) -> None:
+    def _done(self, report: Report, path: str) -> None:
         self._save_again()
-        self._saved_path = path
-        self._show_state("good", self.tr("Saved"), path)
+        self._saved = report, path
+        self._show_saved()
         self.saved.emit(path)
 
     def _failed(self, fault: Exception) -> None:
@@ -224,7 +225,7 @@ class ReportScreen(QWidget):
             self.save_button.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _open(self) -> None:
-        QDesktopServices.openUrl(QUrl.fromLocalFile(self._saved_path))
+        QDesktopServices.openUrl(QUrl.fromLocalFile(self.where.text()))
 
 
 def suggested_name(report: Report) -> str:
