@@ -6,6 +6,7 @@ Files that lie elsewhere are a person's own; nothing is written down of them.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,7 +30,7 @@ STORE_FILE = "records.sqlite3"
 
 def data_folder_of(path: Path) -> Path | None:
     """The data folder in which a file lies, or this computer's for one on the clinic's share; None for any other."""
-    parents = path.resolve().parents
+    parents = Path(os.path.realpath(path)).parents
     own = next((folder for folder in parents if (folder / STORE_FILE).is_file()), None)
     if own is not None:
         return own
@@ -41,7 +42,7 @@ def data_folder_of(path: Path) -> Path | None:
 
 def is_of_practice(path: Path) -> bool:
     """Whether a file of a data folder is the practice patient's."""
-    return path.resolve().parent.name == PRACTICE_PATIENT
+    return Path(os.path.realpath(path)).parent.name == PRACTICE_PATIENT
 
 
 def read_choices(path: Path) -> RepetitionChoices:

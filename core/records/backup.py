@@ -187,9 +187,10 @@ def gather(data_folder: Path, place: Path, settings_folder: Path | None, session
         raise FolderMissing(data_folder)
     snapshot, wanted = _of_store(data_folder / STORE_FILE)
     lacking: list[str] = []
-    there = dict(_walk(data_folder, place.resolve(), lacking))
+    place = _led_to(place)
+    there = dict(_walk(data_folder, place, lacking))
     if sessions is not None and sessions != data_folder / SESSIONS_FOLDER:
-        there |= _walk(sessions, place.resolve(), lacking, SESSIONS_PREFIX)
+        there |= _walk(sessions, place, lacking, SESSIONS_PREFIX)
     parts = [path for name, path in there.items() if name.endswith(".part")]
     beating = heartbeat.still_beating(parts)
     busy = {path for path in parts if path in beating or _is_written(path)}
@@ -369,9 +370,14 @@ def told(made: Backup) -> dict[str, Any]:
 
 def check_place(data_folder: Path, place: Path) -> None:
     """Raise :class:`BackupPlaceUnsuited` for a place in the data folder, or around it."""
-    data, there = data_folder.resolve(), place.resolve()
+    data, there = data_folder.resolve(), _led_to(place)
     if data == there or data in there.parents or there in data.parents:
         raise BackupPlaceUnsuited(place, phrase("in the data folder, or around it"))
+
+
+def _led_to(place: Path) -> Path:
+    """Where links lead; one to itself, for which ``Path.resolve`` raises, leads to itself: no folder, which is told."""
+    return Path(os.path.realpath(place))
 
 
 def _walk(folder: Path, place: Path | None, lacking: list[str], prefix: str = "") -> Iterator[tuple[str, Path]]:

@@ -90,6 +90,7 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("{session} {session} --drift 50", 2, "“50” is no number from -10 to 10 percent"),
         ("{gone} {session}", 1, "gone"),
         ("{session} {gone}", 1, "gone"),
+        ("{loop} {session}", 1, "{loop}"),
         ("{session} {junk}", 1, "{junk}"),
         ("{session} {session} --markers WRST=a", 2, "did you mean “WRIST”"),
         ("{session} {session} --columns flexion", 2, "NAME=THEIRS"),
@@ -113,6 +114,7 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("", 2, "FOLDER"),
         ("{empty} --list", 1, "There is no back-up in {empty}"),
         ("{empty} --data-folder {gone}", 1, "{gone}"),
+        ("{loop}", 1, "cannot write to {loop}"),
     ],
     "restore": [
         ("", 2, "FOLDER"),
@@ -162,7 +164,8 @@ def places(session: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> di
         house.patients.add(PatientEntry("Fern 12", "right"))
     monkeypatch.setenv("CARPUS_DATA", str(data))
     names = {name: tmp_path / name for name in ("gone", "new", "empty", "file")}
-    return names | {"session": session, "junk": tmp_path / "junk.h5"}
+    (tmp_path / "loop").symlink_to(tmp_path / "loop")
+    return names | {"session": session, "junk": tmp_path / "junk.h5", "loop": tmp_path / "loop"}
 
 
 def ended(words: list[str]) -> int:
