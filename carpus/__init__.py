@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from carpus.app.python_face import compare, export, open_session, propose_clicks, simulate, track, write_session
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "__version__", "compare", "export", "open_session", "propose_clicks", "simulate", "track", "write_session",
