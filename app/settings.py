@@ -23,8 +23,7 @@ from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CarpusFault, OutputNotWritable, SettingsInvalid
 from carpus.core.phrase import phrase
-from carpus.core.pipeline.live import LiveSettings
-from carpus.core.pipeline.live_values import StartMode
+from carpus.core.pipeline.live_values import LiveSettings, StartMode
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.records.values import BackupSettings
 from carpus.core.results.report_form import ReportSettings

@@ -16,50 +16,31 @@ from __future__ import annotations
 
 import logging
 import math
-import shutil
 import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
-from typing import NamedTuple, Protocol, Self
+from typing import Protocol, Self
 
 import numpy as np
 
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.errors import CameraLost, CameraReturned
 from carpus.core.pipeline.around_hand import PictureSink
-from carpus.core.pipeline.channels import ChannelClosed, ChannelFull, NeverDrop, Newest, Waits
-from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, LiveEventKind, TrackedView
-from carpus.core.pipeline.recorder import Patience, Recorder, Sink
+from carpus.core.pipeline.backlog import Backlog, Captured, Pipeline, room_for
+from carpus.core.pipeline.channels import Newest
+from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, LiveEventKind, LiveSettings, TrackedView
+from carpus.core.pipeline.recording import Note, Recording, SessionSink, free_bytes
 from carpus.core.types import Frame, TrackedFrame
 
 log = logging.getLogger(__name__)
 
-PREVIEW_WAITING = 16
-"""Pictures that wait for the tracker while nothing is recorded: half a second. What is seen is to be of now."""
-FREE_SHARE = 0.5
-"""No more than this part of the memory that is free when a recording begins is for pictures that wait."""
 _LOOK_S = 0.005
 _FRAME_PATIENCE_S = 0.25
 """A stop waits this long for the capture thread to come back with a frame before it closes the source under it."""
-
-Pipeline = Callable[[Frame], TrackedFrame]
-
-
-class SessionSink(Sink, Protocol):
-    """The session file in the making."""
-
-    def append(self, tracked: TrackedFrame) -> None: ...
-
-    def add_event(self, time_s: float, kind: str, text: str) -> None: ...
-
-    def go_on_elsewhere(self) -> SessionSink:
-        """Another file with what this one, which hangs in the disk, has taken and not stored."""
-        ...
 
 
 class Listener(Protocol):
@@ -68,58 +49,6 @@ class Listener(Protocol):
     def push(self, frame: TrackedFrame) -> None: ...
 
     def event(self, time_s: float, kind: str) -> None: ...
-
-
-@dataclass(frozen=True, slots=True)
-class LiveSettings:
-    """Bounds of the live session.
-
-    ``tracking_waiting`` recorded frames that may wait for the tracker before new ones are left out: a minute of a
-    camera at twice the work that the computer can do, as they came, 1.5 GB of 640x480, fewer where the computer has
-    not twice as much memory free. ``pictures_waiting`` may wait for the disk before the raw recording ends; the newest
-    are the same as those above, so the two share their memory.
-    ``rows_waiting`` as many results, beside those that wait for the tracker, before the recording ends (30 s);
-    ``history_s`` of tracked frames kept for curves; ``row_bytes`` and ``picture_bytes`` on the disk by experience, for
-    the time that is left; a warning comes once below ``low_disk_bytes``. ``folder`` is where sessions will go, for the
-    room on the disk before a recording runs. A disk that neither stores nor refuses is told after ``told_stall_s``, and
-    the recording goes on elsewhere after ``moved_stall_s``; the pictures at once.
-    """
-
-    tracking_waiting: int = 960
-    rows_waiting: int = 900
-    pictures_waiting: int = 960
-    recent_frames: int = 20
-    history_s: float = 12.0
-    row_bytes: int = 4_000
-    picture_bytes: int = 100_000
-    low_disk_bytes: int = 1_000_000_000
-    stop_patience_s: float = 10.0
-    folder: Path | None = None
-    told_stall_s: float = 3.0
-    moved_stall_s: float = 8.0
-
-    def __post_init__(self) -> None:
-        for name in ("tracking_waiting", "rows_waiting", "pictures_waiting", "recent_frames", "history_s"):
-            if not 0 < getattr(self, name) <= 1_000_000:
-                raise ValueError(f"{name} {getattr(self, name)} is not between 0 and 1000000")
-
-
-class _Captured(NamedTuple):
-    """A frame on its way to the tracker, and to the recording, that were current when it was captured; ``rows`` None
-    where it is not recorded."""
-
-    frame: Frame
-    at_s: float
-    pipeline: Pipeline
-    rows: Recorder[SessionSink, TrackedFrame | _Note] | None
-
-
-class _Note(NamedTuple):
-    """An event on its way to the session file."""
-
-    time_s: float
-    kind: str
-    text: str
 
 
 class LiveSession:
@@ -139,12 +68,7 @@ class LiveSession:
         fps = source.info.nominal_fps if source.info.nominal_fps > 0.0 else 30.0
         self._lock = threading.Lock()
         self._stopping = threading.Event()
-        self._source_waits = source_waits
-        self._to_tracking: NeverDrop[_Captured] | Waits[_Captured] = (
-            Waits(min(PREVIEW_WAITING, self._settings.tracking_waiting))
-            if source_waits
-            else NeverDrop(self._settings.tracking_waiting)
-        )
+        self._backlog = Backlog(self._settings.tracking_waiting, fps, waits=source_waits)
         self._newest_frame: Newest[Frame] = Newest()
         self._newest_view: Newest[TrackedView] = Newest()
         self._recent: deque[Frame] = deque(maxlen=self._settings.recent_frames)
@@ -152,19 +76,10 @@ class LiveSession:
         self._events: deque[LiveEvent] = deque(maxlen=1000)
         self._arrivals: deque[float] = deque(maxlen=math.ceil(2.0 * fps) + 1)
         self._latencies: deque[float] = deque(maxlen=math.ceil(10.0 * fps))
-        self._room = self._settings.tracking_waiting
         self._captured = self._tracked = self._missing = 0
-        self._handed = self._worked = self._left_out = self._left_out_before = 0
-        self._worked_at: deque[float] = deque(maxlen=math.ceil(2.0 * fps))
         self._pipeline: Pipeline | None = None
         self._listener: Listener | None = None
-        self._rows: Recorder[SessionSink, TrackedFrame | _Note] | None = None
-        self._pictures: Recorder[PictureSink, Frame] | None = None
-        self._paused = self._catching_up = False
-        self._disk_warned = False
-        self._disk_free: int | None = None
-        self._row_count = 0
-        self._recorded_from: int | None = None
+        self._recording: Recording | None = None
         self._capture_thread = threading.Thread(target=self._capture, name="capture", daemon=True)
         self._tracking_thread = threading.Thread(target=self._track, name="tracking", daemon=True)
 
@@ -205,7 +120,7 @@ class LiveSession:
             if self.recording:
                 self.stop_recording()
         self.end_tracking()
-        self._to_tracking.close()
+        self._backlog.close()
         if self._tracking_thread.is_alive():
             self._tracking_thread.join()
         self._source.close()
@@ -236,8 +151,7 @@ class LiveSession:
             self._pipeline = pipeline
             self._history.clear()
             self._newest_view.clear()
-            self._worked += len(self._to_tracking.taken())
-            self._left_out_before = 0
+            self._backlog.clear()
 
     def end_tracking(self) -> None:
         """No further frame is tracked; the pictures go on."""
@@ -275,67 +189,40 @@ class LiveSession:
         """
         if self.recording:
             raise RuntimeError("a recording runs already")
-        settings = self._settings
-        self._room = _room_for(self._newest_frame.look(), settings.tracking_waiting)
-        self._row_count, self._disk_warned, self._disk_free = 0, False, None
-        rows: Recorder[SessionSink, TrackedFrame | _Note] = Recorder(
-            "writing",
+        frame, settings = self._newest_frame.look(), self._settings
+        self._backlog.room = room_for(frame, settings.tracking_waiting)
+        recording = Recording(
             open_session,
-            self._write_row,
-            settings.rows_waiting + (0 if self._source_waits else settings.tracking_waiting),
-            lambda cause: self._tell("recording_failed", cause),
-            waits=self._source_waits,
-            patience=Patience(
-                self.notice, lambda sink, _: sink.go_on_elsewhere(), settings.told_stall_s, settings.moved_stall_s
-            ),
-        )
-        rows.start()
-        pictures = None if open_pictures is None else self._recorder_of_pictures(open_pictures)
-        if pictures is not None:
-            try:
-                pictures.start()
-            except Exception:
-                rows.discard()
-                raise
-        with self._lock:
-            self._rows, self._pictures = rows, pictures
-            self._recorded_from = None
-            self._paused = False
-
-    def _recorder_of_pictures(self, open_pictures: Callable[[], PictureSink]) -> Recorder[PictureSink, Frame]:
-        settings = self._settings
-        return Recorder(
-            "pictures",
             open_pictures,
-            lambda sink, frame: sink.append_frame(frame),
-            _room_for(self._newest_frame.look(), settings.pictures_waiting),
-            lambda cause: self._tell("pictures_failed", cause),
-            waits=self._source_waits,
-            patience=Patience(
-                self.notice,
-                lambda sink, frame: sink.go_on_elsewhere(frame),
-                settings.told_stall_s,
-                min(settings.told_stall_s, settings.moved_stall_s),  # no more than these have room to wait for
-            ),
+            settings,
+            room_for(frame, settings.pictures_waiting),
+            self._tell,
+            self.notice,
+            waits=self._backlog.waits,
         )
+        recording.start()
+        with self._lock:
+            self._recording = recording
 
     def pause_recording(self) -> None:
         """Stores nothing until :meth:`resume_recording`; the pause is noted in the file."""
-        if self.recording and not self._paused:
+        recording = self._recording
+        if recording is not None and not recording.paused:
             self.add_event("pause", "")
-            self._paused = True
+            recording.paused = True
 
     def resume_recording(self) -> None:
         """Goes on storing."""
-        if self.recording and self._paused:
-            self._paused = False
+        recording = self._recording
+        if recording is not None and recording.paused:
+            recording.paused = False
             self.add_event("resume", "")
 
     def add_event(self, kind: str, text: str = "", at_s: float = math.nan) -> bool:
         """Notes something in the running recording, at a time or at the newest frame's; False when there is none."""
-        rows, now_s = self._rows, at_s if math.isfinite(at_s) else self._now_s()
+        recording, now_s = self._recording, at_s if math.isfinite(at_s) else self._now_s()
         self._hear(lambda listener: listener.event(now_s, kind))
-        return rows is not None and rows.put(_Note(now_s, kind, text))
+        return recording is not None and recording.rows.put(Note(now_s, kind, text))
 
     def tell(self, kind: str, at_s: float) -> None:
         """Says to who listens what is no event of the file: a repetition, which the finished file has in its table."""
@@ -347,40 +234,38 @@ class LiveSession:
         :meth:`counters` tell how long the tracking takes. Raises the fault that ended the recording early (what reached
         the disk is kept).
         """
+        backlog = self._backlog
         with self._lock:
-            rows, self._catching_up = self._rows, True  # from now on no frame is recorded
-            last = self._handed  # a file hands over more meanwhile, which is waited for by nobody
+            recording = self._recording
+            if recording is None:
+                raise RuntimeError("no recording runs")
+            backlog.catching_up = True  # from now on no frame is recorded
+            last = backlog.handed  # a file hands over more meanwhile, which is waited for by nobody
         try:
-            while rows is not None and rows.fault is None and self._is_behind(last) and self._pipeline is not None:
+            while recording.rows.fault is None and backlog.is_behind(last) and self._pipeline is not None:
                 time.sleep(_LOOK_S)
         finally:
             with self._lock:
-                pictures = self._pictures
-                self._rows = self._pictures = None
-                self._paused = self._catching_up = False
-        if rows is None:
-            raise RuntimeError("no recording runs")
-        try:
-            return rows.finish()
-        finally:
-            if pictures is not None:
-                with suppress(Exception):  # told as pictures_failed
-                    pictures.finish()
+                self._recording = None
+                backlog.catching_up = False
+        return recording.finish()
 
     @property
     def recording(self) -> bool:
         """Whether a recording was started and not yet stopped; also after a fault ended it."""
-        return self._rows is not None
+        return self._recording is not None
 
     @property
     def recorded_from(self) -> int | None:
         """Index of the first frame of the running recording, None until it is captured."""
-        return self._recorded_from if self.recording else None
+        recording = self._recording
+        return None if recording is None else recording.first_index
 
     @property
     def paused(self) -> bool:
         """Whether the recording is paused."""
-        return self._paused
+        recording = self._recording
+        return recording is not None and recording.paused
 
     # --- what is told -------------------------------------------------------------------------
     def notice(self, fault: Exception) -> None:
@@ -407,34 +292,33 @@ class LiveSession:
         with self._lock:
             latencies = np.array(self._latencies)
             arrivals = [at_s for at_s in self._arrivals if at_s > time.monotonic() - 2.0]
-            rows, pictures = self._rows, self._pictures
+            recording = self._recording
             captured, tracked, missing = self._captured, self._tracked, self._missing
-            worked_at = list(self._worked_at)
         p50, p95 = np.percentile(latencies, (50.0, 95.0)) if len(latencies) else (math.nan, math.nan)
-        waiting = len(self._to_tracking)
-        work_s = worked_at[-1] - worked_at[0] if len(worked_at) > 1 else math.nan
         span_s = arrivals[-1] - arrivals[0] if len(arrivals) > 1 else 0.0
         fps = (len(arrivals) - 1) / span_s if span_s > 0.0 else 0.0
-        free = self._disk_free if rows else _free_bytes(self._settings.folder)
+        rows, pictures = (recording.rows, recording.pictures) if recording else (None, None)
+        free = recording.disk_free if recording else free_bytes(self._settings.folder)
+        frame_bytes = self._settings.row_bytes + (self._settings.picture_bytes if pictures else 0)
         return LiveCounters(
             captured=captured,
             tracked=tracked,
-            dropped=self._left_out,
+            dropped=self._backlog.left_out,
             missing=missing,
             fps=fps,
             latency_p50_ms=1e3 * float(p50),
             latency_p95_ms=1e3 * float(p95),
-            waiting_tracking=waiting,
-            catching_up_s=waiting * work_s / max(len(worked_at) - 1, 1) if waiting else 0.0,
+            waiting_tracking=len(self._backlog),
+            catching_up_s=self._backlog.behind_s,
             waiting_writing=rows.waiting if rows else 0,
             waiting_pictures=pictures.waiting if pictures else 0,
             rows_written=rows.written if rows else 0,
             pictures_written=pictures.written if pictures else 0,
-            recording=rows is not None,
-            paused=self._paused,
+            recording=recording is not None,
+            paused=recording is not None and recording.paused,
             recording_path=rows.path if rows else None,
             disk_free_bytes=free,
-            disk_minutes_left=math.nan if free is None else free / self._bytes_per_s(fps, pictures is not None) / 60.0,
+            disk_minutes_left=math.nan if free is None else free / (frame_bytes * (fps or 30.0)) / 60.0,
         )
 
     # --- the threads --------------------------------------------------------------------------
@@ -447,7 +331,9 @@ class LiveSession:
                     break
                 self._take(frame)
             else:
-                self._let_tracking_come_up()
+                # A file has ended when its last frame is tracked: who then stops the recording loses none.
+                while self._backlog.waits and self._backlog.is_behind() and not self._stopping.wait(_LOOK_S):
+                    pass
                 if not self._stopping.is_set():
                     self._tell("source_ended")
         except Exception as cause:  # the one catch at the top of this thread
@@ -458,82 +344,39 @@ class LiveSession:
             if close is not None:
                 close()
 
-    def _let_tracking_come_up(self) -> None:
-        """A file has ended when its last frame is tracked: who then stops the recording loses none."""
-        while self._source_waits and self._is_behind() and not self._stopping.wait(_LOOK_S):
-            pass
-
-    def _is_behind(self, last: int | None = None) -> bool:
-        """Whether a frame waits or is worked on, of the first ``last`` handed over."""
-        with self._lock:
-            return self._worked < (self._handed if last is None else min(last, self._handed))
-
     def _take(self, frame: Frame) -> None:
         at_s = time.monotonic()
         with self._lock:
-            recorded = not (self._paused or self._catching_up)
-            rows, pictures = (self._rows, self._pictures) if recorded else (None, None)
-            pipeline = self._pipeline
-            self._handed += pipeline is not None  # told with the rows: who stops the recording waits for this frame too
+            recording, pipeline = self._recording, self._pipeline
+            if recording is not None and (recording.paused or self._backlog.catching_up):
+                recording = None
+            if pipeline is not None:  # told with the recording: who stops it waits for this frame too
+                self._backlog.expect()
             self._recent.append(frame)
             self._arrivals.append(at_s)
             self._captured += 1
             self._missing += frame.dropped_before
-            if rows is not None and self._recorded_from is None:
-                self._recorded_from = frame.index
-        if pictures is not None:
-            pictures.put(frame)
+            if recording is not None and recording.first_index is None:
+                recording.first_index = frame.index
+        if recording is not None and recording.pictures is not None:
+            recording.pictures.put(frame)
         self._newest_frame.put(frame)
         if pipeline is not None:
-            self._hand_over(_Captured(frame, at_s, pipeline, rows))
-
-    def _hand_over(self, captured: _Captured) -> None:
-        """To the tracker; without room the frame is left out, and counted in the next one. Of what is not recorded only
-        the last half second waits, and nothing while the end of a recording does."""
-        frame = captured.frame
-        if self._left_out_before:
-            frame = replace(frame, dropped_before=frame.dropped_before + self._left_out_before)
-        room = self._room
-        if captured.rows is None and not self._source_waits:
-            room = 0 if self._catching_up else min(PREVIEW_WAITING, room)
-        try:
-            if not self._source_waits and len(self._to_tracking) >= room:
-                raise ChannelFull
-            self._to_tracking.put(captured._replace(frame=frame))
-            self._left_out_before = 0
-            return
-        except ChannelFull:
-            self._left_out += not self._catching_up
-            self._left_out_before = frame.dropped_before + 1
-        except ChannelClosed:
-            pass  # the session ended while a file waited for the tracker
-        with self._lock:
-            self._handed -= 1
+            self._backlog.put(Captured(frame, at_s, pipeline, recording))
 
     def _track(self) -> None:
-        for captured in self._to_tracking:
+        for captured in self._backlog:
             try:
                 # Else captured for a pipeline that has ended, or waiting for a recording that has failed.
-                if captured.pipeline is self._pipeline and not self._is_of_the_past(captured):
+                if captured.pipeline is self._pipeline and not self._backlog.is_of_the_past(captured):
                     self._track_one(captured)
             except Exception as cause:  # the one catch at the top of this thread
                 with self._lock:
                     if self._pipeline is captured.pipeline:
                         self._pipeline = None
                 self._tell("tracking_failed", cause)
-            finally:
-                with self._lock:
-                    self._worked += 1
-                    self._worked_at.append(time.monotonic())
 
-    def _is_of_the_past(self, captured: _Captured) -> bool:
-        """Whether a frame waited for a recording that has failed: what is seen is to be of now, and the next recording
-        to find room."""
-        rows = captured.rows
-        failed = rows is not None and rows.fault is not None
-        return failed and not self._source_waits and len(self._to_tracking) >= PREVIEW_WAITING
-
-    def _track_one(self, captured: _Captured) -> None:
+    def _track_one(self, captured: Captured) -> None:
         frame = captured.frame
         tracked = captured.pipeline(frame)
         with self._lock:
@@ -543,8 +386,8 @@ class LiveSession:
             self._tracked += 1
             self._latencies.append(time.monotonic() - captured.at_s)
             self._newest_view.put(TrackedView(frame, tracked, captured.at_s))
-        if captured.rows is not None:
-            captured.rows.put(tracked)
+        if captured.recording is not None:
+            captured.recording.rows.put(tracked)
         self._hear(lambda listener: listener.push(tracked))
 
     # --- small things -------------------------------------------------------------------------
@@ -567,49 +410,3 @@ class LiveSession:
         """Time of the newest frame, in the recording's own time."""
         frame = self._newest_frame.look()
         return math.nan if frame is None else frame.timestamp_s
-
-    def _bytes_per_s(self, fps: float, with_pictures: bool) -> float:
-        frame_bytes = self._settings.row_bytes + (self._settings.picture_bytes if with_pictures else 0)
-        return frame_bytes * (fps if fps > 0.0 else 30.0)
-
-    def _write_row(self, sink: SessionSink, item: TrackedFrame | _Note) -> None:
-        """In the writing thread, which alone may be held up by a slow disk; looks at the room left now and then."""
-        if isinstance(item, _Note):
-            sink.add_event(item.time_s, item.kind, item.text)
-        else:
-            sink.append(item)
-        if self._row_count % 30 == 0:
-            self._disk_free = _free_bytes(sink.path.parent)
-            low = self._disk_free is not None and self._disk_free < self._settings.low_disk_bytes
-            if low and not self._disk_warned:
-                self._disk_warned = True
-                self._tell("disk_low", value=float(self._disk_free or 0))
-        self._row_count += 1
-
-
-def _room_for(frame: Frame | None, most: int) -> int:
-    """How many pictures like this one may wait in memory: ``most``, or what the share of the free memory holds."""
-    free = free_memory_bytes()
-    if frame is None or free is None:
-        return most
-    frame_bytes = frame.color_rgb.nbytes + (0 if frame.depth_raw is None else frame.depth_raw.nbytes)
-    return min(most, max(PREVIEW_WAITING, int(FREE_SHARE * free) // frame_bytes))
-
-
-def free_memory_bytes() -> int | None:
-    """Memory that programs may still take without others being swapped out; None where the system does not tell."""
-    with suppress(OSError):
-        for line in Path("/proc/meminfo").read_text(encoding="ascii").splitlines():
-            if line.startswith("MemAvailable:"):
-                return 1024 * int(line.split()[1])
-    return None
-
-
-def _free_bytes(folder: Path | None) -> int | None:
-    """Room on the disk of a folder, None when unknown."""
-    if folder is None:
-        return None
-    try:
-        return shutil.disk_usage(folder).free
-    except OSError:
-        return None

@@ -1,4 +1,4 @@
-"""What the live session tells: the newest view, events, counters."""
+"""What bounds the live session, and what it tells: the newest view, events, counters."""
 
 from __future__ import annotations
 
@@ -20,6 +20,40 @@ LiveEventKind = Literal[
     "disk_low",
     "thread_stuck",
 ]
+
+
+@dataclass(frozen=True, slots=True)
+class LiveSettings:
+    """Bounds of the live session.
+
+    ``tracking_waiting`` recorded frames that may wait for the tracker before new ones are left out: a minute of a
+    camera at twice the work that the computer can do, as they came, 1.5 GB of 640x480, fewer where the computer has
+    not twice as much memory free. ``pictures_waiting`` may wait for the disk before the raw recording ends; the newest
+    are the same as those above, so the two share their memory.
+    ``rows_waiting`` as many results, beside those that wait for the tracker, before the recording ends (30 s);
+    ``history_s`` of tracked frames kept for curves; ``row_bytes`` and ``picture_bytes`` on the disk by experience, for
+    the time that is left; a warning comes once below ``low_disk_bytes``. ``folder`` is where sessions will go, for the
+    room on the disk before a recording runs. A disk that neither stores nor refuses is told after ``told_stall_s``, and
+    the recording goes on elsewhere after ``moved_stall_s``; the pictures at once.
+    """
+
+    tracking_waiting: int = 960
+    rows_waiting: int = 900
+    pictures_waiting: int = 960
+    recent_frames: int = 20
+    history_s: float = 12.0
+    row_bytes: int = 4_000
+    picture_bytes: int = 100_000
+    low_disk_bytes: int = 1_000_000_000
+    stop_patience_s: float = 10.0
+    folder: Path | None = None
+    told_stall_s: float = 3.0
+    moved_stall_s: float = 8.0
+
+    def __post_init__(self) -> None:
+        for name in ("tracking_waiting", "rows_waiting", "pictures_waiting", "recent_frames", "history_s"):
+            if not 0 < getattr(self, name) <= 1_000_000:
+                raise ValueError(f"{name} {getattr(self, name)} is not between 0 and 1000000")
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,8 @@ from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture.files.raw import RawRecording, RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import DiskStalled, EndStalled, RecordingMoved
-from carpus.core.pipeline.live import LiveSession, LiveSettings
+from carpus.core.pipeline.live import LiveSession
+from carpus.core.pipeline.live_values import LiveSettings
 from carpus.core.pipeline.recorder import Patience, Recorder
 from carpus.core.session.reader import read_session
 from carpus.core.session.recovery import recover_folder

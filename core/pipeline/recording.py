@@ -1,0 +1,135 @@
+"""A running recording of the live session: its session file and, if wanted, its raw pictures."""
+
+from __future__ import annotations
+
+import math
+import shutil
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import NamedTuple, Protocol
+
+from carpus.core.errors import CarpusFault
+from carpus.core.pipeline.around_hand import PictureSink
+from carpus.core.pipeline.live_values import LiveEventKind, LiveSettings
+from carpus.core.pipeline.recorder import Patience, Recorder, Sink
+from carpus.core.types import Frame, TrackedFrame
+
+_LOOK_EVERY_ROWS = 30
+
+
+class SessionSink(Sink, Protocol):
+    """The session file in the making."""
+
+    def append(self, tracked: TrackedFrame) -> None: ...
+
+    def add_event(self, time_s: float, kind: str, text: str) -> None: ...
+
+    def go_on_elsewhere(self) -> SessionSink:
+        """Another file with what this one, which hangs in the disk, has taken and not stored."""
+        ...
+
+
+class Note(NamedTuple):
+    """An event on its way to the session file."""
+
+    time_s: float
+    kind: str
+    text: str
+
+
+class Tell(Protocol):
+    """Says something rare to the person who measures."""
+
+    def __call__(self, kind: LiveEventKind, cause: Exception | None = None, value: float = math.nan) -> None: ...
+
+
+class Recording:
+    """The session file and the raw pictures, each opened, filled and closed in a thread of its own.
+
+    ``tell`` hears what ends one of them early, and once that there is little room left; ``notice`` what they go on in
+    spite of. With ``waits`` whoever puts waits for the disk.
+    """
+
+    def __init__(
+        self,
+        open_session: Callable[[], SessionSink],
+        open_pictures: Callable[[], PictureSink] | None,
+        settings: LiveSettings,
+        pictures_waiting: int,
+        tell: Tell,
+        notice: Callable[[CarpusFault], None],
+        *,
+        waits: bool,
+    ) -> None:
+        self.paused = False
+        self.first_index: int | None = None
+        """Index of the first frame that is recorded, None until it is captured."""
+        self.disk_free: int | None = None
+        """Bytes, as last looked at while a row was written."""
+        self._low_disk_bytes, self._tell, self._disk_warned = settings.low_disk_bytes, tell, False
+        told_s, moved_s = settings.told_stall_s, settings.moved_stall_s
+        self.rows: Recorder[SessionSink, TrackedFrame | Note] = Recorder(
+            "writing",
+            open_session,
+            self._write_row,
+            settings.rows_waiting + (0 if waits else settings.tracking_waiting),
+            lambda cause: tell("recording_failed", cause),
+            waits=waits,
+            patience=Patience(notice, lambda sink, _: sink.go_on_elsewhere(), told_s, moved_s),
+        )
+        self.pictures: Recorder[PictureSink, Frame] | None = None
+        if open_pictures is not None:
+            self.pictures = Recorder(
+                "pictures",
+                open_pictures,
+                lambda sink, frame: sink.append_frame(frame),
+                pictures_waiting,
+                lambda cause: tell("pictures_failed", cause),
+                waits=waits,
+                # No more than these have room to wait for.
+                patience=Patience(
+                    notice, lambda sink, frame: sink.go_on_elsewhere(frame), told_s, min(told_s, moved_s)
+                ),
+            )
+
+    def start(self) -> None:
+        """Waits until the files are open. Raises what kept one from opening; then none is left behind."""
+        self.rows.start()
+        if self.pictures is not None:
+            try:
+                self.pictures.start()
+            except Exception:
+                self.rows.discard()
+                raise
+
+    def finish(self) -> Path:
+        """Waits until all is stored; the session file. Raises the fault that ended it early."""
+        try:
+            return self.rows.finish()
+        finally:
+            if self.pictures is not None:
+                with suppress(Exception):  # told as pictures_failed
+                    self.pictures.finish()
+
+    def _write_row(self, sink: SessionSink, item: TrackedFrame | Note) -> None:
+        """In the writing thread, which alone may be held up by a slow disk; looks at the room left now and then."""
+        if isinstance(item, Note):
+            sink.add_event(item.time_s, item.kind, item.text)
+        else:
+            sink.append(item)
+        if self.rows.written % _LOOK_EVERY_ROWS == 0:
+            self.disk_free = free_bytes(sink.path.parent)
+            if self.disk_free is not None and self.disk_free < self._low_disk_bytes and not self._disk_warned:
+                self._disk_warned = True
+                self._tell("disk_low", value=float(self.disk_free))
+
+
+def free_bytes(folder: Path | None) -> int | None:
+    """Room on the disk of a folder, None when unknown."""
+    if folder is None:
+        return None
+    try:
+        return shutil.disk_usage(folder).free
+    except OSError:
+        return None
