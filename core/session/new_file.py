@@ -16,7 +16,7 @@ from carpus.core.camera import Camera
 from carpus.core.hand.back_surface import TABLE_ROWS
 from carpus.core.session import schema
 from carpus.core.session.schema import Field, TableLayout
-from carpus.core.session.values import SessionHeader
+from carpus.core.session.values import Repetitions, SessionHeader
 
 _CHUNK_ROWS = {"N": 1024, "D": 32768, "E": 32, "C": 1 << 23, "B": 1 << 23}
 """Large: most flushes then fill chunks that are there already and leave HDF5's index alone. Up to 64 chunks the index
@@ -118,6 +118,17 @@ def _create_growing(file: h5py.File, field: Field, layout: TableLayout) -> h5py.
     )
     describe(dataset, field, layout)
     return dataset
+
+
+def create_repetitions(file: h5py.File, layout: TableLayout, repetitions: Repetitions) -> None:
+    """The table of what was counted, a column for each of its figures."""
+    rows = [tuple(getattr(row, column.attribute) for column in schema.REPETITION_COLUMNS) for row in repetitions.rows]
+    rows = [(*row[:-1], row[-1].encode()[: schema.REPETITION_DTYPE["reason"].itemsize]) for row in rows]
+    table = create_checked(file, schema.REPETITIONS.path, np.array(rows, dtype=schema.REPETITION_DTYPE))
+    describe(table, schema.REPETITIONS, layout)
+    for name in ("unit", "description"):
+        table.attrs[f"column_{name}s"] = [getattr(column, name) for column in schema.REPETITION_COLUMNS]
+    table.attrs[schema.REPETITION_ANGLE] = repetitions.angle
 
 
 def create_checked(file: h5py.File, path: str, data: Any) -> h5py.Dataset:

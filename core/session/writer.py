@@ -6,18 +6,16 @@ import contextlib
 import os
 import time
 import uuid
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import Self
 
-import h5py
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
-from carpus.core.durable import copy_open_file, is_still_there, sync_folder, write_fault
 from carpus.core.errors import (
     CarpusFault,
     DiskFull,
@@ -30,34 +28,16 @@ from carpus.core.errors import (
 )
 from carpus.core.phrase import phrase
 from carpus.core.session import schema
-from carpus.core.session.disk import allow_written_bytes, free_name, part_path, publish, reserve
-from carpus.core.session.heartbeat import Heartbeat
-from carpus.core.session.new_file import (
-    checked,
-    create_checked,
-    create_growing,
-    create_smoothed,
-    describe,
-    new_file,
-    write_calibration,
-    write_header,
-)
-from carpus.core.session.opened import session_in
-from carpus.core.session.schema import Field, TableLayout
-from carpus.core.session.seal import ATTRIBUTE, Digests, seal_of
+from carpus.core.session.disk import free_name, part_path, publish
+from carpus.core.session.held_rows import HeldRows
+from carpus.core.session.part_file import Beginning, PartFile
 from carpus.core.session.values import Event, Motion, RawPictures, Repetitions, Session, SessionHeader
-from carpus.core.types import SurfaceSamples, TrackedFrame
+from carpus.core.types import TrackedFrame
 
 FLUSH_EVERY_S = 0.5
 """A kill loses what came since the last flush; with the flush itself on a busy computer that stays below a second."""
 ROWS_HELD = 1024
 """Rows held in memory at most, when frames come faster than the clock (tracking a stored recording)."""
-_INDEX_BYTES = 512 * 1024
-"""More than HDF5's index grows by in one flush."""
-
-
-Block = tuple[Field, Any]
-"""Rows to add to the dataset of a field."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,59 +49,27 @@ class Fallback:
     told: Callable[[CarpusFault], None]
 
 
-@dataclass(frozen=True, slots=True)
-class _Beginning:
-    """What a file begins with, for one that has to begin again elsewhere."""
-
-    header: SessionHeader
-    camera: Camera
-    calibration: Calibration
-    raw_depth_unit_m: float | None
-
-
 class SessionWriter:
     """One session file in the making; used by one thread, from :meth:`create` to :meth:`close`.
 
     Rows are held in memory and written, flushed and synchronised together, so that between two flushes the file
-    does not change. Within a flush the times come last: a row with a time has all the rest, whenever the process
-    is ended. The file lies beside its target as
+    does not change. The file lies beside its target as
     ``NAME.xxxxxxxx.part`` and gets its name in :meth:`close`; nothing is ever overwritten. After a fault the part
     file stays, and :mod:`core.session.recovery` finishes it.
 
-    A heartbeat beside the part file (:mod:`core.session.heartbeat`) says that it is being written, and looks every
-    second whether the file is still where it was. Where it is not, or cannot be written any more, the recording goes
-    on in the ``fallback``'s folder, with all that was recorded where that can still be read.
+    Where the part file is gone, or cannot be written any more, the recording goes on in the ``fallback``'s folder, with
+    all that was recorded where that can still be read.
     """
 
-    def __init__(
-        self,
-        file: h5py.File,
-        path: Path,
-        part: Path,
-        layout: TableLayout,
-        clock: Callable[[], float],
-        beginning: _Beginning,
-        fallback: Fallback | None,
-    ) -> None:
+    def __init__(self, path: Path, beginning: Beginning, clock: Callable[[], float], fallback: Fallback | None) -> None:
+        if os.path.lexists(path):
+            raise OutputExists(path)
         self.path = path
-        self._beginning, self._fallback = beginning, fallback
-        self.part_path = part
-        self._file = file
-        self._layout = layout
-        self._clock = clock
-        self._descriptor = os.open(part, os.O_RDWR)
-        self._growing: dict[str, h5py.Dataset] = {}
-        self._digests = Digests()
-        self._rows: list[TrackedFrame] = []
-        self._raw: list[RawPictures] = []
-        self._events: list[Event] = []
-        self._smoothed: list[Motion] = []
-        self._raw_bytes = {field.attribute: 0 for field in schema.RAW_STREAMS}
-        self._count = 0
+        self._beginning, self._clock, self._fallback = beginning, clock, fallback
+        self._part = PartFile.begun(part_path(path, beginning.header.session_id), beginning)
+        self._held = HeldRows()
         self._last_time_s = -np.inf
         self._flushed_at_s = clock()
-        self._fault: CarpusFault | None = None
-        self._heart = Heartbeat(part, self._look)
 
     @classmethod
     def create(
@@ -139,32 +87,7 @@ class SessionWriter:
 
         Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; then nothing is left behind.
         """
-        if os.path.lexists(path):
-            raise OutputExists(path)
-        part = part_path(path, header.session_id)
-        try:
-            file = new_file(part)
-        except FileExistsError as cause:
-            raise OutputExists(part) from cause
-        except OSError as cause:
-            raise OutputNotWritable(path.parent, os.strerror(cause.errno) if cause.errno else "") from cause
-        layout = TableLayout(header.protocol, header.joint_names)
-        beginning = _Beginning(header, camera, calibration, raw_depth_unit_m)
-        writer = cls(file, path, part, layout, clock, beginning, fallback)
-        try:
-            writer._begin()
-        except BaseException:
-            writer._release()
-            part.unlink(missing_ok=True)
-            raise
-        sync_folder(part.parent)
-        return writer
-
-    def _begin(self) -> None:
-        with self._writing(0):
-            write_header(self._file, self._beginning.header, self._beginning.camera)
-            write_calibration(self._file, self._layout, self._beginning.calibration)
-            self._growing = create_growing(self._file, self._layout, self._beginning.raw_depth_unit_m)
+        return cls(path, Beginning(header, camera, calibration, raw_depth_unit_m), clock, fallback)
 
     def __enter__(self) -> Self:
         return self
@@ -177,20 +100,24 @@ class SessionWriter:
         else:
             self.abandon()
 
+    @property
+    def part_path(self) -> Path:
+        """Where the file is until it gets its name."""
+        return self._part.path
+
     def __len__(self) -> int:
         """Frames taken so far; those since it began again, where what was recorded before could not be taken along."""
-        return self._count
+        return self.stored + len(self._held.frames)
 
     @property
     def stored(self) -> int:
         """Frames of those taken that are in the file."""
-        return self._count - len(self._rows)
+        return self._part.rows(schema.FRAME_FIELDS[0].path)
 
     @property
     def smoothed(self) -> int:
         """Frames of those taken whose smoothed motion was taken too."""
-        taken = sum(len(motion.position_m) for motion in self._smoothed)
-        return self._digests.rows(schema.SMOOTHED_FIELDS[0].path) + taken
+        return self._part.rows(schema.SMOOTHED_FIELDS[0].path) + self._held.smoothed_rows
 
     def append(self, tracked: TrackedFrame, raw: RawPictures | None = None) -> None:
         """Take one frame; writes when a flush is due. Never drops: it raises :class:`DiskFull` instead."""
@@ -204,26 +131,25 @@ class SessionWriter:
                     last_time_s=f"{self._last_time_s:.6f}",
                 ),
             )
-        if (raw is not None) != (schema.RAW_ENDS[0].path in self._growing):
+        if (raw is not None) != self._part.keeps_pictures:
             raise ValueError("pictures come with every frame or with none")
         self._last_time_s = tracked.timestamp_s
-        self._rows.append(tracked)
+        self._held.frames.append(tracked)
         if raw is not None:
-            self._raw.append(raw)
-        self._count += 1
+            self._held.pictures.append(raw)
         self._flush_when_due()
 
     def add_event(self, time_s: float, kind: str, text: str = "") -> None:
         """Note something that happened at a time of the recording."""
         self._check_open()
-        self._events += [Event(time_s, kind, part) for part in _parts(text)]
+        self._held.add_event(time_s, kind, text)
         self._flush_when_due()
 
     def flush(self) -> None:
         """Bring everything taken so far to the disk, or to another where this one cannot be reached any more."""
         self._check_open()
-        if self._heart.trouble is not None:
-            self._move(self._heart.trouble)
+        if self._part.trouble is not None:
+            self._move(self._part.trouble)
         try:
             self._flush()
         except OutputNotWritable as fault:
@@ -231,132 +157,94 @@ class SessionWriter:
             self._flush()
 
     def _flush(self) -> None:
-        if self._smoothed and schema.SMOOTHED_FIELDS[0].path not in self._growing:
-            with self._writing(0):
-                self._growing |= create_smoothed(self._file, self._layout)
-        blocks = [*self._frame_blocks(), *self._smoothed_blocks(), *self._event_blocks()]
+        held = self._held
+        if held.smoothed:
+            self._part.begin_smoothed()
+        blocks = held.blocks(self._part.layout, self._part.rows)
         self._flushed_at_s = self._clock()
-        if not blocks:
-            return
-        with self._writing(sum(map(self._room_for, blocks))):
-            self._grow([block for block in blocks if block[0] not in schema.COMMIT_FIELDS])
-            self._synchronise()
-            self._grow([block for block in blocks if block[0] in schema.COMMIT_FIELDS])
-        for field, data in blocks:
-            self._digests.add(field.path, np.asarray(data, dtype=field.h5_dtype))
-        self._rows, self._raw, self._events, self._smoothed = [], [], [], []
+        if blocks:
+            self._part.add(blocks)
+            self._held = HeldRows()
 
     def add_smoothed(self, motion: Motion) -> None:
         """Take the smoother's result for the next frames, from the first appended on; written with the next flush."""
         self._check_open()
-        if self.smoothed + len(motion.position_m) > self._count:
+        if self.smoothed + len(motion.position_m) > len(self):
             raise ValueError("/smoothed got more rows than there are frames")
-        self._smoothed.append(motion)
+        self._held.smoothed.append(motion)
 
     def write_smoothed(self, motion: Motion) -> None:
         """Store the smoother's result, one row for every frame appended."""
-        if len(motion.position_m) != self._count:
-            raise ValueError(f"/smoothed got {len(motion.position_m)} rows for {self._count} frames")
+        if len(motion.position_m) != len(self):
+            raise ValueError(f"/smoothed got {len(motion.position_m)} rows for {len(self)} frames")
         self.add_smoothed(motion)
         self.flush()
 
     def drop_smoothed(self) -> None:
         """Leave the smoother's result out: it does not come to all frames."""
         self.flush()
-        if "/smoothed" in self._file:
-            with self._writing(0):
-                del self._file["/smoothed"]
-                for field in schema.SMOOTHED_FIELDS:
-                    self._growing.pop(field.path, None)
+        self._part.drop_smoothed()
 
     def read_back(self) -> Session:
         """What is in the file so far, as :func:`core.session.reader.read_session` gives it."""
         self.flush()
-        return session_in(self.part_path, self._file)
+        return self._part.session()
 
     def write_repetitions(self, repetitions: Repetitions) -> None:
         """Store what was counted, once all frames are there."""
         self.flush()
-        rows = [
-            tuple(getattr(row, column.attribute) for column in schema.REPETITION_COLUMNS) for row in repetitions.rows
-        ]
-        rows = [(*row[:-1], row[-1].encode()[: schema.REPETITION_DTYPE["reason"].itemsize]) for row in rows]
-        data = np.array(rows, dtype=schema.REPETITION_DTYPE)
-        with self._writing(data.nbytes):
-            table = create_checked(self._file, schema.REPETITIONS.path, data)
-            describe(table, schema.REPETITIONS, self._layout)
-            for name in ("unit", "description"):
-                table.attrs[f"column_{name}s"] = [getattr(column, name) for column in schema.REPETITION_COLUMNS]
-            table.attrs[schema.REPETITION_ANGLE] = repetitions.angle
+        self._part.write_repetitions(repetitions)
 
     def close(self) -> None:
         """Finish: mark the file complete and give it its name. Does nothing when closed, or after a fault."""
-        if not self._file:
+        if not self._part.is_open:
             return
-        if self._fault is not None:
+        if self._part.fault is not None:
             self.abandon()
             return
         try:
-            self._heart.trouble = self._heart.trouble or self._look()
+            self._part.look()
             self.flush()
             try:
-                self._seal()
+                self._part.seal()
             except OutputNotWritable as fault:
                 self._move(fault)
-                self._seal()
-        except CarpusFault:
-            self._release()
-            raise
-        self._release()
-        publish(self.part_path, self.path)
+                self._part.seal()
+        finally:
+            self._part.close()
+        publish(self._part.path, self.path)
 
     def abandon(self) -> None:
         """Stop without finishing; what was taken stays in the part file."""
-        if self._file and self._fault is None:
+        if self._part.is_open and self._part.fault is None:
             with contextlib.suppress(CarpusFault, ValueError):  # the exception on its way tells more
                 self.flush()
-        self._release()
+        self._part.close()
 
     def discard(self) -> None:
         """Stop and remove the part file: for work that can be done again from its recording."""
-        self._release()
-        self.part_path.unlink(missing_ok=True)
-
-    def _seal(self) -> None:
-        with self._writing(0):
-            self._file.attrs.modify("complete", True)
-            self._file.attrs[ATTRIBUTE] = seal_of(self._file, self._digests.known())
-
-    def _look(self) -> CarpusFault | None:
-        """Whether the part file is still the file that is written; from the heartbeat's thread."""
-        return None if is_still_there(self._descriptor, self.part_path) else FolderGone(self.part_path.parent)
+        self._part.close()
+        self._part.path.unlink(missing_ok=True)
 
     def _move(self, fault: CarpusFault) -> None:
         """Go on elsewhere, with all that was recorded if it can still be read, else with what was not yet written."""
+        lost, stored = self._part, self.stored
         if self._fallback is None or isinstance(fault, DiskFull):
-            self._fault = self._fault or fault
+            lost.fault = lost.fault or fault
             raise fault
-        lost_folder = self.part_path.parent
         path = free_name(self._fallback.folder() / self.path.name)
-        self._heart.end()
-        stored = self._count - len(self._rows)
-        header = self._beginning.header
-        part = part_path(path, header.session_id)
-        taken_along = self._copy_to(part, stored)
-        if not taken_along:
-            part = self._begin_again(path, stored)
-        self._fault = None
-        self.path, self.part_path = path, part
-        self._heart = Heartbeat(part, self._look)
+        copy = lost.copied(part_path(path, self._beginning.header.session_id))
+        if copy is None:
+            old, self._beginning = self._beginning, _begun_anew(self._beginning)
+            self._part = PartFile.begun(part_path(path, self._beginning.header.session_id), self._beginning)
+            self._held.smoothed = []
+            if self._held.frames:
+                self._held.events.insert(0, _goes_on(old, stored, self._held))
+        else:
+            self._part = copy
+        self.path = path
         told, self._fallback = self._fallback.told, None  # one disaster at a time
-        told(
-            RecordingMoved(
-                path,
-                ""
-                if taken_along
-                else phrase("the first {stored} rows stay in {lost_folder}", stored=stored, lost_folder=lost_folder),
-            )
-        )
+        told(RecordingMoved(path, "" if copy is not None else _stays(stored, lost.path.parent)))
 
     def go_on_elsewhere(self) -> Self:
         """A new file in the fallback's folder with what this one has not stored, for another thread while the one that
@@ -364,232 +252,46 @@ class SessionWriter:
 
         Raises :class:`FolderGone` where there is no other place, :class:`EndStalled` where all is stored.
         """
+        folder, begun = self._part.path.parent, self._beginning
         if self._fallback is None:
-            raise FolderGone(self.part_path.parent)
+            raise FolderGone(folder)
         fallback, self._fallback = self._fallback, None
-        rows, raw, events = list(self._rows), list(self._raw), list(self._events)
-        stored = self._count - len(rows)
-        if stored and not rows:
-            raise EndStalled(self.part_path.parent)
-        begun = self._beginning
-        new_id = str(uuid.uuid4())
-        header = replace(begun.header, session_id=new_id, recording_id=new_id) if stored else begun.header
-        writer = type(self).create(
-            free_name(fallback.folder() / self.path.name),
-            header,
-            begun.camera,
-            begun.calibration,
-            raw_depth_unit_m=begun.raw_depth_unit_m,
-            clock=self._clock,
-        )
-        if stored and rows:
-            text = f"goes on from session {begun.header.session_id}, {stored} rows of which are elsewhere"
-            events.insert(0, Event(rows[0].timestamp_s, "moved", text))
-        writer._rows, writer._raw, writer._events = rows, raw, events
-        writer._count, writer._last_time_s = len(rows), self._last_time_s
-        fallback.told(
-            RecordingMoved(
-                writer.path,
-                phrase("the first {stored} rows stay in {parent}", stored=stored, parent=self.part_path.parent)
-                if stored
-                else "",
-            )
-        )
+        held = HeldRows(list(self._held.frames), list(self._held.pictures), list(self._held.events))
+        stored = self.stored
+        if stored and not held.frames:
+            raise EndStalled(folder)
+        path = free_name(fallback.folder() / self.path.name)
+        writer = type(self)(path, _begun_anew(begun) if stored else begun, self._clock, None)
+        if stored:
+            held.events.insert(0, _goes_on(begun, stored, held))
+        writer._held, writer._last_time_s = held, self._last_time_s
+        fallback.told(RecordingMoved(path, _stays(stored, folder) if stored else ""))
         return writer
 
     def _flush_when_due(self) -> None:
-        if self._heart.trouble is not None:
+        if self._part.trouble is not None:
             self.flush()
-        if self._clock() - self._flushed_at_s >= FLUSH_EVERY_S or len(self._rows) >= ROWS_HELD:
+        if self._clock() - self._flushed_at_s >= FLUSH_EVERY_S or len(self._held.frames) >= ROWS_HELD:
             self.flush()
 
     def _check_open(self) -> None:
-        if self._fault is not None:
-            raise self._fault
-        if not self._file:
+        if self._part.fault is not None:
+            raise self._part.fault
+        if not self._part.is_open:
             raise ValueError("the session is closed")
 
-    def _grow(self, blocks: list[Block]) -> None:
-        for field, data in blocks:
-            dataset = self._growing[field.path]
-            begin = dataset.shape[0]
-            dataset.resize(begin + len(data), axis=0)
-            dataset[begin:] = data
 
-    def _room_for(self, block: Block) -> int:
-        """Bytes by which the file grows for a block: whole chunks, and the texts, which lie elsewhere."""
-        field, data = block
-        dataset = self._growing[field.path]
-        step, *row = dataset.chunks
-        new_chunks = -(-(dataset.shape[0] + len(data)) // step) - -(-dataset.shape[0] // step)
-        return int(new_chunks * step * np.prod(row) * dataset.dtype.itemsize)
-
-    def _synchronise(self) -> None:
-        self._file.flush()
-        os.fsync(self._descriptor)
-
-    @contextlib.contextmanager
-    def _writing(self, room: int) -> Iterator[None]:
-        """Around every change of the file: room first, then the change, then flush and synchronise."""
-        try:
-            reserve(self._descriptor, self.part_path, self._file.id.get_filesize(), room + _INDEX_BYTES)
-            yield
-            self._synchronise()
-        except CarpusFault as fault:
-            self._fault = fault
-            raise
-        except (OSError, RuntimeError) as cause:
-            self._fault = write_fault(self.part_path, cause)
-            raise self._fault from cause
-
-    def _copy_to(self, part: Path, stored: int) -> bool:
-        """Write on in a copy of the part file: its bytes can be read through what is open, wherever its name has gone.
-        False where they cannot."""
-        with contextlib.suppress(OSError, RuntimeError):
-            self._file.close()
-        try:
-            copy_open_file(self._descriptor, part)
-            allow_written_bytes(part)
-            file = h5py.File(part, "r+", libver="earliest", rdcc_nbytes=0)
-        except (OSError, RuntimeError, CarpusFault):
-            part.unlink(missing_ok=True)
-            return False
-        if not self._digests.rows(schema.SMOOTHED_FIELDS[0].path):  # begun, perhaps: it is begun anew in the copy
-            file.pop("/smoothed", None)
-            for field in schema.SMOOTHED_FIELDS:
-                self._growing.pop(field.path, None)
-        growing = {path: file[path] for path in self._growing}
-        ends = self._ends_of(growing, stored)
-        if ends is None:
-            file.close()
-            part.unlink(missing_ok=True)
-            return False
-        for path, end in ends.items():
-            growing[path].resize(end, axis=0)
-        os.close(self._descriptor)
-        self._file, self._growing, self._descriptor = file, growing, os.open(part, os.O_RDWR)
-        return True
-
-    def _ends_of(self, growing: dict[str, h5py.Dataset], stored: int) -> dict[str, int] | None:
-        """To what the datasets of a copy are cut, so that what was not wholly written is written again; None where
-        something that was written is not there."""
-        ends = {path: self._digests.rows(path) for path in growing}
-        if ends[schema.FRAME_FIELDS[0].path] != stored:
-            return None
-        return None if any(growing[path].shape[0] < end for path, end in ends.items()) else ends
-
-    def _begin_again(self, path: Path, stored: int) -> Path:
-        """A new file for what comes from now on; it says where the beginning is."""
-        old = self._beginning.header
-        new_id = str(uuid.uuid4())
-        header = replace(old, session_id=new_id, recording_id=new_id)  # two halves, not two results of one recording
-        part = part_path(path, header.session_id)
-        with contextlib.suppress(OSError):
-            os.close(self._descriptor)
-        self._file, self._descriptor = new_file(part), os.open(part, os.O_RDWR)
-        self._beginning = replace(self._beginning, header=header)
-        self._digests, self._count, self._smoothed = Digests(), len(self._rows), []
-        self._raw_bytes = {field.attribute: 0 for field in schema.RAW_STREAMS}
-        self._fault = None
-        self._begin()
-        if self._rows:
-            text = f"goes on from session {old.session_id}, {stored} rows of which are elsewhere"
-            self._events.insert(0, Event(self._rows[0].timestamp_s, "moved", text))
-        return part
-
-    def _release(self) -> None:
-        """Close the file and cut off the room that was reserved and not used."""
-        if not self._file:
-            return
-        self._heart.end()
-        used = self._file.id.get_filesize()
-        with contextlib.suppress(OSError, RuntimeError):  # after a fault; what reached the disk stays
-            self._file.close()
-        with contextlib.suppress(OSError):  # a disk that is gone; what reached it stays
-            os.truncate(self._descriptor, used)
-            os.fsync(self._descriptor)
-        os.close(self._descriptor)
-
-    def _frame_blocks(self) -> list[Block]:
-        """What each dataset gets from the rows held: the blobs and pictures first, then the frames that count them."""
-        rows = self._rows
-        if not rows:
-            return []
-        blobs = [row.detections for row in rows]
-        counts = np.array([len(some) for some in blobs])
-        frame = np.repeat(np.arange(self._count - len(rows), self._count), counts)
-        blocks: list[Block] = [(schema.DETECTION_FRAME, frame)]
-        for field in schema.DETECTION_FIELDS:
-            data = np.concatenate([getattr(some, field.attribute) for some in blobs])
-            blocks.append((field, self._rows_of(field, data, len(frame))))
-        blocks.append((schema.DETECTION_COUNT, counts))
-        blocks += [(field, _reading_rows(field, [some.surface for some in blobs])) for field in schema.SURFACE_FIELDS]
-        if self._layout.protocol.has_fingers:
-            blocks += [
-                (field, _reading_rows(field, [some.fingers for some in blobs])) for field in schema.FINGER_FIELDS
-            ]
-        blocks += self._raw_blocks()
-        for field in schema.FRAME_FIELDS:
-            if self._layout.has(field):
-                of = [row.moment for row in rows] if field in schema.MOTION_FIELDS else rows
-                blocks.append((field, self._rows_of(field, [getattr(one, field.attribute) for one in of], len(rows))))
-        return blocks
-
-    def _smoothed_blocks(self) -> list[Block]:
-        if not self._smoothed:
-            return []
-        blocks: list[Block] = []
-        for field in schema.SMOOTHED_FIELDS:
-            if self._layout.has(field):
-                data = np.concatenate([getattr(motion, field.attribute) for motion in self._smoothed])
-                blocks.append((field, self._rows_of(field, data, len(data))))
-        return blocks
-
-    def _raw_blocks(self) -> list[Block]:
-        if not self._raw:
-            return []
-        blocks: list[Block] = []
-        for stream, end in zip(schema.RAW_STREAMS, schema.RAW_ENDS, strict=True):
-            pictures: Sequence[bytes] = [getattr(raw, stream.attribute) for raw in self._raw]
-            ends = self._raw_bytes[stream.attribute] + np.cumsum([len(picture) for picture in pictures])
-            self._raw_bytes[stream.attribute] = int(ends[-1])
-            blocks += [(stream, np.frombuffer(b"".join(pictures), np.uint8)), (end, ends)]
-        return blocks
-
-    def _event_blocks(self) -> list[Block]:
-        if not self._events:
-            return []
-        return [
-            (field, _cells(field, [getattr(event, field.attribute) for event in self._events]))
-            for field in schema.EVENT_FIELDS
-        ]
-
-    def _rows_of(self, field: Field, value: Any, rows: int) -> Any:
-        return checked(field, value, (rows, *self._layout.row_shape(field)))
+def _begun_anew(beginning: Beginning) -> Beginning:
+    """With an identity of its own: two halves, not two results of one recording."""
+    new_id = str(uuid.uuid4())
+    return replace(beginning, header=replace(beginning.header, session_id=new_id, recording_id=new_id))
 
 
-def _reading_rows(field: Field, readings: Sequence[SurfaceSamples | None]) -> Any:
-    """The depth readings of some frames, filled up to the same number."""
-    row_shape = tuple(size for size in field.shape[1:] if isinstance(size, int))
-    out = np.full((len(readings), *row_shape), field.fill, dtype=field.h5_dtype)
-    for row, some in zip(out, readings, strict=True):
-        if some is not None:
-            value = getattr(some, field.attribute)
-            row[: len(value)] = value
-    return out
+def _goes_on(beginning: Beginning, stored: int, held: HeldRows) -> Event:
+    """Says in a file that has the rest where the beginning is."""
+    text = f"goes on from session {beginning.header.session_id}, {stored} rows of which are elsewhere"
+    return Event(held.frames[0].timestamp_s, "moved", text)
 
 
-def _cells(field: Field, values: Sequence[Any]) -> Any:
-    texts = [value.encode() if isinstance(value, str) else value for value in values]
-    return np.array(texts, dtype=field.h5_dtype)
-
-
-def _parts(text: str) -> Iterator[str]:
-    """A text in pieces that fit into a row, cut between letters."""
-    rest = text.encode("utf-8", "replace")
-    while True:
-        part = rest[: schema.TEXT_BYTES].decode("utf-8", "ignore")
-        yield part
-        rest = rest[len(part.encode()) :]
-        if not rest:
-            return
+def _stays(stored: int, folder: Path) -> str:
+    return phrase("the first {stored} rows stay in {lost_folder}", stored=stored, lost_folder=folder)

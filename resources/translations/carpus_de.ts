@@ -6484,10 +6484,6 @@
         <translation>die ersten {stored} Zeilen bleiben in {lost_folder}</translation>
     </message>
     <message>
-        <source>the first {stored} rows stay in {parent}</source>
-        <translation>die ersten {stored} Zeilen bleiben in {parent}</translation>
-    </message>
-    <message>
         <source>the focal length is known to {share} % only</source>
         <translation>die Brennweite ist nur auf {share} % bekannt</translation>
     </message>

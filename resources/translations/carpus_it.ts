@@ -6472,10 +6472,6 @@
         <translation>le prime {stored} righe restano in {lost_folder}</translation>
     </message>
     <message>
-        <source>the first {stored} rows stay in {parent}</source>
-        <translation>le prime {stored} righe restano in {parent}</translation>
-    </message>
-    <message>
         <source>the focal length is known to {share} % only</source>
         <translation>la distanza focale è nota solo al {share} %</translation>
     </message>

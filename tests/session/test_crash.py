@@ -17,7 +17,7 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.session import new_file, writer
+from carpus.core.session import new_file, part_file
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import Session
@@ -129,8 +129,8 @@ def test_after_every_single_write_the_flushed_rows_are_there(tmp_path: Path, mon
         files.append(LoggedFile(path))
         return h5py.File(files[0], "w", libver="earliest", rdcc_nbytes=0)
 
-    monkeypatch.setattr(writer, "new_file", logged)
-    monkeypatch.setattr(writer, "reserve", lambda *_: None)  # the room it would take is added to the image below
+    monkeypatch.setattr(part_file, "new_file", logged)
+    monkeypatch.setattr(part_file, "reserve", lambda *_: None)  # the room it would take is added to the image below
     monkeypatch.setattr(new_file, "_CHUNK_ROWS", {"N": 8, "D": 32, "E": 4})  # many new chunks: the delicate moment
     target = recorded / "s.h5"
     session = SessionWriter.create(target, make_header(), CAMERA, make_calibration(), clock=lambda: 0.0)

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 from carpus.core.errors import CarpusFault, DiskFull, FolderGone, OutputNotWritable, RecordingMoved
-from carpus.core.session import heartbeat, new_file, recovery, schema, writer
+from carpus.core.session import heartbeat, new_file, part_file, recovery, schema
 from carpus.core.session.heartbeat import alive_path, still_beating
 from carpus.core.session.reader import read_raw, read_session, verify
 from carpus.core.session.recovery import recover_folder
@@ -187,22 +187,22 @@ def test_a_disk_that_fails_as_the_first_smoothed_rows_come_is_left(
     for row in range(6):
         session.append(make_frame(row))
     session.flush()
-    on_disk, create = session.part_path.read_bytes(), writer.create_smoothed
+    on_disk, create = session.part_path.read_bytes(), part_file.create_smoothed
 
     def read_only(file: h5py.File, layout: TableLayout) -> dict[str, h5py.Dataset]:
-        monkeypatch.setattr(writer, "create_smoothed", create)
+        monkeypatch.setattr(part_file, "create_smoothed", create)
         new_file._create_growing(file, schema.SMOOTHED_FIELDS[0], layout)
         raise OSError(30, "Read-only file system")
 
     def not_reached() -> None:
         monkeypatch.undo()
-        monkeypatch.setattr(writer, "copy_open_file", lambda _, part: part.write_bytes(on_disk))
+        monkeypatch.setattr(part_file, "copy_open_file", lambda _, part: part.write_bytes(on_disk))
         raise OSError(30, "Read-only file system")
 
     if reached:
-        monkeypatch.setattr(writer, "create_smoothed", read_only)
+        monkeypatch.setattr(part_file, "create_smoothed", read_only)
     else:
-        monkeypatch.setattr(session, "_synchronise", not_reached)
+        monkeypatch.setattr(session._part, "_synchronise", not_reached)
     session.add_smoothed(motion_of([make_frame(row) for row in range(3)]))
     session.flush()
     session.add_smoothed(motion_of([make_frame(row) for row in range(3, 6)]))
@@ -230,9 +230,9 @@ def test_what_cannot_be_read_any_more_stays_behind_and_is_named(
     def unplugged(*_: object) -> None:
         raise OSError(5, "Input/output error")
 
-    monkeypatch.setattr(writer, "copy_open_file", unplugged)
+    monkeypatch.setattr(part_file, "copy_open_file", unplugged)
     home.rename(tmp_path / "unplugged")
-    session._heart.trouble = FolderGone(home)
+    session._part._heart.trouble = FolderGone(home)
     session.append(make_frame(21))
     session.close()
     (fault,) = told
@@ -256,14 +256,14 @@ def test_a_disk_that_cannot_be_written_any_more(tmp_path: Path, monkeypatch: pyt
     for row in range(20):
         session.append(make_frame(row))
     session.flush()
-    real = writer.reserve
+    real = part_file.reserve
 
     def read_only(descriptor: int, path: Path, begin: int, length: int) -> None:
         if path.parent == home:
             raise OutputNotWritable(path, "Read-only file system")
         real(descriptor, path, begin, length)
 
-    monkeypatch.setattr(writer, "reserve", read_only)
+    monkeypatch.setattr(part_file, "reserve", read_only)
     session.append(make_frame(20))
     session.close()
     assert len(told) == 1
@@ -290,7 +290,7 @@ def test_a_full_disk_is_no_reason_to_move(tmp_path: Path, monkeypatch: pytest.Mo
     def full(_: int, path: Path, *__: object) -> None:
         raise DiskFull(path)
 
-    monkeypatch.setattr(writer, "reserve", full)
+    monkeypatch.setattr(part_file, "reserve", full)
     with pytest.raises(DiskFull):
         session.flush()
     session.abandon()

@@ -17,7 +17,7 @@ import pytest
 
 from carpus.core.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
 from carpus.core.hand.protocols import HAND21
-from carpus.core.session import disk, writer
+from carpus.core.session import disk, part_file, writer
 from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session, verify
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import Motion, RawPictures, motion_of
@@ -170,7 +170,7 @@ def test_a_folder_without_permission(tmp_path: Path, monkeypatch: pytest.MonkeyP
     def refuse(_: Path) -> h5py.File:  # root passes every real lock
         raise PermissionError(errno.EACCES, "denied")
 
-    monkeypatch.setattr(writer, "new_file", refuse)
+    monkeypatch.setattr(part_file, "new_file", refuse)
     with pytest.raises(OutputNotWritable) as caught:
         create(tmp_path / "s.h5")
     assert caught.value.subject == str(tmp_path)

@@ -1,0 +1,233 @@
+"""The part file of a session: changed in steps that neither a kill nor a full disk can tear, watched, moved, sealed."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+import h5py
+import numpy as np
+
+from carpus.core.calibration.result import Calibration
+from carpus.core.camera import Camera
+from carpus.core.durable import copy_open_file, is_still_there, sync_folder, write_fault
+from carpus.core.errors import CarpusFault, FolderGone, OutputExists, OutputNotWritable
+from carpus.core.session import schema
+from carpus.core.session.disk import allow_written_bytes, reserve
+from carpus.core.session.heartbeat import Heartbeat
+from carpus.core.session.held_rows import Block
+from carpus.core.session.new_file import (
+    create_growing,
+    create_repetitions,
+    create_smoothed,
+    new_file,
+    write_calibration,
+    write_header,
+)
+from carpus.core.session.opened import session_in
+from carpus.core.session.schema import TableLayout
+from carpus.core.session.seal import ATTRIBUTE, Digests, seal_of
+from carpus.core.session.values import Repetitions, Session, SessionHeader
+
+_INDEX_BYTES = 512 * 1024
+"""More than HDF5's index grows by in one flush."""
+
+
+@dataclass(frozen=True, slots=True)
+class Beginning:
+    """What a file begins with, for one that has to begin again elsewhere."""
+
+    header: SessionHeader
+    camera: Camera
+    calibration: Calibration
+    raw_depth_unit_m: float | None
+
+
+class PartFile:
+    """An open part file, its datasets that grow, and the heartbeat beside it.
+
+    The heartbeat (:mod:`core.session.heartbeat`) says that the file is being written, and looks every second whether it
+    is still where it was: :attr:`trouble`. ``fault`` is what went wrong in a change of the file, after which it is not
+    changed any more.
+    """
+
+    def __init__(
+        self, path: Path, file: h5py.File, layout: TableLayout, growing: dict[str, h5py.Dataset], digests: Digests
+    ) -> None:
+        self.path, self.layout = path, layout
+        self.fault: CarpusFault | None = None
+        self._file, self._growing, self._digests = file, growing, digests
+        self._descriptor = os.open(path, os.O_RDWR)
+        self._heart = Heartbeat(path, self._missing)
+
+    @classmethod
+    def begun(cls, path: Path, beginning: Beginning) -> Self:
+        """A new file without rows. Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; then
+        nothing is left behind."""
+        try:
+            file = new_file(path)
+        except FileExistsError as cause:
+            raise OutputExists(path) from cause
+        except OSError as cause:
+            raise OutputNotWritable(path.parent, os.strerror(cause.errno) if cause.errno else "") from cause
+        layout = TableLayout(beginning.header.protocol, beginning.header.joint_names)
+        part = cls(path, file, layout, {}, Digests())
+        try:
+            with part._changing(0):
+                write_header(file, beginning.header, beginning.camera)
+                write_calibration(file, layout, beginning.calibration)
+                part._growing = create_growing(file, layout, beginning.raw_depth_unit_m)
+        except BaseException:
+            part.close()
+            path.unlink(missing_ok=True)
+            raise
+        sync_folder(path.parent)
+        return part
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it can still be written."""
+        return bool(self._file)
+
+    @property
+    def trouble(self) -> CarpusFault | None:
+        """That the file is not where it was any more, as far as the heartbeat has seen."""
+        return self._heart.trouble
+
+    def look(self) -> None:
+        """Not wait for the next beat."""
+        self._heart.trouble = self._heart.trouble or self._missing()
+
+    def _missing(self) -> CarpusFault | None:
+        return None if is_still_there(self._descriptor, self.path) else FolderGone(self.path.parent)
+
+    @property
+    def keeps_pictures(self) -> bool:
+        """Whether every frame brings its pictures."""
+        return schema.RAW_ENDS[0].path in self._growing
+
+    def rows(self, path: str) -> int:
+        """Rows of a dataset that are on the disk."""
+        return self._digests.rows(path)
+
+    def add(self, blocks: Sequence[Block]) -> None:
+        """Rows to datasets; the times last: a row with a time has all the rest, whenever the process is ended."""
+        with self._changing(sum(map(self._room_for, blocks))):
+            self._grow([block for block in blocks if block[0] not in schema.COMMIT_FIELDS])
+            self._synchronise()
+            self._grow([block for block in blocks if block[0] in schema.COMMIT_FIELDS])
+        for field, data in blocks:
+            self._digests.add(field.path, np.asarray(data, dtype=field.h5_dtype))
+
+    def begin_smoothed(self) -> None:
+        """Room for the smoother's result, if there is none yet."""
+        if schema.SMOOTHED_FIELDS[0].path not in self._growing:
+            with self._changing(0):
+                self._growing |= create_smoothed(self._file, self.layout)
+
+    def drop_smoothed(self) -> None:
+        """Take the smoother's result out again."""
+        if "/smoothed" in self._file:
+            with self._changing(0):
+                self._forget_smoothed(self._file)
+
+    def _forget_smoothed(self, file: h5py.File) -> None:
+        file.pop("/smoothed", None)
+        for field in schema.SMOOTHED_FIELDS:
+            self._growing.pop(field.path, None)
+
+    def write_repetitions(self, repetitions: Repetitions) -> None:
+        """The table of what was counted."""
+        with self._changing(len(repetitions.rows) * schema.REPETITION_DTYPE.itemsize):
+            create_repetitions(self._file, self.layout, repetitions)
+
+    def session(self) -> Session:
+        """What is in it so far."""
+        return session_in(self.path, self._file)
+
+    def seal(self) -> None:
+        """Mark it complete."""
+        with self._changing(0):
+            self._file.attrs.modify("complete", True)
+            self._file.attrs[ATTRIBUTE] = seal_of(self._file, self._digests.known())
+
+    def copied(self, path: Path) -> Self | None:
+        """The same file elsewhere, to go on in: its bytes can be read through what is open, wherever its name has gone.
+        None where they cannot, or are not all there. This one is let go either way."""
+        self._heart.end()
+        with contextlib.suppress(OSError, RuntimeError):
+            self._file.close()
+        file = self._opened_copy(path)
+        with contextlib.suppress(OSError):
+            os.close(self._descriptor)
+        if file is None:
+            path.unlink(missing_ok=True)
+            return None
+        if not self.rows(schema.SMOOTHED_FIELDS[0].path):  # begun, perhaps: it is begun anew in the copy
+            self._forget_smoothed(file)
+        growing = {name: file[name] for name in self._growing}
+        if any(dataset.shape[0] < self.rows(name) for name, dataset in growing.items()):
+            file.close()
+            path.unlink(missing_ok=True)
+            return None
+        for name, dataset in growing.items():  # what was not wholly written is written again
+            dataset.resize(self.rows(name), axis=0)
+        return type(self)(path, file, self.layout, growing, self._digests)
+
+    def _opened_copy(self, path: Path) -> h5py.File | None:
+        try:
+            copy_open_file(self._descriptor, path)
+            allow_written_bytes(path)
+            return h5py.File(path, "r+", libver="earliest", rdcc_nbytes=0)
+        except (OSError, RuntimeError, CarpusFault):
+            return None
+
+    def close(self) -> None:
+        """Cut off the room that was reserved and not used. May be called twice."""
+        if not self._file:
+            return
+        self._heart.end()
+        used = self._file.id.get_filesize()
+        with contextlib.suppress(OSError, RuntimeError):  # after a fault; what reached the disk stays
+            self._file.close()
+        with contextlib.suppress(OSError):  # a disk that is gone; what reached it stays
+            os.truncate(self._descriptor, used)
+            os.fsync(self._descriptor)
+        os.close(self._descriptor)
+
+    @contextlib.contextmanager
+    def _changing(self, room: int) -> Iterator[None]:
+        """Around every change of the file: room first, then the change, then flush and synchronise."""
+        try:
+            reserve(self._descriptor, self.path, self._file.id.get_filesize(), room + _INDEX_BYTES)
+            yield
+            self._synchronise()
+        except CarpusFault as fault:
+            self.fault = fault
+            raise
+        except (OSError, RuntimeError) as cause:
+            self.fault = write_fault(self.path, cause)
+            raise self.fault from cause
+
+    def _synchronise(self) -> None:
+        self._file.flush()
+        os.fsync(self._descriptor)
+
+    def _grow(self, blocks: Sequence[Block]) -> None:
+        for field, data in blocks:
+            dataset = self._growing[field.path]
+            begin = dataset.shape[0]
+            dataset.resize(begin + len(data), axis=0)
+            dataset[begin:] = data
+
+    def _room_for(self, block: Block) -> int:
+        """Bytes by which the file grows for a block: whole chunks, and the texts, which lie elsewhere."""
+        field, data = block
+        dataset = self._growing[field.path]
+        step, *row = dataset.chunks
+        new_chunks = -(-(dataset.shape[0] + len(data)) // step) - -(-dataset.shape[0] // step)
+        return int(new_chunks * step * np.prod(row) * dataset.dtype.itemsize)
