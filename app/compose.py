@@ -37,8 +37,10 @@ from carpus.app.standard_streams import on_stop
 from carpus.core.capture.source import FrameSource
 from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, OutputNotWritable
+from carpus.core.records.interrupted import recover
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
+from carpus.core.records.new_sessions import NewSessions
 from carpus.core.records.set_up import SetUp
 from carpus.ui import language
 from carpus.ui.check_card.standing_words import card_words
@@ -241,9 +243,9 @@ def compose(
     library.who = lambda: settings.report.therapist
     library.angle_order = lambda: settings.report.angle_order
     LINES.names = library.pseudonyms
-    recovered, faults = library.recover()
+    recovered, faults = recover(library)
     beginning = practice_beginning if take is practice_take else lambda _: None
-    sources = Sources(settings, library, take, speed, beginning)
+    sources = Sources(settings, NewSessions(library), take, speed, beginning)
     parts = Parts(
         library,
         sources,

@@ -6,21 +6,12 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from datetime import datetime
 from pathlib import Path
 
-import numpy as np
-
 from carpus.core.agreement.limits_file import read_limits
-from carpus.core.calibration.result import ALL_STRAIGHT
 from carpus.core.capture.files.picture_file import read_color
-from carpus.core.durable import make_private
 from carpus.core.errors import (
     CarpusFault,
-    FilesSetApart,
-    FolderMissing,
-    OutputNotWritable,
-    RecordingMoved,
     SessionUnreadable,
 )
 from carpus.core.formats.export import Wanted, export_sessions
@@ -29,16 +20,15 @@ from carpus.core.measures.by_hand import HandValue
 from carpus.core.measures.change import DEFAULT_LIMITS
 from carpus.core.phrase import phrase
 from carpus.core.records import of_patients, of_sessions
-from carpus.core.records.changes import changed, is_identity
-from carpus.core.records.coming_home import bring_home, fallback_place
+from carpus.core.records.changes import changed
 from carpus.core.records.erasure import finish_erasing
-from carpus.core.records.kept_sets import keep_set_up, last_set_up
-from carpus.core.records.log import By, Log, Notes, was_erased
+from carpus.core.records.kept_sets import last_set_up
+from carpus.core.records.log import By, Log, Notes
 from carpus.core.records.of_sessions import MOST_CHARACTERS, MadeKind
 from carpus.core.records.patients import Patients
 from carpus.core.records.pictures import ShownPictures
 from carpus.core.records.schema import PATIENT
-from carpus.core.records.session_list import FilesOfSessions, ListedSessions, free_path, look_for_share
+from carpus.core.records.session_list import ListedSessions
 from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
 from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry, entry_of, newest_results
@@ -46,26 +36,10 @@ from carpus.core.results.angle_order import in_order
 from carpus.core.results.camera_said import CameraSaid, camera_of
 from carpus.core.results.figures import SessionFigures, session_figures, with_trust
 from carpus.core.results.goals import Goals
-from carpus.core.results.progress import NAMES_DOUBTED
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline, read_session
-from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import AngleOrder, Session
 from carpus.core.types import ByteImage, Side
-
-MOST_TOLD = 3
-"""Files that are told one by one when the program starts; more are told together."""
-
-
-@dataclass(frozen=True, slots=True)
-class Recovered:
-    """A session that had been cut short and has been finished; ``kept_s`` of it are there."""
-
-    patient_id: str
-    session_id: str
-    pseudonym: str
-    when: datetime
-    kept_s: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,23 +70,24 @@ class Library:
     ) -> None:
         self.folder = folder
         self.who: Callable[[], str] = lambda: ""
-        self._told: list[CarpusFault] = []
-        self.log_fault: Callable[[CarpusFault], None] = lambda fault: self._told.append(fault)
+        self.told: list[CarpusFault] = []
+        self.log_fault: Callable[[CarpusFault], None] = lambda fault: self.told.append(fault)
         self.error_limits = DEFAULT_LIMITS
         """The clinic's own from its test and retest, as far as it has any."""
         try:
             self.error_limits = read_limits(folder)
         except CarpusFault as fault:
-            self._told.append(fault)
+            self.told.append(fault)
         self.store = Store(folder, sessions, url, lambda fault: self.log_fault(fault))
         self.log = Log(self.store, by, lambda: self.who())
         self.patients, self.index = Patients(self.store), ListedSessions(self.store)
         self.notes = Notes(self.log, self.index.owner, lambda fault: self.log_fault(fault))
         self.pictures = ShownPictures()
-        self._files = FilesOfSessions(self.store)
         if self.patients.one(PRACTICE_PATIENT).entry.pseudonym != practice_name:
             self.store.do([changed(PATIENT, PRACTICE_PATIENT, pseudonym=practice_name)])
-        self._elsewhere: dict[str, SessionEntry] = {}
+        self.elsewhere: dict[str, SessionEntry] = {}
+        """Sessions that are in no list, remembered until the program ends: files that were handed over, and those of a
+        data folder that went away, which are brought home at the next start."""
         self._figures: dict[Path, tuple[RepetitionChoices, SessionFigures]] = {}
         self._shown: dict[str, int] = {}
         self.angle_order: Callable[[], AngleOrder] = lambda: "zyx"
@@ -161,8 +136,8 @@ class Library:
 
     def entry(self, session_id: str) -> SessionEntry:
         """One session by its identity. Raises :class:`SessionUnreadable` for one that is not there."""
-        if session_id in self._elsewhere:
-            return self._elsewhere[session_id]
+        if session_id in self.elsewhere:
+            return self.elsewhere[session_id]
         with suppress(KeyError):
             return self.index.one(session_id)
         raise SessionUnreadable(session_id, phrase("not in the list of patients"))
@@ -173,33 +148,6 @@ class Library:
             return self.index.owner(session_id)
         return ""
 
-    def new_path(self, set_up: SetUp) -> Path:
-        """A free path for a session that begins now: on this computer while a share is away, which is told."""
-        about = set_up.pseudonym, set_up.exercise.id, set_up.side, datetime.now().astimezone()
-        try:
-            return self.index.new_path(set_up.patient_id, *about)
-        except (FolderMissing, OutputNotWritable) as fault:
-            if not self.store.on_share:
-                raise
-            path = free_path(self.fallback_folder(set_up.patient_id), *about)
-            self.log_fault(RecordingMoved(path, fault.detail or phrase("not there now")))
-            return path
-
-    def entered(self, set_up: SetUp, path: Path) -> str:
-        """Take a finished session into the store, and remember how it was set up."""
-        if path.is_relative_to(fallback_place(self.folder)):  # the store is where the data folder is: gone
-            return self._enter_elsewhere(path)
-        keep_set_up(self.store, set_up)
-        session_id = self.index.enter(path, set_up.patient_id, self.who()).session_id
-        self.notes.session("recorded", session_id)
-        return session_id
-
-    def _enter_elsewhere(self, path: Path) -> str:
-        """Remember a session of a data folder that went away, until the program ends; then it is brought home."""
-        entry = entry_of(path, read_outline(path))
-        self._elsewhere[entry.session_id] = entry
-        return entry.session_id
-
     def look_at(self, path: Path) -> LookedAt:
         """A session by its file, wherever that lies. One that no list knows belongs to nobody, and is remembered until
         the program ends; its file stays where it is. Raises what reading the file raises."""
@@ -207,79 +155,8 @@ class Library:
         header = outline.header
         with suppress(KeyError):
             return LookedAt(self.index.owner(header.session_id), header.session_id, header.subject_id, header.hand)
-        self._elsewhere[header.session_id] = entry_of(path, outline)
+        self.elsewhere[header.session_id] = entry_of(path, outline)
         return LookedAt("", header.session_id, header.subject_id, header.hand)
-
-    def fallback_folder(self, patient_id: str) -> Path:
-        """Where a patient's recording goes on when the data folder goes away."""
-        folder = fallback_place(self.folder) / patient_id
-        make_private(folder)
-        return folder
-
-    def last_hand_length_mm(self, set_up: SetUp, *, simulated: bool) -> float:
-        """Length of this hand of the patient as the last session of the kind measured it; NaN before the first."""
-        for entry in self.sessions(set_up.patient_id):
-            if entry.hand != set_up.side:
-                continue
-            with suppress(SessionUnreadable):
-                session = read_session(entry.path)
-                verdict = session.calibration.verdict
-                # Another length that was accepted is the hand's from now on; only wrong names measured no hand.
-                doubted = any(
-                    finding.kind in NAMES_DOUBTED for finding in verdict.findings if finding.kind != "other_length"
-                )
-                if session.header.simulated == simulated and not doubted and np.isfinite(verdict.hand_length_mm):
-                    return verdict.hand_length_mm
-        return float("nan")
-
-    def last_straight_fingers(self, set_up: SetUp) -> tuple[bool, ...]:
-        """What the last session with these discs said of the hand's fingers, thumb to little; straight before one."""
-        if set_up.protocol.has_fingers:
-            for entry in self.sessions_alike(set_up.patient_id, set_up):
-                with suppress(SessionUnreadable):
-                    return read_session(entry.path).calibration.straight_fingers
-        return ALL_STRAIGHT
-
-    def cut_short(self) -> None:
-        """Finish what a fault left behind, as far as possible."""
-        with suppress(CarpusFault):
-            self.recover()
-
-    def recover(self) -> tuple[Sequence[Recovered], Sequence[CarpusFault]]:
-        """Finish interrupted sessions; take these, and files that were copied in, into the store."""
-        faults = [*self._told, *self.store.told]
-        self._told, self.store.told = [], []
-        if not self.store.sessions_folder.is_dir():  # a share: it is neither made nor taken for empty
-            return [], [*faults, FolderMissing(self.store.sessions_folder)]
-        try:
-            look_for_share(self.store)
-        except FolderMissing as fault:
-            return [], [*faults, fault]
-        if self.store.knows_all():  # who was erased meanwhile is brought back by nothing
-            faults += bring_home(self.folder, self._folder_of)
-        recovery = recover_folder(self.store.sessions_folder, given_up=self._files.given_up())
-        apart = [*self._files.first_told(recovery.faults), *self._files.take_in().faults]
-        found: list[Recovered] = []
-        for path in recovery.recovered:
-            outline = read_outline(path)
-            header = outline.header
-            self.notes.session("recovered", header.session_id)
-            owner = self.owner(header.session_id)
-            pseudonym = self.patients.one(owner).entry.pseudonym if owner else header.subject_id
-            found.append(Recovered(owner, header.session_id, pseudonym, header.when, outline.duration_s))
-        if len(apart) > MOST_TOLD:
-            names = ", ".join(Path(fault.subject).name for fault in apart[:MOST_TOLD])
-            apart = [FilesSetApart(f"{names}, …", phrase("{count} files", count=len(apart)))]
-        return found, [*faults, *apart]
-
-    def _folder_of(self, patient_id: str, subject_id: str) -> Path | None:
-        """Where recordings of a patient lie, or of a pseudonym; None for a patient who was erased."""
-        owner = PRACTICE_PATIENT if subject_id == PRACTICE_PATIENT else self.patients.called(subject_id)
-        if is_identity(patient_id):
-            if was_erased(self.store, patient_id):
-                return None
-            owner = patient_id
-        return self.store.sessions_folder / (owner or "unknown")
 
     # --- what is read of a session ------------------------------------------------------------------------
     def session(self, session_id: str) -> Session:
@@ -302,8 +179,8 @@ class Library:
 
     def results_of(self, session_id: str) -> Sequence[SessionEntry]:
         """Every result of the recording of a session, the first one first."""
-        if session_id in self._elsewhere:
-            return [self._elsewhere[session_id]]
+        if session_id in self.elsewhere:
+            return [self.elsewhere[session_id]]
         with suppress(KeyError):
             return self.index.results_of(session_id)
         raise SessionUnreadable(session_id, phrase("not in the list of patients"))
@@ -407,7 +284,7 @@ class Library:
 
     def made(self, paths: Sequence[Path], kind: MadeKind, session_ids: Iterable[str]) -> None:
         """Take down files that were made from sessions, so that they are named when one of these is erased."""
-        known = [one for one in session_ids if one not in self._elsewhere]
+        known = [one for one in session_ids if one not in self.elsewhere]
         of_sessions.remember_made(self.store, paths, kind, known)
         for session_id in known:
             self.notes.session("reported" if kind == "report" else "exported", session_id, files=len(paths))

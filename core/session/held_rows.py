@@ -73,8 +73,8 @@ class HeldRows:
         yield from self._of_pictures(rows_in_file)
         for field in filter(layout.has, schema.FRAME_FIELDS):
             of = [frame.moment for frame in frames] if field in schema.MOTION_FIELDS else frames
-            data = [getattr(one, field.attribute) for one in of]
-            yield field, checked(field, data, (len(frames), *layout.row_shape(field)))
+            values = [getattr(one, field.attribute) for one in of]
+            yield field, checked(field, values, (len(frames), *layout.row_shape(field)))
 
     def _of_pictures(self, rows_in_file: RowsInFile) -> Iterator[Block]:
         if not self.pictures:

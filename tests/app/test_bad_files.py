@@ -13,9 +13,9 @@ import h5py
 import pytest
 
 from carpus.core.errors import CarpusFault, FilesSetApart, RegisterMissing, RegisterSetAside, SessionUnreadable
-from carpus.core.records import library as library_module
-from carpus.core.records import session_list
+from carpus.core.records import interrupted, session_list
 from carpus.core.records.database import STORE_FILE
+from carpus.core.records.interrupted import recover
 from carpus.core.records.library import Library
 from carpus.core.records.session_list import remembered
 from carpus.core.records.values import PatientEntry
@@ -68,7 +68,7 @@ def started(folder: Path) -> tuple[list[str], list[CarpusFault]]:
     """The program's start on a folder: patients, and what it tells of its files."""
     library = Library(folder)
     try:
-        faults = [one for one in library.recover()[1] if not isinstance(one, RegisterMissing)]
+        faults = [one for one in recover(library)[1] if not isinstance(one, RegisterMissing)]
         return [record.entry.pseudonym for record in library.patients.listed()], faults
     finally:
         library.close()
@@ -230,7 +230,7 @@ def test_a_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:
 
 
 def test_nothing_told_is_lost_between_two_calls(tmp_path: Path) -> None:
-    assert library_module.MOST_TOLD >= 1
+    assert interrupted.MOST_TOLD >= 1
     for number in range(6):
         stored(tmp_path / "sessions" / f"{number}.h5").write_bytes(b"x" * 100)
     (fault,) = started(tmp_path)[1]

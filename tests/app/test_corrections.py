@@ -16,6 +16,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.pipeline.correction import CorrectionTask, correct, task_of
 from carpus.core.records.corrections import Corrections, Waiting, difference
+from carpus.core.records.interrupted import recover
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.set_up import MARKERS_SUFFIX
@@ -57,7 +58,7 @@ def test_a_trial_is_in_no_list_and_waits_until_it_is_wanted(library: Library, st
     patient, session_id = entered(library, stored)
     corrections = Corrections(library)
     trial = made(corrections, session_id, stored)
-    library.recover()
+    recover(library)
     assert [entry.session_id for entry in library.results(patient)] == [session_id]
     found = difference(*corrections.both(session_id, trial))
     assert found.common > 100

@@ -17,7 +17,9 @@ from carpus.core.errors import CarpusFault, FolderMissing, RecordingMoved, Recor
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.records.coming_home import bring_home, fallback_place
 from carpus.core.records.erasure import erase, plan_patient
+from carpus.core.records.interrupted import recover
 from carpus.core.records.library import Library
+from carpus.core.records.new_sessions import NewSessions
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.writer import Fallback, SessionWriter
 from carpus.core.types import Frame
@@ -61,7 +63,7 @@ def test_it_is_told_within_a_second_and_the_session_comes_home(tmp_path: Path) -
     source = HeldSource()
     source.let(10_000)
     with LiveSession(source) as live:
-        fallback = Fallback(lambda: library.fallback_folder(key), live.notice)
+        fallback = Fallback(lambda: NewSessions(library).fallback_folder(key), live.notice)
         writer = SessionWriter.create(path, make_header(), CAMERA, make_calibration(), fallback=fallback)
         for row in range(20):
             writer.append(make_frame(row))
@@ -77,13 +79,13 @@ def test_it_is_told_within_a_second_and_the_session_comes_home(tmp_path: Path) -
         writer.close()
     assert writer.path.parent == fallback_place(data) / key
     assert writer.path.parent.stat().st_mode & 0o777 == 0o700
-    session_id = library._enter_elsewhere(writer.path)
+    session_id = NewSessions(library).entered(set_up(key, "Linden 42"), writer.path)
     assert len(library.session(session_id)) == row  # it can be reviewed although the register is gone
     library.close()
 
     (tmp_path / "unplugged").rename(data)  # the disk is back, with what was flushed before
     library = Library(data)
-    _, faults = library.recover()
+    _, faults = recover(library)
     assert [type(fault) for fault in faults] == [RecordingReturned]
     (entry,) = library.sessions(key)
     assert entry.frames == row
@@ -96,21 +98,21 @@ def test_while_the_share_is_away_the_window_starts_and_measures_here(tmp_path: P
     """Nothing is made where the share belongs, which would hide under it once it is mounted."""
     data, share = tmp_path / "data", tmp_path / "share"
     with closing(Library(data, sessions=share)) as library:
-        assert [type(fault) for fault in library.recover()[1]] == [FolderMissing]
+        assert [type(fault) for fault in recover(library)[1]] == [FolderMissing]
         told: list[CarpusFault] = []
         library.log_fault = told.append
         linden = library.patients.add(PatientEntry("Linden 42", "left"))
         choice = set_up(linden, "Linden 42")
-        path = record(library.new_path(choice), "Linden 42", CREATED, "left")
+        path = record(NewSessions(library).new_path(choice), "Linden 42", CREATED, "left")
         assert path.parent == fallback_place(data) / linden
         assert [type(fault) for fault in told] == [RecordingMoved]
-        library.entered(choice, path)
-        library.recover()
+        NewSessions(library).entered(choice, path)
+        recover(library)
         assert path.exists()
         assert not share.exists()
     share.mkdir()
     with closing(Library(data, sessions=share)) as library:
-        assert [type(fault) for fault in library.recover()[1]] == [RecordingReturned]
+        assert [type(fault) for fault in recover(library)[1]] == [RecordingReturned]
         assert [one.path.parent for one in library.sessions(linden)] == [share / linden]
 
 
@@ -122,7 +124,7 @@ def test_a_share_keeps_its_rights(tmp_path: Path) -> None:
     with closing(Library(tmp_path / "data", sessions=share)) as library:
         assert share.stat().st_mode & 0o777 == 0o770
         linden = library.patients.add(PatientEntry("Linden 42", "left"))
-        library.new_path(set_up(linden, "Linden 42"))
+        NewSessions(library).new_path(set_up(linden, "Linden 42"))
     assert share.stat().st_mode & 0o777 == 0o770
     assert (share / linden).stat().st_mode & 0o777 == 0o700
 
@@ -135,15 +137,15 @@ def test_what_waits_of_a_patient_who_was_erased_is_erased_and_brings_nobody_back
     data, share = tmp_path / "data", tmp_path / "share"
     with closing(Library(data, sessions=share)) as library:
         linden = library.patients.add(PatientEntry("Linden 42", "left"))
-        path = record(library.new_path(set_up(linden, "Linden 42")), "Linden 42", CREATED, "left")
+        path = record(NewSessions(library).new_path(set_up(linden, "Linden 42")), "Linden 42", CREATED, "left")
         path.with_name("damaged.h5").write_bytes(b"of a kill")
         path.with_name("pictures.carpusraw").write_bytes(b"without a session")
         heron = library.patients.add(PatientEntry("Heron 17", "left"))
-        record(library.new_path(set_up(heron, "Heron 17")), "Heron 17", CREATED, "left")
+        record(NewSessions(library).new_path(set_up(heron, "Heron 17")), "Heron 17", CREATED, "left")
         library.patients.change(heron, PatientEntry("Heron 18", "left"))
         erase(library.store, plan_patient(library.store, linden), library.log)
         share.mkdir()
-        told = [type(fault) for fault in library.recover()[1]]
+        told = [type(fault) for fault in recover(library)[1]]
         assert (told.count(WaitingErased), told.count(RecordingReturned)) == (1, 1)
         assert not path.parent.exists(), "also what cannot be read"
         assert [one.entry.pseudonym for one in library.patients.listed()] == ["Heron 18"], "by identity, not by name"
@@ -154,18 +156,19 @@ def test_the_empty_place_of_a_share_is_not_taken_for_the_share(tmp_path: Path) -
     data, share = tmp_path / "data", tmp_path / "share"
     share.mkdir()
     with closing(Library(data, sessions=share)) as library:
-        assert library.recover() == ([], []), "a new one is empty"
+        assert recover(library) == ([], []), "a new one is empty"
         linden = library.patients.add(PatientEntry("Linden 42", "left"))
         choice = set_up(linden, "Linden 42")
-        library.entered(choice, record(library.new_path(choice), "Linden 42", CREATED, "left"))
+        places = NewSessions(library)
+        places.entered(choice, record(places.new_path(choice), "Linden 42", CREATED, "left"))
         share.rename(tmp_path / "unplugged")
         share.mkdir()
-        assert [type(fault) for fault in library.recover()[1]] == [ShareEmpty]
-        path = record(library.new_path(choice), "Linden 42", CREATED, "left")
+        assert [type(fault) for fault in recover(library)[1]] == [ShareEmpty]
+        path = record(places.new_path(choice), "Linden 42", CREATED, "left")
         assert path.is_relative_to(fallback_place(data)), "under the share it would be hidden"
-        library.entered(choice, path)
+        places.entered(choice, path)
         assert list(share.iterdir()) == []
         share.rmdir()
         (tmp_path / "unplugged").rename(share)
-        assert [type(fault) for fault in library.recover()[1]] == [RecordingMoved, RecordingReturned]
+        assert [type(fault) for fault in recover(library)[1]] == [RecordingMoved, RecordingReturned]
         assert len(library.sessions(linden)) == 2

@@ -18,8 +18,10 @@ from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, SessionUnreadable
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.records import of_sessions
+from carpus.core.records.interrupted import recover
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
+from carpus.core.records.new_sessions import NewSessions
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
@@ -52,7 +54,7 @@ def store(
     parameters: str = "{}",
     after: timedelta = timedelta(0),
 ) -> str:
-    path = library.new_path(wanted)
+    path = NewSessions(library).new_path(wanted)
     calibration = make_calibration()
     verdict = replace(calibration.verdict, hand_length_mm=hand_length_mm, findings=findings)
     header = new_header(
@@ -67,7 +69,7 @@ def store(
     with SessionWriter.create(path, header, CAMERA, replace(calibration, verdict=verdict)) as writer:
         for row in range(frames):
             writer.append(make_frame(row))
-    return library.entered(wanted, path)
+    return NewSessions(library).entered(wanted, path)
 
 
 def test_practice_is_never_among_the_patients(library: Library) -> None:
@@ -86,7 +88,8 @@ def test_practice_is_never_among_the_patients(library: Library) -> None:
 def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(library: Library) -> None:
     linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
     wanted = set_up(linden, "Linden 42")
-    assert math.isnan(library.last_hand_length_mm(wanted, simulated=False))
+    places = NewSessions(library)
+    assert math.isnan(places.last_hand_length_mm(wanted, simulated=False))
     steps = iter(range(1, 9))
 
     def stored(length_mm: float, *findings: CalibrationFinding, parameters: str = "{}") -> None:
@@ -95,11 +98,11 @@ def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(lib
     stored(180.0)
     stored(150.0, CalibrationFinding("shifted", ("WRIST", "MCP5", "MCP4")))
     stored(140.0, parameters=json.dumps({"source": {"simulated": "yes"}}))
-    assert library.last_hand_length_mm(wanted, simulated=False) == pytest.approx(180.0)
-    assert library.last_hand_length_mm(wanted, simulated=True) == pytest.approx(140.0)
-    assert math.isnan(library.last_hand_length_mm(replace(wanted, side="left"), simulated=False))
+    assert places.last_hand_length_mm(wanted, simulated=False) == pytest.approx(180.0)
+    assert places.last_hand_length_mm(wanted, simulated=True) == pytest.approx(140.0)
+    assert math.isnan(places.last_hand_length_mm(replace(wanted, side="left"), simulated=False))
     stored(210.0, CalibrationFinding("other_length", (), 210.0, 180.0, "mm"))
-    assert library.last_hand_length_mm(wanted, simulated=False) == pytest.approx(210.0), "accepted by a person"
+    assert places.last_hand_length_mm(wanted, simulated=False) == pytest.approx(210.0), "accepted by a person"
 
 
 def test_a_simulated_session_of_a_patient_counts_nowhere_and_hides_no_real_result(library: Library) -> None:
@@ -153,11 +156,11 @@ def test_a_session_copied_into_the_folder_is_taken_in_at_the_next_start(library:
     linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
     path = library.entry(store(library, set_up(linden, "Linden 42"))).path
     other = Library(tmp_path / "other")
-    assert other.recover() == ([], [])
+    assert recover(other) == ([], [])
     shutil.copy(path, other.store.sessions_folder / path.name)
     other.close()
     again = Library(tmp_path / "other")
-    again.recover()
+    recover(again)
     (record,) = again.patients.listed()
     assert (record.entry.pseudonym, record.session_count) == ("Linden 42", 1)
     again.close()
@@ -200,7 +203,7 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
     assert read_session(path).header.subject_id == "Heron 17"
     assert [line.session_id for line in stored.lines(linden)] == [two]
     assert [line.session_id for line in stored.lines(heron)] == [one]
-    library.recover()
+    recover(library)
     assert [line.session_id for line in stored.lines(heron)] == [one], "the files do not undo it"
     records, cards = Records(library), PatientShelf(library)
     records.archive_session(one)

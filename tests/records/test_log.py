@@ -16,6 +16,7 @@ from sqlalchemy.exc import DatabaseError
 from carpus.app.__main__ import main
 from carpus.core.errors import LogUnguarded, OutputNotWritable, ServerGone
 from carpus.core.records.database import STORE_FILE
+from carpus.core.records.interrupted import recover
 from carpus.core.records.library import Library
 from carpus.core.records.log import Log, fingerprint, read_log
 from carpus.core.records.schema import DEED
@@ -134,5 +135,5 @@ def test_a_damaged_line_is_left_out_and_told(tmp_path: Path, capsys: pytest.Capt
 def test_what_the_store_tells_before_anybody_listens_is_told_at_the_start(tmp_path: Path) -> None:
     library = Library(tmp_path)
     library.log_fault(ServerGone("records.clinic.example", "gone"))
-    assert [type(one) for one in library.recover()[1]] == [ServerGone]
+    assert [type(one) for one in recover(library)[1]] == [ServerGone]
     library.close()

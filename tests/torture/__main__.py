@@ -26,15 +26,16 @@ MOST_S, MOST_BYTES = 2.0, 1_000_000_000
 START = """
 import sys, time
 from pathlib import Path
+from carpus.core.records.interrupted import recover
 from carpus.core.records.library import Library
 begin = time.monotonic()
 library = Library(Path(sys.argv[1]))
-recovered, faults = library.recover()
+recovered, faults = recover(library)
 first = time.monotonic() - begin
 library.close()
 begin = time.monotonic()
 library = Library(Path(sys.argv[1]))
-again = library.recover()[1]
+again = recover(library)[1]
 from carpus.core.records.session_list import remembered
 apart = sum(bool(one.reason) for one in remembered(library.store).values())
 patients = len(library.patients.listed())

@@ -141,6 +141,7 @@ def _read(kind: str, path: Path) -> None:
         if faults:
             raise faults[0]
     else:
+        from carpus.core.records.interrupted import recover
         from carpus.core.records.library import Library
 
         data = path.parent / f"{path.stem} data"
@@ -150,7 +151,7 @@ def _read(kind: str, path: Path) -> None:
         try:
             if library.store.told:
                 raise library.store.told[0]
-            library.recover()
+            recover(library)
             for record in library.patients.listed():
                 library.index.of_patient(record.patient_id)
         finally:

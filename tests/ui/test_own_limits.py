@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QWidget
 from carpus.core.agreement.limits_file import LIMITS_FILE, store_limits
 from carpus.core.errors import SettingsInvalid
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
+from carpus.core.records.interrupted import recover
 from carpus.core.records.library import Library
 from carpus.core.results.figures import session_figures
 from carpus.ui.controls.text import Text
@@ -60,6 +61,6 @@ def test_a_damaged_file_is_told_and_the_default_limits_hold(tmp_path: Path, text
     (tmp_path / LIMITS_FILE).write_text(text, encoding="utf-8")
     library = Library(tmp_path)
     assert library.error_limits == ErrorLimits()
-    _, faults = library.recover()
+    _, faults = recover(library)
     assert [type(fault) for fault in faults] == [SettingsInvalid]
     library.close()

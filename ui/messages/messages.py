@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.errors import CameraLost
-from carpus.core.records.library import Recovered
+from carpus.core.records.interrupted import Recovered
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.fault_words import fault_words

@@ -5,6 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
+from carpus.core.records.new_sessions import NewSessions
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.strip import put_off_last
 from carpus.ui.patients.screen import PatientsScreen
@@ -32,7 +33,7 @@ class PatientsFlow(Flow):
     def show(self, choose: str = "") -> None:
         """The list; ``choose`` who is chosen in it."""
         self.close_patient()
-        self.context.library.cut_short()  # what a full disk kept from the list is taken into it
+        NewSessions(self.context.library).cut_short()  # what a full disk kept from the list is taken into it
         self.screen.refresh(choose)
         self.context.way.go("patients")
 
