@@ -227,7 +227,7 @@ static void ahead(
     const double *rates = lasts + tissues * SOFT, *stationary = rates + tissues * tissues;
     const double dwell = motion[DWELL], push = motion[PUSH], turning = motion[TURNING];
     const double unseen_scale = motion[UNSEEN_SCALE];
-    double between[tissues * tissues], soft[tissues * SOFT];
+    double between[tissues * tissues + 1], soft[tissues * SOFT + 1];
     tissue_ahead(tissues, resting, dt, motion, lasts, rates, speeds, between, soft);
     double change[modes * modes];
     double kept[modes * SIZE], driven[modes * MOVING * MOVING], relaxing[modes * SOFT * SOFT];
@@ -412,7 +412,7 @@ int log_odds(
     return 0;
 }
 
-/* The blob of each marker or -1, by the one-to-one names of greatest worth in all; 0 where an odd is not known. The
+/* The blob of each marker or -1, by the one-to-one names of greatest worth in all; 0 where an odd is no number. The
    likeliest of each where these are all others, else by augmenting paths over blobs and, of each marker, its own place to
    stay unnamed (Kuhn, Munkres): association.py, resolve. */
 int resolved(int markers, int blobs, const double *odds, int64_t *assigned)
@@ -424,7 +424,7 @@ int resolved(int markers, int blobs, const double *odds, int64_t *assigned)
     for (int m = 0; m < markers; m++) {
         int best = 0;
         for (int b = 0; b < blobs; b++) {
-            if (isnan(odds[m * blobs + b]))
+            if (!(odds[m * blobs + b] < INFINITY))
                 return 0;
             best = odds[m * blobs + b] > odds[m * blobs + best] ? b : best;
         }
