@@ -64,7 +64,7 @@ class Bar(QObject):
             simulated = measuring.is_simulated
             if place == "live" and measuring.calibration is not None:
                 findings = measuring.calibration.verdict.findings
-        elif place == "review" and self._review.shown and figures is not None:
+        elif place == "review" and figures is not None:
             simulated, findings = figures.simulated, figures.findings
         lines = []
         if simulated and now.patient is not None and not now.is_practice:
@@ -84,8 +84,9 @@ class Bar(QObject):
             return
         if place == "camera":
             camera.show_state("none", "")  # the screen itself says which there are, and how they stand
-        elif place == "review" and self._review.saved_at is not None:
-            camera.show_state("good", self.tr("Saved {time}").format(time=f"{self._review.saved_at:%H:%M}"))
+        elif place == "review" and self._review.reviewed is not None:
+            saved_at = self._review.reviewed.saved_at
+            camera.show_state("good", self.tr("Saved {time}").format(time=f"{saved_at:%H:%M}"))
         elif now.kind == "file" and now.source is not None:
             name = Path(now.choice.path).name
             camera.show_state("good", self.tr("Recording {name}").format(name=shortened(name, MOST_NAME)))

@@ -126,8 +126,8 @@ class Tour(QObject):
             "camera": lambda: journey.camera.screen.primary,
             "record": lambda: journey.live.screen.controls.main,
             "stop": lambda: journey.live.screen.controls.main,
-            "results": lambda: journey.review.screen.report_button,
-            "report": lambda: journey.review.screen.report_button,
+            "results": lambda: journey.review.screen.card.report_button,
+            "report": lambda: journey.review.screen.card.report_button,
             "save": lambda: journey.report.screen.save_button,
         }
         return buttons.get(bubble, lambda: journey.markers.screen.primary)()

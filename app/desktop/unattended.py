@@ -136,7 +136,7 @@ class Walker:
 
     def save_report(self, path: Path) -> None:
         """Make the report from the review and save it."""
-        self.journey.review.screen.report_button.click()
+        self.journey.review.screen.card.report_button.click()
         self.at("report")
         saved: list[str] = []
         self.journey.report.screen.saved.connect(saved.append)

@@ -7579,6 +7579,18 @@
         <source>sessions near this check say that they are not sure</source>
         <translation>Sitzungen nahe dieser Prüfung sagen, dass sie unsicher sind</translation>
     </message>
+    <message>
+        <source>{time} of {whole}</source>
+        <translation>{time} von {whole}</translation>
+    </message>
+    <message>
+        <source>{angle}, passive</source>
+        <translation>{angle}, passiv</translation>
+    </message>
+    <message>
+        <source>Simulated hand</source>
+        <translation>Simulierte Hand</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -8098,18 +8110,6 @@
 <context>
     <name>BesidePlayer</name>
     <message>
-        <source>Previous picture (←)</source>
-        <translation>Voriges Bild (←)</translation>
-    </message>
-    <message>
-        <source>Play (Space)</source>
-        <translation>Abspielen (Leertaste)</translation>
-    </message>
-    <message>
-        <source>Next picture (→)</source>
-        <translation>Nächstes Bild (→)</translation>
-    </message>
-    <message>
         <source>In step by</source>
         <translation>Gleichschritt nach</translation>
     </message>
@@ -8120,18 +8120,6 @@
     <message>
         <source>Time in the session: {name}</source>
         <translation>Zeit in der Sitzung: {name}</translation>
-    </message>
-    <message>
-        <source>Stop</source>
-        <translation>Stopp</translation>
-    </message>
-    <message>
-        <source>Play</source>
-        <translation>Abspielen</translation>
-    </message>
-    <message>
-        <source>{factor}× speed</source>
-        <translation>{factor}× Tempo</translation>
     </message>
 </context>
 <context>
@@ -8147,26 +8135,6 @@
     <message>
         <source>How far reading is</source>
         <translation>Wie weit das Lesen ist</translation>
-    </message>
-    <message>
-        <source>Differences</source>
-        <translation>Unterschiede</translation>
-    </message>
-    <message>
-        <source>What is compared</source>
-        <translation>Was verglichen wird</translation>
-    </message>
-    <message>
-        <source>&amp;Mirror</source>
-        <translation>S&amp;piegeln</translation>
-    </message>
-    <message>
-        <source>Show the left hand as it would look as a right one</source>
-        <translation>Die linke Hand so zeigen, wie sie als rechte aussähe</translation>
-    </message>
-    <message>
-        <source>Export…</source>
-        <translation>Exportieren…</translation>
     </message>
     <message>
         <source>&amp;Another…</source>
@@ -8187,10 +8155,6 @@
     <message>
         <source>Repetition {number}</source>
         <translation>Wiederholung {number}</translation>
-    </message>
-    <message>
-        <source>not seen</source>
-        <translation>nicht gesehen</translation>
     </message>
 </context>
 <context>
@@ -9279,6 +9243,29 @@
     </message>
 </context>
 <context>
+    <name>DifferencesCard</name>
+    <message>
+        <source>What is compared</source>
+        <translation>Was verglichen wird</translation>
+    </message>
+    <message>
+        <source>&amp;Mirror</source>
+        <translation>S&amp;piegeln</translation>
+    </message>
+    <message>
+        <source>Show the left hand as it would look as a right one</source>
+        <translation>Die linke Hand so zeigen, wie sie als rechte aussähe</translation>
+    </message>
+    <message>
+        <source>Export…</source>
+        <translation>Exportieren…</translation>
+    </message>
+    <message>
+        <source>Differences</source>
+        <translation>Unterschiede</translation>
+    </message>
+</context>
+<context>
     <name>EraseSheet</name>
     <message>
         <source>Erase for good</source>
@@ -10356,10 +10343,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Starts in {seconds}: not yet</source>
         <translation type="vanished">Beginn in {seconds}: noch nicht</translation>
-    </message>
-    <message>
-        <source>Space</source>
-        <translation type="vanished">Leertaste</translation>
     </message>
     <message>
         <source>Space · pedal</source>
@@ -11582,18 +11565,6 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>Player</name>
     <message>
-        <source>Previous picture (←)</source>
-        <translation>Voriges Bild (←)</translation>
-    </message>
-    <message>
-        <source>Play (Space)</source>
-        <translation>Abspielen (Leertaste)</translation>
-    </message>
-    <message>
-        <source>Next picture (→)</source>
-        <translation>Nächstes Bild (→)</translation>
-    </message>
-    <message>
         <source>What is drawn</source>
         <translation>Was gezeichnet wird</translation>
     </message>
@@ -11634,28 +11605,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Passiv oder weggelassen (X); [ und ] gehen zu einer anderen</translation>
     </message>
     <message>
-        <source>repetition</source>
-        <translation type="vanished">Wiederholung</translation>
-    </message>
-    <message>
         <source>picture</source>
         <translation>Bild</translation>
-    </message>
-    <message>
-        <source>{time} of {whole}</source>
-        <translation>{time} von {whole}</translation>
-    </message>
-    <message>
-        <source>Stop</source>
-        <translation>Stopp</translation>
-    </message>
-    <message>
-        <source>Play</source>
-        <translation>Abspielen</translation>
-    </message>
-    <message>
-        <source>{factor}× speed</source>
-        <translation>{factor}× Tempo</translation>
     </message>
 </context>
 <context>
@@ -12345,6 +12296,17 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>ResultTables</name>
+    <message>
+        <source>Notes: {notes}</source>
+        <translation>Notizen: {notes}</translation>
+    </message>
+    <message>
+        <source>Pain (0–10): {pains}</source>
+        <translation>Schmerz (0–10): {pains}</translation>
+    </message>
+</context>
+<context>
     <name>ResultsSheet</name>
     <message>
         <source>How far the tracking is</source>
@@ -12534,26 +12496,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>ReviewFlow</name>
-    <message>
-        <source>Save film</source>
-        <translation>Film speichern</translation>
-    </message>
-    <message>
-        <source>Save picture</source>
-        <translation>Bild speichern</translation>
-    </message>
-</context>
-<context>
-    <name>ReviewScreen</name>
-    <message>
-        <source>All fingers</source>
-        <translation>Alle Finger</translation>
-    </message>
-    <message>
-        <source>Wrist</source>
-        <translation>Handgelenk</translation>
-    </message>
+    <name>ReviewCard</name>
     <message>
         <source>Range of motion</source>
         <translation>Bewegungsumfang</translation>
@@ -12583,6 +12526,55 @@ Umschalt+F8 von der Seite</translation>
         <translation>Zum Bericht</translation>
     </message>
     <message>
+        <source>Let it count again</source>
+        <translation>Wieder zählen lassen</translation>
+    </message>
+    <message>
+        <source>No other session of this exercise yet.</source>
+        <translation>Noch keine andere Sitzung dieser Übung.</translation>
+    </message>
+    <message>
+        <source>Beside the {hand} of {day} (B)</source>
+        <translation>Neben: {hand}, {day} (B)</translation>
+    </message>
+</context>
+<context>
+    <name>ReviewCharts</name>
+    <message>
+        <source>All fingers</source>
+        <translation>Alle Finger</translation>
+    </message>
+    <message>
+        <source>Wrist</source>
+        <translation>Handgelenk</translation>
+    </message>
+    <message>
+        <source>Path of the wrist, with the hand’s axes</source>
+        <translation>Weg des Handgelenks, mit den Achsen der Hand</translation>
+    </message>
+    <message>
+        <source>Ways of the finger tips</source>
+        <translation>Wege der Fingerspitzen</translation>
+    </message>
+    <message>
+        <source>Ways of the joints: {finger}</source>
+        <translation>Wege der Gelenke: {finger}</translation>
+    </message>
+</context>
+<context>
+    <name>ReviewFlow</name>
+    <message>
+        <source>Save film</source>
+        <translation>Film speichern</translation>
+    </message>
+    <message>
+        <source>Save picture</source>
+        <translation>Bild speichern</translation>
+    </message>
+</context>
+<context>
+    <name>ReviewPicture</name>
+    <message>
         <source>Put markers right…</source>
         <translation>Marker berichtigen…</translation>
     </message>
@@ -12607,54 +12599,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Diese Wiederholung als Film, oder dieses Bild, nur mit der Hand (F)</translation>
     </message>
     <message>
-        <source>This repetition as a film of the hand alone (F)</source>
-        <translation type="vanished">Diese Wiederholung als Film der Hand allein (F)</translation>
-    </message>
-    <message>
-        <source>Reading the session…</source>
-        <translation>Sitzung wird gelesen…</translation>
-    </message>
-    <message>
-        <source>Notes: {notes}</source>
-        <translation>Notizen: {notes}</translation>
-    </message>
-    <message>
-        <source>Pain (0–10): {pains}</source>
-        <translation>Schmerz (0–10): {pains}</translation>
-    </message>
-    <message>
-        <source>Let it count again</source>
-        <translation>Wieder zählen lassen</translation>
-    </message>
-    <message>
-        <source>No other session of this exercise yet.</source>
-        <translation>Noch keine andere Sitzung dieser Übung.</translation>
-    </message>
-    <message>
-        <source>Beside the {hand} of {day} (B)</source>
-        <translation>Neben: {hand}, {day} (B)</translation>
-    </message>
-    <message>
-        <source>Path of the wrist, with the hand’s axes</source>
-        <translation>Weg des Handgelenks, mit den Achsen der Hand</translation>
-    </message>
-    <message>
-        <source>Ways of the finger tips</source>
-        <translation>Wege der Fingerspitzen</translation>
-    </message>
-    <message>
-        <source>Ways of the joints: {finger}</source>
-        <translation>Wege der Gelenke: {finger}</translation>
-    </message>
-    <message>
-        <source>{angle}, passive</source>
-        <translation>{angle}, passiv</translation>
-    </message>
-    <message>
-        <source>Simulated hand</source>
-        <translation>Simulierte Hand</translation>
-    </message>
-    <message>
         <source>Not measured here</source>
         <translation>Hier nicht gemessen</translation>
     </message>
@@ -12663,16 +12607,23 @@ Umschalt+F8 von der Seite</translation>
         <translation>Zur Kamera hin: gemessen, nicht gezeichnet</translation>
     </message>
     <message>
-        <source>Not in the picture’s plane: not drawn</source>
-        <translation type="vanished">Nicht in der Bildebene: nicht gezeichnet</translation>
-    </message>
-    <message>
         <source>Repetition {number} of {count} · {time}</source>
         <translation>Wiederholung {number} von {count} · {time}</translation>
     </message>
+</context>
+<context>
+    <name>ReviewScreen</name>
     <message>
-        <source>{count} markers hidden</source>
-        <translation>{count} Marker verdeckt</translation>
+        <source>This repetition as a film of the hand alone (F)</source>
+        <translation type="vanished">Diese Wiederholung als Film der Hand allein (F)</translation>
+    </message>
+    <message>
+        <source>Reading the session…</source>
+        <translation>Sitzung wird gelesen…</translation>
+    </message>
+    <message>
+        <source>Not in the picture’s plane: not drawn</source>
+        <translation type="vanished">Nicht in der Bildebene: nicht gezeichnet</translation>
     </message>
 </context>
 <context>
@@ -13276,6 +13227,33 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>After the recording</source>
         <translation>Nach der Aufnahme</translation>
+    </message>
+</context>
+<context>
+    <name>Transport</name>
+    <message>
+        <source>Previous picture (←)</source>
+        <translation>Voriges Bild (←)</translation>
+    </message>
+    <message>
+        <source>Next picture (→)</source>
+        <translation>Nächstes Bild (→)</translation>
+    </message>
+    <message>
+        <source>Play (Space)</source>
+        <translation>Abspielen (Leertaste)</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Stopp</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Abspielen</translation>
+    </message>
+    <message>
+        <source>{factor}× speed</source>
+        <translation>{factor}× Tempo</translation>
     </message>
 </context>
 <context>

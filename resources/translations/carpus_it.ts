@@ -7579,6 +7579,18 @@
         <source>sessions near this check say that they are not sure</source>
         <translation>le sedute vicine a questo controllo dicono di non essere sicure</translation>
     </message>
+    <message>
+        <source>{time} of {whole}</source>
+        <translation>{time} di {whole}</translation>
+    </message>
+    <message>
+        <source>{angle}, passive</source>
+        <translation>{angle}, passiva</translation>
+    </message>
+    <message>
+        <source>Simulated hand</source>
+        <translation>Mano simulata</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -8098,18 +8110,6 @@
 <context>
     <name>BesidePlayer</name>
     <message>
-        <source>Previous picture (←)</source>
-        <translation>Immagine precedente (←)</translation>
-    </message>
-    <message>
-        <source>Play (Space)</source>
-        <translation>Riproduci (Spazio)</translation>
-    </message>
-    <message>
-        <source>Next picture (→)</source>
-        <translation>Immagine seguente (→)</translation>
-    </message>
-    <message>
         <source>In step by</source>
         <translation>Sincronizza su</translation>
     </message>
@@ -8120,18 +8120,6 @@
     <message>
         <source>Time in the session: {name}</source>
         <translation>Tempo nella seduta: {name}</translation>
-    </message>
-    <message>
-        <source>Stop</source>
-        <translation>Ferma</translation>
-    </message>
-    <message>
-        <source>Play</source>
-        <translation>Riproduci</translation>
-    </message>
-    <message>
-        <source>{factor}× speed</source>
-        <translation>velocità {factor}×</translation>
     </message>
 </context>
 <context>
@@ -8147,26 +8135,6 @@
     <message>
         <source>How far reading is</source>
         <translation>Avanzamento della lettura</translation>
-    </message>
-    <message>
-        <source>Differences</source>
-        <translation>Differenze</translation>
-    </message>
-    <message>
-        <source>What is compared</source>
-        <translation>Che cosa si confronta</translation>
-    </message>
-    <message>
-        <source>&amp;Mirror</source>
-        <translation>&amp;Specchia</translation>
-    </message>
-    <message>
-        <source>Show the left hand as it would look as a right one</source>
-        <translation>Mostra la mano sinistra come apparirebbe se fosse la destra</translation>
-    </message>
-    <message>
-        <source>Export…</source>
-        <translation>Esporta…</translation>
     </message>
     <message>
         <source>&amp;Another…</source>
@@ -8187,10 +8155,6 @@
     <message>
         <source>Repetition {number}</source>
         <translation>Ripetizione {number}</translation>
-    </message>
-    <message>
-        <source>not seen</source>
-        <translation>non visto</translation>
     </message>
 </context>
 <context>
@@ -9279,6 +9243,29 @@
     </message>
 </context>
 <context>
+    <name>DifferencesCard</name>
+    <message>
+        <source>What is compared</source>
+        <translation>Che cosa si confronta</translation>
+    </message>
+    <message>
+        <source>&amp;Mirror</source>
+        <translation>&amp;Specchia</translation>
+    </message>
+    <message>
+        <source>Show the left hand as it would look as a right one</source>
+        <translation>Mostra la mano sinistra come apparirebbe se fosse la destra</translation>
+    </message>
+    <message>
+        <source>Export…</source>
+        <translation>Esporta…</translation>
+    </message>
+    <message>
+        <source>Differences</source>
+        <translation>Differenze</translation>
+    </message>
+</context>
+<context>
     <name>EraseSheet</name>
     <message>
         <source>Erase for good</source>
@@ -10356,10 +10343,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Starts in {seconds}: not yet</source>
         <translation type="vanished">Inizio tra {seconds}: non ancora</translation>
-    </message>
-    <message>
-        <source>Space</source>
-        <translation type="vanished">Spazio</translation>
     </message>
     <message>
         <source>Space · pedal</source>
@@ -11582,18 +11565,6 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>Player</name>
     <message>
-        <source>Previous picture (←)</source>
-        <translation>Immagine precedente (←)</translation>
-    </message>
-    <message>
-        <source>Play (Space)</source>
-        <translation>Riproduci (Spazio)</translation>
-    </message>
-    <message>
-        <source>Next picture (→)</source>
-        <translation>Immagine seguente (→)</translation>
-    </message>
-    <message>
         <source>What is drawn</source>
         <translation>Che cosa è disegnato</translation>
     </message>
@@ -11634,28 +11605,8 @@ Maiusc+F8 di lato</translation>
         <translation>Passiva, o esclusa (X); [ e ] vanno a un’altra</translation>
     </message>
     <message>
-        <source>repetition</source>
-        <translation type="vanished">ripetizione</translation>
-    </message>
-    <message>
         <source>picture</source>
         <translation>immagine</translation>
-    </message>
-    <message>
-        <source>{time} of {whole}</source>
-        <translation>{time} di {whole}</translation>
-    </message>
-    <message>
-        <source>Stop</source>
-        <translation>Ferma</translation>
-    </message>
-    <message>
-        <source>Play</source>
-        <translation>Riproduci</translation>
-    </message>
-    <message>
-        <source>{factor}× speed</source>
-        <translation>velocità {factor}×</translation>
     </message>
 </context>
 <context>
@@ -12345,6 +12296,17 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>ResultTables</name>
+    <message>
+        <source>Notes: {notes}</source>
+        <translation>Note: {notes}</translation>
+    </message>
+    <message>
+        <source>Pain (0–10): {pains}</source>
+        <translation>Dolore (0–10): {pains}</translation>
+    </message>
+</context>
+<context>
     <name>ResultsSheet</name>
     <message>
         <source>How far the tracking is</source>
@@ -12534,26 +12496,7 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>ReviewFlow</name>
-    <message>
-        <source>Save film</source>
-        <translation>Salva filmato</translation>
-    </message>
-    <message>
-        <source>Save picture</source>
-        <translation>Salva immagine</translation>
-    </message>
-</context>
-<context>
-    <name>ReviewScreen</name>
-    <message>
-        <source>All fingers</source>
-        <translation>Tutte le dita</translation>
-    </message>
-    <message>
-        <source>Wrist</source>
-        <translation>Polso</translation>
-    </message>
+    <name>ReviewCard</name>
     <message>
         <source>Range of motion</source>
         <translation>Escursione articolare</translation>
@@ -12583,6 +12526,55 @@ Maiusc+F8 di lato</translation>
         <translation>Crea la relazione</translation>
     </message>
     <message>
+        <source>Let it count again</source>
+        <translation>Conta di nuovo</translation>
+    </message>
+    <message>
+        <source>No other session of this exercise yet.</source>
+        <translation>Nessun’altra seduta di questo esercizio.</translation>
+    </message>
+    <message>
+        <source>Beside the {hand} of {day} (B)</source>
+        <translation>Accanto a: {hand}, {day} (B)</translation>
+    </message>
+</context>
+<context>
+    <name>ReviewCharts</name>
+    <message>
+        <source>All fingers</source>
+        <translation>Tutte le dita</translation>
+    </message>
+    <message>
+        <source>Wrist</source>
+        <translation>Polso</translation>
+    </message>
+    <message>
+        <source>Path of the wrist, with the hand’s axes</source>
+        <translation>Percorso del polso, con gli assi della mano</translation>
+    </message>
+    <message>
+        <source>Ways of the finger tips</source>
+        <translation>Percorsi delle punte delle dita</translation>
+    </message>
+    <message>
+        <source>Ways of the joints: {finger}</source>
+        <translation>Percorsi delle articolazioni: {finger}</translation>
+    </message>
+</context>
+<context>
+    <name>ReviewFlow</name>
+    <message>
+        <source>Save film</source>
+        <translation>Salva filmato</translation>
+    </message>
+    <message>
+        <source>Save picture</source>
+        <translation>Salva immagine</translation>
+    </message>
+</context>
+<context>
+    <name>ReviewPicture</name>
+    <message>
         <source>Put markers right…</source>
         <translation>Correggi i marcatori…</translation>
     </message>
@@ -12607,54 +12599,6 @@ Maiusc+F8 di lato</translation>
         <translation>Questa ripetizione come filmato, o questa immagine, con la sola mano (F)</translation>
     </message>
     <message>
-        <source>This repetition as a film of the hand alone (F)</source>
-        <translation type="vanished">Questa ripetizione come filmato della sola mano (F)</translation>
-    </message>
-    <message>
-        <source>Reading the session…</source>
-        <translation>Lettura della seduta…</translation>
-    </message>
-    <message>
-        <source>Notes: {notes}</source>
-        <translation>Note: {notes}</translation>
-    </message>
-    <message>
-        <source>Pain (0–10): {pains}</source>
-        <translation>Dolore (0–10): {pains}</translation>
-    </message>
-    <message>
-        <source>Let it count again</source>
-        <translation>Conta di nuovo</translation>
-    </message>
-    <message>
-        <source>No other session of this exercise yet.</source>
-        <translation>Nessun’altra seduta di questo esercizio.</translation>
-    </message>
-    <message>
-        <source>Beside the {hand} of {day} (B)</source>
-        <translation>Accanto a: {hand}, {day} (B)</translation>
-    </message>
-    <message>
-        <source>Path of the wrist, with the hand’s axes</source>
-        <translation>Percorso del polso, con gli assi della mano</translation>
-    </message>
-    <message>
-        <source>Ways of the finger tips</source>
-        <translation>Percorsi delle punte delle dita</translation>
-    </message>
-    <message>
-        <source>Ways of the joints: {finger}</source>
-        <translation>Percorsi delle articolazioni: {finger}</translation>
-    </message>
-    <message>
-        <source>{angle}, passive</source>
-        <translation>{angle}, passiva</translation>
-    </message>
-    <message>
-        <source>Simulated hand</source>
-        <translation>Mano simulata</translation>
-    </message>
-    <message>
         <source>Not measured here</source>
         <translation>Qui non misurato</translation>
     </message>
@@ -12663,16 +12607,23 @@ Maiusc+F8 di lato</translation>
         <translation>Verso la telecamera: misurato, non disegnato</translation>
     </message>
     <message>
-        <source>Not in the picture’s plane: not drawn</source>
-        <translation type="vanished">Non nel piano dell’immagine: non disegnato</translation>
-    </message>
-    <message>
         <source>Repetition {number} of {count} · {time}</source>
         <translation>Ripetizione {number} di {count} · {time}</translation>
     </message>
+</context>
+<context>
+    <name>ReviewScreen</name>
     <message>
-        <source>{count} markers hidden</source>
-        <translation>{count} marcatori nascosti</translation>
+        <source>This repetition as a film of the hand alone (F)</source>
+        <translation type="vanished">Questa ripetizione come filmato della sola mano (F)</translation>
+    </message>
+    <message>
+        <source>Reading the session…</source>
+        <translation>Lettura della seduta…</translation>
+    </message>
+    <message>
+        <source>Not in the picture’s plane: not drawn</source>
+        <translation type="vanished">Non nel piano dell’immagine: non disegnato</translation>
     </message>
 </context>
 <context>
@@ -13276,6 +13227,33 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>After the recording</source>
         <translation>Dopo la registrazione</translation>
+    </message>
+</context>
+<context>
+    <name>Transport</name>
+    <message>
+        <source>Previous picture (←)</source>
+        <translation>Immagine precedente (←)</translation>
+    </message>
+    <message>
+        <source>Next picture (→)</source>
+        <translation>Immagine seguente (→)</translation>
+    </message>
+    <message>
+        <source>Play (Space)</source>
+        <translation>Riproduci (Spazio)</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Ferma</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Riproduci</translation>
+    </message>
+    <message>
+        <source>{factor}× speed</source>
+        <translation>velocità {factor}×</translation>
     </message>
 </context>
 <context>

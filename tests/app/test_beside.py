@@ -59,23 +59,24 @@ def test_from_two_ticks_to_tables_and_a_page_and_back(
     assert journey.place == "beside"
     qtbot.waitUntil(lambda: screen.shown is not None)
     assert screen.answer.text() == "The whole arc has improved by 30° since 13 Nov."
-    assert [row.words for row in screen.table.rows][:3] == ["improved, beyond error"] * 3
+    assert [row.words for row in screen.differences.table.rows][:3] == ["improved, beyond error"] * 3
 
-    assert screen.in_step is not None
-    start = screen.player_s
-    assert start == screen.in_step.starts_s[0]
-    for key, expected in ((Qt.Key.Key_BracketRight, screen.in_step.starts_s[1]), (Qt.Key.Key_BracketLeft, start)):
+    assert screen.together is not None
+    start, starts = screen.playing.time_s, screen.together.step.starts_s
+    assert start == starts[0]
+    for key, expected in ((Qt.Key.Key_BracketRight, starts[1]), (Qt.Key.Key_BracketLeft, start)):
         qtbot.keyClick(screen, key)
-        assert screen.player_s == pytest.approx(expected)
+        assert screen.playing.time_s == pytest.approx(expected)
     qtbot.keyClick(screen, Qt.Key.Key_Right)
-    assert screen.player_s > start
+    assert screen.playing.time_s > start
     qtbot.keyClick(screen, Qt.Key.Key_Space)
-    playing_from = screen.player_s
-    qtbot.waitUntil(lambda: screen.player_s > playing_from)
+    playing_from = screen.playing.time_s
+    qtbot.waitUntil(lambda: screen.playing.time_s > playing_from)
     qtbot.keyClick(screen, Qt.Key.Key_Space)
     screen.player.step.setCurrentIndex(screen.player.step.findData("time"))
-    first_s, second_s = screen.in_step.at(screen.player_s)
-    assert first_s == pytest.approx(second_s, abs=1e-6) or second_s == screen.in_step.at(screen.in_step.end_s)[1]
+    step = screen.together.step
+    first_s, second_s = step.at(screen.playing.time_s)
+    assert first_s == pytest.approx(second_s, abs=1e-6) or second_s == step.at(step.end_s)[1]
 
     monkeypatch.setattr(QFileDialog, "getSaveFileName", staticmethod(lambda *_: (str(tmp_path / "pair.csv"), "")))
     qtbot.keyClick(screen, Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
@@ -110,7 +111,7 @@ def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: Deskto
     newest, older = (line.session_id for line in journey.sessions.screen.list.rows.lines)
     journey.review.show(newest)
     qtbot.waitUntil(lambda: journey.review.screen.shown)
-    assert journey.review.screen.beside_button.isEnabled()
+    assert journey.review.screen.card.beside_button.isEnabled()
     qtbot.keyClick(journey.review.screen, Qt.Key.Key_B)
     assert journey.place == "beside"
     qtbot.waitUntil(lambda: screen.shown is not None)

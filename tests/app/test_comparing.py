@@ -88,7 +88,7 @@ def test_from_the_review_to_saved_tables(
     journey = desktop.journey
     screen, comparing = journey.agreement.screen, journey.agreement
     choosing(monkeypatch, optical, tmp_path)
-    journey.review.screen.export_button.click()
+    journey.review.screen.card.export_button.click()
     journey.review.exporting.formats.compare_button.click()
     assert journey.place == "agreement"
     assert comparing.reference.isVisible()

@@ -34,7 +34,7 @@ def test_a_session_of_nobody_here_is_shown_and_stays_where_it_is(
     assert journey.place == "review"
     assert journey.now.patient is not None
     assert journey.now.patient.pseudonym == "Linden 42"
-    assert journey.review.screen.again_button.isHidden(), "there is nobody to measure"
+    assert journey.review.screen.card.again_button.isHidden(), "there is nobody to measure"
     for tab in range(4):  # every tab of the bar leads somewhere
         journey.take_tab(tab)
         assert journey.place == ("sessions", "review", "progress", "report")[tab] or tab == 3

@@ -159,7 +159,7 @@ def test_the_whole_journey_by_mouse(
     spot = journey.progress.screen.chart.points()[0][2].toPoint()
     qtbot.mouseClick(journey.progress.screen.chart.face, Qt.MouseButton.LeftButton, pos=spot)
     reviewed(qtbot, desktop)
-    click(qtbot, journey.review.screen.report_button)
+    click(qtbot, journey.review.screen.card.report_button)
     at(qtbot, desktop, "report")
     pdf = tmp_path / "report.pdf"
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(pdf), ""))
@@ -265,7 +265,7 @@ def test_a_recording_is_measured_from_its_first_picture_to_its_last(
         assert times[0] == pytest.approx(stored[0])
         assert times[-1] == pytest.approx(stored[-1])
         assert len(times) + int(file["quality/dropped_frames"][:].sum()) == len(stored)
-    assert not journey.review.screen.again_button.isVisible()
+    assert not journey.review.screen.card.again_button.isVisible()
 
 
 def test_a_recording_of_the_camera_plays_through_its_own_library_in_real_time(
@@ -342,7 +342,7 @@ def test_a_second_set_needs_no_new_markers(qtbot: QtBot, open_desktop: Open, tak
     journey = desktop.journey
     to_live(qtbot, desktop, take)
     first = one_set(qtbot, desktop)
-    click(qtbot, journey.review.screen.again_button)
+    click(qtbot, journey.review.screen.card.again_button)
     at(qtbot, desktop, "live")
     second = one_set(qtbot, desktop)
     assert first != second

@@ -546,9 +546,9 @@ class Gallery:
         self.show(screen)
         screen.begin("linden", "session-7", may_repeat=True)
         self.settle()
-        screen.seek(20.6)
+        screen.playing.seek(20.6)
         self.settle()
-        screen.end()
+        screen.playing.stop()
 
     def review_hand(self, finger: int = 0) -> None:
         self.place(tab=1, camera="Saved 11:37")
@@ -556,10 +556,10 @@ class Gallery:
         self.show(screen)
         screen.begin("linden", "hand-7", may_repeat=True)
         self.settle()
-        screen.finger.buttons()[finger].click()
-        screen.seek(12.0)
+        screen.charts.finger.buttons()[finger].click()
+        screen.playing.seek(12.0)
         self.settle()
-        screen.end()
+        screen.playing.stop()
 
     def review_passive(self) -> None:
         """Three of nine repetitions were passive, and the goniometer was at hand."""
@@ -578,12 +578,12 @@ class Gallery:
         self.show(screen)
         screen.begin("linden", "hand-7")
         self.settle()
-        screen.end()
+        screen.playing.stop()
 
     def review_angle(self) -> None:
         """The angle drawn on the picture."""
         self.review()
-        self._guided(ReviewScreen).angle_button.click()
+        self._guided(ReviewScreen).picture.angle_button.click()
         self.settle()
 
     def review_film(self) -> None:
@@ -609,9 +609,9 @@ class Gallery:
         screen.begin("linden", "session-7", may_repeat=True)
         self.settle()
         screen.player.view.setCurrentIndex(screen.player.view.findData(view))
-        screen.seek(20.6)
+        screen.playing.seek(20.6)
         self.settle()
-        screen.end()
+        screen.playing.stop()
 
     def review_path(self) -> None:
         self._review_view("path")
@@ -636,11 +636,11 @@ class Gallery:
         self.show(screen)
         screen.begin("linden", "hand-7", may_repeat=True)
         self.settle()
-        screen.finger.buttons()[finger].click()
+        screen.charts.finger.buttons()[finger].click()
         screen.player.view.setCurrentIndex(screen.player.view.findData(view))
-        screen.seek(9.5)
+        screen.playing.seek(9.5)
         self.settle()
-        screen.end()
+        screen.playing.stop()
 
     def review_reach(self) -> None:
         self._review_exercise("REACH_GRASP", "reach_grasp", "path", 6)
@@ -926,10 +926,11 @@ class Gallery:
         self.show(screen)
         screen.begin((one, other), "right")
         self.settle()
-        assert screen.in_step is not None
-        screen.seek(screen.in_step.starts_s[3] + 1.0 if len(screen.in_step.starts_s) > 3 else 2.0)
+        assert screen.together is not None
+        starts = screen.together.step.starts_s
+        screen.playing.seek(starts[3] + 1.0 if len(starts) > 3 else 2.0)
         self.settle()
-        screen.end()
+        screen.playing.stop()
         return screen
 
     def beside(self) -> BesideScreen:
@@ -954,7 +955,7 @@ class Gallery:
     def beside_reading(self) -> None:
         self.place(tab=1, camera="")
         screen = BesideScreen(self.theme, self.keys, Background(), self.sessions)
-        screen._background.run = lambda *_: None  # type: ignore[method-assign]
+        screen.reader._background.run = lambda *_: None  # type: ignore[method-assign]
         self.show(screen)
         screen.begin(("session-1", "session-7"))
         self.settle()

@@ -99,9 +99,9 @@ def test_the_left_hand_is_mirrored_and_says_so_until_m(qtbot: QtBot, theme: Them
     qtbot.keyClick(screen, Qt.Key.Key_M)
     assert not second.mirrored
     assert "mirrored" not in second.name
-    assert screen.in_step is not None
+    assert screen.together is not None
     screen.player.tracks[1].sought.emit(30.0)  # pointed at in the second one's track
-    assert screen.in_step.at(screen.player_s)[1] == pytest.approx(30.0, abs=1e-6)
+    assert screen.together.step.at(screen.playing.time_s)[1] == pytest.approx(30.0, abs=1e-6)
     screen.begin(("session-7", "session-6"))
     qtbot.waitUntil(lambda: screen.shown is not None)
-    assert not screen.mirror_button.isVisible(), "there is no left hand"
+    assert not screen.differences.mirror_button.isVisible(), "there is no left hand"

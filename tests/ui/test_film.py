@@ -121,15 +121,15 @@ def shown(qtbot: QtBot, theme: Theme, background: Background, *, pictures: bool)
 
 def test_without_agreement_or_pictures_there_is_no_film(qtbot: QtBot, theme: Theme, background: Background) -> None:
     screen = shown(qtbot, theme, background, pictures=False)
-    assert screen.film_button.isHidden()
+    assert screen.picture.film_button.isHidden()
     screen.ask_film()
     assert not screen.film_sheet.isVisible()
-    screen.end()
+    screen.playing.stop()
     screen = shown(qtbot, theme, background, pictures=True)
     wanted: list[FilmWanted] = []
     screen.film.connect(wanted.append)
     screen.go_to_repetition(3)
-    qtbot.mouseClick(screen.film_button, Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(screen.picture.film_button, Qt.MouseButton.LeftButton)
     sheet = screen.film_sheet
     assert sheet.isVisible()
     assert not sheet.take.isEnabled()
@@ -157,22 +157,21 @@ def test_without_agreement_or_pictures_there_is_no_film(qtbot: QtBot, theme: The
     qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
     qtbot.keyClick(sheet, Qt.Key.Key_Return)
     assert wanted[-1].words(wanted[-1].rows[0]).endswith("°, passive"), "no figure passes for the patient's own"
-    session = screen._session
-    assert session is not None
-    screen._session = replace(
-        session, header=replace(session.header, parameters=json.dumps({"source": {SIMULATED: "yes"}}))
-    )
+    reviewed = screen.reviewed
+    assert reviewed is not None
+    header = replace(reviewed.session.header, parameters=json.dumps({"source": {SIMULATED: "yes"}}))
+    screen.reviewed = replace(reviewed, session=replace(reviewed.session, header=header))
     screen._film(STILL)
     assert wanted[-1].words(wanted[-1].rows[0]).endswith("°, passive · Simulated hand"), "nor a drawing for a patient"
-    screen._session = session
+    screen.reviewed = reviewed
     screen.ask_film()
     assert not sheet.agreed.isChecked(), "agreement is given anew each time"
     sheet.begin(4, doubtful=True)
     assert not sheet.agreed.isEnabled()
     sheet.close_sheet()
-    screen.angle_button.click()
-    screen.end()
-    qtbot.waitUntil(lambda: screen._asked_row < 0, timeout=60_000)
+    screen.picture.angle_button.click()
+    screen.playing.stop()
+    qtbot.waitUntil(lambda: not screen.picture.reader.busy, timeout=60_000)
 
 
 class Places:

@@ -124,10 +124,10 @@ def test_nothing_is_cut_and_nothing_overlaps(gallery: Gallery, state: str) -> No
         if isinstance(screen, MarkersScreen):  # whatever is said beside it, it stays where it is under the cursor
             assert screen.picture.size() == PICTURES.setdefault((size, scale), screen.picture.size())
         if isinstance(screen, ReviewScreen):  # fitted once more, its tables stay as high as they are
-            fitted_px = screen._scroll.height()
+            fitted_px = screen.card.tables.height()
             screen._fit()
             gallery.settle()
-            assert screen._scroll.height() == fitted_px
+            assert screen.card.tables.height() == fitted_px
     gallery.shell.sign.show_lines([])
     gallery.theme.choose(text_scale=1.0)
     gallery.shell.resize(1280, 800)

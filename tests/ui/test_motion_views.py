@@ -29,7 +29,8 @@ from carpus.ui.report.further_rows import further_rows, main_words
 from carpus.ui.report.hand_rows import column_heads, finger_rows
 from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.pdf import write_session_report
-from carpus.ui.review.screen import WRIST, ReviewScreen
+from carpus.ui.review.charts import WRIST
+from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
 from tests.ui.fakes import NOW, FakeSessions, FakeStore, session
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
@@ -137,20 +138,20 @@ def shown(qtbot: QtBot, theme: Theme, background: Background, store: object, ses
 
 def test_the_review_shows_path_speeds_and_zyz_in_turn(qtbot: QtBot, theme: Theme, background: Background) -> None:
     screen = shown(qtbot, theme, background, FakeSessions(), "session-7")
-    assert screen.curves.isVisible()
+    assert screen.charts.curves.isVisible()
     screen.player.next_view()
-    assert screen.ways.isVisible()
-    assert not screen.curves.isVisible()
+    assert screen.charts.ways.isVisible()
+    assert not screen.charts.curves.isVisible()
     screen.player.next_view()
-    assert isinstance(screen.curves._plot, MotionPlot)
-    head, rows = screen.curves.table()
+    assert isinstance(screen.charts.curves._plot, MotionPlot)
+    head, rows = screen.charts.curves.table()
     assert {"position_x_mm", "velocity_y_mm_s", "angular_velocity_z_deg_s"} <= set(head)
     assert len(list(rows)) > 1000
     screen.player.next_view()
-    assert {"zyz_beta_deg", "zyz_beta_sd_deg"} <= set(screen.curves.table()[0])
+    assert {"zyz_beta_deg", "zyz_beta_sd_deg"} <= set(screen.charts.curves.table()[0])
     screen.player.next_view()
-    assert not isinstance(screen.curves._plot, MotionPlot)
-    screen.end()
+    assert not isinstance(screen.charts.curves._plot, MotionPlot)
+    screen.playing.stop()
 
 
 def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(
@@ -160,21 +161,21 @@ def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     store.sessions = {"hand-7": made}
     screen = shown(qtbot, theme, background, store, "hand-7")
-    names = {row.name for row in screen.further.rows}
+    names = {row.name for row in screen.card.tables.further.rows}
     assert {
         "Movement time, out",
         "Peak speed, back",
         "Way / straight line, out",
         "Widest opening, thumb–index",
     } <= names
-    assert screen.further.isVisibleTo(screen)
+    assert screen.card.tables.further.isVisibleTo(screen)
     screen.player.view.setCurrentIndex(screen.player.view.findData("path"))
     for finger, joints in ((0, 5), (1, 4), (3, 4), (WRIST, 1)):
-        screen.finger.choose(finger)
+        screen.charts.finger.choose(finger)
         screen._refresh()
-        assert screen.ways._plot is not None
-        assert len(screen.ways._plot.ways) == joints
-    screen.end()
+        assert screen.charts.ways._plot is not None
+        assert len(screen.charts.ways._plot.ways) == joints
+    screen.playing.stop()
 
 
 # --- words ------------------------------------------------------------------------------------------------
@@ -249,15 +250,23 @@ def test_what_explains_the_table_of_the_fingers_stands_right_under_it(
     qtbot: QtBot, theme: Theme, background: Background
 ) -> None:
     screen = shown(qtbot, theme, background, FakeHandSessions(pictures=False), "hand-7")
-    tops = [widget.y() for widget in (screen.hand_table, screen.limits, screen.notes, screen.further)]
+    tops = [
+        widget.y()
+        for widget in (
+            screen.card.tables.hand,
+            screen.card.tables.limits,
+            screen.card.tables.notes,
+            screen.card.tables.further,
+        )
+    ]
     assert tops == sorted(tops)
-    assert screen.further.rows
-    screen.end()
+    assert screen.card.tables.further.rows
+    screen.playing.stop()
 
 
 def test_a_pain_score_is_in_the_review(qtbot: QtBot, theme: Theme, background: Background) -> None:
     screen = shown(qtbot, theme, background, FakeSessions(), "session-7")
     assert screen.figures is not None
     assert screen.figures.pain
-    assert f"Pain (0–10): {', '.join(map(str, screen.figures.pain))}" in screen.notes.text()
-    screen.end()
+    assert f"Pain (0–10): {', '.join(map(str, screen.figures.pain))}" in screen.card.tables.notes.text()
+    screen.playing.stop()

@@ -52,7 +52,7 @@ def screen(qtbot: QtBot, theme: Theme, store: FakeSessions, background: Backgrou
     screen.begin("linden", "session-7")
     qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
     yield screen
-    screen.end()
+    screen.playing.stop()
 
 
 def key(qtbot: QtBot, screen: ReviewScreen, name: Qt.Key) -> None:
@@ -60,25 +60,25 @@ def key(qtbot: QtBot, screen: ReviewScreen, name: Qt.Key) -> None:
 
 
 def test_arrows_step_by_one_picture_and_the_picture_follows(qtbot: QtBot, screen: ReviewScreen) -> None:
-    screen.seek(10.0)
-    before = screen.time_s
+    screen.playing.seek(10.0)
+    before = screen.playing.time_s
     key(qtbot, screen, Qt.Key.Key_Right)
-    assert screen.time_s - before == pytest.approx(1 / 30, abs=0.02)
+    assert screen.playing.time_s - before == pytest.approx(1 / 30, abs=0.02)
     key(qtbot, screen, Qt.Key.Key_Left)
-    assert screen.time_s == pytest.approx(before, abs=0.02)
-    qtbot.waitUntil(lambda: screen._asked_row < 0)
+    assert screen.playing.time_s == pytest.approx(before, abs=0.02)
+    qtbot.waitUntil(lambda: not screen.picture.reader.busy)
 
 
 def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
     assert screen.figures is not None
-    qtbot.mouseClick(screen.count_button, Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(screen.card.count_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: "session-7" in store.kept and store.kept["session-7"].not_counted)
     assert screen.figures.not_counted
-    assert screen.count_button.text() == "Let it count again"
+    assert screen.card.count_button.text() == "Let it count again"
     screen.toggle_left_out()
     screen._leave_out("pain")
     assert screen.figures.not_counted, "other corrections leave it"
-    qtbot.mouseClick(screen.count_button, Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(screen.card.count_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: not store.kept["session-7"].not_counted)
     assert not screen.figures.not_counted
     assert screen.figures.repetitions[screen.current].reason == "pain"
@@ -88,18 +88,18 @@ def test_notes_of_the_session_are_read_in_the_review(screen: ReviewScreen) -> No
     assert screen.figures is not None
     assert screen.figures.notes
     for _, text in screen.figures.notes:
-        assert text in screen.notes.text()
-    assert screen.notes.isVisible()
+        assert text in screen.card.tables.notes.text()
+    assert screen.card.tables.notes.isVisible()
 
 
 def test_space_plays_and_stops(qtbot: QtBot, screen: ReviewScreen) -> None:
-    screen.seek(5.0)
+    screen.playing.seek(5.0)
     key(qtbot, screen, Qt.Key.Key_Space)
-    qtbot.waitUntil(lambda: screen.time_s > 5.1)
+    qtbot.waitUntil(lambda: screen.playing.time_s > 5.1)
     key(qtbot, screen, Qt.Key.Key_Space)
-    stopped = screen.time_s
-    qtbot.waitUntil(lambda: screen._asked_row < 0)
-    assert screen.time_s == stopped
+    stopped = screen.playing.time_s
+    qtbot.waitUntil(lambda: not screen.picture.reader.busy)
+    assert screen.playing.time_s == stopped
 
 
 def test_brackets_walk_through_the_repetitions(qtbot: QtBot, screen: ReviewScreen) -> None:
@@ -108,7 +108,7 @@ def test_brackets_walk_through_the_repetitions(qtbot: QtBot, screen: ReviewScree
     key(qtbot, screen, Qt.Key.Key_BracketRight)
     key(qtbot, screen, Qt.Key.Key_BracketRight)
     assert screen.current == 2
-    assert screen.time_s == pytest.approx(screen.figures.repetitions[2].start_s)
+    assert screen.playing.time_s == pytest.approx(screen.figures.repetitions[2].start_s)
     key(qtbot, screen, Qt.Key.Key_BracketLeft)
     assert screen.current == 1
 
@@ -122,12 +122,12 @@ def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
     screen.reason.buttons[0].click()
     qtbot.waitUntil(lambda: "session-7" in store.kept)
     assert store.kept["session-7"].left_out == {3: "pain"}
-    assert "number 4 left out: pain" in screen.count.text()
-    assert "mean of 8 repetitions" in screen.count.text()
+    assert "number 4 left out: pain" in screen.card.count.text()
+    assert "mean of 8 repetitions" in screen.card.count.text()
     screen.go_to_repetition(3)
     key(qtbot, screen, Qt.Key.Key_X)
     qtbot.waitUntil(lambda: not store.kept["session-7"].left_out)
-    assert "mean of 9 repetitions" in screen.count.text()
+    assert "mean of 9 repetitions" in screen.card.count.text()
 
 
 def test_a_repetition_and_all_after_it_are_passive_by_mouse(
@@ -140,9 +140,9 @@ def test_a_repetition_and_all_after_it_are_passive_by_mouse(
     qtbot.mouseClick(screen.reason.passive_on, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: "session-7" in store.kept)
     assert set(store.kept["session-7"].left_out.items()) >= {(7, "passive"), (8, "passive")}
-    assert screen.count.text().startswith("mean of 7 repetitions; 2 passive beside it")
-    assert screen.ways_table.isVisible()
-    assert [row[0] for row in screen.ways_table.rows] == ["Whole arc", "Flexion", "Extension"]
+    assert screen.card.count.text().startswith("mean of 7 repetitions; 2 passive beside it")
+    assert screen.card.tables.ways.isVisible()
+    assert [row[0] for row in screen.card.tables.ways.rows] == ["Whole arc", "Flexion", "Extension"]
     screen.go_to_repetition(7)
     key(qtbot, screen, Qt.Key.Key_X)
     qtbot.waitUntil(lambda: store.kept["session-7"].left_out[7] == "")
@@ -176,22 +176,22 @@ def test_an_edge_is_dragged_by_the_mouse(qtbot: QtBot, screen: ReviewScreen) -> 
     assert screen.figures is not None
     screen.go_to_repetition(2)
     before = screen.figures.repetitions[2]
-    panel = screen.curves.panels()[0][0]
+    panel = screen.charts.curves.panels()[0][0]
     start = QPoint(round(float(panel.x(before.end_s))), round(panel.box.center().y()))
-    drag(qtbot, screen.curves.face, start, QPoint(start.x() - 12, start.y()))
+    drag(qtbot, screen.charts.curves.face, start, QPoint(start.x() - 12, start.y()))
     assert screen.figures.repetitions[2].end_s < before.end_s - 0.5
     assert screen.figures.repetitions[2].start_s == before.start_s
 
 
 def test_a_click_in_the_curves_moves_the_cursor_there(qtbot: QtBot, screen: ReviewScreen) -> None:
-    panel = screen.curves.panels()[1][0]
+    panel = screen.charts.curves.panels()[1][0]
     spot = QPoint(round(float(panel.x(40.0))), round(panel.box.center().y()))
-    qtbot.mouseClick(screen.curves.face, Qt.MouseButton.LeftButton, pos=spot)
-    assert screen.time_s == pytest.approx(40.0, abs=0.2)
+    qtbot.mouseClick(screen.charts.curves.face, Qt.MouseButton.LeftButton, pos=spot)
+    assert screen.playing.time_s == pytest.approx(40.0, abs=0.2)
 
 
 def test_the_table_compares_with_the_last_session_and_the_other_hand(screen: ReviewScreen) -> None:
-    first = screen.table.rows[0]
+    first = screen.card.tables.range.rows[0]
     assert first.movement == "Whole arc"
     assert first.last.endswith("°")
     assert first.other_hand.endswith("°")
@@ -258,11 +258,11 @@ def test_progress_of_nobody_says_so() -> None:
 
 
 def test_a_session_on_the_screen_says_when_it_was_stored(screen: ReviewScreen) -> None:
-    assert screen.figures is not None
-    assert screen.saved_at is not None
-    assert (screen.saved_at - screen.figures.when).total_seconds() == pytest.approx(screen.figures.duration_s)
+    reviewed = screen.reviewed
+    assert reviewed is not None
+    assert (reviewed.saved_at - reviewed.figures.when).total_seconds() == pytest.approx(reviewed.figures.duration_s)
     screen.begin("linden", "session-6")
-    assert screen.saved_at is None
+    assert screen.reviewed is None
 
 
 def test_sessions_of_one_day_are_told_apart_by_their_time() -> None:

@@ -21,12 +21,12 @@ from carpus.core.session.values import Session
 from carpus.ui.background import Background
 from carpus.ui.figures import Figure
 from carpus.ui.keys import Keys
+from carpus.ui.playback.skeleton import modelled_px
 from carpus.ui.plot.readings import paint_readings
 from carpus.ui.plot.session import HandPlot, joint_at
 from carpus.ui.plot.style import screen_style
 from carpus.ui.report.hand_rows import COLUMNS, limits_words
 from carpus.ui.review.screen import ReviewScreen
-from carpus.ui.review.skeleton import modelled_px
 from carpus.ui.theme import Theme
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 
@@ -46,31 +46,31 @@ def screen(qtbot: QtBot, theme: Theme, store: FakeHandSessions) -> Iterator[Revi
     screen.begin("linden", "hand-7")
     qtbot.waitUntil(lambda: screen.shown and not background.busy)
     yield screen
-    screen.end()
+    screen.playing.stop()
     qtbot.waitUntil(lambda: not background.busy)
 
 
 def plot_of(screen: ReviewScreen) -> HandPlot:
-    plot = screen.curves._plot
+    plot = screen.charts.curves._plot
     assert isinstance(plot, HandPlot)
     return plot
 
 
 def test_every_finger_has_a_panel_and_a_chosen_one_has_bending_and_spreading(screen: ReviewScreen) -> None:
-    assert len(screen.curves.panels()) == 5
-    screen.finger.buttons()[4].click()
-    panels = screen.curves.panels()
+    assert len(screen.charts.curves.panels()) == 5
+    screen.charts.finger.buttons()[4].click()
+    panels = screen.charts.curves.panels()
     assert len(panels) == 2
     assert {figure.joint for figure in plot_of(screen).figures(1)} == {"MCP4_abduction"}
     assert panels[0][0].box.height() == pytest.approx(2 * panels[1][0].box.height(), abs=1.0)
 
 
 def test_the_wrist_of_a_whole_hand_has_its_three_angles(screen: ReviewScreen) -> None:
-    screen.finger.buttons()[-1].click()
-    assert not isinstance(screen.curves._plot, HandPlot)
-    assert [column for _, column in screen.curves.panels()] == [1, 0, 2]
-    screen.finger.buttons()[0].click()
-    assert len(screen.curves.panels()) == 5
+    screen.charts.finger.buttons()[-1].click()
+    assert not isinstance(screen.charts.curves._plot, HandPlot)
+    assert [column for _, column in screen.charts.curves.panels()] == [1, 0, 2]
+    screen.charts.finger.buttons()[0].click()
+    assert len(screen.charts.curves.panels()) == 5
 
 
 def test_a_curve_is_dashed_exactly_where_a_disc_of_the_joint_was_hidden(
@@ -101,7 +101,7 @@ def test_an_end_joint_without_measurement_of_its_own_is_never_seen(screen: Revie
 
 
 def test_the_table_says_what_is_at_least_and_why(screen: ReviewScreen) -> None:
-    rows = screen.hand_table.rows
+    rows = screen.card.tables.hand.rows
     assert [row.finger for row in rows] == [1, 2, 3, 4, 5]
     assert screen.figures is not None
     for row in rows:
@@ -110,29 +110,29 @@ def test_the_table_says_what_is_at_least_and_why(screen: ReviewScreen) -> None:
             assert cell.main.startswith("≥") == (found is not None and found.limited)
     fingers_limited = any(cell.limited for row in rows for cell in row.cells)
     assert ("camera’s view" in limits_words(screen.figures)) == fingers_limited
-    assert "DIP not measured" in screen.limits.text()
+    assert "DIP not measured" in screen.card.tables.limits.text()
 
 
 def test_space_plays_with_a_finger_chosen_and_the_curves_keep_step(qtbot: QtBot, screen: ReviewScreen) -> None:
     screen.activateWindow()
     qtbot.waitUntil(screen.isActiveWindow)
-    qtbot.mouseClick(screen.finger.buttons()[2], Qt.MouseButton.LeftButton)
-    screen.seek(4.0)
+    qtbot.mouseClick(screen.charts.finger.buttons()[2], Qt.MouseButton.LeftButton)
+    screen.playing.seek(4.0)
     qtbot.keyClick(screen, Qt.Key.Key_Space)
-    qtbot.waitUntil(lambda: screen.time_s > 4.1)
-    assert screen.curves._time_s == screen.time_s
+    qtbot.waitUntil(lambda: screen.playing.time_s > 4.1)
+    assert screen.charts.curves._time_s == screen.playing.time_s
     qtbot.keyClick(screen, Qt.Key.Key_Space)
 
 
 def test_a_time_in_no_repetition_has_no_number(screen: ReviewScreen) -> None:
-    assert screen.figures is not None
-    first, *_, last = screen.figures.repetitions
-    screen.seek(first.start_s + 0.5)
-    count = len(screen.figures.repetitions)
+    assert screen.reviewed is not None
+    first, *_, last = screen.reviewed.figures.repetitions
+    screen.playing.seek(first.start_s + 0.5)
+    count = len(screen.reviewed.figures.repetitions)
     assert count >= 7, "of the eight that were made, one may end with the recording"
-    assert screen._clock_words().startswith(f"Repetition 1 of {count} · ")
-    screen.seek(last.end_s + 0.3)
-    assert "Repetition" not in screen._clock_words()
+    assert screen.picture._clock_words(screen.reviewed).startswith(f"Repetition 1 of {count} · ")
+    screen.playing.seek(last.end_s + 0.3)
+    assert "Repetition" not in screen.picture._clock_words(screen.reviewed)
 
 
 def test_the_skeleton_goes_from_the_wrist_to_each_tip(store: FakeHandSessions) -> None:
@@ -164,7 +164,7 @@ def test_the_places_are_final_before_the_session_is_read(
 
     def places() -> list[QRect]:
         QApplication.processEvents()
-        parts = (screen.picture, screen.curves, screen.hand_table, screen.finger, screen.player)
+        parts = (screen.picture, screen.charts.curves, screen.card.tables.hand, screen.charts.finger, screen.player)
         return [QRect(part.mapTo(screen, part.rect().topLeft()), part.size()) for part in parts]
 
     screen.begin("linden", "hand-7", whole_hand=True)
@@ -173,7 +173,7 @@ def test_the_places_are_final_before_the_session_is_read(
     may_read.set()
     qtbot.waitUntil(lambda: screen.shown and not background.busy, timeout=60_000)
     assert places() == before
-    screen.end()
+    screen.playing.stop()
 
 
 def double_click(qtbot: QtBot, on: QWidget, at: QPointF) -> None:
@@ -186,7 +186,7 @@ def double_click(qtbot: QtBot, on: QWidget, at: QPointF) -> None:
 def test_the_wheel_shows_less_time_about_the_mouse_and_a_double_click_the_repetitions(
     qtbot: QtBot, screen: ReviewScreen
 ) -> None:
-    curves = screen.curves
+    curves = screen.charts.curves
     whole = plot_of(screen).shown_s
     assert whole == (0.0, plot_of(screen).end_s)
     box = curves.panels()[0][0].box
@@ -197,7 +197,7 @@ def test_the_wheel_shows_less_time_about_the_mouse_and_a_double_click_the_repeti
     start_s, end_s = plot_of(screen).shown_s
     assert end_s - start_s == pytest.approx((whole[1] - whole[0]) / 1.25**4)
     assert curves.time_at(at.x()) == pytest.approx(time_s)
-    screen.seek(whole[1] - 0.5)  # what is shown follows the cursor
+    screen.playing.seek(whole[1] - 0.5)  # what is shown follows the cursor
     assert plot_of(screen).shown_s[1] == pytest.approx(whole[1])
     for _ in range(30):
         wheel(curves.face, at, -120)

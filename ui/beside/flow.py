@@ -50,11 +50,11 @@ class BesideFlow(Flow):
 
     def leave(self) -> None:
         """Another screen is shown."""
-        self.screen.end()
+        self.screen.playing.stop()
 
     def close(self) -> None:
         """The window closes."""
-        self.screen.end()
+        self.screen.playing.stop()
         self._background.wait()
 
     def sign_lines(self) -> list[str]:
@@ -68,7 +68,7 @@ class BesideFlow(Flow):
         pseudonym = self.context.now.name or now.both.first.subject_id
         made_by = with_revision(self.context.version)
         therapist = self.context.report.therapist
-        report = BesideReport(now, self.screen.quantity, pseudonym, therapist, made_by)
+        report = BesideReport(now, self.screen.mean.quantity, pseudonym, therapist, made_by)
         self.context.way.show("report", report, [figures.session_id for figures in report.sessions])
 
     # --- another session in place of the second ------------------------------------------------------------

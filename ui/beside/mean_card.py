@@ -8,6 +8,9 @@ from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QComboBox, QSizePolicy
 
+from carpus.core.results.mean_repetition import Quantity
+from carpus.ui.beside.shown import Shown
+from carpus.ui.beside.words import quantity_name
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.text import SEMIBOLD, Text
@@ -18,25 +21,52 @@ from carpus.ui.theme import Theme
 
 
 class MeanCard(Card):
-    """``quantity`` chooses the angle; ``sought`` carries a share of the repetition that was pointed at."""
+    """``chosen``: another angle; ``sought`` carries a share of the repetition that was pointed at."""
 
+    chosen = Signal()
     sought = Signal(float)
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 0)
+        self._shown: Shown | None = None
         self.title = Text(theme, self.tr("Mean repetition, ± sd"), 14, SEMIBOLD)
-        self.quantity = QComboBox()
-        self.quantity.setAccessibleName(self.tr("Angle"))
-        self.quantity.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
-        self.quantity.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
-        self.quantity.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
+        self._quantities = QComboBox()
+        self._quantities.setAccessibleName(self.tr("Angle"))
+        self._quantities.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self._quantities.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
+        self._quantities.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         self.curves = MeanCurves(theme)
-        head = in_line(self.title, STRETCH, self.quantity, gap=12)
+        head = in_line(self.title, STRETCH, self._quantities, gap=12)
         self.body.setContentsMargins(20, 8, 16, 10)
         self.body.setSpacing(4)
         self.body.addLayout(head)
         self.body.addWidget(self.curves, 1)
         self.curves.sought.connect(self.sought)
+        self._quantities.currentIndexChanged.connect(lambda _: self._choose())
+
+    @property
+    def quantity(self) -> Quantity:
+        """The angle whose curves are shown."""
+        assert self._shown is not None
+        return self._shown.quantities[max(self._quantities.currentIndex(), 0)]
+
+    def show_means(self, now: Shown | None) -> None:
+        """What can be chosen of two sessions, and the curves of their main angle; nothing while they are read."""
+        self._shown = now
+        self._quantities.setEnabled(now is not None)
+        self._quantities.blockSignals(True)
+        self._quantities.clear()
+        if now is not None:
+            for quantity in now.quantities:
+                self._quantities.addItem(quantity_name(quantity), quantity)
+            self._quantities.setCurrentIndex(now.quantities.index(now.main_quantity))
+        self._quantities.blockSignals(False)
+        self.curves.show_plot(None if now is None else now.plot(self.quantity))
+
+    def _choose(self) -> None:
+        if self._shown is not None:
+            self.curves.show_plot(self._shown.plot(self.quantity))
+            self.chosen.emit()
 
 
 class MeanCurves(StillPlot):

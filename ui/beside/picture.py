@@ -2,51 +2,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QFontMetricsF, QPainter
 
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, FloatArray
+from carpus.ui.background import Background
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.picture.photo import label_size, paint_label
 from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM, PictureView
-from carpus.ui.review.skeleton import modelled_px, paint_palm, paint_skeleton
+from carpus.ui.playback.pictures import SessionPicture, plain_ground
 from carpus.ui.theme import Theme
 
-SIZE_PX = (324, 243)
 EDGE_PX = 10
-GROUND = 34
-"""Grey under the marks where no pictures were kept, as in the review."""
 
 
-class BesidePicture(PictureView):
-    """Shows a row of a session: :meth:`ask` is called for its picture."""
+class BesidePicture(SessionPicture):
+    """A row of one of the two, with its words in the corners."""
 
-    def __init__(self, theme: Theme) -> None:
-        super().__init__(theme, SIZE_PX)
-        self._session: Session | None = None
+    def __init__(self, theme: Theme, background: Background, read: Callable[[str, int], ByteImage | None]) -> None:
+        super().__init__(theme, (324, 243), background, read)
         self._picture_rgb: ByteImage | None = None
         self._mirrored = False
-        self.row = -1
         self.name = self.repetition = self.value = ""
         self.overlay = self._paint_over
-
-    @property
-    def session(self) -> Session | None:
-        """Whose picture is shown."""
-        return self._session
 
     @property
     def mirrored(self) -> bool:
         """Whether left and right are exchanged."""
         return self._mirrored
 
-    def begin(self, session: Session | None, words: str = "") -> None:
-        """Another session; None while it is read, with what is said meanwhile."""
-        self._session, self._picture_rgb, self.row = session, None, -1
+    def open(self, session: Session | None, words: str = "") -> None:
+        self._picture_rgb = None
         self.name = self.repetition = self.value = ""
-        self.clear(words)
+        super().open(session, words)
         self._look_at_hand()
 
     def set_mirrored(self, mirrored: bool) -> None:
@@ -56,12 +48,6 @@ class BesidePicture(PictureView):
             self._look_at_hand()
             self._show()
 
-    def show_row(self, row: int) -> None:
-        """The marks of a row; its picture follows."""
-        if row != self.row:
-            self.row = row
-            self.update()
-
     def show_words(self, name: str, repetition: str, value: str) -> None:
         """What stands in the corners."""
         if (name, repetition, value) != (self.name, self.repetition, self.value):
@@ -69,13 +55,12 @@ class BesidePicture(PictureView):
             self.setAccessibleDescription(" · ".join(part for part in (name, repetition, value) if part))
             self.update()
 
-    def show_picture(self, picture_rgb: ByteImage | None) -> None:
-        """The stored picture; None where none was kept: a plain ground under the marks."""
-        if picture_rgb is None and self._session is not None:
-            camera = self._session.camera
-            picture_rgb = np.full((camera.height_px, camera.width_px, 3), GROUND, np.uint8)
-        self._picture_rgb = picture_rgb
-        self._show()
+    def show_stored(self, picture: ByteImage | None) -> None:
+        if picture is None and self.image is None and self.session is not None:
+            picture = plain_ground(self.session.camera)
+        if picture is not None:
+            self._picture_rgb = picture
+            self._show()
 
     def _show(self) -> None:
         if self._picture_rgb is not None:
@@ -83,18 +68,18 @@ class BesidePicture(PictureView):
             self.show_frame(np.ascontiguousarray(turned))
 
     def _look_at_hand(self) -> None:
-        if self._session is None:
+        if self.session is None:
             self.set_hand_area(None)
             return
-        room = HAND_ROOM if self._session.header.joint_names else PALM_ROOM
-        self.set_hand_area(self._turned(self._session.calibration.clicks.pixel), room)
+        room = HAND_ROOM if self.session.header.joint_names else PALM_ROOM
+        self.set_hand_area(self._turned(self.session.calibration.clicks.pixel, self.session), room)
 
-    def _turned(self, pixel: FloatArray) -> FloatArray:
+    def _turned(self, pixel: FloatArray, session: Session) -> FloatArray:
         """Pixels (..., 2) as they are shown."""
-        if not self._mirrored or self._session is None:
+        if not self._mirrored:
             return pixel
         out = pixel.copy()
-        out[..., 0] = self._session.camera.width_px - 1.0 - out[..., 0]
+        out[..., 0] = session.camera.width_px - 1.0 - out[..., 0]
         return out
 
     def _fitting(self, words: str) -> str:
@@ -103,16 +88,10 @@ class BesidePicture(PictureView):
         return metrics.elidedText(words, Qt.TextElideMode.ElideRight, self.width() - 2 * EDGE_PX - 12)
 
     def _paint_over(self, painter: QPainter, picture: PictureView) -> None:
-        session = self._session
+        session = self.session
         if session is not None and 0 <= self.row < len(session):
-            measured = session.markers.measured_px[self.row]
-            seen = np.isfinite(measured[:, 0])
-            modelled = modelled_px(session.camera, session.markers.position_cam_m[self.row])
-            spots = self._turned(np.where(seen[:, None], measured, modelled))
-            if session.header.joint_names:
-                paint_skeleton(painter, picture, session.header.protocol, spots, seen)
-            else:
-                paint_palm(painter, picture, spots, seen)
+            spots, seen = self.spots_px(session)
+            self.paint_discs(painter, session, self._turned(spots, session), seen)
         theme = self._theme
         if self.name:
             paint_label(painter, theme, self._fitting(self.name), EDGE_PX, EDGE_PX)

@@ -5,127 +5,78 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QGridLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QGridLayout
 
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.ui import numbers
 from carpus.ui.beside.words import step_words
-from carpus.ui.controls.button import Button, icon_button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.key_caps import KeyCaps
 from carpus.ui.controls.layouts import in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text
-from carpus.ui.review.player import SPEEDS, Scrubber
+from carpus.ui.playback.playing import Playing
+from carpus.ui.playback.transport import Scrubber, Transport
 from carpus.ui.theme import Theme
 
 
 class BesidePlayer(Card):
-    """Emits ``stepped`` (pictures), ``play_toggled``, ``step_chosen``, and ``sought`` with which of the two was pointed
-    at (0 or 1) and a time in it."""
+    """``step_chosen`` carries how both are kept in step, ``sought`` which of the two was pointed at (0 or 1) and a time
+    in it."""
 
-    stepped = Signal(int)
-    play_toggled = Signal()
     step_chosen = Signal(str)
     sought = Signal(int, float)
 
-    def __init__(self, theme: Theme) -> None:
+    def __init__(self, theme: Theme, playing: Playing) -> None:
         super().__init__(theme, 0)
-        self._speed = 2
-        self.back = icon_button(theme, "step-back", self.tr("Previous picture (←)"))
-        self.play = icon_button(theme, "play", self.tr("Play (Space)"), "well")
-        self.on = icon_button(theme, "step-forward", self.tr("Next picture (→)"))
-        self.speed = Button(theme, "", "quiet", height_px=40)
-        self.step_name = Text(theme, self.tr("In step by"), 14, REGULAR, "text2")
+        self.transport = Transport(theme, playing, 4)
+        self._step_name = Text(theme, self.tr("In step by"), 14, REGULAR, "text2")
         self.step = QComboBox()
         self.step.setAccessibleName(self.tr("In step by"))
         self.step.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.step.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
         for value, words in step_words():
             self.step.addItem(words, value)
-        for widget in (self.step, self.back, self.play, self.on, self.speed):
-            widget.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
-        self.names = (Text(theme, "", 14, REGULAR, "text2"), Text(theme, "", 14, REGULAR, "text2"))
+        self._names = (Text(theme, "", 14, REGULAR, "text2"), Text(theme, "", 14, REGULAR, "text2"))
         self.tracks = (Scrubber(theme), Scrubber(theme))
-        self.times = (Text(theme, "", 14, MEDIUM), Text(theme, "", 14, MEDIUM))
-        self.hints = KeyCaps(theme, [("[ ]", self.tr("repetition"))])
-        tracks = QGridLayout()
-        tracks.setContentsMargins(0, 0, 0, 0)
-        tracks.setHorizontalSpacing(12)
-        tracks.setVerticalSpacing(0)
-        for line in (0, 1):
-            name, track, clock = self.names[line], self.tracks[line], self.times[line]
+        self._times = (Text(theme, "", 14, MEDIUM), Text(theme, "", 14, MEDIUM))
+        self._hints = KeyCaps(theme, [("[ ]", self.tr("repetition"))])
+        line = in_line(self.transport, 8, self._step_name, 4, self.step, 16, gap=4, margins=(12, 4, 16, 4))
+        line.addLayout(self._both_tracks(), 1)
+        line.addSpacing(12)
+        line.addWidget(self._hints)
+        self.body.addLayout(line)
+        self.step.currentIndexChanged.connect(lambda _: self.step_chosen.emit(str(self.step.currentData())))
+
+    def _both_tracks(self) -> QGridLayout:
+        grid = QGridLayout()
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(12)
+        grid.setVerticalSpacing(0)
+        for line, track in enumerate(self.tracks):
             track.setFixedHeight(22)
             track.sought.connect(lambda time_s, line=line: self.sought.emit(line, time_s))
-            tracks.addWidget(name, line, 0)
-            tracks.addWidget(track, line, 1)
-            tracks.addWidget(clock, line, 2)
-        tracks.setColumnStretch(1, 1)
-        self.body.addLayout(
-            in_line(
-                self.back,
-                self.play,
-                self.on,
-                4,
-                self.speed,
-                8,
-                self.step_name,
-                4,
-                self.step,
-                16,
-                (tracks, 1),
-                12,
-                self.hints,
-                gap=4,
-                margins=(12, 4, 16, 4),
-            )
-        )
-        self.back.clicked.connect(lambda: self.stepped.emit(-1))
-        self.on.clicked.connect(lambda: self.stepped.emit(1))
-        self.play.clicked.connect(self.play_toggled)
-        self.speed.clicked.connect(self._next_speed)
-        self.step.currentIndexChanged.connect(lambda _: self.step_chosen.emit(str(self.step.currentData())))
-        self._show_speed()
-
-    @property
-    def factor(self) -> float:
-        """How fast time passes while playing."""
-        return SPEEDS[self._speed][0]
+            for column, widget in enumerate((self._names[line], track, self._times[line])):
+                grid.addWidget(widget, line, column)
+        grid.setColumnStretch(1, 1)
+        return grid
 
     def show_tight(self, tight: bool) -> None:
         """Large text: fewer words."""
-        for shown in (self.hints, self.step_name):
+        for shown in (self._hints, self._step_name):
             shown.setVisible(not tight)
 
-    def show_sessions(
-        self, names: Sequence[str], ends_s: Sequence[float], repetitions: Sequence[Sequence[ShownRepetition]]
-    ) -> None:
-        """Names, lengths and repetitions of both."""
-        for line in (0, 1):
-            self.names[line].setText(names[line])
-            self.tracks[line].show_session(max(ends_s[line], 1e-3), repetitions[line], -1)
-            self.tracks[line].setAccessibleName(self.tr("Time in the session: {name}").format(name=names[line]))
+    def show_names(self, names: Sequence[str]) -> None:
+        """What tells the two apart."""
+        for line, name in enumerate(names):
+            self._names[line].setText(name)
+            self.tracks[line].setAccessibleName(self.tr("Time in the session: {name}").format(name=name))
 
     def show_places(
         self, times_s: Sequence[float], currents: Sequence[int], ends_s: Sequence[float],
         repetitions: Sequence[Sequence[ShownRepetition]],
     ) -> None:  # fmt: skip
         """Where both are."""
-        for line in (0, 1):
-            self.times[line].setText(numbers.clock_tenths(times_s[line]))
-            self.tracks[line].show_session(max(ends_s[line], 1e-3), repetitions[line], currents[line])
-            self.tracks[line].show_time(times_s[line])
-
-    def show_playing(self, playing: bool) -> None:
-        """The button's face."""
-        self.play.set_face("", icon="pause" if playing else "play")
-        self.play.setAccessibleName(self.tr("Stop") if playing else self.tr("Play"))
-
-    def first(self) -> QWidget:
-        """Its first control."""
-        return self.play
-
-    def _next_speed(self) -> None:
-        self._speed = (self._speed + 1) % len(SPEEDS)
-        self._show_speed()
-
-    def _show_speed(self) -> None:
-        self.speed.set_face(self.tr("{factor}× speed").format(factor=SPEEDS[self._speed][1]))
+        for line, track in enumerate(self.tracks):
+            self._times[line].setText(numbers.clock_tenths(times_s[line]))
+            track.show_session(max(ends_s[line], 1e-3), repetitions[line], currents[line])
+            track.show_time(times_s[line])

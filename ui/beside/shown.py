@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from carpus.core.hand.exercises import SIDES
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.mean_repetition import MeanRepetition, Quantity, SeenAngles, mean_repetition, seen_angles
 from carpus.core.results.ranges import FREE_ORDER, RowKey
 from carpus.core.results.seen import best_motion
 from carpus.core.results.side_by_side import SideBySide, side_by_side
 from carpus.core.session.values import Session
-from carpus.core.types import FloatArray
+from carpus.ui import numbers, terms
 from carpus.ui.beside.rows import BesideRow
 from carpus.ui.beside.words import facts_words, headline, heads, middle_words, name_of, table_rows
-from carpus.ui.figures import FINGERS, Figure, figure_of
+from carpus.ui.figures import FINGERS, Figure, figure_of, with_side
 from carpus.ui.plot.beside import BesidePlot
 from carpus.ui.report.hand_rows import compared_row, followed_keys, followed_kinds, trains_thumb
+from carpus.ui.translate import tr
 
 MIDDLE = "middle"
 """The middle joints of all fingers."""
@@ -29,11 +34,6 @@ class Watched:
     session: Session
     figures: SessionFigures
     seen: SeenAngles
-
-    @property
-    def sds_rad(self) -> FloatArray:
-        """Standard deviations of the wrist's angles (N, 3)."""
-        return best_motion(self.session).angles_sd_rad
 
     @classmethod
     def of(cls, session: Session, figures: SessionFigures) -> Watched:
@@ -131,11 +131,22 @@ def _mean(watched: Watched, quantity: Quantity) -> MeanRepetition:
     return mean_repetition(watched.seen.time_s, watched.seen.of(quantity), watched.figures.repetitions)
 
 
-def sign_of(quantity: Quantity) -> float:
-    """From the angle in every file to the one that is spoken of."""
-    return figure_of(quantity[0]).sign if quantity[0] else 1.0
-
-
 def columns(rows: Sequence[BesideRow]) -> list[tuple[str, ...]]:
     """The table's cells."""
     return [(row.movement, row.first, row.second, row.difference, row.error, row.words) for row in rows]
+
+
+def value_words(watched: Watched, quantity: Quantity, row: int) -> str:
+    """``Flexion 37° ± 2°`` where the angle was seen."""
+    joint, angle = quantity
+    values = watched.seen.of(quantity)
+    sign = figure_of(joint).sign if joint else 1.0  # from the angle in every file to the one that is spoken of
+    value = sign * float(values[row]) if 0 <= row < len(values) else math.nan
+    if not math.isfinite(value):
+        return tr("not seen")
+    if joint:
+        figure = figure_of(joint)
+        said = with_side(value, figure.finger) if figure.row == "spread" else numbers.signed_degrees(value)
+        return f"{figure.row_name} {said}"
+    sd = float(np.degrees(best_motion(watched.session).angles_sd_rad[row, angle]))
+    return f"{terms.movement_name(SIDES[angle][0 if value >= 0 else 1])} {numbers.with_spread(value, sd)}"

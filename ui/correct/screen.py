@@ -23,15 +23,16 @@ from carpus.ui.controls.column import scrolled
 from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.key_caps import KeyCaps
 from carpus.ui.controls.layouts import STRETCH, in_column, in_line
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.correct.picture import CorrectionPicture
 from carpus.ui.correct.places import Places
 from carpus.ui.correct.rows import MarkerRow
 from carpus.ui.keys import Keys, bind
 from carpus.ui.marker_words import marker_name
+from carpus.ui.playback.pictures import RowReader, plain_ground
+from carpus.ui.playback.transport import Scrubber, Transport, clock_words
 from carpus.ui.plot.session import SessionPlot
 from carpus.ui.plot.session_view import CurveView
-from carpus.ui.review.player import Player
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
 if TYPE_CHECKING:  # it reads and writes files
@@ -54,17 +55,20 @@ class CorrectScreen(QWidget):
 
     def __init__(self, theme: Theme, keys: Keys, background: Background, store: Corrections) -> None:
         super().__init__()
-        self._theme, self._background, self._store = theme, background, store
+        self._theme = theme
         self._session_id = ""
         self._session: Session | None = None
         self._figures: SessionFigures | None = None
         self.places: Places | None = None
         self._time_s = np.empty(0)
-        self._row, self._asked_row = 0, -1
+        self._row = 0
         self._spots: FloatArray = np.empty((0, 2))
         self.current = ""
         self.picture = CorrectionPicture(theme)
-        self.player = Player(theme, plays=False)
+        self.reader = RowReader(background, self, store.moment, self._show_moment, self.told.emit)
+        self.transport = Transport(theme)
+        self.time = Text(theme, "", 14, MEDIUM)
+        self.scrubber = Scrubber(theme)
         self.curves = CurveView(theme)
         self.curves.show_single(True)
         self.step = StateText(theme)
@@ -89,7 +93,10 @@ class CorrectScreen(QWidget):
         ]  # fmt: skip
         left = in_column((self.picture, 452), gap=8)
         left.addLayout(in_line(KeyCaps(self._theme, keys), STRETCH))
-        left.addWidget(self.player)
+        player = Card(self._theme, 0)
+        line = in_line(self.transport, 32, STRETCH, self.time, 8, (self.scrubber, 6), 8, gap=4, margins=(12, 7, 16, 7))
+        player.body.addLayout(line)
+        left.addWidget(player)
         left.addWidget(self.curves, 200)
         right = in_column(self.step, self.title, self.hint, gap=8, margins=(0, 0, 0, 0))
         card = Card(self._theme, 16)
@@ -121,8 +128,8 @@ class CorrectScreen(QWidget):
         self.picture.dropped.connect(self.put)
         self.picture.chosen.connect(self.choose)
         self.picture.missed.connect(self._clicked_beside)
-        self.player.sought.connect(self._seek)
-        self.player.stepped.connect(self.go_on)
+        self.scrubber.sought.connect(self._seek)
+        self.transport.stepped.connect(self.go_on)
         self.curves.cursor_moved.connect(self._seek)
         self.primary.clicked.connect(self._go)
         self.cancel.clicked.connect(self.leave)
@@ -163,8 +170,9 @@ class CorrectScreen(QWidget):
         self.picture.clear(self.tr("Reading the picture…"))
         self.picture.set_hand_area(session.calibration.clicks.pixel)
         self.curves.show_plot(SessionPlot(curves, self._figures.exercise, self._figures.repetitions, -1))
-        self.player.show_session(float(self._time_s[-1]), self._figures.repetitions, -1)
-        self._row, self._asked_row = -1, -1
+        self.scrubber.show_session(float(self._time_s[-1]), self._figures.repetitions, -1)
+        self.reader.begin(session_id)
+        self._row = -1
         self.show_row(row)
         self._fit()
         self.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -190,8 +198,9 @@ class CorrectScreen(QWidget):
             self._row = row
             self._spots = np.empty((0, 2))
             self.curves.set_time(float(self._time_s[row]))
-            self.player.show_time(float(self._time_s[row]))
-            self._ask()
+            self.time.setText(clock_words(float(self._time_s[row]), float(self._time_s[-1])))
+            self.scrubber.show_time(float(self._time_s[row]))
+            self.reader.ask(row)
         self._refresh()
 
     def go_on(self, pictures: int) -> None:
@@ -211,28 +220,13 @@ class CorrectScreen(QWidget):
         after = begins[begins > self._row]
         self.show_row(int(after[0] if after.size else begins[0]))
 
-    def _ask(self) -> None:
-        """One picture at a time is read; the newest wish follows when it has come."""
-        if self._asked_row >= 0:
-            return
-        self._asked_row = row = self._row
-        store, session_id = self._store, self._session_id
-
-        def shown(moment: tuple[ByteImage | None, FloatArray]) -> None:
-            self._asked_row = -1
-            if session_id != self._session_id or self._session is None or self.places is None:
-                return
-            if row != self._row:
-                self._ask()
-                return
-            picture_rgb, self._spots = moment
-            camera = self._session.camera
-            plain = np.full((camera.height_px, camera.width_px, 3), 34, np.uint8)
-            self.picture.show_frame(plain if picture_rgb is None else picture_rgb)
-            self.picture.show_moment(self.places, row, self._spots, has_picture=picture_rgb is not None)
-            self._refresh()
-
-        self._background.run(lambda: store.moment(session_id, row), shown, self.told.emit, self)
+    def _show_moment(self, row: int, moment: tuple[ByteImage | None, FloatArray]) -> None:
+        if row != self._row or self._session is None or self.places is None:
+            return  # the one that is shown follows
+        picture_rgb, self._spots = moment
+        self.picture.show_frame(plain_ground(self._session.camera) if picture_rgb is None else picture_rgb)
+        self.picture.show_moment(self.places, row, self._spots, has_picture=picture_rgb is not None)
+        self._refresh()
 
     # --- what a person says -------------------------------------------------------------------------------
     def choose(self, name: str) -> None:

@@ -116,7 +116,7 @@ class MotionPlot(SessionPlot):
 
     def values(self, key: int, time_s: float) -> list[Value]:
         out = []
-        row = row_at(self.curves, time_s) if len(self.curves.time_s) else 0
+        row = row_at(self.curves.time_s, time_s)
         for name, token, series in self.all_series(key):
             value = sd = math.nan
             if len(series.time_s) and abs(float(series.time_s[row]) - time_s) <= LONGEST_STEP_S:

@@ -15,7 +15,7 @@ from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.core.results.seen import JointCurves, ReportCurves
-from carpus.core.types import TrackStatus
+from carpus.core.types import FloatArray, TrackStatus
 from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure, Row, spread_labels
 from carpus.ui.marker_words import finger_name
@@ -290,7 +290,7 @@ def value_at(curves: ReportCurves, column: int, time_s: float) -> tuple[float, f
     """Angle and its deviation in degrees at the frame nearest to a time; NaN in a gap."""
     if not len(curves.time_s):
         return math.nan, math.nan
-    row = row_at(curves, time_s)
+    row = row_at(curves.time_s, time_s)
     if abs(float(curves.time_s[row]) - time_s) > LONGEST_STEP_S:
         return math.nan, math.nan
     return float(curves.angles_deg[row, column]), float(curves.sds_deg[row, column])
@@ -301,12 +301,12 @@ def joint_at(plot: HandPlot, figure: Figure, time_s: float) -> tuple[float, floa
     series = plot.joint_series(figure)
     if series is None or not len(series.time_s):
         return math.nan, math.nan, True
-    row = row_at(plot.curves, time_s)
+    row = row_at(plot.curves.time_s, time_s)
     if abs(float(series.time_s[row]) - time_s) > LONGEST_STEP_S or series.sd is None:
         return math.nan, math.nan, True
     return float(series.value[row]), float(series.sd[row]), bool(series.predicted[row])
 
 
-def row_at(curves: ReportCurves, time_s: float) -> int:
-    """Row of the frame nearest to a time."""
-    return int(np.abs(curves.time_s - time_s).argmin())
+def row_at(time_s: FloatArray, at_s: float) -> int:
+    """Row of the frame nearest to a time; -1 without any."""
+    return int(np.abs(time_s - at_s).argmin()) if len(time_s) else -1

@@ -23,7 +23,9 @@ from carpus.ui.controls.tick import Tick
 from carpus.ui.picture.convert import image_of
 from carpus.ui.picture.overlay import ToScreen, haloed
 from carpus.ui.picture.photo import paint_label
+from carpus.ui.review.reviewed import Reviewed
 from carpus.ui.theme import DARK, ON_PICTURE_LINE, Theme
+from carpus.ui.translate import tr
 
 SPEEDS = ((1.0, "1"), (0.5, "½"), (0.25, "¼"))
 STILL = 0.0
@@ -46,6 +48,20 @@ class FilmWanted:
     rate_hz: float
     exercise: Exercise
     words: Callable[[int], str]
+
+
+def film_of(reviewed: Reviewed, number: int, row: int, factor: float) -> FilmWanted:
+    """A repetition so many times as fast as it was, or with :data:`STILL` the picture of a row."""
+    rows = range(row, row + 1) if factor == STILL else reviewed.rows_of(number)
+    times, session, figures = reviewed.curves.time_s, reviewed.session, reviewed.figures
+    rate_hz = factor * len(rows) / max(float(times[rows.stop - 1] - times[rows.start]), 1e-3)
+    words = {row: reviewed.angle_words(row) for row in rows}
+    if figures.repetitions[number].helped:  # it would pass for what the patient can do
+        words = {row: said and tr("{angle}, passive").format(angle=said) for row, said in words.items()}
+    if session.header.simulated:
+        nobodys = tr("Simulated hand")
+        words = {row: f"{said} · {nobodys}" if said else nobodys for row, said in words.items()}
+    return FilmWanted(session, reviewed.id, number + 1, rows, rate_hz, figures.exercise, words.__getitem__)
 
 
 def paint_angle(painter: QPainter, angle: DrawnAngle, to_screen: ToScreen) -> None:

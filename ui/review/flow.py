@@ -33,7 +33,7 @@ class ReviewFlow(Flow):
         screen.beside.connect(lambda one, other: way.show("beside", one, other))
         screen.correct.connect(lambda *where: way.show("correct", *where))
         screen.result.connect(self.show)
-        screen.curves.saved.connect(lambda path: self.note_made([path], [context.now.session_id]))
+        screen.charts.curves.saved.connect(lambda path: self.note_made([path], [context.now.session_id]))
 
     def show(self, session_id: str = "", patient_id: str = "") -> None:
         """Show one session, ``patient_id`` of a patient who is not open; without one the newest, if there is any."""
@@ -51,22 +51,22 @@ class ReviewFlow(Flow):
         may_repeat &= bool(now.patient.patient_id)  # a file of nobody here has nobody to measure
         protocol = exercise_named(library.entry(session_id).exercise).protocol
         self.screen.begin(now.patient.patient_id, session_id, may_repeat=may_repeat, whole_hand=protocol.has_fingers)
-        self.screen.curves.start_folder = self.context.places.folder("exports")
+        self.screen.charts.curves.start_folder = self.context.places.folder("exports")
         self.context.way.go("review")
 
     def sign_lines(self) -> list[str]:
         """What must not be forgotten of the camera that measured."""
         figures = self.screen.figures
-        words = unsure_words(figures.camera) if self.screen.shown and figures is not None else ""
+        words = unsure_words(figures.camera) if figures is not None else ""
         return [words] if words else []
 
     def leave(self) -> None:
         """Another screen is shown."""
-        self.screen.end()
+        self.screen.playing.stop()
 
     def close(self) -> None:
         """The window closes."""
-        self.screen.end()
+        self.screen.playing.stop()
 
     def show_research(self, *, on: bool) -> None:
         """Paths, places and speeds besides the angles, and all formats of an export."""

@@ -1,0 +1,97 @@
+"""The card of differences: what was compared, what of the whole hand is looked at, and the table."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QComboBox
+
+from carpus.ui.beside.shown import Shown, Watched, kinds
+from carpus.ui.beside.table import BesideTable
+from carpus.ui.beside.words import other_hand_words
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.column import ScrolledColumn, scroll_area
+from carpus.ui.controls.layouts import STRETCH, in_column, in_line
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Text, caption
+from carpus.ui.controls.tooltip import plain_tooltip
+from carpus.ui.keys import Keys
+from carpus.ui.theme import Theme
+from carpus.ui.verdicts import limit_words
+
+NO_LIMIT_PX = 16_777_215
+
+
+class DifferencesCard(Card):
+    """``followed`` chooses what of the whole hand is looked at, ``mirror_button`` how a left hand is shown."""
+
+    def __init__(self, theme: Theme, keys: Keys) -> None:
+        super().__init__(theme, 20)
+        self._theme = theme
+        self._facts = ElidedText(theme, "", 14, REGULAR, "text2")
+        self.followed = QComboBox()
+        self.followed.setAccessibleName(self.tr("What is compared"))
+        self.followed.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.followed.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.mirror_button = Button(theme, self.tr("&Mirror"), "quiet", hint=keys["mirror"])
+        self.mirror_button.setCheckable(True)
+        self.mirror_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.mirror_button.setToolTip(self.tr("Show the left hand as it would look as a right one"))
+        self.export_button = Button(theme, self.tr("Export…"), hint="Ctrl+E")
+        self.table = BesideTable(theme)
+        self._limits = caption(theme, wrap=True)
+        named = in_column(Text(theme, self.tr("Differences"), 20, SEMIBOLD), self._facts, gap=0)
+        self._title_row = in_line((named, 1), self.followed, self.mirror_button, self.export_button, gap=12)
+        self.body.setContentsMargins(24, 10, 16, 10)
+        self.body.setSpacing(4)
+        self.body.addLayout(self._title_row)
+        self._column = ScrolledColumn()
+        in_column(self.table, self._limits, STRETCH, gap=8, margins=(0, 0, 8, 0), within=self._column)
+        self._scroll = scroll_area(self._column, Qt.FocusPolicy.TabFocus)  # so that keys scroll it
+        self._scroll.setAccessibleName(self.tr("Differences"))
+        self.body.addWidget(self._scroll, 1)
+
+    def fit(self, *, tight: bool, shown: bool) -> None:
+        """No higher than what is in it; with large text fewer words at the button."""
+        self.export_button.set_face(self.export_button.text(), hint="" if tight else "Ctrl+E")
+        self._scroll.setMinimumHeight(self._theme.px(70))
+        needed = self._column.sizeHint().height()
+        if self._column.hasHeightForWidth():
+            needed = self._column.heightForWidth(max(self._scroll.width() - 16, 1))
+        margins = self.body.contentsMargins()
+        around = self._title_row.sizeHint().height() + self.body.spacing() + margins.top() + margins.bottom()
+        self.setMaximumHeight(max(needed, self._theme.px(70)) + around + 4 if shown else NO_LIMIT_PX)
+
+    def clear(self) -> None:
+        """While others are read."""
+        self.table.show_rows((), ())
+        self._facts.setText("")
+        self._limits.setText("")
+        self._offer([])
+        self.mirror_button.hide()
+
+    def show_sessions(self, watched: tuple[Watched, Watched]) -> None:
+        """What can be looked at of two sessions, and whether one of them can be mirrored."""
+        self._offer(kinds(*watched))
+        sides = [one.figures.side for one in watched]
+        self.mirror_button.setVisible("left" in sides)
+        self.mirror_button.blockSignals(True)
+        self.mirror_button.setChecked(sides[0] != sides[1])
+        self.mirror_button.blockSignals(False)
+
+    def _offer(self, found: list[tuple[str, str]]) -> None:
+        self.followed.blockSignals(True)
+        self.followed.clear()
+        for value, words in found:
+            self.followed.addItem(words, value)
+        self.followed.blockSignals(False)
+        self.followed.setVisible(bool(found))
+
+    def show_differences(self, now: Shown) -> None:
+        """The table, and what it rests on."""
+        self._facts.setText(now.facts)
+        self._facts.setToolTip(plain_tooltip(now.facts))
+        self.table.show_rows(now.heads, now.rows)
+        words = [limit_words(now.both.first.study)]
+        if now.both.relation == "hands":
+            words.append(other_hand_words())
+        self._limits.setText(" ".join(words))

@@ -1,0 +1,124 @@
+"""The buttons of a player, and the line of time with a knob."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from carpus.core.results.repetition_rows import ShownRepetition
+from carpus.ui import numbers
+from carpus.ui.controls.button import Button, icon_button
+from carpus.ui.controls.layouts import in_line
+from carpus.ui.playback.playing import Playing
+from carpus.ui.theme import Theme
+from carpus.ui.translate import tr
+
+SPEEDS = ((0.25, "¼"), (0.5, "½"), (1.0, "1"), (2.0, "2"))
+
+
+class Transport(QWidget):
+    """One picture back or on, where ``stepped`` carries pictures; with a ``playing`` also play, stop, and how fast."""
+
+    stepped = Signal(int)
+
+    def __init__(self, theme: Theme, playing: Playing | None = None, before_speed_px: int = 8) -> None:
+        super().__init__()
+        back = icon_button(theme, "step-back", self.tr("Previous picture (←)"))
+        on = icon_button(theme, "step-forward", self.tr("Next picture (→)"))
+        parts: list[Button | int] = [back, on]
+        if playing is not None:
+            self._play = icon_button(theme, "play", self.tr("Play (Space)"), "well")
+            self._speed = Button(theme, "", "quiet", height_px=40)
+            parts = [back, self._play, on, before_speed_px, self._speed]
+            self._play.clicked.connect(playing.toggle)
+            playing.changed.connect(self._show_playing)
+            self._speed.clicked.connect(lambda: self._show_speed(playing, self._number + 1))
+            self._show_speed(playing, 2)
+        for part in parts:
+            if isinstance(part, Button):
+                part.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the screen
+        in_line(*parts, gap=4, margins=(0, 0, 0, 0), within=self)
+        back.clicked.connect(lambda: self.stepped.emit(-1))
+        on.clicked.connect(lambda: self.stepped.emit(1))
+
+    def _show_playing(self, playing: bool) -> None:
+        self._play.set_face("", icon="pause" if playing else "play")
+        self._play.setAccessibleName(self.tr("Stop") if playing else self.tr("Play"))
+
+    def _show_speed(self, playing: Playing, number: int) -> None:
+        self._number = number % len(SPEEDS)
+        playing.factor, words = SPEEDS[self._number]
+        self._speed.set_face(self.tr("{factor}× speed").format(factor=words))
+
+
+def clock_words(time_s: float, end_s: float) -> str:
+    """``00:12.0 of 00:41``."""
+    whole = numbers.clock(end_s + 0.5)
+    return tr("{time} of {whole}").format(time=numbers.clock_tenths(time_s), whole=whole)
+
+
+class Scrubber(QWidget):
+    """A line of time with a knob; repetitions are blocks, left-out ones are open."""
+
+    sought = Signal(float)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self._end_s, self._time_s = 1.0, 0.0
+        self._repetitions: tuple[ShownRepetition, ...] = ()
+        self._current = -1
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.setAccessibleName(self.tr("Time in the session"))
+
+    def show_session(self, end_s: float, repetitions: Sequence[ShownRepetition], current: int) -> None:
+        """Set what is drawn."""
+        self._end_s, self._repetitions, self._current = end_s, tuple(repetitions), current
+        self.update()
+
+    def show_time(self, time_s: float) -> None:
+        """Move the knob."""
+        self._time_s = time_s
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        return QSize(480, 40)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(120, 32)
+
+    def _x(self, time_s: float) -> float:
+        return 10 + (self.width() - 20) * min(max(time_s / self._end_s, 0.0), 1.0)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        self.mouseMoveEvent(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        if event.buttons() & Qt.MouseButton.LeftButton:
+            share = (event.position().x() - 10) / max(self.width() - 20, 1)
+            self.sought.emit(min(max(share, 0.0), 1.0) * self._end_s)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        color, middle = self._theme.color, self.height() / 2
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(color("sunken"))
+        painter.drawRoundedRect(QRectF(10, middle - 4, self.width() - 20, 8), 4, 4)
+        for number, repetition in enumerate(self._repetitions):
+            left, right = self._x(repetition.start_s), self._x(repetition.end_s)
+            block = QRectF(left + 1, middle - 4, max(right - left - 2, 1), 8)
+            if repetition.counts:
+                painter.setPen(Qt.PenStyle.NoPen)
+                painter.setBrush(color("accent" if number == self._current else "border"))
+            else:
+                painter.setPen(QPen(color("border"), 1))
+                painter.setBrush(color("surface"))
+            painter.drawRoundedRect(block, 2, 2)
+        painter.setPen(QPen(color("text"), 2.5))
+        painter.setBrush(color("surface"))
+        painter.drawEllipse(QPointF(self._x(self._time_s), middle), 9, 9)

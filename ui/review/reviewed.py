@@ -1,0 +1,157 @@
+"""One session as it is looked at: read and worked out in the background, and what is said of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime, timedelta
+
+import numpy as np
+
+from carpus.core.hand.exercises import FLEXION, SIDES
+from carpus.core.measures.by_hand import HandValue, of_session
+from carpus.core.results.camera_said import CameraSaid
+from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.motion_curves import MotionCurves, motion_curves
+from carpus.core.results.progress import limits_of
+from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
+from carpus.core.results.seen import JointCurves, ReportCurves, joint_curves, session_curves
+from carpus.core.session.values import Session
+from carpus.core.types import FloatArray, TrackStatus
+from carpus.ui import numbers, terms
+from carpus.ui.figures import figure_of
+from carpus.ui.playback.skeleton import modelled_px
+from carpus.ui.plot.session import value_at
+from carpus.ui.plot.session_view import EDGES_S
+from carpus.ui.ports import SessionStore, StoredResult
+from carpus.ui.translate import tr
+
+
+@dataclass(frozen=True, slots=True)
+class Reviewed:
+    """A session with the figures that a person's choices give; ``joints`` of the whole hand alone, and with them
+    ``modelled_px``, where the model has every marker in every picture."""
+
+    session: Session
+    choices: RepetitionChoices
+    history: Sequence[SessionFigures]
+    camera: CameraSaid
+    results: Sequence[StoredResult]
+    by_hand: Sequence[HandValue]
+    curves: ReportCurves
+    joints: JointCurves | None
+    motion: MotionCurves
+    modelled_px: FloatArray | None
+    figures: SessionFigures
+
+    @classmethod
+    def read(cls, store: SessionStore, patient_id: str, session_id: str) -> Reviewed:
+        """All of it, in the background."""
+        session, choices = store.session(session_id), store.choices(session_id)
+        history, camera = store.history(patient_id), store.camera(session)
+        by_hand = of_session(store.by_hand(patient_id), session.header.hand, session.header.when.date())
+        results = tuple(store.results_of(session_id))
+        drawn = session_curves(session), joint_curves(session), motion_curves(session)
+        modelled = None if drawn[1] is None else modelled_px(session.camera, session.markers.position_cam_m)
+        figures = _figures(session, choices, history, camera)
+        return cls(session, choices, history, camera, results, by_hand, *drawn, modelled, figures)
+
+    def chosen(self, choices: RepetitionChoices) -> Reviewed:
+        """With other choices."""
+        return replace(self, choices=choices, figures=_figures(self.session, choices, self.history, self.camera))
+
+    @property
+    def id(self) -> str:
+        """The session's identity."""
+        return self.session.header.session_id
+
+    @property
+    def is_hand(self) -> bool:
+        """Whether it is of the whole hand."""
+        return self.joints is not None
+
+    @property
+    def saved_at(self) -> datetime:
+        """When the session was over and stored."""
+        return self.figures.when + timedelta(seconds=self.figures.duration_s)
+
+    def under(self, time_s: float) -> list[int]:
+        """Numbers of the repetitions that a time is in."""
+        return [n for n, one in enumerate(self.figures.repetitions) if one.start_s - 1e-6 <= time_s <= one.end_s + 1e-6]
+
+    def rows_of(self, number: int) -> range:
+        """Rows of a repetition; none of -1."""
+        if number < 0:
+            return range(0)
+        one = self.figures.repetitions[number]
+        first, last = np.searchsorted(self.curves.time_s, (one.start_s, one.end_s))
+        return range(int(first), int(last))
+
+    # --- what is said of a moment -------------------------------------------------------------------------
+    def angle_words(self, row: int) -> str:
+        """``Flexion 24° ± 2°``: the trained angle of a row that was measured, else nothing."""
+        if self.curves.status[row] != TrackStatus.TRACKED:
+            return ""
+        exercise, joints = self.figures.exercise, self.joints
+        if joints is not None and exercise.joint in joints.names:
+            column = joints.names.index(exercise.joint)
+            value, sd = float(joints.angles_deg[row, column]), float(joints.sds_deg[row, column])
+            return _said(figure_of(exercise.joint).long_name, value, sd)
+        column = self._trained
+        return _wrist_said(column, float(self.curves.angles_deg[row, column]), float(self.curves.sds_deg[row, column]))
+
+    def measured_words(self, row: int, time_s: float) -> str:
+        """Of the whole hand how many discs are hidden, of the wrist its angle at a time."""
+        if self.is_hand:
+            hidden = int((~np.isfinite(self.session.markers.measured_px[row, :, 0])).sum())
+            return _hidden_words(hidden) if hidden else ""
+        return _wrist_said(self._trained, *value_at(self.curves, self._trained, time_s))
+
+    @property
+    def _trained(self) -> int:
+        angle = self.figures.exercise.angle
+        return FLEXION if angle is None else angle
+
+    # --- what a person chooses ----------------------------------------------------------------------------
+    def counting(self, number: int) -> RepetitionChoices:
+        """A repetition that was left out or is passive counts again."""
+        reasons = {n: words for n, words in self.choices.left_out.items() if n != number}
+        if self.figures.repetitions[number].reason == PASSIVE:  # also where that was said while it was measured
+            reasons[number] = ""
+        return replace(self.choices, left_out=reasons)
+
+    def left_out(self, number: int, reason: str, *, and_after: bool) -> RepetitionChoices:
+        """A repetition, or all from it on, does not count for a reason, or counts as passive."""
+        last = len(self.figures.repetitions) if and_after else number + 1
+        reasons = {**self.choices.left_out, **dict.fromkeys(range(number, last), reason)}
+        return replace(self.choices, left_out=reasons)
+
+    def with_edges(self, number: int, start_s: float, end_s: float) -> RepetitionChoices:
+        """A repetition begins and ends elsewhere."""
+        return replace(self.choices, edges_s={**self.choices.edges_s, number: (start_s, end_s)})
+
+    def nudged(self, number: int, time_s: float, by_s: float) -> RepetitionChoices:
+        """The edge of a repetition that is nearer to a time is moved."""
+        one = self.figures.repetitions[number]
+        if abs(time_s - one.start_s) <= abs(time_s - one.end_s):
+            return self.with_edges(number, min(max(0.0, one.start_s + by_s), one.end_s - EDGES_S), one.end_s)
+        return self.with_edges(number, one.start_s, max(one.end_s + by_s, one.start_s + EDGES_S))
+
+
+def _figures(
+    session: Session, choices: RepetitionChoices, history: Sequence[SessionFigures], camera: CameraSaid
+) -> SessionFigures:
+    return replace(session_figures(session, choices, limits_of(history)), camera=camera)
+
+
+def _hidden_words(count: int) -> str:
+    return tr("{count} markers hidden").format(count=count)
+
+
+def _wrist_said(column: int, value: float, sd: float) -> str:
+    return _said(terms.movement_name(SIDES[column][0 if value >= 0 else 1]), value, sd)
+
+
+def _said(name: str, value: float, sd: float) -> str:
+    return f"{name} {numbers.with_spread(value, sd)}" if math.isfinite(value) else ""
