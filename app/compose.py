@@ -15,6 +15,7 @@ from functools import partial
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from types import TracebackType
+from typing import TYPE_CHECKING
 
 import platformdirs
 from PySide6.QtCore import QEvent, QMetaObject, QObject, Qt, QTimer
@@ -53,12 +54,14 @@ from carpus.ui.records.backing_up import BackingUp
 from carpus.ui.records.erasing import Erasing
 from carpus.ui.records.lists import RecordLists
 from carpus.ui.records.locking import Locking
-from carpus.ui.settings.camera_card import CameraCard
 from carpus.ui.shell import Shell
 from carpus.ui.style import apply_style
 from carpus.ui.theme import Theme, ThemeName
 from carpus.ui.translate import tr
 from carpus.ui.window_place import place_of, put_in_place
+
+if TYPE_CHECKING:
+    from carpus.ui.settings.screen import SettingsScreen
 
 Take = Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]
 SWITCH_S = 0.001
@@ -116,6 +119,7 @@ class Desktop:
         self.shell.show()
         self.welcome.begin()
         QTimer.singleShot(SETTLED_MS, settle)
+        self.journey.way.made.connect(lambda: QTimer.singleShot(SETTLED_MS, settle))
 
     def speak_anew(self) -> None:
         """The language was changed: everything is put together again, at the same place, and this becomes it."""
@@ -256,24 +260,17 @@ def compose(
     )
     shell = Shell(theme)
     journey = Journey(shell, theme, Keys(settings.screen.keys), parts)
-    keeper = PreferenceKeeper(
-        journey, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen), library.error_limits
-    )
-    keeper.screen.retest_wanted.connect(journey.retest.show)
-    journey.retest.in_force.connect(lambda: keeper.screen.show_limits(library.error_limits))
+    keeper = PreferenceKeeper(journey, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen))
     follows = qt.styleHints().colorSchemeChanged.connect(lambda _: keeper.follow_system())
     library.who = lambda: journey.settings.report.therapist
     library.angle_order = lambda: journey.settings.report.angle_order
     sources.streams = lambda: journey.settings.stream.on
     Witness(journey, library)
-    camera_card = CameraCard(theme)
-    camera_card.calibrate.connect(journey.board.show)
-    camera_card.check.connect(lambda: journey.card.show())
-    journey.camera_state.changed.connect(lambda: camera_card.show_standing(*card_words(journey.camera_state.standing)))
-    camera_card.show_standing(*card_words(journey.camera_state.standing))
     safe = _safekeeping(journey, keeper, settings, settings_folder)
-    keeper.screen.add_cards("camera", camera_card)
-    keeper.screen.add_cards("report", journey.report.forms.card)
+    journey.way.when_made("settings", lambda: _connect_settings(keeper.screen, journey, theme))
+    journey.way.when_made(
+        "retest", lambda: journey.retest.in_force.connect(lambda: keeper.screen.show_limits(library.error_limits))
+    )
     tour = Tour(journey)
     welcome = Welcome(journey, theme, tour, keeper, library)
     again = partial(compose, qt, is_demo=is_demo, take=take, speed=speed, settings_folder=settings_folder, today=today)
@@ -287,7 +284,7 @@ def compose(
         words = journey.messages.recovered_words(found)
         place = journey.patients.screen.notice_place
         journey.messages.strip(
-            place, words, tr("Re&view it"), partial(journey.review.show, found.session_id, found.patient_id)
+            place, words, tr("Re&view it"), partial(journey.way.show, "review", found.session_id, found.patient_id)
         )
     for fault in (*told, *faults):
         said = fault_words(fault)
@@ -301,28 +298,51 @@ def compose(
     return desktop
 
 
+def _connect_settings(screen: SettingsScreen, journey: Journey, theme: Theme) -> None:
+    """What the settings lead to, and cards that others have."""
+    way, camera = journey.way, journey.camera_state
+    screen.retest_wanted.connect(lambda: way.show("retest"))
+    from carpus.ui.settings.camera_card import CameraCard
+
+    card = CameraCard(theme)
+    card.calibrate.connect(lambda: way.show("board"))
+    card.check.connect(lambda: way.show("card"))
+    camera.changed.connect(lambda: card.show_standing(*card_words(camera.standing)))
+    card.show_standing(*card_words(camera.standing))
+    screen.add_cards("camera", card)
+    screen.add_cards("report", journey.report.forms.card)
+
+
 def _safekeeping(journey: Journey, keeper: PreferenceKeeper, settings: Settings, folder: Path | None) -> Safe:
     """The flows about records, back-up and lock, and their cards among the settings."""
-    context, sessions, patients = journey.context, journey.sessions.screen, journey.patients.screen
+    context, patients = journey.context, journey.patients.screen
     records = Records(context.library)
     backing_up = BackingUp(
         context, settings.backup, folder or own_settings_folder(), keep=lambda chosen: keeper.keep(backup=chosen)
     )
     erasing = Erasing(
-        context, records, sessions, patients,
+        context, records, lambda: journey.sessions.screen, patients,
         years=lambda: lists.years, last_backup=lambda: backing_up.last.made if backing_up.last else None,
     )  # fmt: skip
     lists = RecordLists(
-        context, records, erasing, sessions, patients, years=settings.records.retention_years,
+        context, records, erasing, lambda: journey.sessions.screen, patients, years=settings.records.retention_years,
         keep_years=lambda years: keeper.keep(records=replace(settings.records, retention_years=years)),
     )  # fmt: skip
     locking = Locking(
         context, key=context.keys["lock"], minutes=settings.lock.after_min,
         keep_minutes=lambda minutes: keeper.keep(lock=LockSettings(minutes)),
     )  # fmt: skip
-    view = journey.live.patient_view
-    locking.hides.connect(lambda hides: view.hide_all() if hides else view.show_again())
-    keeper.screen.add_cards("safety", backing_up.card, locking.card, lists.card)
+
+    def connect_live() -> None:
+        view = journey.live.patient_view
+        locking.hides.connect(lambda hides: view.hide_all() if hides else view.show_again())
+        if locking.locked:
+            view.hide_all()
+
+    journey.way.when_made("live", connect_live)
+    journey.way.when_made(
+        "settings", lambda: keeper.screen.add_cards("safety", backing_up.card, locking.card, lists.card)
+    )
     backing_up.remind(patients.notice_place)
     return Safe(erasing, lists, backing_up, locking)
 

@@ -82,6 +82,11 @@ class CameraState(QObject):
         self.look()
         self.read()
 
+    def when_looked(self, show: Callable[[], object]) -> None:
+        """Show whether one is there, now and whenever it was looked."""
+        self.looked.connect(show)
+        show()
+
     def stop(self) -> None:
         """Look no more."""
         self._timer.stop()

@@ -3,11 +3,13 @@ between them (:class:`Navigator`)."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import date
+from importlib import import_module
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Generic, Protocol, TypeVar, cast
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
@@ -28,6 +30,7 @@ from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 
 T = TypeVar("T")
+F = TypeVar("F", bound="Flow", covariant=True)
 STEPS = ("exercise", "camera", "markers", "live")
 """The set-up, in order; the top bar counts them."""
 TABS = ("sessions", "review", "progress", "report")
@@ -61,6 +64,9 @@ class ScreenContext:
     is_demo: bool = False
     patient_sound: bool = False
     """Whether the patient's view beeps where a goal is reached."""
+    keep_pictures: bool = False
+    """Where nobody chose yet; they take ``mb_per_minute``."""
+    mb_per_minute: float = math.nan
 
 
 class Flow(QObject):
@@ -167,19 +173,50 @@ class Flow(QObject):
         return self.context.places.ask_where_to_save(self.context.shell, kind, name, title, kinds)
 
 
+class Owner(Protocol):
+    """Who has screens as its attributes."""
+
+    way: Navigator
+
+
+class Place(Generic[F]):
+    """A screen as an attribute that has its place's name. Its module, ``FOLDER.CLASS`` below :mod:`carpus.ui`, is
+    loaded when it is made."""
+
+    def __init__(self, flow: str) -> None:
+        self._folder, self._class = flow.split(".")
+
+    def __set_name__(self, _: type, place: str) -> None:
+        self._place = place
+
+    def __get__(self, owner: Owner, _: type) -> F:
+        return cast("F", owner.way.flow(self._place))
+
+    def make(self, context: ScreenContext) -> F:
+        """A new one."""
+        made: F = getattr(import_module(f"carpus.ui.{self._folder}.flow"), self._class)(context)
+        return made
+
+
 class Navigator(QObject):
     """The table of places, and the way between them: ``leaving`` with the new place before it is shown, ``arrived``
-    after. ``changed``: what is said over the screen that is shown is another."""
+    after. ``changed``: what is said over the screen that is shown is another. A screen is made when it is first gone
+    to or asked for, which ``made`` tells: a start would wait for all of them."""
 
     leaving = Signal(str)
     arrived = Signal(str)
     changed = Signal()
+    made = Signal()
 
     def __init__(self, shell: Shell, is_asked: Callable[[], bool], is_recording: Callable[[], bool]) -> None:
         super().__init__(shell)
         self._shell, self._is_asked, self.is_recording = shell, is_asked, is_recording
+        self.makers: dict[str, Callable[[], Flow]] = {}
+        """All screens that there are, by their places."""
         self.flows: dict[str, Flow] = {}
-        """By their places."""
+        """Those that are made."""
+        self._then: dict[str, list[Callable[[], object]]] = {}
+        self._research = True
         self._place = "patients"
         self._before_aside = "patients"
         self._came: dict[str, str] = {}
@@ -203,13 +240,35 @@ class Navigator(QObject):
         """Enter a screen into the table."""
         self.flows[flow.place] = flow
 
+    def flow(self, place: str) -> Flow:
+        """A screen, which is made where it is not yet."""
+        if place not in self.flows:
+            self.makers[place]().show_research(on=self._research)
+            for then in self._then.pop(place, []):
+                then()
+            self.made.emit()
+        return self.flows[place]
+
+    def when_made(self, place: str, then: Callable[[], object]) -> None:
+        """What is to be done once a screen is there; now where it is."""
+        if place in self.flows:
+            then()
+        else:
+            self._then.setdefault(place, []).append(then)
+
+    def show_research(self, *, on: bool) -> None:
+        """Show what only research needs, or fold it away, on every screen; no value changes by it."""
+        self._research = on
+        for flow in self.flows.values():
+            flow.show_research(on=on)
+
     def show(self, place: str, *given: object) -> None:
         """Bring up a screen as it does it itself, with what it must be told."""
-        self.flows[place].show(*given)
+        self.flow(place).show(*given)
 
     def go(self, place: str) -> None:
         """Change to a screen as it is; for its own flow."""
-        old, new = self.flows.get(self._place), self.flows[place]
+        old, new = self.flows.get(self._place), self.flow(place)
         if old is not None and place != self._place and not (old.while_aside and place in ASIDE):
             old.leave()
         if place != self._place and self._place not in ASIDE:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
@@ -12,7 +14,9 @@ from carpus.ui import numbers, terms
 from carpus.ui.check_card.standing_words import bar_words
 from carpus.ui.fault_words import finding_words, shortened
 from carpus.ui.flow import STEPS, TABS, ScreenContext
-from carpus.ui.review.screen import ReviewScreen
+
+if TYPE_CHECKING:
+    from carpus.ui.review.screen import ReviewScreen
 
 MOST_NAME = 24
 """Letters of a recording's name in the top bar."""
@@ -21,7 +25,7 @@ MOST_NAME = 24
 class Bar(QObject):
     """Tells who is open, where one is, how camera, disk and recording are."""
 
-    def __init__(self, context: ScreenContext, review: ReviewScreen) -> None:
+    def __init__(self, context: ScreenContext, review: Callable[[], ReviewScreen]) -> None:
         super().__init__(context.shell)
         self._shell, self._now, self._way = context.shell, context.now, context.way
         self._camera, self._review, self._is_demo = context.camera, review, context.is_demo
@@ -56,7 +60,8 @@ class Bar(QObject):
 
     def sign_lines(self) -> list[str]:
         """What must not be forgotten of what is on the screen: that it is simulated, or was doubtful."""
-        now, place, figures = self._now, self._way.place, self._review.figures
+        now, place = self._now, self._way.place
+        figures = self._review().figures if place == "review" else None
         simulated = False
         findings: tuple[CalibrationFinding, ...] = ()
         measuring = now.source.measuring if now.source is not None else None
@@ -64,13 +69,13 @@ class Bar(QObject):
             simulated = measuring.is_simulated
             if place == "live" and measuring.calibration is not None:
                 findings = measuring.calibration.verdict.findings
-        elif place == "review" and figures is not None:
+        elif figures is not None:
             simulated, findings = figures.simulated, figures.findings
         lines = []
         if simulated and now.patient is not None and not now.is_practice:
             words = self.tr("Simulated hand: this is not {name}, and does not count.")
             lines.append(words.format(name=now.patient.pseudonym))
-        if place == "review" and figures is not None and figures.not_counted:
+        if figures is not None and figures.not_counted:
             lines.append(self.tr("This session does not count."))
         if findings:
             said = " ".join(finding_words(finding).happened for finding in findings)
@@ -84,8 +89,8 @@ class Bar(QObject):
             return
         if place == "camera":
             camera.show_state("none", "")  # the screen itself says which there are, and how they stand
-        elif place == "review" and self._review.reviewed is not None:
-            saved_at = self._review.reviewed.saved_at
+        elif place == "review" and (reviewed := self._review().reviewed) is not None:
+            saved_at = reviewed.saved_at
             camera.show_state("good", self.tr("Saved {time}").format(time=f"{saved_at:%H:%M}"))
         elif now.kind == "file" and now.source is not None:
             name = Path(now.choice.path).name

@@ -9,7 +9,9 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date, datetime
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
@@ -20,36 +22,39 @@ from carpus.app.desktop.sources import Sources
 from carpus.app.settings import Settings
 from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.errors import CarpusFault
+from carpus.core.records.corrections import Corrections
 from carpus.core.records.library import Library
-from carpus.ui.agreement.flow import AgreementFlow
 from carpus.ui.background import Background
-from carpus.ui.beside.flow import BesideFlow
-from carpus.ui.by_hand.flow import ByHandFlow
-from carpus.ui.camera_calibration.flow import BoardFlow
 from carpus.ui.camera_state import CameraState
-from carpus.ui.check_card.flow import CardFlow
-from carpus.ui.clinic.flow import ClinicFlow
-from carpus.ui.correct.flow import CorrectFlow
-from carpus.ui.flow import STEPS, TABS, Navigator, ScreenContext
-from carpus.ui.help.flow import HelpFlow
+from carpus.ui.flow import STEPS, TABS, Navigator, Place, ScreenContext
 from carpus.ui.keys import Keys
 from carpus.ui.last_places import LastPlaces
-from carpus.ui.live.flow import LiveFlow
-from carpus.ui.markers.flow import MarkersFlow
 from carpus.ui.messages.messages import Messages
 from carpus.ui.now_open import NowOpen
 from carpus.ui.opening import Opener
-from carpus.ui.patients.flow import PatientsFlow
 from carpus.ui.ports import PatientRow
-from carpus.ui.progress.flow import ProgressFlow
-from carpus.ui.report.flow import ReportFlow
-from carpus.ui.retest.flow import RetestFlow
-from carpus.ui.review.flow import ReviewFlow
-from carpus.ui.sessions.flow import SessionsFlow
 from carpus.ui.setup.choice import SourceChoice
-from carpus.ui.setup.flow import CameraFlow, ExerciseFlow
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
+
+if TYPE_CHECKING:
+    from carpus.ui.agreement.flow import AgreementFlow
+    from carpus.ui.beside.flow import BesideFlow
+    from carpus.ui.by_hand.flow import ByHandFlow
+    from carpus.ui.camera_calibration.flow import BoardFlow
+    from carpus.ui.check_card.flow import CardFlow
+    from carpus.ui.clinic.flow import ClinicFlow
+    from carpus.ui.correct.flow import CorrectFlow
+    from carpus.ui.help.flow import HelpFlow
+    from carpus.ui.live.flow import LiveFlow
+    from carpus.ui.markers.flow import MarkersFlow
+    from carpus.ui.patients.flow import PatientsFlow
+    from carpus.ui.progress.flow import ProgressFlow
+    from carpus.ui.report.flow import ReportFlow
+    from carpus.ui.retest.flow import RetestFlow
+    from carpus.ui.review.flow import ReviewFlow
+    from carpus.ui.sessions.flow import SessionsFlow
+    from carpus.ui.setup.flow import CameraFlow, ExerciseFlow
 
 ALL_KEYS = ("help", "settings", "search", "new_patient", "back", "quit")
 
@@ -70,6 +75,25 @@ class Parts:
 class Journey(QObject):
     """Owns the screens' flows."""
 
+    patients: Place[PatientsFlow] = Place("patients.PatientsFlow")
+    exercise: Place[ExerciseFlow] = Place("setup.ExerciseFlow")
+    camera: Place[CameraFlow] = Place("setup.CameraFlow")
+    markers: Place[MarkersFlow] = Place("markers.MarkersFlow")
+    live: Place[LiveFlow] = Place("live.LiveFlow")
+    sessions: Place[SessionsFlow] = Place("sessions.SessionsFlow")
+    review: Place[ReviewFlow] = Place("review.ReviewFlow")
+    progress: Place[ProgressFlow] = Place("progress.ProgressFlow")
+    report: Place[ReportFlow] = Place("report.ReportFlow")
+    by_hand: Place[ByHandFlow] = Place("by_hand.ByHandFlow")
+    agreement: Place[AgreementFlow] = Place("agreement.AgreementFlow")
+    beside: Place[BesideFlow] = Place("beside.BesideFlow")
+    retest: Place[RetestFlow] = Place("retest.RetestFlow")
+    clinic: Place[ClinicFlow] = Place("clinic.ClinicFlow")
+    board: Place[BoardFlow] = Place("camera_calibration.BoardFlow")
+    card: Place[CardFlow] = Place("check_card.CardFlow")
+    help: Place[HelpFlow] = Place("help.HelpFlow")
+    correct: Place[CorrectFlow] = Place("correct.CorrectFlow")
+
     def __init__(self, shell: Shell, theme: Theme, keys: Keys, parts: Parts) -> None:
         super().__init__(shell)
         self._shell, self._library = shell, parts.library
@@ -83,39 +107,20 @@ class Journey(QObject):
         self.camera_state = CameraState(
             parts.cameras, self.background, lambda: datetime.now().astimezone(), is_demo=parts.is_demo
         )
-        self.way = Navigator(shell, lambda: messages.busy, lambda: self.live.is_recording)
+        self.way = Navigator(shell, lambda: messages.busy, lambda: "live" in self.way.flows and self.live.is_recording)
         self.context = ScreenContext(
             shell, theme, keys, parts.library, self.background, messages, self.way, self.now, self.opener,
             self.camera_state, parts.cameras, LastPlaces(parts.library.store), parts.settings.report, parts.today,
             __version__, parts.is_demo, parts.settings.patient.sound,
+            parts.settings.recording.keep_pictures, MB_PER_MINUTE,
         )  # fmt: skip
-        self._make_flows()
+        for name, place in vars(Journey).items():
+            if isinstance(place, Place):
+                self.way.makers[name] = partial(place.make, self.context)
+        self.bar = Bar(self.context, lambda: self.review.screen)
         self._connect(keys)
         self.camera_state.start()
-        self.correct.look_for_waiting()
-
-    def _make_flows(self) -> None:
-        context = self.context
-        self.patients = PatientsFlow(context)
-        keep_pictures = self.settings.recording.keep_pictures
-        self.exercise = ExerciseFlow(context, keep_pictures=keep_pictures, mb_per_minute=MB_PER_MINUTE)
-        self.camera = CameraFlow(context)
-        self.markers = MarkersFlow(context)
-        self.live = LiveFlow(context)
-        self.sessions = SessionsFlow(context)
-        self.review = ReviewFlow(context)
-        self.progress = ProgressFlow(context)
-        self.report = ReportFlow(context)
-        self.by_hand = ByHandFlow(context)
-        self.agreement = AgreementFlow(context)
-        self.beside = BesideFlow(context)
-        self.retest = RetestFlow(context)
-        self.clinic = ClinicFlow(context)
-        self.board = BoardFlow(context)
-        self.card = CardFlow(context)
-        self.help = HelpFlow(context)
-        self.correct = CorrectFlow(context)
-        self.bar = Bar(context, self.review.screen)
+        self._look_for_waiting()
 
     def _connect(self, keys: Keys) -> None:
         shell, bar, way = self._shell, self._shell.bar, self.way
@@ -125,16 +130,27 @@ class Journey(QObject):
         bar.back.connect(way.back)
         bar.tab.connect(self.take_tab)
         bar.step.connect(lambda number: self._go_to_step(STEPS[number]))
-        bar.help.connect(self.help.show)
+        bar.help.connect(lambda: way.show("help"))
         bar.settings.connect(lambda: way.show("settings"))
+        bar.again_wanted.connect(lambda: self.correct.open_sheet(self.now.session_id))
+        way.when_made("live", self._connect_live)
+        way.when_made("beside", lambda: self.beside.screen.arrived.connect(way.changed))
+        way.when_made("review", self._connect_review)
+        way.when_made("correct", lambda: self.correct.changed.connect(self.bar.show_again))
+        way.when_made("sessions", lambda: self.sessions.screen.changed.connect(self._look_for_waiting))
+
+    def _connect_live(self) -> None:
         self.live.screen.recording_changed.connect(self.bar.show_recording)
         self.live.screen.counted.connect(self.bar.show_counters)
-        self.beside.screen.arrived.connect(way.changed)
-        self.review.screen.arrived.connect(way.changed)
-        self.review.screen.again.connect(self.live.show)
-        self.correct.changed.connect(self.bar.show_again)
-        bar.again_wanted.connect(lambda: self.correct.open_sheet(self.now.session_id))
-        self.sessions.screen.changed.connect(self.correct.look_for_waiting)
+
+    def _connect_review(self) -> None:
+        self.review.screen.arrived.connect(self.way.changed)
+        self.review.screen.again.connect(lambda: self.way.show("live"))
+
+    def _look_for_waiting(self) -> None:
+        """What was tracked again and waits for a decision, also from before the program was started."""
+        if "correct" in self.way.flows or Corrections(self._library).are_there:
+            self.correct.look_for_waiting()
 
     @property
     def place(self) -> str:
@@ -164,7 +180,7 @@ class Journey(QObject):
 
     def review_file(self, path: Path) -> None:
         """Open a session file handed over from outside; not while something is measured or asked."""
-        if self.messages.busy or self.live.is_recording or self.now.source is not None:
+        if self.messages.busy or self.way.is_recording() or self.now.source is not None:
             return
         try:
             found = self._library.look_at(path)
@@ -177,7 +193,7 @@ class Journey(QObject):
 
     def _take_key(self, name: str) -> None:
         actions: dict[str, Callable[[], object]] = {
-            "back": self._escape, "help": self.help.show, "settings": lambda: self.way.show("settings"),
+            "back": self._escape, "help": lambda: self.way.show("help"), "settings": lambda: self.way.show("settings"),
             "quit": self._shell.close,
         }  # fmt: skip
         if name in actions:
@@ -212,11 +228,6 @@ class Journey(QObject):
             else:
                 self.review.show(before.session_id, before.patient.patient_id)
 
-    def show_research(self, *, on: bool) -> None:
-        """Show what only research needs, or fold it away; no value changes by it."""
-        for flow in self.way.flows.values():
-            flow.show_research(on=on)
-
     def close(self) -> None:
         """The window closes: finish what runs, in order, and wait for it."""
         self.camera_state.stop()
@@ -224,4 +235,5 @@ class Journey(QObject):
             flow.close()
         self.opener.end()
         self.background.wait()
-        self.live.finish()
+        if self.now.source is not None:
+            self.live.finish()

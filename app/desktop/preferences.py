@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING, cast
 
 from PySide6.QtCore import QObject, Signal
 
@@ -20,11 +21,13 @@ from carpus.app.settings import (
     keep_preferences,
 )
 from carpus.core.errors import CarpusFault
-from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.records.values import BackupSettings
 from carpus.ui.ports import Preferences
-from carpus.ui.settings.flow import SettingsFlow
 from carpus.ui.theme import Theme, ThemeName
+
+if TYPE_CHECKING:
+    from carpus.ui.settings.flow import SettingsFlow
+    from carpus.ui.settings.screen import SettingsScreen
 
 
 class PreferenceKeeper(QObject):
@@ -40,17 +43,32 @@ class PreferenceKeeper(QObject):
         settings: Settings,
         folder: Path | None,
         theme_of: Callable[[Settings], ThemeName],
-        measured: ErrorLimits = DEFAULT_LIMITS,
     ) -> None:
         super().__init__(journey)
         self._journey, self._theme, self._settings = journey, theme, settings
         self._folder, self._theme_of = folder, theme_of
         self.keeps_language: Callable[[], str] = str
         """Asked before the language changes: why it cannot now; empty where it can."""
+        self._shown_folder = str(settings.data_folder)
+        way = journey.way
+        way.makers["settings"] = self._make_flow
+        way.when_made("settings", lambda: self.screen.changed.connect(self.take))
+        way.when_made("live", self._tell_start)
+        way.show_research(on=settings.screen.research)
+
+    @property
+    def screen(self) -> SettingsScreen:
+        """What they are chosen on."""
+        return cast("SettingsFlow", self._journey.way.flow("settings")).screen
+
+    def _make_flow(self) -> SettingsFlow:
+        from carpus.ui.settings.flow import SettingsFlow
+
+        settings, context = self._settings, self._journey.context
         chosen = Preferences(
             settings.screen.theme,
             settings.screen.text_scale,
-            str(settings.data_folder),
+            self._shown_folder,
             settings.report.therapist,
             settings.screen.keys,
             settings.report.angle_order,
@@ -61,11 +79,11 @@ class PreferenceKeeper(QObject):
             settings.screen.research,
             settings.recording.start,
         )
-        self.screen = SettingsFlow(journey.context, chosen, measured, settings.updates.folder).screen
-        self._shown_folder = chosen.data_folder
-        self.screen.changed.connect(self.take)
-        journey.show_research(on=chosen.research)
-        journey.live.screen.recording.start_mode = chosen.start
+        return SettingsFlow(context, chosen, context.library.error_limits, settings.updates.folder)
+
+    def _tell_start(self) -> None:
+        """How a recording begins."""
+        self._journey.live.screen.recording.start_mode = self._settings.recording.start
 
     def take(self, chosen: Preferences) -> None:
         """Something was changed."""
@@ -90,8 +108,9 @@ class PreferenceKeeper(QObject):
             patient=PatientSettings(chosen.patient_sound),
         )
         self._theme.choose(self._theme_of(self._settings), chosen.text_scale)
-        self._journey.show_research(on=chosen.research)
-        self._journey.live.screen.recording.start_mode = chosen.start
+        self._journey.way.show_research(on=chosen.research)
+        if "live" in self._journey.way.flows:
+            self._tell_start()
         self._journey.settings = replace(
             self._journey.settings,
             report=self._settings.report,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QAbstractButton
@@ -26,24 +27,29 @@ class Tour(QObject):
         self._asked_for = False
         self._read: frozenset[Bubble] = frozenset()
         self._saved = False
-        self._views: dict[str, BubbleView] = {
-            "patients": journey.patients.screen.card.bubble,
-            "camera": journey.camera.screen.bubble,
-            "markers": journey.markers.screen.bubble,
-            "live": journey.live.screen.bubble,
-            "review": journey.review.screen.bubble,
-            "report": journey.report.screen.bubble,
+        self._views: dict[str, BubbleView] = {}
+        views: dict[str, Callable[[], BubbleView]] = {
+            "patients": lambda: journey.patients.screen.card.bubble,
+            "camera": lambda: journey.camera.screen.bubble,
+            "markers": lambda: journey.markers.screen.bubble,
+            "live": lambda: journey.live.screen.bubble,
+            "review": lambda: journey.review.screen.bubble,
+            "report": lambda: journey.report.screen.bubble,
         }
-        for view in self._views.values():
-            view.next.connect(self.next)
-            view.leave.connect(self.leave)
+        for place, view in views.items():
+            journey.way.when_made(place, partial(self._take_view, place, view))
         self._clock = QTimer(self)
         self._clock.setInterval(LOOK_EVERY_MS)
         self._clock.timeout.connect(self.look)
-        journey.report.screen.saved.connect(self._report_saved)
+        journey.way.when_made("report", lambda: journey.report.screen.saved.connect(self._report_saved))
         journey.way.arrived.connect(self._arrived)
-        journey.help.screen.tour.connect(self._show_around)
+        journey.way.when_made("help", lambda: journey.help.screen.tour.connect(self._show_around))
         journey.takes_escape = self._take_escape
+
+    def _take_view(self, place: str, view: Callable[[], BubbleView]) -> None:
+        shown = self._views[place] = view()
+        shown.next.connect(self.next)
+        shown.leave.connect(self.leave)
 
     @property
     def is_on(self) -> bool:
@@ -102,19 +108,19 @@ class Tour(QObject):
     def moment(self) -> TourMoment:
         """Where the person is."""
         journey = self._journey
-        place, recording = journey.place, journey.live.screen.recording.state
-        busy = {
-            "camera": journey.camera.screen.is_opening,
-            "live": journey.live.screen.recording.storing,
-            "review": not journey.review.screen.shown,
-        }.get(place, False)
+        place, made = journey.place, journey.way.flows
+        is_busy: dict[str, Callable[[], bool]] = {
+            "camera": lambda: journey.camera.screen.is_opening,
+            "live": lambda: journey.live.screen.recording.storing,
+            "review": lambda: not journey.review.screen.shown,
+        }
         return TourMoment(
             place,
             is_meant=self._asked_for or place == "patients" or journey.now.is_practice,
             is_covered=journey.messages.busy or is_covered(journey.patients.screen.window()),
-            is_busy=busy,
-            work=journey.markers.screen.naming.work,
-            is_recording=recording != "off",
+            is_busy=place in is_busy and is_busy[place](),
+            work=journey.markers.screen.naming.work if "markers" in made else "aiming",
+            is_recording="live" in made and journey.live.screen.recording.state != "off",
             is_saved=self._saved,
         )
 

@@ -36,7 +36,7 @@ class Welcome(QObject):
         self._folder = library.folder
         journey.takes_escape = self._take_escape
         tour.ended.connect(self._remember)
-        keeper.screen.changed.connect(self._take_folder)
+        journey.way.when_made("settings", lambda: keeper.screen.changed.connect(self._take_folder))
 
     def begin(self) -> None:
         """Offer it where nobody has answered it and nobody is in the list."""
@@ -47,7 +47,7 @@ class Welcome(QObject):
         panel.tour.connect(self._lead)
         panel.later.connect(self._decline)
         panel.again.connect(self.look)
-        panel.folder.connect(self._keeper.screen.ask_folder)
+        panel.folder.connect(lambda: self._keeper.screen.ask_folder())
         panel.close_wanted.connect(self._journey.patients.screen.window().close)
         self._journey.patients.screen.show_welcome(panel)
         self.look()

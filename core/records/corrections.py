@@ -57,6 +57,11 @@ class Corrections:
         self._library = library
         self._table: tuple[Path, DetectionTable] | None = None
 
+    @property
+    def are_there(self) -> bool:
+        """Whether there is a new result, or what is left of one."""
+        return any(self._folder.glob("*"))
+
     def clear_unfinished(self) -> None:
         """Before anything is tracked again: what is left of a result that was not finished goes."""
         for path in self._folder.glob("*"):

@@ -1,31 +1,107 @@
-"""Every screen stands in the table of places: it has a page of the guide, and whoever leads to it names it as it is."""
+"""Every screen stands in the table of places: it has a page of the guide, and whoever leads to it names it as it is. It
+is made when it is first gone to, and is then as if it had been there from the start."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
-import pytest
+from PySide6.QtWidgets import QLabel, QPushButton, QWidget
+from pytestqt.qtbot import QtBot
 
 from carpus.app.compose import Desktop
-from carpus.ui.flow import ASIDE, STEPS, TABS, Flow
+from carpus.app.settings import ScreenSettings, Settings
+from carpus.ui import language
+from carpus.ui.flow import ASIDE, STEPS, TABS
 from carpus.ui.help import guide
 
 ROOT = Path(__file__).parents[2]
 NAMED = re.compile(r"""way\.(?:show|go|aside)\("(\w+)"|\bplace (?:==|!=) "(\w+)\"""")
 
 
-@pytest.fixture
-def flows(open_desktop: Callable[..., Desktop]) -> dict[str, Flow]:
-    return open_desktop().journey.way.flows
+Looks = dict[tuple[str, str], set[tuple[int, str]]]
 
 
-def test_every_screen_has_a_page_and_every_place_that_is_named_is_there(flows: dict[str, Flow]) -> None:
-    assert {*STEPS, *TABS, *ASIDE, "patients"} <= set(flows)
-    assert {flow.guide for flow in flows.values()} <= set(guide.PAGES)
-    assert {flow.tab for flow in flows.values()} <= {*TABS, ""}
+def seen(desktop: Desktop) -> dict[str, Looks]:
+    """Size and ground of each text of each screen, brought to the front; those that are not made yet are made."""
+    way = desktop.journey.way
+    return {place: looks(desktop, way.flow(place).screen) for place in sorted({*way.makers} - {"patients"})}
+
+
+def looks(desktop: Desktop, screen: QWidget) -> Looks:
+    desktop.shell.show_screen(screen)
+    desktop.application.processEvents()
+    out: Looks = {}
+    for one in (screen, *screen.findChildren(QWidget)):
+        if one is screen or one.isVisibleTo(screen):
+            text = one.text() if isinstance(one, QLabel | QPushButton) else one.accessibleName()
+            look = one.font().pixelSize(), one.palette().window().color().name()
+            out.setdefault((type(one).__name__, text), set()).add(look)
+    return out
+
+
+def same(some: Looks, others: Looks) -> bool:
+    """Whether what both show looks the same; how much room there is decides of some parts whether they are shown."""
+    both = some.keys() & others.keys()
+    return len(both) > 0.6 * len(some) and all(some[one] == others[one] for one in both)
+
+
+def test_every_screen_has_a_page_and_every_place_that_is_named_is_there(open_desktop: Callable[..., Desktop]) -> None:
+    way = open_desktop().journey.way
+    assert {*STEPS, *TABS, *ASIDE, "patients"} <= set(way.makers)
+    flows = [way.flow(place) for place in way.makers]
+    assert {flow.place: flow for flow in flows} == way.flows
+    assert {flow.guide for flow in flows} <= set(guide.PAGES)
+    assert {flow.tab for flow in flows} <= {*TABS, ""}
     sources = [path for part in ("app", "ui") for path in (ROOT / part).rglob("*.py")]
     named = {one for path in sources for found in NAMED.findall(path.read_text("utf-8")) for one in found if one}
     assert "review" in named
-    assert named <= set(flows)
+    assert named <= set(way.makers)
+
+
+def test_a_start_makes_no_screen_but_the_first(open_desktop: Callable[..., Desktop]) -> None:
+    desktop = open_desktop()
+    assert set(desktop.journey.way.flows) == {"patients"}
+    desktop.close()
+    assert set(desktop.journey.way.flows) == {"patients"}
+
+
+CHOSEN = {"theme": "dark", "text_scale": 1.25, "research": True, "start": "still", "patient_sound": True}
+
+
+def choose(desktop: Desktop, **chosen: Any) -> None:
+    desktop.keeper.take(replace(desktop.keeper.screen.preferences, **chosen))
+
+
+def test_what_is_chosen_reaches_the_screens_that_are_made_later(open_desktop: Callable[..., Desktop]) -> None:
+    early, late = open_desktop(), open_desktop()
+    before = seen(early)
+    for desktop in (early, late):
+        choose(desktop, **CHOSEN)
+    after = seen(early)
+    assert not any(same(after[place], before[place]) for place in after)
+    assert "live" not in late.journey.way.flows
+    made_later = seen(late)
+    assert [place for place in after if not same(after[place], made_later[place])] == []
+    for desktop in (early, late):
+        assert desktop.journey.live.screen.recording.start_mode == "still"
+        assert not desktop.journey.sessions.screen.reference_button.isHidden()
+
+
+def test_a_language_that_is_chosen_reaches_the_screens_that_are_made_later(
+    open_desktop: Callable[..., Desktop], qtbot: QtBot
+) -> None:
+    try:
+        late = open_desktop()
+        english, old = seen(late), late.journey
+        choose(late, language="de")
+        qtbot.waitUntil(lambda: late.journey is not old, timeout=60_000)
+        german = seen(late)
+        from_start = seen(open_desktop(Settings(screen=ScreenSettings("light", language="de"))))
+        assert [place for place in german if not same(german[place], from_start[place])] == []
+        assert all(german[place] != english[place] for place in english)
+    finally:
+        language.speak("en")

@@ -44,7 +44,7 @@ class BoardFlow(AtCameraFlow):
         if context.is_demo:
             screen.beginning.offer_simulated()
         camera = context.camera
-        camera.looked.connect(lambda: screen.beginning.set_camera_there(camera.there))
+        camera.when_looked(lambda: screen.beginning.set_camera_there(camera.there))
         screen.beginning.begun.connect(self._choose)
         screen.beginning.printed.connect(self._print_board)
         screen.showing.take.connect(lambda: self._gathering and self._gathering.take())

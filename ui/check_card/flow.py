@@ -38,7 +38,7 @@ class CardFlow(AtCameraFlow):
         self.hand.opened.connect(self._opened)
         self.hand.pulled.connect(self._pulled)
         self.hand.lost.connect(screen.show_lost)
-        context.camera.looked.connect(lambda: screen.set_camera_there(context.camera.there))
+        context.camera.when_looked(lambda: screen.set_camera_there(context.camera.there))
         screen.camera.setHidden(context.is_demo)
         screen.camera_chosen.connect(self._choose_camera)
         screen.check.connect(self.begin)

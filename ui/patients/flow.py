@@ -21,7 +21,7 @@ class PatientsFlow(Flow):
     def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, PatientsScreen(context.theme, PatientShelf(context.library), context.today))
         screen, way, camera = self.screen, context.way, context.camera
-        camera.looked.connect(lambda: screen.set_camera_ready(camera.there))
+        camera.when_looked(lambda: screen.set_camera_ready(camera.there))
         screen.start.connect(lambda patient_id: way.show("camera", patient_id))
         screen.set_up.connect(lambda patient_id: way.show("exercise", patient_id))
         screen.review.connect(lambda patient_id: way.show("review", "", patient_id))

@@ -25,7 +25,7 @@ class Erasing(QObject):
         self,
         context: ScreenContext,
         records: Records,
-        sessions: SessionsScreen,
+        sessions: Callable[[], SessionsScreen],
         patients: PatientsScreen,
         years: Callable[[], int] = lambda: 0,
         last_backup: Callable[[], datetime | None] = lambda: None,
@@ -35,11 +35,14 @@ class Erasing(QObject):
         self._years, self._last_backup = years, last_backup
         self.sheet = EraseSheet(context.shell.stage, context.theme)
         self._plan: ErasurePlan | None = None
-        sessions.erase_wanted.connect(self.ask_session)
         patients.erase_wanted.connect(self.ask_patient)
-        sessions.moved.connect(self._moved)
+        context.way.when_made("sessions", self._connect_sessions)
         self.sheet.erase.connect(self._erase)
         self.sheet.archive.connect(self._archive)
+
+    def _connect_sessions(self) -> None:
+        self._sessions().erase_wanted.connect(self.ask_session)
+        self._sessions().moved.connect(self._moved)
 
     def ask_session(self, session_id: str) -> None:
         """Show what goes with a session."""
@@ -93,12 +96,12 @@ class Erasing(QObject):
         self._gone(single)
         what = self.tr("The session is erased.") if single else self.tr("The patient is erased.")
         count = self.tr("1 file went.") if files == 1 else self.tr("{count} files went.").format(count=files)
-        place = self._sessions.notice_place if single else self._patients.notice_place
+        place = self._sessions().notice_place if single else self._patients.notice_place
         self._say(place, Words(what, count, ""), "trash-2")
 
     def _moved(self, name: str) -> None:
         words = Words(self.tr("The session is now one of {name}.").format(name=name), "", "")
-        self._say(self._sessions.notice_place, words, "arrow-right")
+        self._say(self._sessions().notice_place, words, "arrow-right")
 
     def _say(self, place: QVBoxLayout, words: Words, icon: str) -> None:
         """What was done, until it is closed or left."""
@@ -123,7 +126,7 @@ class Erasing(QObject):
             what = self.tr("The session of {day} is in the archive.").format(
                 day=numbers.report_date(plan.results[0].recorded)
             )
-            place = self._sessions.notice_place
+            place = self._sessions().notice_place
         else:
             what = self.tr("{name} is in the archive.").format(name=plan.pseudonym)
             place = self._patients.notice_place
@@ -144,7 +147,7 @@ class Erasing(QObject):
     def show_again(self, chosen: str = "") -> None:
         """The list that is shown, with what is in it now; ``chosen`` the patient or session that is to be chosen."""
         now, way = self._context.now, self._context.way
-        self._sessions.changed.emit()
+        self._sessions().changed.emit()
         if way.place == "sessions" and now.patient is not None:
             now.session_id = chosen or now.session_id
             way.show("sessions", now.patient.patient_id)
@@ -158,7 +161,7 @@ class Erasing(QObject):
 
     def _gone(self, single: bool) -> None:
         """The list from which it was chosen, without it."""
-        self._sessions.changed.emit()
+        self._sessions().changed.emit()
         patient = self._context.now.patient
         if single and patient is not None:
             self._context.way.show("sessions", patient.patient_id)

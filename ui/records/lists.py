@@ -32,7 +32,7 @@ class RecordLists(QObject):
         context: ScreenContext,
         records: Records,
         erasing: Erasing,
-        sessions: SessionsScreen,
+        sessions: Callable[[], SessionsScreen],
         patients: PatientsScreen,
         *,
         years: int,
@@ -50,9 +50,7 @@ class RecordLists(QObject):
         self.card.due_wanted.connect(self.show_due)
         self.card.archive_wanted.connect(lambda: self.show_archive())
         patients.archive_wanted.connect(lambda: self.show_archive(lambda one: one.recorded is None))
-        sessions.archive_wanted.connect(
-            lambda whose: self.show_archive(lambda one: one.recorded is not None and one.patient_id == whose)
-        )
+        context.way.when_made("sessions", lambda: sessions().archive_wanted.connect(self._show_archive_of))
         self.card.log_wanted.connect(self.show_log)
         self.sheet.back_wanted.connect(self._bring_back)
         self.sheet.archive_wanted.connect(self._archive)
@@ -94,6 +92,9 @@ class RecordLists(QObject):
         """What can be brought back; all of it, or what ``shown`` says."""
         self._shown = shown or _everything
         self._run(self._records.archived, self._show_archive)
+
+    def _show_archive_of(self, patient_id: str) -> None:
+        self.show_archive(lambda one: one.recorded is not None and one.patient_id == patient_id)
 
     def _show_archive(self, there: list[Archived]) -> None:
         listed = []

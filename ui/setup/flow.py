@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
@@ -27,15 +26,13 @@ ROOM_FOR_PICTURES_BYTES = 20e9
 
 
 class ExerciseFlow(Flow):
-    """First step, with the clinic's sets of exercises. ``keep_pictures`` where nobody chose yet; they take
-    ``mb_per_minute``."""
+    """First step, with the clinic's sets of exercises."""
 
     place, guide = "exercise", "exercises"
     screen: ExerciseScreen
 
-    def __init__(self, context: ScreenContext, *, keep_pictures: bool = False, mb_per_minute: float = math.nan) -> None:
+    def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, ExerciseScreen(context.theme))
-        self._keep_pictures, self._mb_per_minute = keep_pictures, mb_per_minute
         self.sheet = SetSheet(context.shell.stage, context.theme)
         self.sets: tuple[ExerciseSet, ...] = ()
         self.sheet.kept.connect(self._keep_sets)
@@ -51,11 +48,11 @@ class ExerciseFlow(Flow):
         last = context.now.set_up or library.last_set_up(patient_id)
         affected: Side | None = None if row.side == "both" else row.side
         free = free_bytes(library.folder)
-        usual = self._keep_pictures and free >= ROOM_FOR_PICTURES_BYTES
+        usual = context.keep_pictures and free >= ROOM_FOR_PICTURES_BYTES
         self.screen.begin(
             row, last, last.side if last is not None else affected,
             last.keep_pictures if last is not None else usual,
-            self._mb_per_minute, free / (1e6 * self._mb_per_minute), library.goals(patient_id),
+            context.mb_per_minute, free / (1e6 * context.mb_per_minute), library.goals(patient_id),
         )  # fmt: skip
 
         def show(history: Sequence[SessionFigures]) -> None:
@@ -103,7 +100,7 @@ class CameraFlow(Flow):
     def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, CameraScreen(context.theme, is_demo=context.is_demo))
         opener, camera, screen = context.opener, context.camera, self.screen
-        camera.looked.connect(lambda: screen.set_camera_ready(camera.there, camera.name))
+        camera.when_looked(lambda: screen.set_camera_ready(camera.there, camera.name))
         screen.wanted.connect(opener.open)
         screen.picked.connect(lambda path: context.places.keep("recordings", str(Path(path).parent)))
         opener.opening.connect(self._opening)
