@@ -9,9 +9,9 @@ import os
 import re
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from datetime import date
-from functools import partial
+from functools import cache, partial
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from types import TracebackType
@@ -26,9 +26,7 @@ from carpus import __version__
 from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.journey import Journey, Parts
 from carpus.app.desktop.no_folder import NoFolder
-from carpus.app.desktop.practice import practice_beginning, practice_take
 from carpus.app.desktop.preferences import PreferenceKeeper
-from carpus.app.desktop.sources import Sources
 from carpus.app.desktop.touring import Tour
 from carpus.app.desktop.welcoming import Welcome
 from carpus.app.desktop.witness import Witness
@@ -41,9 +39,9 @@ from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.records.interrupted import recover
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
-from carpus.core.records.new_sessions import NewSessions
 from carpus.core.records.set_up import SetUp
 from carpus.ui import language
+from carpus.ui.background import Background
 from carpus.ui.check_card.standing_words import card_words
 from carpus.ui.fault_words import fault_words
 from carpus.ui.fonts import load_fonts
@@ -61,6 +59,7 @@ from carpus.ui.translate import tr
 from carpus.ui.window_place import place_of, put_in_place
 
 if TYPE_CHECKING:
+    from carpus.app.desktop.sources import Sources
     from carpus.ui.settings.screen import SettingsScreen
 
 Take = Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]
@@ -108,6 +107,7 @@ class Desktop:
     from_system: tuple[QMetaObject.Connection, ...] = ()
     """What the system tells, until this is closed."""
     _closed: bool = False
+    _loading: Background = field(default_factory=Background)
 
     def show(self) -> None:
         """Bring up the first screen and tell of what was recovered."""
@@ -118,8 +118,18 @@ class Desktop:
         self.safe.locking.lock_at_start()
         self.shell.show()
         self.welcome.begin()
-        QTimer.singleShot(SETTLED_MS, settle)
+        QTimer.singleShot(SETTLED_MS, self._load)
         self.journey.way.made.connect(lambda: QTimer.singleShot(SETTLED_MS, settle))
+
+    def _load(self) -> None:
+        """While the window waits for the person, in a thread of its own: what the other screens are made of."""
+
+        def work() -> None:
+            for _ in self.journey.load():
+                if self._closed:
+                    break
+
+        self._loading.run(work, lambda _: settle(), self.journey.messages.fault)
 
     def speak_anew(self) -> None:
         """The language was changed: everything is put together again, at the same place, and this becomes it."""
@@ -195,6 +205,7 @@ class Desktop:
             self._closed = True
             for connection in self.from_system:
                 QObject.disconnect(connection)
+            self._loading.wait()
             self.tour.end()
             self.welcome.end()
             self.safe.locking.end()
@@ -228,7 +239,7 @@ def compose(
     settings: Settings,
     *,
     is_demo: bool = False,
-    take: Take = practice_take,
+    take: Take | None = None,
     speed: float = 1.0,
     settings_folder: Path | None = None,
     today: date | None = None,
@@ -237,8 +248,8 @@ def compose(
 ) -> Desktop:
     """Put the application together. Raises what the data folder raises (:class:`RegisterUnreadable` and others).
 
-    ``take`` renders the practice patient; ``speed`` plays what is stored faster than it was; ``told`` is told
-    on the first screen; ``of`` is a closed one that becomes what is put together.
+    ``take`` renders the practice patient in another way; ``speed`` plays what is stored faster than it was; ``told`` is
+    told on the first screen; ``of`` is a closed one that becomes what is put together.
     """
     # Tracking must not wait 5 ms, Python's usual turn, while the window paints, nor the window for tracking.
     sys.setswitchinterval(SWITCH_S)
@@ -248,11 +259,21 @@ def compose(
     library.angle_order = lambda: settings.report.angle_order
     LINES.names = library.pseudonyms
     recovered, faults = recover(library)
-    beginning = practice_beginning if take is practice_take else lambda _: None
-    sources = Sources(settings, NewSessions(library), take, speed, beginning)
+
+    @cache
+    def sources() -> Sources:
+        from carpus.app.desktop.practice import practice_beginning, practice_take
+        from carpus.app.desktop.sources import Sources
+        from carpus.core.records.new_sessions import NewSessions
+
+        beginning = practice_beginning if take is None else lambda _: None
+        made = Sources(settings, NewSessions(library), take or practice_take, speed, beginning)
+        made.streams = lambda: journey.settings.stream.on
+        return made
+
     parts = Parts(
         library,
-        sources,
+        lambda *given: sources().open(*given),
         CareCameras(settings, speed),
         settings,
         is_demo,
@@ -264,7 +285,6 @@ def compose(
     follows = qt.styleHints().colorSchemeChanged.connect(lambda _: keeper.follow_system())
     library.who = lambda: journey.settings.report.therapist
     library.angle_order = lambda: journey.settings.report.angle_order
-    sources.streams = lambda: journey.settings.stream.on
     Witness(journey, library)
     safe = _safekeeping(journey, keeper, settings, settings_folder)
     journey.way.when_made("settings", lambda: _connect_settings(keeper.screen, journey, theme))

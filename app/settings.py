@@ -12,27 +12,29 @@ import tomllib
 import types
 import typing
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from functools import cached_property
 from importlib import resources
 from pathlib import Path
-from typing import Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import platformdirs
 
-from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CarpusFault, OutputNotWritable, SettingsInvalid
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.live_values import LiveSettings, StartMode
-from carpus.core.pipeline.track import TrackSettings
 from carpus.core.records.values import BackupSettings
 from carpus.core.results.report_form import ReportSettings
 from carpus.core.session.values import ANGLE_ORDERS as ANGLE_ORDERS
-from carpus.core.tracking.settings import TrackerSettings
+
+if TYPE_CHECKING:
+    from carpus.core.pipeline.track import TrackSettings
 
 SETTINGS_FILE, PREFERENCES_FILE = "settings.toml", "preferences.toml"
 """The first is written by people, the second by the window; the second goes over the first."""
 
+TRACKING = ("detection", "calibration", "tracker")
+"""Sections that decide how pictures become a session."""
 MOST_NUMBER = 1e15
 DATA_VARIABLE = "CARPUS_DATA"
 
@@ -132,7 +134,7 @@ class FirstStartSettings:
     answered: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Settings:
     """Everything, one section each."""
 
@@ -148,14 +150,16 @@ class Settings:
     updates: UpdatesSettings = field(default_factory=UpdatesSettings)
     first_start: FirstStartSettings = field(default_factory=FirstStartSettings)
     live: LiveSettings = field(default_factory=LiveSettings)
-    detection: DetectionSettings = field(default_factory=DetectionSettings)
-    calibration: CalibrationSettings = field(default_factory=CalibrationSettings)
-    tracker: TrackerSettings = field(default_factory=TrackerSettings)
+    tracking: Mapping[str, Values] = field(default_factory=dict)
+    """What a person's file says in the sections of :data:`TRACKING`."""
 
-    @property
+    @cached_property
     def track(self) -> TrackSettings:
-        """What decides how pictures become a session."""
-        return TrackSettings(self.detection, self.calibration, self.tracker, self.recording.smooth)
+        """What decides how pictures become a session. All that tracks is loaded with it: a window that starts does not
+        wait for that."""
+        from carpus.core.pipeline.track import TrackSettings
+
+        return replace(_filled(TrackSettings, self.tracking, "", SETTINGS_FILE), smooth=self.recording.smooth)
 
     @property
     def data_folder(self) -> Path:
@@ -182,24 +186,40 @@ def settings_folder() -> Path:
 def load_settings(folder: Path | None = None) -> Settings:
     """The shipped defaults with this person's settings and what was chosen in the window over them."""
     folder = folder or settings_folder()
-    defaults = resources.files("carpus.resources") / "defaults.toml"
-    merged = _read("defaults.toml", defaults.read_bytes())
+    merged = _defaults()
     for name in (SETTINGS_FILE, PREFERENCES_FILE):
         merged = _merged(merged, _own(folder / name))
-    return _filled(Settings, merged, "", "defaults.toml")
+    return _settings(merged, "defaults.toml")
 
 
 def load_sound_settings(folder: Path | None = None) -> tuple[Settings, list[CarpusFault]]:
     """For the window, which starts whatever a file holds: one that cannot be used is left out, and its fault told."""
     folder = folder or settings_folder()
-    merged = _read("defaults.toml", (resources.files("carpus.resources") / "defaults.toml").read_bytes())
+    merged = _defaults()
     faults: list[CarpusFault] = []
     for name in (SETTINGS_FILE, PREFERENCES_FILE):
         try:
             merged = _merged(merged, _own(folder / name))
         except CarpusFault as fault:
             faults.append(fault)
-    return _filled(Settings, merged, "", "defaults.toml"), faults
+    return _settings(merged, "defaults.toml"), faults
+
+
+def _defaults() -> Values:
+    """The shipped file, but for what the code says itself when it tracks."""
+    shipped = _read("defaults.toml", (resources.files("carpus.resources") / "defaults.toml").read_bytes())
+    return {name: section for name, section in shipped.items() if name not in TRACKING}
+
+
+def _settings(values: Values, file: str) -> Settings:
+    """All sections; what a person says of tracking is looked at now, so that its fault is told now."""
+    tracking = {name: values[name] for name in TRACKING if name in values}
+    if tracking:
+        from carpus.core.pipeline.track import TrackSettings
+
+        _filled(TrackSettings, tracking, "", file)
+    others = {name: value for name, value in values.items() if name not in TRACKING}
+    return replace(_filled(Settings, others, "", file), tracking=tracking)
 
 
 def _own(path: Path) -> Values:
@@ -208,7 +228,7 @@ def _own(path: Path) -> Values:
         own = _read(str(path), path.read_bytes()) if path.exists() else {}
     except OSError as cause:
         raise SettingsInvalid(path, cause.strerror or phrase("cannot be read")) from cause
-    _filled(Settings, own, "", str(path))  # faults name the file they are in
+    _settings(own, str(path))  # faults name the file they are in
     return own
 
 
@@ -297,7 +317,7 @@ def _merged(below: Values, above: Values) -> Values:
 def _filled(kind: type[T], values: Values, where: str, file: str) -> T:
     """A dataclass from a table; every key must be one of its fields."""
     hints = typing.get_type_hints(kind)
-    known = {item.name for item in fields(kind)}  # type: ignore[arg-type]
+    known = {item.name for item in fields(kind)} - {"tracking"}  # type: ignore[arg-type]
     found: dict[str, Any] = {}
     for name, value in values.items():
         place = f"{where}.{name}" if where else name

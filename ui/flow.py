@@ -184,7 +184,8 @@ class Place(Generic[F]):
     loaded when it is made."""
 
     def __init__(self, flow: str) -> None:
-        self._folder, self._class = flow.split(".")
+        folder, self._class = flow.split(".")
+        self.module = f"carpus.ui.{folder}.flow"
 
     def __set_name__(self, _: type, place: str) -> None:
         self._place = place
@@ -194,7 +195,7 @@ class Place(Generic[F]):
 
     def make(self, context: ScreenContext) -> F:
         """A new one."""
-        made: F = getattr(import_module(f"carpus.ui.{self._folder}.flow"), self._class)(context)
+        made: F = getattr(import_module(self.module), self._class)(context)
         return made
 
 

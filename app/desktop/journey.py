@@ -5,11 +5,12 @@ Each knows its own way (:mod:`ui.flow`); here is what belongs to none: the top b
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date, datetime
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,7 +19,6 @@ from PySide6.QtCore import QObject
 from carpus import __version__
 from carpus.app.desktop.bar import Bar
 from carpus.app.desktop.care_cameras import CareCameras
-from carpus.app.desktop.sources import Sources
 from carpus.app.settings import Settings
 from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.errors import CarpusFault
@@ -31,7 +31,7 @@ from carpus.ui.keys import Keys
 from carpus.ui.last_places import LastPlaces
 from carpus.ui.messages.messages import Messages
 from carpus.ui.now_open import NowOpen
-from carpus.ui.opening import Opener
+from carpus.ui.opening import Opener, OpenIt
 from carpus.ui.ports import PatientRow
 from carpus.ui.setup.choice import SourceChoice
 from carpus.ui.shell import Shell
@@ -64,7 +64,7 @@ class Parts:
     """What the journey needs besides the window."""
 
     library: Library
-    sources: Sources
+    open_source: OpenIt
     cameras: CareCameras
     settings: Settings
     is_demo: bool
@@ -103,7 +103,7 @@ class Journey(QObject):
         self.now = NowOpen(choice=SourceChoice("practice" if parts.is_demo else "camera"))
         self.background = Background()
         self.messages = messages = Messages(shell.stage, theme)
-        self.opener = Opener(parts.sources.open, self.now, self.background, messages.fault)
+        self.opener = Opener(parts.open_source, self.now, self.background, messages.fault)
         self.camera_state = CameraState(
             parts.cameras, self.background, lambda: datetime.now().astimezone(), is_demo=parts.is_demo
         )
@@ -114,9 +114,8 @@ class Journey(QObject):
             __version__, parts.is_demo, parts.settings.patient.sound,
             parts.settings.recording.keep_pictures, MB_PER_MINUTE,
         )  # fmt: skip
-        for name, place in vars(Journey).items():
-            if isinstance(place, Place):
-                self.way.makers[name] = partial(place.make, self.context)
+        for name, place in PLACES.items():
+            self.way.makers[name] = partial(place.make, self.context)
         self.bar = Bar(self.context, lambda: self.review.screen)
         self._connect(keys)
         self.camera_state.start()
@@ -237,3 +236,17 @@ class Journey(QObject):
         self.background.wait()
         if self.now.source is not None:
             self.live.finish()
+
+    @staticmethod
+    def load() -> Iterator[str]:
+        """Load what all screens are made of, one module after the other."""
+        for module in (
+            *(place.module for place in PLACES.values()),
+            "carpus.ui.settings.flow",
+            "carpus.ui.plot.canvas",
+        ):
+            import_module(module)
+            yield module
+
+
+PLACES = {name: place for name, place in vars(Journey).items() if isinstance(place, Place)}

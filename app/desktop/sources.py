@@ -108,7 +108,7 @@ class Sources:
             data_folder=self._settings.data_folder,
             notice=told.append,
         )
-        opening = opening_frames(source, self._settings.calibration.still_s)
+        opening = opening_frames(source, self._settings.track.calibration.still_s)
         session = self._session(PacedSource(source, self._speed), source_waits=True)
         asks = any(isinstance(fault, RegistrationAssumed) for fault in told)
         for fault in () if asks else told:

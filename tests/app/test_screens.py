@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from PySide6.QtCore import QEvent, QObject
 from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -67,6 +68,28 @@ def test_a_start_makes_no_screen_but_the_first(open_desktop: Callable[..., Deskt
     assert set(desktop.journey.way.flows) == {"patients"}
     desktop.close()
     assert set(desktop.journey.way.flows) == {"patients"}
+
+
+class ShownWindows(QObject):
+    """Takes down what comes up as a window."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.seen: list[str] = []
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802  (Qt's name)
+        if event.type() == QEvent.Type.Show and isinstance(watched, QWidget) and watched.isWindow():
+            self.seen.append(type(watched).__name__)
+        return False
+
+
+def test_no_part_of_a_screen_comes_up_as_a_window_while_it_is_made(open_desktop: Callable[..., Desktop]) -> None:
+    desktop, windows = open_desktop(), ShownWindows()
+    desktop.application.installEventFilter(windows)
+    for place in desktop.journey.way.makers:
+        desktop.journey.way.flow(place)
+    desktop.application.removeEventFilter(windows)
+    assert windows.seen == []
 
 
 CHOSEN = {"theme": "dark", "text_scale": 1.25, "research": True, "start": "still", "patient_sound": True}

@@ -14,6 +14,7 @@ from carpus.app.compose import Desktop
 from carpus.app.settings import (
     PREFERENCES_FILE,
     SETTINGS_FILE,
+    TRACKING,
     RecordingSettings,
     ScreenSettings,
     Settings,
@@ -43,7 +44,7 @@ def leaves(table: dict[str, Any], where: tuple[str, ...] = ()) -> list[tuple[tup
 
 @pytest.mark.parametrize(("place", "value"), leaves(tomllib.loads(DEFAULTS.read_text(encoding="utf-8"))))
 def test_the_shipped_file_says_what_the_code_does_without_it(place: tuple[str, ...], value: Any) -> None:
-    found: Any = Settings()
+    found: Any = Settings().track if place[0] in TRACKING else Settings()
     for name in place:
         found = getattr(found, name)
     assert (list(found) if isinstance(found, tuple) else found) == value
@@ -56,15 +57,15 @@ def test_without_files_the_defaults_hold(tmp_path: Path) -> None:
 def test_a_persons_file_goes_over_the_defaults_and_leaves_the_rest(tmp_path: Path) -> None:
     text = '[tracker]\nprofile = "slow"\nlost_after_s = 2\n[tracker.noise]\npixel_sd_px = 0.3\n[live]\nfolder = "~"\n'
     settings = load_settings(written(tmp_path, text))
-    assert settings.tracker.profile == "slow"
-    assert settings.tracker.lost_after_s == 2.0
-    assert isinstance(settings.tracker.lost_after_s, float)
-    assert settings.tracker.noise.pixel_sd_px == 0.3
+    assert settings.track.tracker.profile == "slow"
+    assert settings.track.tracker.lost_after_s == 2.0
+    assert isinstance(settings.track.tracker.lost_after_s, float)
+    assert settings.track.tracker.noise.pixel_sd_px == 0.3
     assert settings.live.folder == Path.home()
-    usual = Settings().tracker
-    back = {"profile": usual.profile, "lost_after_s": usual.lost_after_s, "noise": usual.noise}
-    assert dataclasses.replace(settings.tracker, **back) == usual
-    assert settings.calibration == Settings().calibration
+    usual = Settings().track.tracker
+    back: dict[str, Any] = {"profile": usual.profile, "lost_after_s": usual.lost_after_s, "noise": usual.noise}
+    assert dataclasses.replace(settings.track.tracker, **back) == usual
+    assert settings.track.calibration == Settings().track.calibration
 
 
 @pytest.mark.parametrize(
@@ -106,7 +107,7 @@ def test_what_the_window_keeps_is_read_again_and_goes_over_the_persons_file(tmp_
     keep_preferences(chosen, tmp_path)
     settings = load_settings(tmp_path)
     assert (settings.screen, settings.recording, settings.report) == (chosen.screen, chosen.recording, chosen.report)
-    assert settings.tracker.profile == "brisk"
+    assert settings.track.tracker.profile == "brisk"
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted([SETTINGS_FILE, PREFERENCES_FILE])
 
 
