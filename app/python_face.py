@@ -327,7 +327,7 @@ def _tracked(path: Path, told: Clicks, chosen: TrackSettings) -> Iterator[HandFr
         outcome = calibrate(told, opening, camera, chosen.calibration, chosen.detection)
         ends_s = opening[outcome.capture_frames - 1].timestamp_s
         pipeline = pipeline_of(outcome, camera, chosen, learnt_from(outcome.noise, ends_s, chosen.tracker))
-        names = told.protocol.joint_names(chosen.paper is None and chosen.tracker.dip == "free")
+        names = told.protocol.joint_names(chosen.dip_free)
         for frame in from_neutral(chain(opening, frames), pipeline.tracker, ends_s, lambda each: each.timestamp_s):
             yield _hand_frame(pipeline(frame), names, told.protocol.markers)
     finally:

@@ -313,8 +313,7 @@ def _stream(clicks: Clicks, rate_hz: float, settings: TrackSettings) -> Listener
     from carpus.core.pipeline.stream import SampleStream, library
 
     begun_s: list[float] = []
-    dip_free = settings.paper is None and settings.tracker.dip == "free"
-    stream = SampleStream.of_hand(clicks, rate_hz, dip_free=dip_free, clock=lambda: begun_s[0])
+    stream = SampleStream.of_hand(clicks, rate_hz, dip_free=settings.dip_free, clock=lambda: begun_s[0])
     if not stream.wait_for_listener(LISTENER_PATIENCE_S):
         print("carpus: nobody listens to the stream; it goes on.", file=sys.stderr)
     begun_s.append(library().local_clock())

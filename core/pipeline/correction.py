@@ -28,7 +28,7 @@ from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session.corrected import CORRECTED, said_of
 from carpus.core.session.marker_doubts import SAME_SPOT_PX, Correction
 from carpus.core.session.reader import read_detections, read_session
-from carpus.core.session.values import DetectionTable, Session, motion_of, new_header
+from carpus.core.session.values import DetectionTable, Session, header_again, motion_of
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, TrackedFrame
@@ -119,17 +119,11 @@ def _writer(session: Session, output: Path, settings: TrackSettings, version: st
     learnt = learnt_in(old.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
     source = {"session": old.session_id, "from": "detections", "corrected": "yes"}
     source |= {SIMULATED: "yes"} if old.simulated else {}
-    header = new_header(
-        hand=old.hand,
-        protocol=old.protocol,
+    header = header_again(
+        old,
         software_version=version,
-        subject_id=old.subject_id,
-        exercise=old.exercise,
         parameters=parameters_json(settings, source, learnt, old.set_up),
-        origin=old.session_id,
         dip_free=settings.tracker.dip == "free",
-        recorded=old.recorded,
-        recording_id=old.recording_id,
     )
     return SessionWriter.create(output, header, session.camera, session.calibration)
 

@@ -34,7 +34,7 @@ from carpus.core.pipeline.session_source import SessionPictures
 from carpus.core.provenance import revision, sha256_of_file, sha256_of_recording, sha256_of_settings
 from carpus.core.session.plausible import check_calibration
 from carpus.core.session.reader import has_raw, read_detections, read_session
-from carpus.core.session.values import SET_UP, Event, Session, motion_of, new_header
+from carpus.core.session.values import SET_UP, Event, Session, header_again, motion_of, new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
@@ -56,6 +56,11 @@ class TrackSettings:
     tracker: TrackerSettings = field(default_factory=TrackerSettings)
     smooth: bool = True
     paper: PaperSettings | None = None
+
+    @property
+    def dip_free(self) -> bool:
+        """Whether the end joints are followed for themselves."""
+        return self.paper is None and self.tracker.dip == "free"
 
 
 @dataclass(frozen=True, slots=True)
@@ -251,19 +256,15 @@ def track_recording(
         recorded = recorded_at(source.info, opening[0].timestamp_s, path)
     if on_date is not None:
         on_date(recorded)
-    facts = source_facts(source.info) | ({"recorded_by": recorded.said_by} if recorded else {})
-    if path is not None:
-        with suppress(OSError):  # a picture that is not there is told where it is read
-            facts["sha256"] = sha256_of_recording(path)
     header = new_header(
         hand=clicks.side,
         protocol=clicks.protocol,
         software_version=software_version,
         subject_id=subject_id,
         exercise=exercise,
-        parameters=parameters_json(settings, facts, learnt, set_up),
+        parameters=parameters_json(settings, _recording_facts(source.info, recorded, path), learnt, set_up),
         origin=origin,
-        dip_free=settings.paper is None and settings.tracker.dip == "free",
+        dip_free=settings.dip_free,
         recorded=recorded.when if recorded else "",
         recording_id=recording_id(source.info, opening[0]),
     )
@@ -277,6 +278,14 @@ def track_recording(
     tracked = _heard(map(answered, ordered), listener)
     notes = () if said is None else notes_in(said)
     return _written(writer, tracked, look_back, outcome.verdict, source.info.frame_count, progress, notes)
+
+
+def _recording_facts(info: SourceInfo, recorded: Recorded | None, path: Path | None) -> dict[str, Any]:
+    facts = source_facts(info) | ({"recorded_by": recorded.said_by} if recorded else {})
+    if path is not None:
+        with suppress(OSError):  # a picture that is not there is told where it is read
+            facts["sha256"] = sha256_of_recording(path)
+    return facts
 
 
 def _answer(tracker: HandTracker, answers: Iterable[SpotAnswer]) -> None:
@@ -323,6 +332,18 @@ def retrack_session(
             path=origin,
             said=session,
         )
+    return _retrack_detections(origin, session, output, settings, software_version, progress)
+
+
+def _retrack_detections(
+    origin: Path,
+    session: Session,
+    output: Path,
+    settings: TrackSettings,
+    software_version: str,
+    progress: Progress | None,
+) -> TrackReport:
+    old = session.header
     table = read_detections(origin)
     learnt = learnt_in(old.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
     calibration = session.calibration
@@ -342,17 +363,11 @@ def retrack_session(
 
     source = {"session": old.session_id, "from": "detections", "sha256": sha256_of_file(origin)}
     source |= {SIMULATED: "yes"} if old.simulated else {}
-    header = new_header(
-        hand=old.hand,
-        protocol=old.protocol,
+    header = header_again(
+        old,
         software_version=software_version,
-        subject_id=old.subject_id,
-        exercise=old.exercise,
         parameters=parameters_json(settings, source, learnt, old.set_up),
-        origin=old.session_id,
-        dip_free=settings.paper is None and settings.tracker.dip == "free",
-        recorded=old.recorded,
-        recording_id=old.recording_id,
+        dip_free=settings.dip_free,
     )
     writer = SessionWriter.create(output, header, session.camera, calibration, clock=_standing)
     return _written(writer, tracked(), look_back, calibration.verdict, len(session), progress, notes_in(session))

@@ -22,7 +22,6 @@ from carpus.core.phrase import phrase
 from carpus.core.records import of_patients, of_sessions
 from carpus.core.records.changes import changed
 from carpus.core.records.erasure import finish_erasing
-from carpus.core.records.kept_sets import last_set_up
 from carpus.core.records.log import By, Log, Notes
 from carpus.core.records.of_sessions import MOST_CHARACTERS, MadeKind
 from carpus.core.records.patients import Patients
@@ -35,7 +34,6 @@ from carpus.core.records.values import SessionEntry, entry_of, newest_results
 from carpus.core.results.angle_order import in_order
 from carpus.core.results.camera_said import CameraSaid, camera_of
 from carpus.core.results.figures import SessionFigures, session_figures, with_trust
-from carpus.core.results.goals import Goals
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.session.values import AngleOrder, Session
@@ -113,11 +111,7 @@ class Library:
     # --- sessions -----------------------------------------------------------------------------------------
     def sessions(self, patient_id: str) -> Sequence[SessionEntry]:
         """A patient's sessions, newest first: of a recording that was tracked more than once the newest result."""
-        return newest_results(self.results(patient_id))
-
-    def results(self, patient_id: str) -> Sequence[SessionEntry]:
-        """Every session file of a patient, also the earlier results of a recording that was tracked again."""
-        return self.index.of_patient(patient_id)
+        return newest_results(self.index.of_patient(patient_id))
 
     def by_hand(self, patient_id: str) -> Sequence[HandValue]:
         """Everything that was ever measured by hand of a patient, in the order in which it was entered."""
@@ -239,7 +233,7 @@ class Library:
     def history(self, patient_id: str) -> Sequence[SessionFigures]:
         """Figures of all sessions of a patient that can be read."""
         out = []
-        results = Counter(entry.recording_id for entry in self.results(patient_id))
+        results = Counter(entry.recording_id for entry in self.index.of_patient(patient_id))
         for entry in self.sessions(patient_id):
             with suppress(SessionUnreadable):  # its file is gone or damaged; opening it alone tells
                 out.append(replace(self.figures(entry), earlier_results=results[entry.recording_id] - 1))
@@ -258,9 +252,8 @@ class Library:
         """Write a session as open formats into a folder, as it is listed and with a person's choices; the names of the
         files. Raises what kept it from being written."""
         path = self.entry(session_id).path
-        wanted = Wanted(
-            path, lambda: (self._stored(session_id), self.choices(session_id)), tuple(self._by_hand_of(session_id))
-        )
+        by_hand = tuple(self.by_hand(self.owner(session_id)))  # of nobody's sessions there is none
+        wanted = Wanted(path, lambda: (self._stored(session_id), self.choices(session_id)), by_hand)
         done = export_sessions(
             [wanted],
             Path(folder),
@@ -277,10 +270,6 @@ class Library:
         for refused in done.refused:
             raise refused.fault
         return [str(path.relative_to(folder)) for path in done.files]
-
-    def _by_hand_of(self, session_id: str) -> Sequence[HandValue]:
-        """What was measured by hand of the patient of a session; nothing of nobody's."""
-        return self.by_hand(self.owner(session_id))
 
     def made(self, paths: Sequence[Path], kind: MadeKind, session_ids: Iterable[str]) -> None:
         """Take down files that were made from sessions, so that they are named when one of these is erased."""
@@ -299,14 +288,6 @@ class Library:
                 with suppress(CarpusFault):
                     return read_color(path)
         return None
-
-    def last_set_up(self, patient_id: str) -> SetUp | None:
-        """How the last session was set up, None before the first."""
-        return last_set_up(self.store, patient_id)
-
-    def goals(self, patient_id: str) -> Goals:
-        """The targets that were last set for each exercise and hand of a patient."""
-        return of_patients.goals(self.store, patient_id)
 
 
 def _as_listed(session: Session, entry: SessionEntry) -> Session:

@@ -59,7 +59,7 @@ def test_a_trial_is_in_no_list_and_waits_until_it_is_wanted(library: Library, st
     corrections = Corrections(library)
     trial = made(corrections, session_id, stored)
     recover(library)
-    assert [entry.session_id for entry in library.results(patient)] == [session_id]
+    assert [entry.session_id for entry in library.index.of_patient(patient)] == [session_id]
     found = difference(*corrections.both(session_id, trial))
     assert found.common > 100
     assert math.degrees(found.most_rad) < 10.0

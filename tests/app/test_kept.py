@@ -16,6 +16,7 @@ from carpus.app.of_file import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.errors import OutputNotWritable
 from carpus.core.records.keeping import Records
+from carpus.core.records.kept_sets import last_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.set_up import PRACTICE_PATIENT
@@ -73,7 +74,7 @@ def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path
     assert not any(word in content for word in ("Linden", "Erika", "pain", "a note", linden, session))
     plan = records.plan_patient(linden)
     assert {one.path.parent for one in plan.made} == {out}
-    assert library.last_set_up(linden) is not None
+    assert last_set_up(library.store, linden) is not None
     records.erase(plan)
     assert list(out.iterdir()) != [], "no file outside of the data folder is touched"
     assert traces(library.folder, "Linden", "Erika", linden, session) == []

@@ -20,6 +20,7 @@ from carpus.core.hand.exercises import exercise_named
 from carpus.core.records import of_sessions
 from carpus.core.records.interrupted import recover
 from carpus.core.records.keeping import Records
+from carpus.core.records.kept_sets import last_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import NewSessions
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
@@ -125,10 +126,10 @@ def test_a_simulated_session_of_a_patient_counts_nowhere_and_hides_no_real_resul
 
 def test_the_last_set_up_comes_back_with_its_targets(library: Library) -> None:
     linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
-    assert library.last_set_up(linden) is None
+    assert last_set_up(library.store, linden) is None
     wanted = set_up(linden, "Linden 42")
     store(library, wanted)
-    found = library.last_set_up(linden)
+    found = last_set_up(library.store, linden)
     assert found is not None
     assert np.isnan(found.target_negative_deg)
     assert (found.exercise, found.repetitions, found.target_positive_deg, found.keep_pictures) == (

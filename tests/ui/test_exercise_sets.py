@@ -13,9 +13,10 @@ from sqlalchemy import update
 
 from carpus.core.errors import ChangedMeanwhile
 from carpus.core.hand.exercises import exercise_named
+from carpus.core.records import of_patients
 from carpus.core.records.changes import dropped
 from carpus.core.records.exercise_sets import USUAL_SETS, ExerciseSet, begun, next_part
-from carpus.core.records.kept_sets import keep_set_up, keep_sets, read_sets
+from carpus.core.records.kept_sets import keep_set_up, keep_sets, last_set_up, read_sets
 from carpus.core.records.library import Library
 from carpus.core.records.schema import EXERCISE_SET, PATIENT
 from carpus.core.records.set_up import CoursePart
@@ -71,14 +72,14 @@ def test_the_next_session_begins_with_the_set_of_the_last_one(tmp_path: Path) ->
     assert second is not None
     assert next_part(second) is None
     keep_set_up(library.store, second)
-    again = library.last_set_up(patient)
+    again = last_set_up(library.store, patient)
     assert again is not None
     assert again.course is not None
     assert first.course is not None
     assert (again.exercise.id, again.repetitions, again.for_child) == ("WRIST_FE", 2, True)
     assert again.course.run_id != first.course.run_id
     keep_sets(library.store, USUAL_SETS, (OWN,))
-    assert library.last_set_up(patient).course is None  # type: ignore[union-attr]
+    assert last_set_up(library.store, patient).course is None  # type: ignore[union-attr]
     library.close()
 
 
@@ -89,13 +90,13 @@ def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Pa
     keep_set_up(library.store, one)
     keep_set_up(library.store, replace(one, exercise=exercise_named("FREE"), side="left"))
     keep_set_up(library.store, replace(one, exercise=exercise_named("WRIST_RU"), target_negative_deg=-20.0))
-    goals = library.goals(patient)
+    goals = of_patients.goals(library.store, patient)
     assert {key: value[0] for key, value in goals.items()} == {("WRIST_FE", "right"): 50.0, ("WRIST_RU", "right"): 50.0}
     assert goals["WRIST_RU", "right"][1] == -20.0
     assert begun(OWN, one, goals).target_positive_deg == 50.0
     assert math.isnan(begun(OWN, replace(one, side="left"), goals).target_positive_deg)
     library.store.do([dropped(PATIENT, patient)])
-    assert library.goals(patient) == {}
+    assert of_patients.goals(library.store, patient) == {}
     library.close()
 
 

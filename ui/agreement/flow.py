@@ -100,9 +100,9 @@ class AgreementFlow(Flow):
         patient = self.context.now.patient
         if patient is None or not patient.patient_id:
             return []
-        own = self.context.library.entry(self._session_id)
-        others = [one for one in self.context.library.results(patient.patient_id) if one.session_id != self._session_id]
-        others = [one for one in others if one.hand == own.hand]
+        library = self.context.library
+        own, results = library.entry(self._session_id), library.index.of_patient(patient.patient_id)
+        others = [one for one in results if one.session_id != self._session_id and one.hand == own.hand]
         others.sort(key=lambda one: one.recording_id != own.recording_id)
         return [(one.session_id, self._words_of(one, own)) for one in others]
 

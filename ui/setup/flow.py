@@ -10,7 +10,8 @@ from PySide6.QtCore import Qt
 
 from carpus.core.errors import CarpusFault
 from carpus.core.records.exercise_sets import USUAL_SETS, ExerciseSet
-from carpus.core.records.kept_sets import keep_sets, read_sets
+from carpus.core.records.kept_sets import keep_sets, last_set_up, read_sets
+from carpus.core.records.of_patients import goals
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp, practice_set_up
 from carpus.core.results.figures import SessionFigures
 from carpus.core.types import Side
@@ -45,14 +46,14 @@ class ExerciseFlow(Flow):
         context, library = self.context, self.context.library
         context.opener.close_source()
         row = self.open_patient(patient_id)
-        last = context.now.set_up or library.last_set_up(patient_id)
+        last = context.now.set_up or last_set_up(library.store, patient_id)
         affected: Side | None = None if row.side == "both" else row.side
         free = free_bytes(library.folder)
         usual = context.keep_pictures and free >= ROOM_FOR_PICTURES_BYTES
         self.screen.begin(
             row, last, last.side if last is not None else affected,
             last.keep_pictures if last is not None else usual,
-            context.mb_per_minute, free / (1e6 * context.mb_per_minute), library.goals(patient_id),
+            context.mb_per_minute, free / (1e6 * context.mb_per_minute), goals(library.store, patient_id),
         )  # fmt: skip
 
         def show(history: Sequence[SessionFigures]) -> None:
@@ -116,7 +117,7 @@ class CameraFlow(Flow):
             self._begin()
             return
         row = self.open_patient(patient_id)
-        last = self.context.library.last_set_up(patient_id)
+        last = last_set_up(self.context.library.store, patient_id)
         practises = patient_id == PRACTICE_PATIENT
         if practises:
             now.choice = SourceChoice("practice")
