@@ -17,7 +17,7 @@ NO_CHOICE = {
         "hand/back_surface._NOWHERE",
         "tracking/anatomy_refinement._NARROW_RAD",
         "tracking/association.IMPOSSIBLE",
-        "tracking/finger_model._NARROW2",
+        "tracking/digit_readout._NARROW2",
         "tracking/joint_limits._WIDE",
         "tracking/kernel._LEAST_PROBABILITY",
         "tracking/palm_state._HARDLY_M",

@@ -21,8 +21,9 @@ from carpus.core.tracking.digit_filter import (
     digits_linearised,
     spread_points,
 )
+from carpus.core.tracking.digit_readout import Seat
 from carpus.core.tracking.finger_depth import KnuckleBends, with_bends
-from carpus.core.tracking.finger_model import FingerModel, Seat
+from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.hand_geometry import CHAINS, SHOWS, SLOTS, JointMoment
 from carpus.core.tracking.kernel import ModeMixture, corrected, partial_update
 from carpus.core.tracking.smoother import Passage, Smoother
@@ -158,7 +159,7 @@ def smoothed_fingers(
         seat = seats[frame]
         if estimate is not None and seat is not None:
             linearised = _linearised(model, estimate.mean, estimate.covariance, seat)
-            out[frame] = model.read(estimate.mean, estimate.covariance, seat, linearised)
+            out[frame] = model.readout.read(estimate.mean, estimate.covariance, seat, linearised)
     return SmoothedFingers(out, filtered, steps)
 
 

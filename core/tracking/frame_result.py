@@ -50,7 +50,7 @@ class FrameResults:
     ) -> None:
         self._order, self._model, self._readout, self._settings = order, model, readout, settings
         self._markers = len(protocol.markers)
-        joint_count = 0 if model is None else model.reading.chain.size
+        joint_count = 0 if model is None else model.readout.reading.chain.size
         self.lost_moment: Moment = lost_moment(joint_count, self._markers)
         self._doubt = ConsistencyTest(self._markers, settings.doubt)
         self._recent: deque[tuple[float, NDArray[np.int64]]] = deque()
@@ -152,7 +152,7 @@ class FrameResults:
         """Discs of the palm (3,), or whether each joint (J,), that were measured directly."""
         if self._model is None:
             return np.full(3, palm_seen)
-        return np.asarray((assigned >= 0)[self._model.direct_markers].all(axis=-1), dtype=np.int64)
+        return np.asarray((assigned >= 0)[self._model.readout.direct_markers].all(axis=-1), dtype=np.int64)
 
     def _remember(self, timestamp_s: float, measured: NDArray[np.int64]) -> None:
         self._recent.append((timestamp_s, measured))

@@ -16,10 +16,11 @@ from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.tracking.adaptive_noise import adapted_factor
+from carpus.core.tracking.digit_naming import DigitPicture, FingerTrial
+from carpus.core.tracking.digit_readout import seat_of
 from carpus.core.tracking.disc_anew import disc_anew, with_discs_as_known
-from carpus.core.tracking.finger_model import seat_of
 from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
-from carpus.core.tracking.fingers import Fingers, FingerTrial
+from carpus.core.tracking.fingers import Fingers
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_geometry import CHAINS, JointMoment
 from carpus.core.tracking.joint_association import is_jointly_compatible
@@ -227,9 +228,8 @@ class HandFilter:
         fingers = None
         if self.fingers is not None and predicted.digits is not None:
             seat = seat_of(estimate, self.view, self.readout)
-            fingers = self.fingers.weigh(
-                predicted.digits, scan.dt_s, seat, blobs, scan.ideal.area_px, unassigned, scan.ideal.fingers
-            )
+            picture = DigitPicture(scan.dt_s, seat, blobs, scan.ideal.area_px, unassigned)
+            fingers = self.fingers.naming.weigh(predicted.digits, picture, scan.ideal.fingers)
             is_finger[fingers.blob[fingers.blob >= 0]] = True
         seen = int(np.count_nonzero(is_named))
         return Posterior(

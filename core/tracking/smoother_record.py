@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from carpus.core.tracking.finger_model import FingerModel, seat_of
+from carpus.core.tracking.digit_readout import seat_of
+from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.finger_smoother import FingerStart, FingerStep, SmoothedFingers, smoothed_fingers
 from carpus.core.tracking.motion import PalmMotion
 from carpus.core.tracking.palm_smoother import FilterStep, smoothed_palm

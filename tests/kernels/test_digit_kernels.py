@@ -15,10 +15,12 @@ from carpus.core.kernels import choice
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measured_as_named
 from carpus.core.tracking.digit_filter import DigitPoints, DigitsLinearisation, digits_linearised, spread_points
+from carpus.core.tracking.digit_naming import DigitPicture, FingerTrial
+from carpus.core.tracking.digit_readout import Seat, seat_of
 from carpus.core.tracking.digit_search import DigitSearchSettings, _best_posture
 from carpus.core.tracking.finger_depth import FingerDepthSettings, knuckle_bends
-from carpus.core.tracking.finger_model import FingerModel, Seat, seat_of
-from carpus.core.tracking.fingers import Fingers, FingerTrial
+from carpus.core.tracking.finger_model import FingerModel
+from carpus.core.tracking.fingers import Fingers
 from carpus.core.tracking.frame_result import FrameResults
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_filter import HandFilter
@@ -162,12 +164,13 @@ def test_digits_named_and_updated(side: str, seed: int, wide: float) -> None:
     no_depth, lone, covered = seen.copy(), seen[[2, 5, 8]], seen.copy()
     no_depth[::2, 2] = np.nan
     covered[3::4, 2] -= 0.2
-    fingers._disc_m2 = np.where(rng.uniform(size=(5, 3)) < 0.5, np.nan, 3e-5)
-    fingers._visible = rng.uniform(0.02, 0.98, size=(5, 3))
+    fingers.memory.disc_m2 = np.where(rng.uniform(size=(5, 3)) < 0.5, np.nan, 3e-5)
+    fingers.memory.visible = rng.uniform(0.02, 0.98, size=(5, 3))
     for blobs in (seen, seen[::-1], seen[3:9], lone, no_depth, covered, np.repeat(seen, 2, axis=0), seen[:0]):
         measured = Measurements(blobs, np.broadcast_to([0.05, 0.05, 1e-6], blobs.shape).copy())
         area_px, free = rng.uniform(10.0, 90.0, size=len(blobs)), rng.uniform(size=len(blobs)) < 0.9
-        both(lambda m=measured, a=area_px, f=free: told(fingers._tried(mixture, points, 0.033, it.seat, m, a, f)))
+        picture = DigitPicture(0.033, it.seat, measured, area_px, free)
+        both(lambda p=picture: told(fingers.naming._tried(mixture, points, p)))
     fingers.begin_at_neutral()
 
 
@@ -193,7 +196,7 @@ def test_rays_that_are_not_known_at_all_are_no_covariance() -> None:
 def test_joints_as_they_are_read(side: str, dip: str) -> None:
     it = hand(side, 1, dip)
     linearised = it.linearised()
-    both(lambda: it.fingers.model.read(it.mean, it.covariance, it.seat, linearised))
+    both(lambda: it.fingers.model.readout.read(it.mean, it.covariance, it.seat, linearised))
 
 
 @pytest.mark.parametrize("blobs", [0, 9])
@@ -241,16 +244,18 @@ def test_what_is_remembered_of_an_accepted_frame() -> None:
     seen = it.linearised().value.reshape(15, 3)[:9]
     blobs = Measurements(seen, np.broadcast_to([0.05, 0.05, 1e-6], seen.shape).copy())
     with choice.forced(choice.NUMPY):
-        trial = fingers._tried(mixture, points, 0.033, it.seat, blobs, np.full(9, 60.0), np.ones(9, dtype=bool))
+        picture = DigitPicture(0.033, it.seat, blobs, np.full(9, 60.0), np.ones(9, dtype=bool))
+        trial = fingers.naming._tried(mixture, points, picture)
     assert (trial.blob >= 0).any()
     for dt_s in (0.0, 0.033):
 
         def remembered(dt_s: float = dt_s) -> tuple[object, ...]:
             fingers.begin_at_neutral()
-            fingers._unseen_s += 0.1
+            fingers.memory.unseen_s += 0.1
             step = fingers.accept(trial, 1.0, dt_s)
-            told = fingers._visible, fingers._unseen_s, fingers._missing, fingers._noise_factor, fingers._disc_m2
-            return *told, fingers._mean, fingers._covariance, fingers.known, step.shown
+            told = fingers.memory
+            of_discs = told.visible, told.unseen_s, told.missing, told.noise_factor, told.disc_m2
+            return *of_discs, fingers._mean, fingers._covariance, fingers.known, step.shown
 
         both(remembered)
     fingers.begin_at_neutral()

@@ -12,9 +12,10 @@ from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.protocols import HAND21
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.digit_filter import ANATOMY, RATES
-from carpus.core.tracking.finger_model import seat_of
+from carpus.core.tracking.digit_naming import DigitPicture, FingerTrial
+from carpus.core.tracking.digit_readout import seat_of
 from carpus.core.tracking.finger_settings import FingerSettings
-from carpus.core.tracking.fingers import Fingers, FingerTrial
+from carpus.core.tracking.fingers import Fingers
 from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.palm_association import measurements_of
@@ -139,7 +140,8 @@ def weighed(place_m: float, off_px: tuple[float, float], own: FingerSettings) ->
     blobs, marker = seen.detections[0], seen.marker[0]
     pixel = blobs.pixel + np.column_stack((np.choose(marker % 2, off_px), np.zeros(marker.size)))
     found = measurements_of(replace(blobs, pixel=pixel), 5.0, settings, seen.truth.camera.sensor)
-    trial = fingers.weigh(fingers.ahead(0.0), 0.0, seat, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
+    picture = DigitPicture(0.0, seat, found, blobs.area_px, ~np.isin(marker, HAND21.palm))
+    trial = fingers.naming.weigh(fingers.ahead(0.0), picture)
     return trial, trial.named.update.mixture.merged()[0] - fingers.model.at_neutral().merged()[0]
 
 

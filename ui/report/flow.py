@@ -161,7 +161,7 @@ class ReportFlow(Flow):
             self._tried(lambda: of_patients.keep_home_plan(stored.store, row.patient_id, home.plan))
 
         def gather() -> HomeReport:
-            history, goals = stored.history(row.patient_id), stored.goals(row.patient_id)
+            history, goals = stored.history(row.patient_id), of_patients.goals(stored.store, row.patient_id)
             return replace(home, way=own_way(home.report.figures, history, goals))
 
         self.run(gather, self._begin)
