@@ -36,7 +36,7 @@ from carpus.app.standard_streams import on_stop
 from carpus.core.capture.source import FrameSource
 from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, OutputNotWritable
-from carpus.core.records.interrupted import recover
+from carpus.core.records.interrupted import Recovered, recover
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.set_up import SetUp
@@ -271,14 +271,8 @@ def compose(
         made.streams = lambda: journey.settings.stream.on
         return made
 
-    parts = Parts(
-        library,
-        lambda *given: sources().open(*given),
-        CareCameras(settings, speed),
-        settings,
-        is_demo,
-        date.today if today is None else lambda: today,
-    )
+    day = date.today if today is None else lambda: today
+    parts = Parts(library, lambda *given: sources().open(*given), CareCameras(settings, speed), settings, is_demo, day)
     shell = Shell(theme)
     journey = Journey(shell, theme, Keys(settings.screen.keys), parts)
     keeper = PreferenceKeeper(journey, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen))
@@ -300,22 +294,18 @@ def compose(
     shell.closing.connect(desktop.close)
     keeper.language_chosen.connect(lambda: QTimer.singleShot(0, desktop.speak_anew))
     keeper.keeps_language = desktop.why_no_other_language
-    for found in recovered:
-        words = journey.messages.recovered_words(found)
-        place = journey.patients.screen.notice_place
-        journey.messages.strip(
-            place, words, tr("Re&view it"), partial(journey.way.show, "review", found.session_id, found.patient_id)
-        )
-    for fault in (*told, *faults):
-        said = fault_words(fault)
-        journey.messages.strip(
-            journey.patients.screen.notice_place,
-            said,
-            tr("I have read it"),
-            lambda: None,
-            icon="hard-drive",
-        )
+    _tell(journey, recovered, (*told, *faults))
     return desktop
+
+
+def _tell(journey: Journey, recovered: Sequence[Recovered], faults: Sequence[CarpusFault]) -> None:
+    """On the first screen: which sessions were finished, and what went wrong."""
+    place, messages = journey.patients.screen.notice_place, journey.messages
+    for found in recovered:
+        look = partial(journey.way.show, "review", found.session_id, found.patient_id)
+        messages.strip(place, messages.recovered_words(found), tr("Re&view it"), look)
+    for fault in faults:
+        messages.strip(place, fault_words(fault), tr("I have read it"), lambda: None, icon="hard-drive")
 
 
 def _connect_settings(screen: SettingsScreen, journey: Journey, theme: Theme) -> None:

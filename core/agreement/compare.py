@@ -142,13 +142,11 @@ def compare(
         if name not in theirs:
             continue
         found = at_times(shift.reference_time_s(time_s), reference_s, _unwrapped(theirs[name]))
-        both = np.isfinite(found) & np.isfinite(own[name])
-        if both.sum() < FEWEST:
+        pair = _paired(name, time_s, own[name], found)
+        if pair is None:
             not_used.append(f"{name}: fewer than {FEWEST} pictures in common")
-            continue
-        mine, other = np.unwrap(own[name][both]), found[both]
-        other = other + 2.0 * math.pi * np.rint(np.median(mine - other) / (2.0 * math.pi))
-        pairs.append(Pairs(name, time_s[both], mine, other, agreement(np.degrees(mine), np.degrees(other))))
+        else:
+            pairs.append(pair)
     if not pairs:
         raise ReferenceUnsuited(reference.path, phrase("the two have no time in common"))
     overlap_s = max(float(one.time_s[-1] - one.time_s[0]) for one in pairs)
@@ -157,6 +155,16 @@ def compare(
         reference.kind, tuple(pairs), shift, alignment, len(session), int((~use).sum()), overlap_s, rate_hz,
         tuple(not_used), remarks_of(pairs, shift, overlap_s),
     )  # fmt: skip
+
+
+def _paired(name: str, time_s: FloatArray, own_rad: FloatArray, found_rad: FloatArray) -> Pairs | None:
+    """An angle where both have it, the reference's moved by whole turns to the session's; None of too few pictures."""
+    both = np.isfinite(found_rad) & np.isfinite(own_rad)
+    if both.sum() < FEWEST:
+        return None
+    mine, other = np.unwrap(own_rad[both]), found_rad[both]
+    other = other + 2.0 * math.pi * np.rint(np.median(mine - other) / (2.0 * math.pi))
+    return Pairs(name, time_s[both], mine, other, agreement(np.degrees(mine), np.degrees(other)))
 
 
 def _unwrapped(angle_rad: FloatArray) -> FloatArray:

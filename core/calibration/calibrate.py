@@ -101,19 +101,7 @@ def calibrate(
     first = frames[0]
     radius_px = np.array([expected_radius_px(first, click, camera, detection) for click in clicks.pixel])
     region = _around(clicks.pixel, 3.0 * float(radius_px.max()) + 12.0, camera)
-
-    def tried(pixel: FloatArray) -> _Found:
-        """The discs under the clicks, the colours learnt where the discs are taken to be, at ``pixel`` (M, 2)."""
-        appearance, _ = learn_appearance(first, pixel, camera, detection)
-        blobs = Detector(appearance, camera, detection).detect(first, region)
-        return _Found(appearance, blobs, *_named(clicks, blobs, detection.click_reach * radius_px))
-
-    found = tried(clicks.pixel)
-    if np.any(found.taken < 0):
-        # Small discs and clicks at their edges: colours are better learnt in the middle of what is blue.
-        candidates = marker_candidates(first, camera, detection, settings.candidates)
-        again = tried(_snapped(clicks.pixel, candidates, detection.click_reach * radius_px))
-        found = max(found, again, key=lambda each: int(np.count_nonzero(each.taken >= 0)))
+    found = _discs_clicked(clicks, first, region, detection.click_reach * radius_px, camera, settings, detection)
     appearance, blobs, taken, findings = found.appearance, found.blobs, found.taken, found.findings
     detector = Detector(appearance, camera, detection)
     found_px = np.where((taken >= 0)[:, None], _rows(blobs.pixel, taken), np.nan)
@@ -212,6 +200,32 @@ class _Found:
     blobs: Detections
     taken: NDArray[np.int64]
     findings: list[CalibrationFinding]
+
+
+def _discs_clicked(
+    clicks: Clicks,
+    first: Frame,
+    region: Region,
+    reach_px: FloatArray,
+    camera: Camera,
+    settings: CalibrationSettings,
+    detection: DetectionSettings,
+) -> _Found:
+    """The discs of the clicked frame under the clicks."""
+
+    def tried(pixel: FloatArray) -> _Found:
+        """The colours learnt where the discs are taken to be, at ``pixel`` (M, 2)."""
+        appearance, _ = learn_appearance(first, pixel, camera, detection)
+        blobs = Detector(appearance, camera, detection).detect(first, region)
+        return _Found(appearance, blobs, *_named(clicks, blobs, reach_px))
+
+    found = tried(clicks.pixel)
+    if np.all(found.taken >= 0):
+        return found
+    # Small discs and clicks at their edges: colours are better learnt in the middle of what is blue.
+    candidates = marker_candidates(first, camera, detection, settings.candidates)
+    again = tried(_snapped(clicks.pixel, candidates, reach_px))
+    return max(found, again, key=lambda each: int(np.count_nonzero(each.taken >= 0)))
 
 
 def _snapped(pixel: FloatArray, blobs: Detections, reach_px: FloatArray) -> FloatArray:

@@ -128,16 +128,7 @@ def find_repetitions(angle: Signal) -> FoundRepetitions:
     whole: list[Repetition] = []
     cut: list[Repetition] = []
     for run in runs:
-        strokes += [
-            Stroke(
-                float(time[a.turn]),
-                float(time[b.turn]),
-                b.high,
-                home.side is None and "middle" in map(home.place, (a, b)),
-            )
-            for a, b in pairwise(run.turns)
-            if abs(b.value - a.value) >= least
-        ]
+        strokes += _strokes(run, home, time, least)
         marks = home.marks(run, runs)
         whole += [_between(angle, a, b) for a, b in pairwise(marks) if time[b] - time[a] >= LEAST_DURATION_S]
         first, last = run.part.start, run.part.stop - 1
@@ -149,6 +140,19 @@ def find_repetitions(angle: Signal) -> FoundRepetitions:
         if (left or not home.rests(end)) and marks and marks[-1] < run.turns[-1].turn:
             cut.append(_between(angle, marks[-1], last, last))
     return FoundRepetitions(tuple(whole), tuple(strokes), tuple(cut), unseen)
+
+
+def _strokes(run: _Run, home: _Home, time_s: FloatArray, least_rad: float) -> list[Stroke]:
+    return [
+        Stroke(
+            float(time_s[a.turn]),
+            float(time_s[b.turn]),
+            b.high,
+            home.side is None and "middle" in map(home.place, (a, b)),
+        )
+        for a, b in pairwise(run.turns)
+        if abs(b.value - a.value) >= least_rad
+    ]
 
 
 def _between(angle: Signal, start: int, end: int, cut_at: int | None = None) -> Repetition:

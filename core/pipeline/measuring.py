@@ -89,7 +89,7 @@ class LivePipeline:
         """Called in the tracking thread with the step of every frame; must not wait."""
         self.seen: Callable[[TrackedFrame], None] | None = None
         """Called in the tracking thread with every frame; must not wait."""
-        self.taken_up: Callable[[SpotAnswer, float], None] | None = None
+        self.taken_up: Callable[[SpotAnswer, float], object] | None = None
         """Called in the tracking thread with every answer that a frame has taken up, and that frame's time."""
         self._answers: NeverDrop[SpotAnswer] = NeverDrop(_ANSWERS_WAITING)
         self._shown: set[str] = set()
@@ -296,7 +296,7 @@ class SourceMeasuring:
             outcome, self.camera, self._settings, self._learnt, keep_history=self._settings.smooth
         )
         self._pipeline = LivePipeline(pipeline, neutral_ends_s)
-        self._pipeline.taken_up = lambda answer, time_s: self._note(SPOT_SAID, answer.text(), time_s)
+        self._pipeline.taken_up = lambda answer, time_s: self._session.add_event(SPOT_SAID, answer.text(), time_s)
         self._calibration = outcome.calibration
         self._markers_rgb = _around_hand(held[0].color_rgb, outcome.pixel)
         try:
@@ -318,9 +318,6 @@ class SourceMeasuring:
         frame, and the recording notes it."""
         if self._pipeline is not None:
             self._pipeline.answer(answer)
-
-    def _note(self, kind: str, text: str, time_s: float) -> None:
-        self._session.add_event(kind, text, time_s)
 
     def start_recording(self) -> None:
         """Open the session file, and a raw recording beside it if wanted; waits for the disk."""

@@ -116,7 +116,7 @@ class PartFile:
 
     def add(self, blocks: Sequence[Block]) -> None:
         """Rows to datasets; the times last: a row with a time has all the rest, whenever the process is ended."""
-        with self._changing(sum(map(self._room_for, blocks))):
+        with self._changing(sum(_room_for(self._growing[field.path], len(data)) for field, data in blocks)):
             self._grow([block for block in blocks if block[0] not in schema.COMMIT_FIELDS])
             self._synchronise()
             self._grow([block for block in blocks if block[0] in schema.COMMIT_FIELDS])
@@ -161,7 +161,11 @@ class PartFile:
         self._heart.end()
         with contextlib.suppress(OSError, RuntimeError):
             self._file.close()
-        file = self._opened_copy(path)
+        file = None
+        with contextlib.suppress(OSError, RuntimeError, CarpusFault):
+            copy_open_file(self._descriptor, path)
+            allow_written_bytes(path)
+            file = h5py.File(path, "r+", libver="earliest", rdcc_nbytes=0)
         with contextlib.suppress(OSError):
             os.close(self._descriptor)
         if file is None:
@@ -177,14 +181,6 @@ class PartFile:
         for name, dataset in growing.items():  # what was not wholly written is written again
             dataset.resize(self.rows(name), axis=0)
         return type(self)(path, file, self.layout, growing, self._digests)
-
-    def _opened_copy(self, path: Path) -> h5py.File | None:
-        try:
-            copy_open_file(self._descriptor, path)
-            allow_written_bytes(path)
-            return h5py.File(path, "r+", libver="earliest", rdcc_nbytes=0)
-        except (OSError, RuntimeError, CarpusFault):
-            return None
 
     def close(self) -> None:
         """Cut off the room that was reserved and not used. May be called twice."""
@@ -224,10 +220,9 @@ class PartFile:
             dataset.resize(begin + len(data), axis=0)
             dataset[begin:] = data
 
-    def _room_for(self, block: Block) -> int:
-        """Bytes by which the file grows for a block: whole chunks, and the texts, which lie elsewhere."""
-        field, data = block
-        dataset = self._growing[field.path]
-        step, *row = dataset.chunks
-        new_chunks = -(-(dataset.shape[0] + len(data)) // step) - -(-dataset.shape[0] // step)
-        return int(new_chunks * step * np.prod(row) * dataset.dtype.itemsize)
+
+def _room_for(dataset: h5py.Dataset, rows: int) -> int:
+    """Bytes by which the file grows for rows of a dataset: whole chunks."""
+    step, *row = dataset.chunks
+    new_chunks = -(-(dataset.shape[0] + rows) // step) - -(-dataset.shape[0] // step)
+    return int(new_chunks * step * np.prod(row) * dataset.dtype.itemsize)

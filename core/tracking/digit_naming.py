@@ -300,22 +300,16 @@ class DigitNaming:
         own, names, noise = settings.fingers, settings.association, settings.noise
         area_px, free, learning = picture.area_px, picture.free, self._model.learning(seat)
         camera, out, seen = seat.view.camera, like(estimates), 3 * DISCS
-        nine, square, rows = (
-            np.empty((4, CHAINS, seen)),
-            np.empty((4, CHAINS, seen, seen)),
-            np.empty((5, CHAINS, DISCS)),
-        )
+        nine, square = np.empty((4, CHAINS, seen)), np.empty((4, CHAINS, seen, seen))
+        rows = np.empty((5, CHAINS, DISCS))
         value, measured, variance, residual = nine
         error, by_digits, by_palm, by_both = square
         visible, tilt_rad, facing_m2, whole_px, disc_m2 = rows
         slope = np.empty((CHAINS, seen, DIGIT_SIZE))
         centre_m, by_place = np.empty((CHAINS, DISCS, 3)), np.empty((CHAINS, DISCS, 3, 3))
         assigned, with_depth = np.empty((CHAINS, DISCS), dtype=np.int64), np.empty((CHAINS, DISCS), dtype=np.bool_)
-        nis, dof, (ordinary, settled) = (
-            np.empty(CHAINS),
-            np.empty(CHAINS, dtype=np.int64),
-            np.empty((2, 1), dtype=np.bool_),
-        )
+        nis, dof = np.empty(CHAINS), np.empty(CHAINS, dtype=np.int64)
+        ordinary, settled = np.empty((2, 1), dtype=np.bool_)
         kernels.digits_named(
             self._model.scales.size, len(blobs), *points.parts, points.mean, points.covariance, seat.view.rotation,
             seat.view.translation_m, seat.pose_covariance, camera.fx_px, camera.fy_px, camera.cx_px, camera.cy_px,

@@ -198,15 +198,13 @@ class HandFilter:
         if self._ahead is None or not (
             self._ahead[0] is self._known and self._ahead[1] is fingers and self._ahead[2] == dt_s
         ):
-            self._ahead = self._known, fingers, dt_s, self._predicted(*self._known, dt_s)
+            digits = None if self.fingers is None else self.fingers.ahead(dt_s)
+            ahead = predicted_ahead(
+                *self._known, self.view, self.motion, dt_s, self._unseen, self._digit_speeds, self._settings, digits,
+                self.order,
+            )  # fmt: skip
+            self._ahead = self._known, fingers, dt_s, ahead
         return self._ahead[3]
-
-    def _predicted(self, estimate: PalmEstimate, mixture: ModeMixture, dt_s: float) -> PredictedMeasurement:
-        digits = None if self.fingers is None else self.fingers.ahead(dt_s)
-        return predicted_ahead(
-            estimate, mixture, self.view, self.motion, dt_s, self._unseen, self._digit_speeds, self._settings, digits,
-            self.order,
-        )  # fmt: skip
 
     def scan(self, predicted: PredictedMeasurement, ideal: Detections, timestamp_s: float, dt_s: float) -> Scan:
         """The blobs as measurements at the distance at which the hand was predicted."""

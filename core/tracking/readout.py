@@ -17,7 +17,7 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
 from carpus.core.hand.wrist_frame import wrist_axes_sensitivity
-from carpus.core.kernels.choice import NOTHING, in_c
+from carpus.core.kernels.choice import NOTHING, Kernels, in_c
 from carpus.core.tracking.hand_geometry import CHAINS, NO_CUP, JointMoment, PalmInBody
 from carpus.core.tracking.palm_state import PALM_DISCS, POSE, SHAPE, SIZE, SKIN, TURN, PalmEstimate
 from carpus.core.tracking.palm_view import View
@@ -122,24 +122,7 @@ class Readout:
         The origin of W2 is the WRIST disc where the skin has carried it; the axes are those of the fixed unit.
         """
         if (kernels := in_c()) is not None:
-            position, rate, angles, sd, zyz = np.empty((5, 3))
-            (axes, shown), is_near = np.empty((2, 3, 3)), np.empty(1, dtype=np.bool_)
-            for _ in range(2):
-                kernels.wrist_read(
-                    self._axes, self._sensitivity, self._axes_shape, self._settings.shape_moved_m, self._disc_m,
-                    estimate.value, estimate.rotation_w2_w0, estimate.covariance,
-                    self._start if self._has_start else NOTHING,
-                    self._tilt_covariance(estimate) if self._has_stays else NOTHING,
-                    clinical_angles.side_sign(self._side), clinical_angles.ZYZ_UNDEFINED_BELOW_RAD,
-                    axes, position, shown, rate, angles, sd, zyz, is_near,
-                )  # fmt: skip
-                if is_near.item():
-                    break
-                self._work_out_axes(estimate.value[SHAPE])
-            w0_turn = so3.log(axes @ self._start.T)
-            return Moment(
-                position, estimate.velocity_m_s, w0_turn, shown, rate, angles, sd, zyz, _NONE, _NONE, _NONE, _NOWHERE
-            )
+            return self._moment_in_c(kernels, estimate)
         axes, sensitivity = self._axes_of(estimate)
         place = self._disc_m[0] + estimate.shape_m[0] + estimate.skin_m[0]
         position = estimate.position_m + estimate.rotation_w2_w0 @ place
@@ -169,6 +152,26 @@ class Readout:
             _NONE,
             _NONE,
             _NOWHERE,
+        )
+
+    def _moment_in_c(self, kernels: Kernels, estimate: PalmEstimate) -> Moment:
+        position, rate, angles, sd, zyz = np.empty((5, 3))
+        (axes, shown), is_near = np.empty((2, 3, 3)), np.empty(1, dtype=np.bool_)
+        for _ in range(2):
+            kernels.wrist_read(
+                self._axes, self._sensitivity, self._axes_shape, self._settings.shape_moved_m, self._disc_m,
+                estimate.value, estimate.rotation_w2_w0, estimate.covariance,
+                self._start if self._has_start else NOTHING,
+                self._tilt_covariance(estimate) if self._has_stays else NOTHING,
+                clinical_angles.side_sign(self._side), clinical_angles.ZYZ_UNDEFINED_BELOW_RAD,
+                axes, position, shown, rate, angles, sd, zyz, is_near,
+            )  # fmt: skip
+            if is_near.item():
+                break
+            self._work_out_axes(estimate.value[SHAPE])
+        w0_turn = so3.log(axes @ self._start.T)
+        return Moment(
+            position, estimate.velocity_m_s, w0_turn, shown, rate, angles, sd, zyz, _NONE, _NONE, _NONE, _NOWHERE
         )
 
     def _tilt_covariance(self, estimate: PalmEstimate) -> FloatArray:
