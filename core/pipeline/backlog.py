@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from carpus.core.pipeline.channels import ChannelClosed, ChannelFull, NeverDrop, Waits
-from carpus.core.pipeline.recording import Recording
+from carpus.core.pipeline.recording import LiveRecording
 from carpus.core.types import Frame, TrackedFrame
 
 PREVIEW_WAITING = 16
@@ -31,7 +31,7 @@ class Captured(NamedTuple):
     frame: Frame
     at_s: float
     pipeline: Pipeline
-    recording: Recording | None
+    recording: LiveRecording | None
 
 
 class Backlog:

@@ -33,7 +33,7 @@ from carpus.core.pipeline.around_hand import PictureSink
 from carpus.core.pipeline.backlog import Backlog, Captured, Pipeline, room_for
 from carpus.core.pipeline.channels import Newest
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, LiveEventKind, LiveSettings, TrackedView
-from carpus.core.pipeline.recording import Note, Recording, SessionSink, free_bytes
+from carpus.core.pipeline.recording import LiveRecording, Note, SessionSink, free_bytes
 from carpus.core.types import Frame, TrackedFrame
 
 log = logging.getLogger(__name__)
@@ -79,7 +79,7 @@ class LiveSession:
         self._captured = self._tracked = self._missing = 0
         self._pipeline: Pipeline | None = None
         self._listener: Listener | None = None
-        self._recording: Recording | None = None
+        self._recording: LiveRecording | None = None
         self._capture_thread = threading.Thread(target=self._capture, name="capture", daemon=True)
         self._tracking_thread = threading.Thread(target=self._track, name="tracking", daemon=True)
 
@@ -191,7 +191,7 @@ class LiveSession:
             raise RuntimeError("a recording runs already")
         frame, settings = self._newest_frame.look(), self._settings
         self._backlog.room = room_for(frame, settings.tracking_waiting)
-        recording = Recording(
+        recording = LiveRecording(
             open_session,
             open_pictures,
             settings,

@@ -44,7 +44,7 @@ class Tell(Protocol):
     def __call__(self, kind: LiveEventKind, cause: Exception | None = None, value: float = math.nan) -> None: ...
 
 
-class Recording:
+class LiveRecording:
     """The session file and the raw pictures, each opened, filled and closed in a thread of its own.
 
     ``tell`` hears what ends one of them early, and once that there is little room left; ``notice`` what they go on in

@@ -38,7 +38,7 @@ _INDEX_BYTES = 512 * 1024
 
 
 @dataclass(frozen=True, slots=True)
-class Beginning:
+class FileBeginning:
     """What a file begins with, for one that has to begin again elsewhere."""
 
     header: SessionHeader
@@ -65,7 +65,7 @@ class PartFile:
         self._heart = Heartbeat(path, self._missing)
 
     @classmethod
-    def begun(cls, path: Path, beginning: Beginning) -> Self:
+    def begun(cls, path: Path, beginning: FileBeginning) -> Self:
         """A new file without rows. Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; then
         nothing is left behind."""
         try:

@@ -30,7 +30,7 @@ from carpus.core.phrase import phrase
 from carpus.core.session import schema
 from carpus.core.session.disk import free_name, part_path, publish
 from carpus.core.session.held_rows import HeldRows
-from carpus.core.session.part_file import Beginning, PartFile
+from carpus.core.session.part_file import FileBeginning, PartFile
 from carpus.core.session.values import Event, Motion, RawPictures, Repetitions, Session, SessionHeader
 from carpus.core.types import TrackedFrame
 
@@ -61,7 +61,9 @@ class SessionWriter:
     all that was recorded where that can still be read.
     """
 
-    def __init__(self, path: Path, beginning: Beginning, clock: Callable[[], float], fallback: Fallback | None) -> None:
+    def __init__(
+        self, path: Path, beginning: FileBeginning, clock: Callable[[], float], fallback: Fallback | None
+    ) -> None:
         if os.path.lexists(path):
             raise OutputExists(path)
         self.path = path
@@ -87,7 +89,7 @@ class SessionWriter:
 
         Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; then nothing is left behind.
         """
-        return cls(path, Beginning(header, camera, calibration, raw_depth_unit_m), clock, fallback)
+        return cls(path, FileBeginning(header, camera, calibration, raw_depth_unit_m), clock, fallback)
 
     def __enter__(self) -> Self:
         return self
@@ -281,13 +283,13 @@ class SessionWriter:
             raise ValueError("the session is closed")
 
 
-def _begun_anew(beginning: Beginning) -> Beginning:
+def _begun_anew(beginning: FileBeginning) -> FileBeginning:
     """With an identity of its own: two halves, not two results of one recording."""
     new_id = str(uuid.uuid4())
     return replace(beginning, header=replace(beginning.header, session_id=new_id, recording_id=new_id))
 
 
-def _goes_on(beginning: Beginning, stored: int, held: HeldRows) -> Event:
+def _goes_on(beginning: FileBeginning, stored: int, held: HeldRows) -> Event:
     """Says in a file that has the rest where the beginning is."""
     text = f"goes on from session {beginning.header.session_id}, {stored} rows of which are elsewhere"
     return Event(held.frames[0].timestamp_s, "moved", text)
