@@ -14,7 +14,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, empty, fill, in_column, in_line
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind
@@ -222,10 +222,7 @@ class AgreementScreen(QWidget):
 
     def _fill_joined(self, compared: Compared) -> None:
         body, theme = self._joined.body, self._theme
-        while (item := body.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(body)
         remarks = remark_words(compared)
         if remarks:
             body.addWidget(Text(theme, self.tr("Look at this first"), 16, SEMIBOLD, wrap=True))

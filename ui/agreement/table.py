@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 
 from carpus.ui.agreement.words import angle_name, angle_token, interval, judgement_words, limits, share, signed, tenths
 from carpus.ui.controls.card import Line
+from carpus.ui.controls.layouts import empty
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text, caption, named_by_color
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
@@ -36,10 +37,7 @@ class AgreementTable(QWidget):
 
     def show_compared(self, compared: Compared, limit_deg: float) -> None:
         """Replace all rows."""
-        while (item := self._grid.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self._grid)
         heads = (
             self.tr("Angle"), self.tr("Mean difference"), self.tr("Limits of agreement"), self.tr("RMSE"),
             self.tr("ICC(2,1)"), self.tr("Curve match"), self.tr("In words"),

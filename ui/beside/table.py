@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 
 from carpus.ui.beside.rows import BesideRow
 from carpus.ui.controls.card import Line
-from carpus.ui.controls.layouts import in_line
+from carpus.ui.controls.layouts import empty, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text, caption, named_by_color
 from carpus.ui.theme import Theme
 
@@ -34,10 +34,7 @@ class BesideTable(QWidget):
 
     def show_rows(self, heads: Sequence[str], rows: Sequence[BesideRow]) -> None:
         """Replace all rows."""
-        while (item := self._grid.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self._grid)
         self.rows = tuple(rows)
         for column, head in enumerate(heads):
             self._grid.addWidget(caption(self._theme, head, wrap=True), 0, column, self._side(column))

@@ -23,7 +23,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import STRETCH, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, empty, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
@@ -254,10 +254,7 @@ class ByHandScreen(QWidget):
 
     def _fill_changes(self) -> None:
         body, theme = self._changes.body, self._theme
-        while (item := body.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(body)
         body.addWidget(Text(theme, self.tr("By hand and by Carpus are never joined"), 16, SEMIBOLD, wrap=True))
         words = self.tr("Neither averaged nor subtracted. A change is judged within one way of measuring.")
         body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))

@@ -14,6 +14,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.default_answer import ENTER
+from carpus.ui.controls.layouts import empty
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 
@@ -103,7 +104,7 @@ class BoardResultView(QWidget):
 
     def _fill_table(self, result: BoardResult) -> None:
         body, theme = self._table.body, self._theme
-        _clear(body)
+        empty(body)
         table = QWidget()
         grid = QGridLayout(table)
         grid.setContentsMargins(0, 0, 0, 0)
@@ -128,7 +129,7 @@ class BoardResultView(QWidget):
 
     def _fill_effect(self, result: BoardResult) -> None:
         body, theme = self._effect.body, self._theme
-        _clear(body)
+        empty(body)
         body.addWidget(Text(theme, self.tr("What this means for a hand"), 16, SEMIBOLD, wrap=True))
         for name, value in effect_rows(result):
             body.addWidget(_Pair(theme, name, value))
@@ -145,10 +146,3 @@ class _Pair(QWidget):
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(Text(theme, name, 14, REGULAR, wrap=True), 1)
         row.addWidget(Text(theme, value, 14, SEMIBOLD))
-
-
-def _clear(body: QVBoxLayout) -> None:
-    while (item := body.takeAt(0)) is not None:
-        if (old := item.widget()) is not None:
-            old.hide()
-            old.deleteLater()

@@ -17,6 +17,7 @@ from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area, scrolled
 from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.field import Choices
+from carpus.ui.controls.layouts import empty
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind
@@ -245,7 +246,7 @@ class CardScreen(QWidget):
 
     def _fill_figures(self) -> None:
         body, theme, last = self._figures.body, self._theme, self.checks.newest
-        _clear(body)
+        empty(body)
         self._figures.setVisible(last is not None)
         if last is None:
             return
@@ -279,13 +280,6 @@ class CardScreen(QWidget):
         now = self.progress
         if now is not None and now.pixel is not None:
             paint_discs(painter, view, self._theme, now.pixel)
-
-
-def _clear(body: QVBoxLayout) -> None:
-    while (item := body.takeAt(0)) is not None:
-        if (old := item.widget()) is not None:
-            old.hide()
-            old.deleteLater()
 
 
 def _what_to_do(theme: Theme) -> Card:

@@ -6,11 +6,12 @@ import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLineEdit, QSpinBox, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLineEdit, QSpinBox, QWidget
 
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.flow import FlowLayout
+from carpus.ui.controls.layouts import in_column, in_line
 from carpus.ui.controls.text import MEDIUM, Sign, Text, caption
 from carpus.ui.fonts import font
 from carpus.ui.theme import Theme
@@ -49,19 +50,18 @@ class SearchField(QLineEdit):
 
 
 class Labelled(QWidget):
-    """A field under its caption, with room for one sentence of what is wrong."""
+    """A field under its caption, with what belongs to it ``beside`` it."""
 
-    def __init__(self, theme: Theme, label: str, field: QWidget) -> None:
+    def __init__(self, theme: Theme, label: str, field: QWidget, *beside: QWidget) -> None:
         super().__init__()
-        self.field = field
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
         name = Text(theme, label, 14, MEDIUM, "text2")
         name.setBuddy(field)
         field.setAccessibleName(label.replace("&", ""))
-        column.addWidget(name)
-        column.addWidget(field)
+        column = in_column(name, gap=4, margins=(0, 0, 0, 0), within=self)
+        if beside:
+            column.addLayout(in_line((field, 1), *beside, gap=6))
+        else:
+            column.addWidget(field)
 
 
 def number_field(theme: Theme, most: int, suffix: str = "", nothing: str = "") -> QSpinBox:

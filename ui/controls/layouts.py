@@ -38,6 +38,14 @@ def fill(layout: QBoxLayout, *parts: Part) -> None:
             layout.addWidget(item, share)
 
 
+def empty(layout: QLayout) -> None:
+    """Take out what is in it, and let it go."""
+    while (item := layout.takeAt(0)) is not None:
+        if (widget := item.widget()) is not None:
+            widget.hide()
+            widget.deleteLater()
+
+
 def in_line(
     *parts: Part,
     gap: int | None = None,

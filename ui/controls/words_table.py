@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
+from carpus.ui.controls.layouts import empty
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text, caption
 from carpus.ui.theme import Theme
 
@@ -33,10 +34,7 @@ class WordsTable(QWidget):
 
     def show_rows(self, heads: Sequence[str], rows: Sequence[tuple[str, ...]], keys: Sequence[str] = ()) -> None:
         """Replace all rows."""
-        while (item := self._grid.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self._grid)
         self.rows = tuple(rows)
         self.buttons = tuple(self._button(row[0], key) for row, key in zip(rows, keys, strict=False))
         for column, head in enumerate(heads):

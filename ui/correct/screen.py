@@ -22,7 +22,7 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.column import scrolled
 from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.key_caps import KeyCaps
-from carpus.ui.controls.layouts import STRETCH, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, empty, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.correct.picture import CorrectionPicture
 from carpus.ui.correct.places import Places
@@ -156,10 +156,7 @@ class CorrectScreen(QWidget):
         curves = session_curves(session)
         self._time_s = curves.time_s
         self.current = ""
-        while (item := self._rows.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self._rows)
         self.rows = {}
         for name in self.places.markers:
             line = MarkerRow(self._theme, marker_name(name))

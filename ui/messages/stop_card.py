@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QWidget
 from carpus.core.words import Words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
-from carpus.ui.controls.layouts import in_column, in_line
+from carpus.ui.controls.layouts import empty, in_column, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.theme import Theme
@@ -80,10 +80,7 @@ class StopCard(Sheet):
         self.setAccessibleName(" ".join((words.happened, detail, words.safe, safe_detail, words.do)))
         if answers and answers[-1].risky:
             raise ValueError(f"what Enter answers loses nothing: {answers[-1].text}")
-        while (item := self._buttons.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self._buttons)
         self._answers = []
         for number, answer in enumerate(answers):
             primary = number == len(answers) - 1

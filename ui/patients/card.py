@@ -7,7 +7,7 @@ from datetime import date
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.ui import numbers, terms
@@ -15,6 +15,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import scroll_area
 from carpus.ui.controls.default_answer import ENTER
+from carpus.ui.controls.layouts import STRETCH, empty, fill, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption
 from carpus.ui.controls.tooltip import plain_tooltip
 from carpus.ui.figures import figure_of, followed_name
@@ -51,8 +52,7 @@ class PatientCardView(Card):
         self._last = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self._about = Text(theme, "", 14, MEDIUM, wrap=True)
         self._warning = Text(theme, "", 14, MEDIUM, "warn", wrap=True)
-        self._results = QVBoxLayout()
-        self._results.setSpacing(0)
+        self._results = in_column(gap=0)
         self._note_when = caption(theme)
         self._note = Text(theme, "", 14, wrap=True)
         self.start_button = Button(theme, self.tr("Start session, same set-up"), "primary", icon="play", hint=ENTER)
@@ -62,58 +62,7 @@ class PatientCardView(Card):
         self.review_button = Button(theme, self.tr("&Review"))
         self.progress_button = Button(theme, self.tr("&Progress"))
         self.sessions_button = Button(theme, self.tr("All &sessions"))
-        self.body.setSpacing(0)
-        head = QHBoxLayout()
-        head.addWidget(self._name, 1)
-        head.addWidget(self.edit_button)
-        self.body.addLayout(head)
-        self.body.addSpacing(2)
-        recall = QVBoxLayout()
-        recall.setContentsMargins(0, 0, 0, 0)
-        recall.setSpacing(0)
-        since = QHBoxLayout()
-        since.addWidget(self._since, 1)
-        since.addWidget(self._weeks)
-        why = Card(theme, 12, "sunken", "sunken")
-        why.body.setSpacing(2)
-        why.body.addWidget(self._diagnosis)
-        why.body.addLayout(since)
-        self._why = QWidget()
-        room = QVBoxLayout(self._why)
-        room.setContentsMargins(0, 0, 0, 12)
-        room.addWidget(why)
-        for widget, gap in (
-            (self._hand, 12),
-            (self._why, 0),
-            (self._photo, 14),
-            (self._exercise, 2),
-            (self._last, 12),
-            (self._about, 4),
-            (self._warning, 4),
-        ):
-            recall.addWidget(widget)
-            recall.addSpacing(gap)
-        recall.addLayout(self._results)
-        recall.addSpacing(14)
-        recall.addWidget(self._note_when)
-        recall.addWidget(self._note)
-        recall.addStretch(1)
-        host = QWidget()
-        host.setLayout(recall)
-        # Large text: what must be recalled scrolls, the buttons stay.
-        self._recall = scroll_area(host)
-        self.body.addWidget(self._recall, 1)
-        self.body.addSpacing(16)
-        self.body.addWidget(self.bubble)
-        self.body.addWidget(self.start_button)
-        self.body.addSpacing(12)
-        for pair in ((self.change_button, self.progress_button), (self.review_button, self.sessions_button)):
-            row = QHBoxLayout()
-            row.setSpacing(12)
-            for button in pair:
-                row.addWidget(button, 1)
-            self.body.addLayout(row)
-            self.body.addSpacing(8 if pair[0] is self.change_button else 0)
+        self._lay_out()
         for button, signal in (
             (self.start_button, self.start), (self.change_button, self.change),
             (self.review_button, self.review), (self.progress_button, self.progress),
@@ -121,6 +70,26 @@ class PatientCardView(Card):
         ):  # fmt: skip
             button.clicked.connect(signal)
         self.bubble.changed.connect(self._make_room)
+
+    def _lay_out(self) -> None:
+        why = Card(self._theme, 12, "sunken", "sunken")
+        why.body.setSpacing(2)
+        fill(why.body, self._diagnosis, in_line((self._since, 1), self._weeks))
+        self._why = QWidget()
+        in_column(why, margins=(0, 0, 0, 12), within=self._why)
+        recall = QWidget()
+        in_column(
+            self._hand, 12, self._why, 0, self._photo, 14, self._exercise, 2, self._last, 12, self._about, 4,
+            self._warning, 4, self._results, 14, self._note_when, self._note, STRETCH,
+            gap=0, margins=(0, 0, 0, 0), within=recall,
+        )  # fmt: skip
+        self._recall = scroll_area(recall)  # large text: what must be recalled scrolls, the buttons stay
+        self.body.setSpacing(0)
+        fill(
+            self.body, in_line((self._name, 1), self.edit_button), 2, (self._recall, 1), 16, self.bubble,
+            self.start_button, 12, in_line((self.change_button, 1), (self.progress_button, 1), gap=12), 8,
+            in_line((self.review_button, 1), (self.sessions_button, 1), gap=12),
+        )  # fmt: skip
 
     def _make_room(self) -> None:
         """With large text the guide's sentence goes before what is recalled."""
@@ -208,10 +177,7 @@ class PatientCardView(Card):
         return f"{words}\n{once}" if once else words
 
     def _show_results(self, card: PatientCard) -> None:
-        while (item := self._results.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self._results)
         joint = card.results[0].joint if card.results else ""
         if joint:
             self._results.addWidget(caption(self._theme, followed_name(joint)))

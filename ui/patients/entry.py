@@ -7,7 +7,7 @@ from datetime import date
 
 from PySide6.QtCore import QStringListModel, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QCompleter, QHBoxLayout, QLineEdit, QPlainTextEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCompleter, QLineEdit, QPlainTextEdit, QWidget
 
 from carpus.core.errors import NameUnsuited
 from carpus.core.names import MOST_CHARACTERS, folded, name_of
@@ -18,6 +18,7 @@ from carpus.ui.controls.column import scroll_area
 from carpus.ui.controls.default_answer import is_enter
 from carpus.ui.controls.field import Choices, Labelled
 from carpus.ui.controls.host import host_of
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.controls.tick import Tick
@@ -38,22 +39,15 @@ class PatientForm(Sheet):
     def __init__(self, host: QWidget, theme: Theme, store: PatientStore, today: Callable[[], date]) -> None:
         super().__init__(host, theme, 740)
         self._store, self._today = store, today
-        self._fault = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self._taken: frozenset[str] = frozenset()
+        self._asked: Choices | None = None
+        self._words = ""
         self._title = Text(theme, "", 20, SEMIBOLD)
         self.name = QLineEdit()
-        another = Button(theme, self.tr("&Another"), "plain", height_px=40)
-        another.clicked.connect(lambda: self.name.setText(store.suggest_pseudonym()))
-        name_row = QWidget()
-        row = QHBoxLayout(name_row)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.name, 1)
-        row.addWidget(another)
-        name_row.setFocusProxy(self.name)
         self.side = Choices(theme, [(side, terms.side_name(side)) for side in ("right", "left", "both")])
         self.dominance = Choices(
-            theme,
-            [("right", self.tr("Right")), ("left", self.tr("Left")), ("unknown", self.tr("Not known"))],
-        )  # fmt: skip
+            theme, [("right", self.tr("Right")), ("left", self.tr("Left")), ("unknown", self.tr("Not known"))]
+        )
         self.real_name = QLineEdit()
         self.diagnosis = QLineEdit()
         self._known = QStringListModel(self)
@@ -63,62 +57,56 @@ class PatientForm(Sheet):
         self.diagnosis.setCompleter(completer)
         self.listed = Tick(theme, self.tr("In the clinic’s &list"))
         self.listed.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # its letter leads to it; Tab goes on to the next fact
-        diagnosis_row = QWidget()
-        row = QHBoxLayout(diagnosis_row)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.diagnosis, 1)
-        row.addWidget(self.listed)
-        diagnosis_row.setFocusProxy(self.diagnosis)
         self.onset_day = QLineEdit()
         self.onset_day.setPlaceholderText(self.tr("day month year"))
         self.onset = Choices(theme, [("operation", self.tr("Operation")), ("injury", self.tr("Injury"))])
         self.since = Text(theme, "", 14, token="text2")
-        onset_row = QWidget()
-        row = QHBoxLayout(onset_row)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.onset_day, 1)
-        row.addWidget(self.onset)
-        row.addWidget(self.since)
-        onset_row.setFocusProxy(self.onset_day)
         self.note = QPlainTextEdit()
         self.note.setTabChangesFocus(True)
         self.note.setFixedHeight(theme.px(NOTE_HEIGHT_PX))
-        self.save = Button(theme, "", "primary")
-        cancel = Button(theme, self.tr("Close without saving"), "plain", hint=self.tr("Esc"), height_px=52)
-        self.body = self.card.body
-        self.body.setSpacing(16)
-        self.body.addWidget(self._title)
-        rule = self.tr("A made-up name that can be spoken aloud. No real name, no initials, no date of birth.")
-        self.body.addWidget(Text(theme, rule, 14, token="text2", wrap=True))
-        self._fields = QWidget()
-        column = QVBoxLayout(self._fields)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(14)
-        column.addWidget(Labelled(theme, self.tr("&Name in Carpus"), name_row))
-        kept = self.tr("&Real name, if wanted (stays in this list, never in a session or report)")
-        column.addWidget(Labelled(theme, kept, self.real_name))
-        hands = QHBoxLayout()
-        hands.setSpacing(24)
-        hands.addWidget(Labelled(theme, self.tr("Affected hand"), self.side))
-        hands.addWidget(Labelled(theme, self.tr("Writes with"), self.dominance))
-        hands.addStretch(1)
-        column.addLayout(hands)
-        words = self.tr("&Diagnosis or operation (stays in this list, in no session)")
-        column.addWidget(Labelled(theme, words, diagnosis_row))
-        column.addWidget(Labelled(theme, self.tr("&Since"), onset_row))
-        column.addWidget(Labelled(theme, self.tr("N&ote (no names)"), self.note))
-        self._scroll = scroll_area(self._fields)  # large text on a small screen: the fields scroll, the buttons stay
-        self.body.addWidget(self._scroll)
-        self.body.addWidget(self._fault)
+        self._fault = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.remove = Button(theme, self.tr("Archi&ve or delete…"), "quiet", icon="trash-2", height_px=40)
+        self.save = Button(theme, "", "primary")
+        self._lay_out(theme)
+        self._connect()
+        theme.changed.connect(self._fit)
+
+    def _lay_out(self, theme: Theme) -> None:
+        another = Button(theme, self.tr("&Another"), "plain", height_px=40)
+        another.clicked.connect(lambda: self.name.setText(self._store.suggest_pseudonym()))
+        cancel = Button(theme, self.tr("Close without saving"), "plain", hint=self.tr("Esc"), height_px=52)
+        cancel.clicked.connect(self.close_sheet)
+        rule = self.tr("A made-up name that can be spoken aloud. No real name, no initials, no date of birth.")
+        kept = self.tr("&Real name, if wanted (stays in this list, never in a session or report)")
+        why = self.tr("&Diagnosis or operation (stays in this list, in no session)")
+        hands = in_line(
+            Labelled(theme, self.tr("Affected hand"), self.side),
+            Labelled(theme, self.tr("Writes with"), self.dominance),
+            STRETCH,
+            gap=24,
+        )
+        self._fields = QWidget()
+        in_column(
+            Labelled(theme, self.tr("&Name in Carpus"), self.name, another),
+            Labelled(theme, kept, self.real_name),
+            hands,
+            Labelled(theme, why, self.diagnosis, self.listed),
+            Labelled(theme, self.tr("&Since"), self.onset_day, self.onset, self.since),
+            Labelled(theme, self.tr("N&ote (no names)"), self.note),
+            self.remove,
+            gap=14,
+            margins=(0, 0, 0, 0),
+            within=self._fields,
+        )
+        self._scroll = scroll_area(self._fields)  # large text on a small screen: the fields scroll, the buttons stay
+        body = self.card.body
+        body.setSpacing(16)
+        rule_line = Text(theme, rule, 14, token="text2", wrap=True)
+        fill(body, self._title, rule_line, self._scroll, self._fault, in_line(STRETCH, cancel, self.save))
+
+    def _connect(self) -> None:
         self.remove.clicked.connect(self.close_sheet)
         self.remove.clicked.connect(self.removal_wanted)
-        self._fields.layout().addWidget(self.remove)  # type: ignore[union-attr]
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
-        buttons.addWidget(cancel)
-        buttons.addWidget(self.save)
-        self.body.addLayout(buttons)
         self.save.clicked.connect(self._accept)
         for chips in (self.side, self.dominance, self.onset):
             chips.chosen.connect(lambda _: self._judge())
@@ -129,11 +117,6 @@ class PatientForm(Sheet):
         self.diagnosis.textChanged.connect(lambda _: self._look_into_list())
         self.listed.clicked.connect(self._list)
         self.set_default(self.save)
-        cancel.clicked.connect(self.close_sheet)
-        self._taken: frozenset[str] = frozenset()
-        self._asked: Choices | None = None
-        self._words = ""
-        theme.changed.connect(self._fit)
 
     def begin(self, entry: PatientEntry | None, taken: frozenset[str], name: str = "") -> None:
         """Open for a new patient (optionally with a name already typed) or with an entry to change."""

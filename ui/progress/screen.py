@@ -19,7 +19,7 @@ from carpus.ui.by_hand.names import changes, day_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
-from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, empty, fill, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
 from carpus.ui.keys import Keys, bind, letter_key
 from carpus.ui.plot.course_view import ProgressChart
@@ -188,7 +188,7 @@ class ProgressScreen(QWidget):
         self._fill_fairness()
 
     def _fill_table(self) -> None:
-        _clear(self._table)
+        empty(self._table.body)
         body, theme = self._table.body, self._theme
         first, last = self.progress.first, self.progress.last
         self._table.setVisible(bool(self.progress.comparisons))
@@ -215,7 +215,7 @@ class ProgressScreen(QWidget):
 
     def _fill_by_hand(self) -> None:
         """What was measured by hand, each way for itself."""
-        _clear(self._hand)
+        empty(self._hand.body)
         values, theme = self.progress.by_hand, self._theme
         self._hand.setVisible(bool(values))
         if not values:
@@ -230,7 +230,7 @@ class ProgressScreen(QWidget):
             body.addWidget(Text(theme, words, 14, wrap=True))
 
     def _fill_fairness(self) -> None:
-        _clear(self._fair)
+        empty(self._fair.body)
         body, theme = self._fair.body, self._theme
         self._fair.setVisible(bool(self.progress.points))
         unfair = [point for point in self.progress.points if not point.fair]
@@ -275,10 +275,3 @@ class _Row(QWidget):
 class _ComparisonRow(_Row):
     def __init__(self, theme: Theme, item: Comparison, among: Sequence[Comparison]) -> None:
         super().__init__(theme, comparison_name(item, among), before_after(item), item.verdict, change_line(item))
-
-
-def _clear(card: Card) -> None:
-    while (item := card.body.takeAt(0)) is not None:
-        if (widget := item.widget()) is not None:
-            widget.hide()
-            widget.deleteLater()

@@ -49,29 +49,18 @@ class BackupCard(Card):
         self.body.addWidget(Text(theme, self.tr("Back-up"), 20, SEMIBOLD))
         words = self.tr("Everything of the data folder: patients, sessions, pictures, log. Works while you measure.")
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.state_card = Card(theme, 14, "soft", "soft")
         self.sign = StateText(theme, 16, SEMIBOLD)
         self.headline = Text(theme, "", 16, SEMIBOLD, wrap=True)
         self.detail = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.more = Text(theme, "", 12, MEDIUM, "text2", wrap=True)
-        self.state_card = Card(theme, 14, "soft", "soft")
-        texts = in_column(gap=2)
-        for text in (self.headline, self.detail, self.more):
-            texts.addWidget(text)
-        self.state_card.body.addLayout(in_line((self.sign, 0, Qt.AlignmentFlag.AlignTop), (texts, 1), gap=10))
         self.now_button = Button(theme, self.tr("&Back up now"), icon="archive")
         self.restore_button = Button(theme, self.tr("&Restore…"), icon="rotate-ccw")
         self.progress = caption(theme, self.tr("then read back and compared"), wrap=True)
-        acts = in_column(self.now_button, self.progress, STRETCH, gap=4)
-        again = in_column(
-            self.restore_button, caption(theme, self.tr("shows first what changes"), wrap=True), STRETCH, gap=4
-        )
-        self.body.addLayout(in_line((self.state_card, 1), acts, again, gap=16))
         self.seal_button = Button(theme, self.tr("&Seal into one file…"), icon="lock", height_px=40)
         self.unseal_button = Button(theme, self.tr("Back from a sealed file…"), height_px=40)
         self.sealed = Text(theme, "", 14, SEMIBOLD, "good", wrap=True)
         self.sealed.hide()
-        self.seal_button.clicked.connect(self.seal)
-        self.unseal_button.clicked.connect(self.unseal)
         self.place = Text(theme, "", 14, MEDIUM, wrap=True)
         self.place_state = StateText(theme, 12, MEDIUM, 16)
         self.place_button = Button(theme, self.tr("Change…"), height_px=36)
@@ -80,30 +69,40 @@ class BackupCard(Card):
             [(12, self.tr("Each day at 12:00")), (18, self.tr("At 18:00")), (-1, self.tr("Only when told"))],
             hour,
         )
-        fill(
-            self.body,
-            Line(theme),
-            _row(theme, self.tr("Folder for back-ups"), self.place, self.place_state, self.place_button),
-            Line(theme),
-            _row(theme, self.tr("By itself"), self.hours),
-            Line(theme),
-        )
-        keep = Text(theme, self.tr("the last 14, and one of each month for 2 years"), 14)
-        self.body.addLayout(_row(theme, self.tr("Keep"), keep))
-        self.body.addWidget(Line(theme))
+        self._lay_out(theme)
+        for button, signal in (
+            (self.now_button, self.back_up), (self.restore_button, self.restore), (self.seal_button, self.seal),
+            (self.unseal_button, self.unseal), (self.place_button, self.place_wanted),
+        ):  # fmt: skip
+            button.clicked.connect(signal)
+        self.hours.chosen.connect(lambda hour: self.hour_chosen.emit(hour))
+
+    def _lay_out(self, theme: Theme) -> None:
+        texts = in_column(self.headline, self.detail, self.more, gap=2)
+        self.state_card.body.addLayout(in_line((self.sign, 0, Qt.AlignmentFlag.AlignTop), (texts, 1), gap=10))
+        shows = caption(theme, self.tr("shows first what changes"), wrap=True)
+        acts = in_column(self.now_button, self.progress, STRETCH, gap=4)
+        again = in_column(self.restore_button, shows, STRETCH, gap=4)
         sealing = QWidget()
         flow = FlowLayout(12)
         sealing.setLayout(flow)
         for button in (self.seal_button, self.unseal_button):
             flow.addWidget(button)
-        self.body.addLayout(_row(theme, self.tr("To carry away or send"), sealing))
-        words = self.tr("One file with everything, closed with a passphrase.")
-        self.body.addWidget(caption(theme, words, wrap=True))
-        self.body.addWidget(self.sealed)
-        self.now_button.clicked.connect(self.back_up)
-        self.restore_button.clicked.connect(self.restore)
-        self.place_button.clicked.connect(self.place_wanted)
-        self.hours.chosen.connect(lambda hour: self.hour_chosen.emit(hour))
+        keep = Text(theme, self.tr("the last 14, and one of each month for 2 years"), 14)
+        fill(
+            self.body,
+            in_line((self.state_card, 1), acts, again, gap=16),
+            Line(theme),
+            _row(theme, self.tr("Folder for back-ups"), self.place, self.place_state, self.place_button),
+            Line(theme),
+            _row(theme, self.tr("By itself"), self.hours),
+            Line(theme),
+            _row(theme, self.tr("Keep"), keep),
+            Line(theme),
+            _row(theme, self.tr("To carry away or send"), sealing),
+            caption(theme, self.tr("One file with everything, closed with a passphrase."), wrap=True),
+            self.sealed,
+        )
 
     def show_facts(self, facts: BackupFacts) -> None:
         """How it stands now."""

@@ -14,7 +14,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.host import host_of
-from carpus.ui.controls.layouts import fill, in_column, in_line
+from carpus.ui.controls.layouts import empty, fill, in_column, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
 from carpus.ui.fonts import font
@@ -70,10 +70,7 @@ class RecordsSheet(Sheet):
         self.title.setText(title)
         self.words.setText(words)
         self.buttons = []
-        while (item := self.rows.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self.rows)
         for record in records:
             self.rows.addWidget(self._row(record))
             self.rows.addWidget(Line(self._theme))

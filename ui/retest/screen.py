@@ -14,7 +14,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import ScrolledColumn, scroll_area
-from carpus.ui.controls.layouts import STRETCH, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, empty, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind
 from carpus.ui.retest.words import (
@@ -150,7 +150,7 @@ class RetestScreen(QWidget):
     def show_restated(self, statements: Sequence[Restated], done: int, patients: int) -> None:
         """What the new limits would change in what is said of patients, of whom so many were looked at."""
         body, theme = self._restated_card.body, self._theme
-        _clear(self._restated_card)
+        empty(self._restated_card.body)
         self._restated_card.show()
         body.addWidget(Text(theme, restated_title(self.plan), 16, SEMIBOLD, wrap=True))
         body.addWidget(caption(theme, restated_words(statements, done, patients), wrap=True))
@@ -183,7 +183,7 @@ class RetestScreen(QWidget):
 
     def _fill_people(self) -> None:
         body, theme = self._people_card.body, self._theme
-        _clear(self._people_card)
+        empty(self._people_card.body)
         body.addWidget(Text(theme, self.tr("People"), 16, SEMIBOLD))
         words = self.tr("all discs taken off and put on anew before each time, within 14 days")
         body.addWidget(caption(theme, words, wrap=True))
@@ -224,7 +224,7 @@ class RetestScreen(QWidget):
 
     def _fill_figures(self) -> None:
         body, theme, study = self._figures_card.body, self._theme, self.plan.study
-        _clear(self._figures_card)
+        empty(self._figures_card.body)
         body.addWidget(Text(theme, self.tr("Smallest real change, so far"), 16, SEMIBOLD))
         if study is None or not study.found:
             words = self.tr("There is nothing yet: two people measured twice give the first figures.")
@@ -260,10 +260,3 @@ class RetestScreen(QWidget):
             "camera, exercise or way of mounting needs its own study."
         )
         body.addWidget(caption(theme, words, wrap=True))
-
-
-def _clear(card: Card) -> None:
-    while (item := card.body.takeAt(0)) is not None:
-        if (widget := item.widget()) is not None:
-            widget.hide()
-            widget.deleteLater()

@@ -12,7 +12,7 @@ from carpus.core.results.progress import other_hand_of, previous_of
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.column import ScrolledColumn
-from carpus.ui.controls.layouts import in_column, in_line
+from carpus.ui.controls.layouts import empty, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
 from carpus.ui.controls.words_table import WordsTable
 from carpus.ui.ports import StoredResult
@@ -136,10 +136,7 @@ class ResultChoice(QWidget):
 
     def show_results(self, results: Sequence[StoredResult], current: str) -> None:
         """All results of the recording, the first one first."""
-        while (item := self._row.takeAt(0)) is not None:
-            if (widget := item.widget()) is not None:
-                widget.hide()
-                widget.deleteLater()
+        empty(self._row)
         self.buttons = []
         if len(results) > 1:
             self._row.addWidget(Text(self._theme, self.tr("Results of this recording"), 14, MEDIUM))
