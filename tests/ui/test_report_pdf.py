@@ -8,10 +8,14 @@ import shutil
 import subprocess
 import sys
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from PySide6.QtGui import QPainter, QPicture
+from PySide6.QtWidgets import QApplication
 
 import carpus
 from carpus.core.calibration.result import CalibrationFinding
@@ -19,8 +23,12 @@ from carpus.core.errors import OutputExists, OutputNotWritable
 from carpus.core.provenance import revision
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.ui.report.pdf import progress_report, write_progress_report, write_session_report
+from carpus.core.results.speed_figures import StrokeSpread
+from carpus.ui.language import speaking
+from carpus.ui.report.page import Page
+from carpus.ui.report.pdf import progress_report, session_report, write_progress_report, write_session_report
 from carpus.ui.report.progress_page import made_of
+from carpus.ui.report.session_page import paint_boxes
 from carpus.ui.report.words import other_lines
 from carpus.ui.terms import LEGAL_SENTENCE
 from tests.ui.fakes import FakeSessions, session
@@ -273,3 +281,28 @@ def test_the_foot_of_a_course_says_what_made_it_and_of_what() -> None:
     assert all(one.session_id[:8] in said for one in right)
     assert f"measured by Carpus {right[0].software_version}" in said
     assert (revision()[:7] or "by") in said
+
+
+@pytest.mark.parametrize("code", ["en", "de", "it"])
+def test_a_long_value_is_never_printed_over_its_name(qapp: QApplication, code: str) -> None:
+    said = session_report(session())
+    speed = replace(
+        said.figures.speed, pauses=StrokeSpread(1.2, 1.0, 0.0, 9), pause_time=StrokeSpread(10.2, 1.0, 0.0, 9)
+    )
+    said = replace(said, figures=replace(said.figures, speed=speed))
+    printed: list[tuple[float, float, float, str]] = []
+
+    class Watched(Page):
+        def text(self, text: str, left: float, baseline: float, *look: Any) -> float:
+            right = Page.text(self, text, left, baseline, *look)
+            printed.append((baseline, left, right, text))
+            return right
+
+    nowhere = QPicture()
+    with QPainter(nowhere) as painter, speaking(code):
+        paint_boxes(Watched(painter, 10.0), said, 400.0)
+        names = {name for name, _ in other_lines(said.figures)}
+    assert len(names) == 4
+    assert names <= {text for *_, text in printed}
+    beside = [(one, other) for one, other in pairwise(sorted(printed)) if one[0] == other[0]]
+    assert not [(one[3], other[3]) for one, other in beside if one[2] > other[1]]

@@ -133,12 +133,12 @@ def _paint_all(page: Page, report: SessionReport) -> float:
             y = paint_wrist_line(page, report.figures, y + 7)
         below = painted_on_nothing(
             page,
-            lambda trial: _paint_foot(trial, report, _paint_told(trial, report, _paint_boxes(trial, report, 9.0))),
+            lambda trial: _paint_foot(trial, report, _paint_told(trial, report, paint_boxes(trial, report, 9.0))),
         )
         room = LOWEST_PT - 2 - y - 8 - below
         if report.form.has("curves"):
             y = paint_finger_curves(page, report.curves, report.joints, report.figures, y + 8, room)
-    y = _paint_boxes(page, report, y + 9)
+    y = paint_boxes(page, report, y + 9)
     return _paint_foot(page, report, _paint_told(page, report, y))
 
 
@@ -356,7 +356,7 @@ def _point(page: Page, x: float, y: float) -> QPointF:
     return QPointF(x * page.point, y * page.point)
 
 
-def _paint_boxes(page: Page, report: SessionReport, top: float) -> float:
+def paint_boxes(page: Page, report: SessionReport, top: float) -> float:
     """How sure the figures are beside speed, pain and notes, as far as they are wanted."""
     lines, others = quality_lines(report.figures), other_lines(report.figures)
     good = all(fine for _, _, fine in lines) and not warnings(report.figures)
@@ -393,8 +393,10 @@ def _paint_box(page: Page, box: QRectF, title: str, lines: Sequence[tuple[str, s
     page.text(title, box.left() + INSIDE_PT, box.top() + 17, 10.0, SEMIBOLD)
     baseline = box.top() + 33
     for name, value, token in lines:
-        page.text(name, box.left() + INSIDE_PT, baseline, 8.5, REGULAR, "text2")
-        page.text_right(value, box.right() - INSIDE_PT, baseline, 8.5, MEDIUM, token)
+        both = f"{name}  {value}"  # where they are long both are printed smaller, never over one another
+        size = page.fitting(both, box.width() - 2 * INSIDE_PT, 8.5, MEDIUM)
+        page.text(name, box.left() + INSIDE_PT, baseline, size, REGULAR, "text2")
+        page.text_right(value, box.right() - INSIDE_PT, baseline, size, MEDIUM, token)
         baseline += 13.5
     return baseline
 
