@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.types import ByteImage
@@ -36,3 +37,18 @@ def test_rings_are_drawn_on_their_own_picture_or_not_at_all(qtbot: QtBot, monkey
     showing.show_frame(newer)
     assert not showing.has_rings
     assert shown[-1] is newer.color_rgb
+
+
+def test_the_keyboard_stays_with_the_board_while_it_is_worked_out(qtbot: QtBot) -> None:
+    window = QWidget()
+    qtbot.addWidget(window)
+    back, showing = QPushButton("back", window), BoardShowing(Theme("light"), Keys({}))
+    row = QVBoxLayout(window)
+    row.addWidget(back)
+    row.addWidget(showing)
+    window.show()
+    showing.primary.setEnabled(True)
+    showing.primary.setFocus()
+    assert window.focusWidget() is showing.primary
+    showing.work()
+    assert window.focusWidget() is showing.picture, "a key more would go back, and the pictures would be lost"

@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from datetime import datetime
+
 import pytest
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import DiskFull
+from carpus.core.records.interrupted import Recovered
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.ui.fault_words import fault_words, shortened
+from carpus.ui.language import speaking
+from carpus.ui.messages.messages import Messages
+from carpus.ui.theme import Theme
 
 
 @pytest.mark.parametrize("root", ["/home/someone/.local/share/carpus", "C:\\Users\\Some One\\AppData\\carpus"])
@@ -31,3 +41,13 @@ def test_a_shortened_name_keeps_both_ends(most: int) -> None:
     assert short[0] == "a"
     assert short[-1] == "9"
     assert shortened("short", most) == "short"
+
+
+def test_a_recovered_practice_session_names_the_patient_in_the_persons_language(qtbot: QtBot) -> None:
+    host = QWidget()
+    qtbot.addWidget(host)
+    messages = Messages(host, Theme("light"))
+    found = Recovered(PRACTICE_PATIENT, "s1", "Practice patient", datetime(2026, 11, 26, 1, 41), 11.0)
+    with speaking("de"):
+        assert "Probepatient" in messages.recovered_words(found).happened
+        assert "Linde" in messages.recovered_words(replace(found, patient_id="p1", pseudonym="Linde")).happened

@@ -193,6 +193,7 @@ class BoardShowing(QWidget):
         """The calibration is being worked out."""
         self.what.setText(self.tr("Working it out"))
         self.how.setText(self.tr("A few seconds; put the board down."))
+        self.picture.setFocus(Qt.FocusReason.OtherFocusReason)  # else on the way back, where a key more would leave
         self.primary.setEnabled(False)
         self.bar.show()
         self.bar.begin()

@@ -12,11 +12,13 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.errors import CameraLost
 from carpus.core.records.interrupted import Recovered
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.fault_words import fault_words
 from carpus.ui.messages.stop_card import Answer, StopCard
 from carpus.ui.messages.strip import NoticeStrip
+from carpus.ui.now_open import practice_name
 from carpus.ui.theme import Theme
 
 log = logging.getLogger(__name__)
@@ -145,9 +147,10 @@ class Messages(QObject):
         safe = self.tr(
             "All data up to {kept} are safe; at most the last second is missing; more only where the figures came late."
         )
+        name = practice_name() if found.patient_id == PRACTICE_PATIENT else found.pseudonym
         day, at = numbers.short_date(found.when), f"{found.when:%H:%M}"
         return Words(
-            what.format(name=found.pseudonym, day=day, time=at),
+            what.format(name=name, day=day, time=at),
             safe.format(kept=numbers.clock(found.kept_s)),
             self.tr("Review it now, or leave it for later: it stays in the patient's list."),
         )
