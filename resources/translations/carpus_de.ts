@@ -11610,6 +11610,41 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>PlotMenu</name>
+    <message>
+        <source>Show all</source>
+        <translation>Alles zeigen</translation>
+    </message>
+    <message>
+        <source>Zoom in</source>
+        <translation>Vergrößern</translation>
+    </message>
+    <message>
+        <source>Zoom out</source>
+        <translation>Verkleinern</translation>
+    </message>
+    <message>
+        <source>Copy picture</source>
+        <translation>Bild kopieren</translation>
+    </message>
+    <message>
+        <source>Save picture (PNG)…</source>
+        <translation>Bild speichern (PNG)…</translation>
+    </message>
+    <message>
+        <source>Save drawing (SVG)…</source>
+        <translation>Zeichnung speichern (SVG)…</translation>
+    </message>
+    <message>
+        <source>Save values (CSV)…</source>
+        <translation>Werte speichern (CSV)…</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Speichern</translation>
+    </message>
+</context>
+<context>
     <name>Printing</name>
     <message>
         <source>Export into a folder</source>
@@ -13430,38 +13465,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Zoom, copy and save</source>
         <translation>Vergrößern, kopieren, speichern</translation>
-    </message>
-    <message>
-        <source>Show all</source>
-        <translation>Alles zeigen</translation>
-    </message>
-    <message>
-        <source>Zoom in</source>
-        <translation>Vergrößern</translation>
-    </message>
-    <message>
-        <source>Zoom out</source>
-        <translation>Verkleinern</translation>
-    </message>
-    <message>
-        <source>Copy picture</source>
-        <translation>Bild kopieren</translation>
-    </message>
-    <message>
-        <source>Save picture (PNG)…</source>
-        <translation>Bild speichern (PNG)…</translation>
-    </message>
-    <message>
-        <source>Save drawing (SVG)…</source>
-        <translation>Zeichnung speichern (SVG)…</translation>
-    </message>
-    <message>
-        <source>Save values (CSV)…</source>
-        <translation>Werte speichern (CSV)…</translation>
-    </message>
-    <message>
-        <source>Save</source>
-        <translation>Speichern</translation>
     </message>
 </context>
 <context>

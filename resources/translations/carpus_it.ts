@@ -11610,6 +11610,41 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>PlotMenu</name>
+    <message>
+        <source>Show all</source>
+        <translation>Mostra tutto</translation>
+    </message>
+    <message>
+        <source>Zoom in</source>
+        <translation>Ingrandisci</translation>
+    </message>
+    <message>
+        <source>Zoom out</source>
+        <translation>Riduci</translation>
+    </message>
+    <message>
+        <source>Copy picture</source>
+        <translation>Copia l’immagine</translation>
+    </message>
+    <message>
+        <source>Save picture (PNG)…</source>
+        <translation>Salva l’immagine (PNG)…</translation>
+    </message>
+    <message>
+        <source>Save drawing (SVG)…</source>
+        <translation>Salva il disegno (SVG)…</translation>
+    </message>
+    <message>
+        <source>Save values (CSV)…</source>
+        <translation>Salva i valori (CSV)…</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Salva</translation>
+    </message>
+</context>
+<context>
     <name>Printing</name>
     <message>
         <source>Export into a folder</source>
@@ -13430,38 +13465,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Zoom, copy and save</source>
         <translation>Zoom, copia e salva</translation>
-    </message>
-    <message>
-        <source>Show all</source>
-        <translation>Mostra tutto</translation>
-    </message>
-    <message>
-        <source>Zoom in</source>
-        <translation>Ingrandisci</translation>
-    </message>
-    <message>
-        <source>Zoom out</source>
-        <translation>Riduci</translation>
-    </message>
-    <message>
-        <source>Copy picture</source>
-        <translation>Copia l’immagine</translation>
-    </message>
-    <message>
-        <source>Save picture (PNG)…</source>
-        <translation>Salva l’immagine (PNG)…</translation>
-    </message>
-    <message>
-        <source>Save drawing (SVG)…</source>
-        <translation>Salva il disegno (SVG)…</translation>
-    </message>
-    <message>
-        <source>Save values (CSV)…</source>
-        <translation>Salva i valori (CSV)…</translation>
-    </message>
-    <message>
-        <source>Save</source>
-        <translation>Salva</translation>
     </message>
 </context>
 <context>

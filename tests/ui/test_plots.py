@@ -141,7 +141,7 @@ def test_under_the_mouse_stand_time_value_and_spread(view: CurveView) -> None:
 
 
 def test_the_menu_speaks_our_words_and_has_no_other(view: CurveView) -> None:
-    words = [action.text().split("\t")[0] for action in view.menu().actions() if action.text()]
+    words = [action.text().split("\t")[0] for action in view.menu.made().actions() if action.text()]
     assert words == [
         "Show all", "Zoom in", "Zoom out", "Copy picture", "Save picture (PNG)…", "Save drawing (SVG)…",
         "Save values (CSV)…",
@@ -150,18 +150,18 @@ def test_the_menu_speaks_our_words_and_has_no_other(view: CurveView) -> None:
 
 
 def test_a_picture_is_of_print_size_and_a_drawing_of_lines(view: CurveView, tmp_path: Path) -> None:
-    view.save(tmp_path / "curves.png")
+    view.menu.save(tmp_path / "curves.png")
     image = QImage(str(tmp_path / "curves.png"))
     assert image.width() == round(170.0 / 25.4 * 300.0)
     assert image.dotsPerMeterX() == pytest.approx(300.0 / 0.0254, abs=1.0)
     assert pixels(image).std() > 5.0, "something is drawn"
-    view.save(tmp_path / "curves.svg")
+    view.menu.save(tmp_path / "curves.svg")
     root = ElementTree.parse(tmp_path / "curves.svg").getroot()
     assert float(str(root.get("width")).removesuffix("mm")) == pytest.approx(170.0, abs=0.01)
     kinds = {element.tag.rpartition("}")[2] for element in root.iter()}
     assert {"polyline", "text"} <= kinds
     assert "image" not in kinds
-    view.copy_picture()
+    view.menu.copy_picture()
     assert QGuiApplication.clipboard().image().size() == image.size()
 
 
@@ -173,7 +173,7 @@ def test_the_table_has_what_is_shown_with_gaps_empty(view: CurveView, tmp_path: 
     curves = ReportCurves(plot.curves.time_s, angles, plot.curves.sds_deg, plot.curves.status)
     view.show_plot(SessionPlot(curves, plot.exercise, plot.repetitions))
     view.show_window((10.0, 14.0))
-    view.save(tmp_path / "curves.csv")
+    view.menu.save(tmp_path / "curves.csv")
     head, *rows = csv.reader(io.StringIO((tmp_path / "curves.csv").read_text("utf-8")))
     assert head[:4] == ["time_s", "flexion_deg", "flexion_sd_deg", "flexion_measured"]
     assert len(rows) == pytest.approx(120, abs=2)
@@ -185,8 +185,8 @@ def test_the_table_has_what_is_shown_with_gaps_empty(view: CurveView, tmp_path: 
 
 
 def test_a_folder_that_is_not_there_is_told(qtbot: QtBot, view: CurveView, tmp_path: Path) -> None:
-    with qtbot.waitSignal(view.told) as told:
-        view.save(tmp_path / "none" / "curves.csv")
+    with qtbot.waitSignal(view.menu.told) as told:
+        view.menu.save(tmp_path / "none" / "curves.csv")
     assert isinstance(told.args[0], OutputNotWritable)
 
 

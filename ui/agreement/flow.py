@@ -60,7 +60,7 @@ class AgreementFlow(Flow):
         screen.stop.connect(self._stop.set)
         screen.save.connect(self._save)
         screen.told.connect(context.messages.fault)
-        screen.chart.saved.connect(lambda path: self.note_made([path], [context.now.session_id]))
+        screen.chart.menu.saved.connect(lambda path: self.note_made([path], [context.now.session_id]))
         self._stepped.connect(screen.bar.show_progress, Qt.ConnectionType.QueuedConnection)
 
     @property
@@ -73,7 +73,7 @@ class AgreementFlow(Flow):
         if session_id != self._session_id or self._result is None:
             self._session_id, self._result = session_id, None
             self.screen.begin()
-        self.screen.chart.start_folder = self.context.places.folder("exports")
+        self.screen.chart.menu.start_folder = self.context.places.folder("exports")
         self.context.way.go("agreement")
         if self._result is None:
             self._ask()

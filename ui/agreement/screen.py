@@ -66,7 +66,7 @@ class AgreementScreen(QWidget):
         self.stop_button.clicked.connect(self.stop)
         self.angle.currentIndexChanged.connect(lambda _: self._show_plot())
         self.view.chosen.connect(lambda _: self._show_plot())
-        self.chart.told.connect(self.told)
+        self.chart.menu.told.connect(self.told)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setProperty("shows_own_focus", True)
         actions = {

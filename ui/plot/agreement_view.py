@@ -27,6 +27,8 @@ HEAD_PX = 52
 class AgreementChart(ZoomCard):
     """Shows one angle of a comparison, or nothing."""
 
+    usual_px = (864, 340)
+
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, "agreement")
         self._plot: AgreementPlot | None = None
@@ -42,21 +44,12 @@ class AgreementChart(ZoomCard):
         """What is shown."""
         return self._plot
 
-    def sizeHint(self) -> QSize:
-        return QSize(864, 340)
-
     def minimumSizeHint(self) -> QSize:
         return QSize(420, self._theme.px(HEAD_PX) + self._theme.px(180))
 
     # --- window -------------------------------------------------------------------------------------------
     def extent(self) -> tuple[float, float] | None:
         return None if self._plot is None else self._plot.extent()
-
-    def shortest(self) -> float:
-        return 1.0
-
-    def about(self) -> float:
-        return sum(self.shown()) / 2
 
     def panel(self) -> Panel | None:
         """Where the values are."""
@@ -70,7 +63,7 @@ class AgreementChart(ZoomCard):
     def lay_out(self, canvas: Canvas) -> None:
         panel = self.panel()
         self.more.setVisible(panel is not None)
-        canvas.lay_out([panel] if panel is not None else [], self.extent(), self.shortest())
+        canvas.lay_out([panel] if panel is not None else [], self.extent(), self.shortest)
 
     def show_marks(self, canvas: Canvas) -> None:
         canvas.show_marks([self._plot.moving()] if self._plot is not None else [])

@@ -30,6 +30,12 @@ ALONG_SHARE = 0.1
 """A notch sideways goes on by this part of what is shown."""
 
 
+class Menu(Protocol):
+    """What can be done with the plot."""
+
+    def open(self, at: QPoint) -> None: ...
+
+
 class Hands(Protocol):
     """Who takes what is done with the mouse in the panels; positions are those of the card."""
 
@@ -39,7 +45,8 @@ class Hands(Protocol):
 
     def hover(self, at: QPointF | None) -> None: ...
 
-    def open_menu(self, at: QPoint) -> None: ...
+    @property
+    def menu(self) -> Menu: ...
 
     def zoom(self, factor: float, about: float) -> None: ...
 
@@ -252,7 +259,7 @@ class Canvas(pg.GraphicsView):
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         if self._hands is not None:
-            self._hands.open_menu(event.globalPos())
+            self._hands.menu.open(event.globalPos())
 
     def repaint_ground(self) -> None:
         """What does not move has changed."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QRectF
+from PySide6.QtCore import QRectF, QSize
 from PySide6.QtGui import QPainter, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 class PlotCard(QWidget):
     """A subclass says what is in it: :meth:`lay_out`, :meth:`paint_ground` and :meth:`show_marks`."""
+
+    usual_px, least_px = (736, 360), (420, 200)
+    """Width and height."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -40,6 +43,12 @@ class PlotCard(QWidget):
 
     def furnish(self, canvas: Canvas) -> None:
         """Add layers to the new scene."""
+
+    def sizeHint(self) -> QSize:
+        return QSize(*self.usual_px)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(*self.least_px)
 
     # --- life ---------------------------------------------------------------------------------------------
     @property

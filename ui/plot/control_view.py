@@ -26,6 +26,8 @@ LEFT_PX, RIGHT_PX, HEAD_PX, FOOT_PX, EDGE_PX = 66, 150, 34, 26, 14
 class ControlCharts(PlotCard):
     """Two panels; a sentence instead while there is nothing to show."""
 
+    usual_px = (640, 480)
+
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme)
         self._plots: list[ControlPlot] = []
@@ -36,9 +38,6 @@ class ControlCharts(PlotCard):
         """The checks of one camera, oldest first."""
         self._plots, self.empty_words = control_plots(checks), empty_words
         self.forget()
-
-    def sizeHint(self) -> QSize:
-        return QSize(640, 480)
 
     def minimumSizeHint(self) -> QSize:
         return QSize(self._theme.px(420), self._theme.px(380))

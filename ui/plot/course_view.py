@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QPainter
 
 from carpus.core.results.progress import Progress
@@ -34,6 +34,9 @@ LONGEST_LINE = 60
 
 class ProgressChart(ZoomCard):
     """``opened`` carries the session of a point that was clicked, or chosen by key."""
+
+    usual_px, least_px = (864, 560), (480, 320)
+    shortest = DAY_S
 
     opened = Signal(str)
 
@@ -76,21 +79,12 @@ class ProgressChart(ZoomCard):
     def extent(self) -> tuple[float, float] | None:
         return course.extent_s(self._progress) if course.panels_of(self._progress) else None
 
-    def shortest(self) -> float:
-        return DAY_S
-
     def about(self) -> float:
         if self._pointed is not None:
             return self._progress.points[self._pointed[0]].figures.when.timestamp()
-        return sum(self.shown()) / 2
+        return super().about()
 
     # --- places -------------------------------------------------------------------------------------------
-    def sizeHint(self) -> QSize:
-        return QSize(864, 560)
-
-    def minimumSizeHint(self) -> QSize:
-        return QSize(480, 320)
-
     def _box(self) -> QRectF:
         return QRectF(self.rect()).adjusted(20.5, 16.5, -16.5, -14.5)
 
@@ -124,7 +118,7 @@ class ProgressChart(ZoomCard):
 
     def lay_out(self, canvas: Canvas) -> None:
         self.more.setVisible(self.extent() is not None)
-        canvas.lay_out([panel for panel, _ in self.panels()], self.extent(), self.shortest())
+        canvas.lay_out([panel for panel, _ in self.panels()], self.extent(), self.shortest)
         self._said.cover(QRectF(self.rect()))
         self._said.update()
 

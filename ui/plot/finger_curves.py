@@ -41,6 +41,8 @@ WEAK_SD_DEG = 10.0
 class FingerCurves(PlotCard):
     """Shows the fingers of a :class:`History`; ``chosen`` tells that a figure was clicked."""
 
+    usual_px = (776, 396)
+
     chosen = Signal(Figure)
 
     def __init__(self, theme: Theme, history: History) -> None:
@@ -77,9 +79,6 @@ class FingerCurves(PlotCard):
     def _refresh(self) -> None:
         if self._canvas is not None:
             self._cells.update()
-
-    def sizeHint(self) -> QSize:
-        return QSize(776, 396)
 
     def minimumSizeHint(self) -> QSize:
         return QSize(560, 165 if self._theme.text_scale > 1.0 else 220)  # the number above it gives way no further

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QPointF, QRectF, QSize
+from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QFontMetricsF, QPainter
 
 from carpus.core.hand.exercises import (
@@ -41,6 +41,8 @@ ZERO_BAND_DEG = 0.5
 
 class LiveCurves(PlotCard):
     """Shows the history it is given, the newest value at 0 s on the right. Nothing here moves by mouse."""
+
+    usual_px, least_px = (696, 396), (420, 170)  # the number above it never gives way
 
     def __init__(self, theme: Theme, history: History) -> None:
         super().__init__(theme)
@@ -102,12 +104,6 @@ class LiveCurves(PlotCard):
     def _refresh(self) -> None:
         if self._canvas is not None:
             self._numbers.update()
-
-    def sizeHint(self) -> QSize:
-        return QSize(696, 396)
-
-    def minimumSizeHint(self) -> QSize:
-        return QSize(420, 170)  # the number above it never gives way
 
     # --- places -------------------------------------------------------------------------------------------
     def panels(self) -> list[tuple[Panel, int]]:

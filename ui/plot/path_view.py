@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
 from carpus.core.hand.exercises import STILL_RADIUS_MM
@@ -133,6 +133,8 @@ class Ball:
 class PathView(PlotCard):
     """A card with three squares of fixed size."""
 
+    usual_px, least_px = (520, 242), (380, 180)
+
     def __init__(self, theme: Theme, history: History) -> None:
         super().__init__(theme)
         self._history = history
@@ -144,12 +146,6 @@ class PathView(PlotCard):
         """Which hand, and whether the forearm must lie still."""
         self._side, self._pure = side, pure_wrist
         self.forget()
-
-    def sizeHint(self) -> QSize:
-        return QSize(520, 242)
-
-    def minimumSizeHint(self) -> QSize:
-        return QSize(380, 180)
 
     # --- places -------------------------------------------------------------------------------------------
     def _head(self) -> QRectF:

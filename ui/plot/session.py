@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from PySide6.QtCore import QRectF
@@ -29,6 +29,8 @@ from carpus.ui.translate import tr
 
 BESIDE_S = 1.0
 """Shown before the first and after the last repetition where the rest is left away."""
+EDGES_S = 0.2
+"""Least length a repetition can be cut to."""
 FEWEST_POINTS = 200
 BENDING: tuple[Row, ...] = ("knuckle", "middle", "end")
 _BEND_LOW_DEG, _BEND_HIGH_DEG, _SPREAD_DEG = -15.0, 115.0, 32.0
@@ -310,3 +312,31 @@ def joint_at(plot: HandPlot, figure: Figure, time_s: float) -> tuple[float, floa
 def row_at(time_s: FloatArray, at_s: float) -> int:
     """Row of the frame nearest to a time; -1 without any."""
     return int(np.abs(time_s - at_s).argmin()) if len(time_s) else -1
+
+
+def with_edge(repetition: ShownRepetition, edge: str, time_s: float) -> ShownRepetition:
+    """With its ``start`` or ``end`` elsewhere, as far as the other one lets it."""
+    if edge == "start":
+        return replace(repetition, start_s=min(max(0.0, time_s), repetition.end_s - EDGES_S))
+    return replace(repetition, end_s=max(time_s, repetition.start_s + EDGES_S))
+
+
+def session_table(plot: SessionPlot, keys: Sequence[int]) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
+    """One row for each picture that is shown: seconds, and of every curve degrees, their sd, whether measured."""
+    placed = [(plot.unit(key), found) for key in keys for found in plot.columns(key)]
+    head = ["time_s"]
+    for unit, (name, _) in placed:
+        head += [f"{name}_{unit}", f"{name}_sd_{unit}", f"{name}_measured"]
+    times, (start_s, end_s) = plot.curves.time_s, plot.shown_s
+    rows = np.flatnonzero((times >= start_s) & (times <= end_s))
+
+    def cells(row: int) -> list[str]:
+        out = [f"{times[row]:.3f}"]
+        for _, (_, series) in placed:
+            value = float(series.value[row])
+            sd = math.nan if series.sd is None else float(series.sd[row])
+            out += [f"{v:.1f}" if math.isfinite(v) else "" for v in (value, sd)]
+            out.append("" if not math.isfinite(value) else "no" if series.predicted[row] else "yes")
+        return out
+
+    return head, (cells(row) for row in rows.tolist())

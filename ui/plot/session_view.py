@@ -7,8 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QPainter
 
 from carpus.ui import numbers
@@ -16,7 +15,7 @@ from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.marks import NUMBERS_ABOVE, Cursor, Curves, Edges, MouseReadout
 from carpus.ui.plot.readings import paint_readings
-from carpus.ui.plot.session import HandPlot, SessionPlot, paint_behind, paint_session
+from carpus.ui.plot.session import HandPlot, SessionPlot, paint_behind, paint_session, session_table, with_edge
 from carpus.ui.plot.style import PlotStyle, screen_style
 from carpus.ui.plot.zoom_card import ZoomCard
 from carpus.ui.theme import Theme
@@ -30,12 +29,13 @@ GRIP_PX = 16
 """Half the width of the target around an edge or the cursor: the grip is 8 px wide, the target 32."""
 SHORTEST_S = 2.0
 """Shortest stretch of time that is shown."""
-EDGES_S = 0.2
-"""Least length a repetition can be cut to."""
 
 
 class CurveView(ZoomCard):
     """Emits ``cursor_moved`` (seconds) and ``edges_moved`` (repetition, start, end)."""
+
+    usual_px, least_px = (736, 360), (420, 240)
+    shortest = SHORTEST_S
 
     cursor_moved = Signal(float)
     edges_moved = Signal(int, float, float)
@@ -81,9 +81,6 @@ class CurveView(ZoomCard):
     def extent(self) -> tuple[float, float] | None:
         return None if self._plot is None else (0.0, self._plot.end_s)
 
-    def shortest(self) -> float:
-        return SHORTEST_S
-
     def about(self) -> float:
         return self._time_s
 
@@ -96,12 +93,6 @@ class CurveView(ZoomCard):
             self.show_plot(self._plot)
 
     # --- places -------------------------------------------------------------------------------------------
-    def sizeHint(self) -> QSize:
-        return QSize(736, 360)
-
-    def minimumSizeHint(self) -> QSize:
-        return QSize(420, 240)
-
     def panels(self) -> list[tuple[Panel, int]]:
         """Where the panels are, and what each shows."""
         assert self._plot is not None
@@ -120,7 +111,7 @@ class CurveView(ZoomCard):
     def lay_out(self, canvas: Canvas) -> None:
         self.more.setVisible(self._plot is not None)
         placed = [] if self._plot is None else [panel for panel, _ in self.panels()]
-        canvas.lay_out(placed, self.extent(), self.shortest())
+        canvas.lay_out(placed, self.extent(), self.shortest)
         for layer in (self._over, self._said):
             layer.cover(QRectF(self.rect()))
             layer.update()
@@ -248,11 +239,7 @@ class CurveView(ZoomCard):
     def _move_edge(self, edge: str, time_s: float, *, over: bool) -> None:
         plot = self._plot
         assert plot is not None
-        repetition = plot.repetitions[plot.current]
-        if edge == "start":
-            moved = replace(repetition, start_s=min(time_s, repetition.end_s - EDGES_S))
-        else:
-            moved = replace(repetition, end_s=max(time_s, repetition.start_s + EDGES_S))
+        moved = with_edge(plot.repetitions[plot.current], edge, time_s)
         shown = list(plot.repetitions)
         shown[plot.current] = moved
         self.show_plot(replace(plot, repetitions=shown))
@@ -268,25 +255,5 @@ class CurveView(ZoomCard):
         paint_session(painter, style, self._plot, self._plot.panels(inner, between * unit, single=self._single))
 
     def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
-        """One row for each picture that is shown: seconds, and of every curve degrees, their sd, whether measured."""
-        plot = self._plot
-        assert plot is not None
-        placed = [(plot.unit(key), found) for _, key in self.panels() for found in plot.columns(key)]
-        many = [found for _, found in placed]
-        head = ["time_s"]
-        for unit, (name, _) in placed:
-            head += [f"{name}_{unit}", f"{name}_sd_{unit}", f"{name}_measured"]
-        times, (start_s, end_s) = plot.curves.time_s, plot.shown_s
-        rows = np.flatnonzero((times >= start_s) & (times <= end_s))
-
-        def cells(row: int) -> list[str]:
-            out = [f"{times[row]:.3f}"]
-            for _, series in many:
-                value = float(series.value[row])
-                sd = math.nan if series.sd is None else float(series.sd[row])
-                known = math.isfinite(value)
-                out += [f"{v:.1f}" if math.isfinite(v) else "" for v in (value, sd)]
-                out.append("" if not known else "no" if series.predicted[row] else "yes")
-            return out
-
-        return head, (cells(row) for row in rows.tolist())
+        assert self._plot is not None
+        return session_table(self._plot, [key for _, key in self.panels()])

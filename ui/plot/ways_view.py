@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QPointF, QRectF, QSize
+from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QPainter
 
 from carpus.ui.fonts import SEMIBOLD, font
@@ -40,12 +40,6 @@ class WaysView(PlotCard):
         """Put the hand where it was at a time."""
         self._time_s = time_s
         self.draw()
-
-    def sizeHint(self) -> QSize:
-        return QSize(736, 360)
-
-    def minimumSizeHint(self) -> QSize:
-        return QSize(420, 200)
 
     # --- places -------------------------------------------------------------------------------------------
     def panels(self) -> list[Panel]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QPoint, QPointF, QRectF, Qt, Signal
+from PySide6.QtCore import QObject, QPoint, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QGuiApplication, QPainter
 from PySide6.QtWidgets import QFileDialog, QMenu
 
@@ -25,35 +25,29 @@ ZOOM_STEP = 1.25
 
 
 class ZoomCard(PlotCard):
-    """``told`` carries a fault of saving. The window is the part of the shared axis that is shown, None for all."""
+    """The window is the part of the shared axis that is shown, None for all."""
 
-    told = Signal(object)
-    saved = Signal(str)
+    shortest = 1.0
+    """Least length of the axis that is shown."""
 
     def __init__(self, theme: Theme, file_name: str) -> None:
         super().__init__(theme)
         self._window: tuple[float, float] | None = None
-        self._file_name = file_name
-        self.start_folder = ""
-        """Where saving begins."""
+        self.menu = PlotMenu(self, file_name)
         self.more = icon_button(theme, "ellipsis", self.tr("Zoom, copy and save"))
         self.more.setParent(self)
         self.more.setProperty("floats", True)  # over a corner in which nothing is written
         self.more.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.more.clicked.connect(lambda: self.open_menu(self.more.mapToGlobal(QPoint(0, self.more.height()))))
+        self.more.clicked.connect(lambda: self.menu.open(self.more.mapToGlobal(QPoint(0, self.more.height()))))
 
     # --- for a subclass -----------------------------------------------------------------------------------
     def extent(self) -> tuple[float, float] | None:
         """Ends of the shared axis; None while there is nothing."""
         raise NotImplementedError
 
-    def shortest(self) -> float:
-        """Least length of it that is shown."""
-        raise NotImplementedError
-
     def about(self) -> float:
-        """What zooming by key goes about."""
-        raise NotImplementedError
+        """What zooming by key goes about: else the middle."""
+        return sum(self.shown()) / 2
 
     def drag(self, event: Any) -> bool:
         """A drag that is more than moving along; whether it was taken."""
@@ -88,7 +82,7 @@ class ZoomCard(PlotCard):
         extent = self.extent()
         if window is not None and extent is not None:
             low, high = extent
-            span = min(max(window[1] - window[0], min(self.shortest(), high - low)), high - low)
+            span = min(max(window[1] - window[0], min(self.shortest, high - low)), high - low)
             start = min(max(window[0], low), high - span)
             window = None if span >= (high - low) * (1.0 - 1e-9) else (start, start + span)
         self._window = window
@@ -134,19 +128,31 @@ class ZoomCard(PlotCard):
         self.more.move(self.width() - self.more.width() - 6, 2)
         super().resizeEvent(event)
 
-    # --- menu ---------------------------------------------------------------------------------------------
-    def menu(self) -> QMenu:
-        """What can be done with a plot, in words."""
-        menu = QMenu(self)
+
+class PlotMenu(QObject):
+    """What can be done with a plot, in words. ``told`` carries a fault of saving, ``saved`` the path written."""
+
+    told = Signal(object)
+    saved = Signal(str)
+
+    def __init__(self, card: ZoomCard, file_name: str) -> None:
+        super().__init__(card)
+        self._card, self._file_name = card, file_name
+        self.start_folder = ""
+        """Where saving begins."""
+
+    def made(self) -> QMenu:
+        """All of it, with its keys."""
+        card, menu = self._card, QMenu(self._card)
         for words, action in (
-            (self.tr("Show all") + "\t0", self.show_all),
-            (self.tr("Zoom in") + "\t+", self.zoom_in),
-            (self.tr("Zoom out") + "\t-", self.zoom_out),
+            (self.tr("Show all") + "\t0", card.show_all),
+            (self.tr("Zoom in") + "\t+", card.zoom_in),
+            (self.tr("Zoom out") + "\t-", card.zoom_out),
             ("", None),
             (self.tr("Copy picture"), self.copy_picture),
             (self.tr("Save picture (PNG)…"), self.save_picture),
-            (self.tr("Save drawing (SVG)…"), lambda: self._save("svg", "SVG (*.svg)")),
-            (self.tr("Save values (CSV)…"), lambda: self._save("csv", "CSV (*.csv)")),
+            (self.tr("Save drawing (SVG)…"), lambda: self._ask("svg", "SVG (*.svg)")),
+            (self.tr("Save values (CSV)…"), lambda: self._ask("csv", "CSV (*.csv)")),
         ):
             if action is None:
                 menu.addSeparator()
@@ -154,31 +160,31 @@ class ZoomCard(PlotCard):
                 menu.addAction(words).triggered.connect(lambda _=False, action=action: action())
         return menu
 
-    def open_menu(self, at: QPoint) -> None:
+    def open(self, at: QPoint) -> None:
         """Show it at a place of the screen."""
-        if self.extent() is not None:
-            menu = self.menu()
+        if self._card.extent() is not None:
+            menu = self.made()
             menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
             menu.popup(at)
 
     def copy_picture(self) -> None:
         """The plot at print size, for other programs."""
-        QGuiApplication.clipboard().setImage(export.picture(self))
+        QGuiApplication.clipboard().setImage(export.picture(self._card))
 
     def save_picture(self) -> None:
         """Ask for a name and write the picture."""
-        self._save("png", "PNG (*.png)")
+        self._ask("png", "PNG (*.png)")
 
-    def _save(self, kind: str, filter_words: str) -> None:
+    def _ask(self, kind: str, filter_words: str) -> None:
         start = str(Path(self.start_folder) / f"{self._file_name}.{kind}")
-        path, _ = QFileDialog.getSaveFileName(self, self.tr("Save"), start, filter_words)
+        path, _ = QFileDialog.getSaveFileName(self._card, self.tr("Save"), start, filter_words)
         if path:
             self.save(Path(path))
 
     def save(self, path: Path) -> None:
         """Write a picture, drawing or table, as the name ends; a fault is told."""
         try:
-            export.save(self, path)
+            export.save(self._card, path)
         except CarpusFault as fault:
             self.told.emit(fault)
         else:

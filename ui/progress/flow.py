@@ -26,12 +26,12 @@ class ProgressFlow(Flow):
         screen.report.connect(self._report)
         screen.table_wanted.connect(self._save_tables)
         screen.by_hand_wanted.connect(lambda: way.show("by_hand"))
-        screen.chart.saved.connect(lambda path: self.note_made([path], self._sessions()))
+        screen.chart.menu.saved.connect(lambda path: self.note_made([path], self._sessions()))
 
     def show(self, patient_id: str) -> None:
         """Of a patient; the kind of the session that is open comes first."""
         self.open_patient(patient_id)
-        self.screen.chart.start_folder = self.context.places.folder("exports")
+        self.screen.chart.menu.start_folder = self.context.places.folder("exports")
         self.screen.begin(patient_id, self.context.now.session_id)
         self.context.way.go("progress")
 

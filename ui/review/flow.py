@@ -33,7 +33,7 @@ class ReviewFlow(Flow):
         screen.beside.connect(lambda one, other: way.show("beside", one, other))
         screen.correct.connect(lambda *where: way.show("correct", *where))
         screen.result.connect(self.show)
-        screen.charts.curves.saved.connect(lambda path: self.note_made([path], [context.now.session_id]))
+        screen.charts.curves.menu.saved.connect(lambda path: self.note_made([path], [context.now.session_id]))
 
     def show(self, session_id: str = "", patient_id: str = "") -> None:
         """Show one session, ``patient_id`` of a patient who is not open; without one the newest, if there is any."""
@@ -51,7 +51,7 @@ class ReviewFlow(Flow):
         may_repeat &= bool(now.patient.patient_id)  # a file of nobody here has nobody to measure
         protocol = exercise_named(library.entry(session_id).exercise).protocol
         self.screen.begin(now.patient.patient_id, session_id, may_repeat=may_repeat, whole_hand=protocol.has_fingers)
-        self.screen.charts.curves.start_folder = self.context.places.folder("exports")
+        self.screen.charts.curves.menu.start_folder = self.context.places.folder("exports")
         self.context.way.go("review")
 
     def sign_lines(self) -> list[str]:

@@ -22,8 +22,7 @@ from carpus.core.types import FloatArray, TrackStatus
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
 from carpus.ui.playback.skeleton import modelled_px
-from carpus.ui.plot.session import value_at
-from carpus.ui.plot.session_view import EDGES_S
+from carpus.ui.plot.session import value_at, with_edge
 from carpus.ui.ports import SessionStore, StoredResult
 from carpus.ui.translate import tr
 
@@ -134,9 +133,10 @@ class Reviewed:
     def nudged(self, number: int, time_s: float, by_s: float) -> RepetitionChoices:
         """The edge of a repetition that is nearer to a time is moved."""
         one = self.figures.repetitions[number]
-        if abs(time_s - one.start_s) <= abs(time_s - one.end_s):
-            return self.with_edges(number, min(max(0.0, one.start_s + by_s), one.end_s - EDGES_S), one.end_s)
-        return self.with_edges(number, one.start_s, max(one.end_s + by_s, one.start_s + EDGES_S))
+        at_start = abs(time_s - one.start_s) <= abs(time_s - one.end_s)
+        edge, at_s = ("start", one.start_s) if at_start else ("end", one.end_s)
+        moved = with_edge(one, edge, at_s + by_s)
+        return self.with_edges(number, moved.start_s, moved.end_s)
 
 
 def _figures(

@@ -100,7 +100,7 @@ class ReviewScreen(QWidget):
         self.picture.film_button.clicked.connect(self.ask_film)
         curves.cursor_moved.connect(self.playing.seek)
         curves.edges_moved.connect(lambda *edges: self._choose(lambda one: one.with_edges(*edges)))
-        curves.told.connect(self.told)
+        curves.menu.told.connect(self.told)
         self.charts.chosen.connect(self._refresh)
         self.player.transport.stepped.connect(self.step)
         self.player.view_chosen.connect(lambda _: self._refresh())
