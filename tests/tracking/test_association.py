@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2, multivariate_normal
 
 from carpus.core.tracking.association import IMPOSSIBLE, AssociationSettings, log_odds, posterior, resolve
-from carpus.core.tracking.joint_association import associate_jointly, is_jointly_compatible
+from carpus.core.tracking.joint_association import associate_jointly, is_jointly_compatible, most_chi2
 from carpus.core.types import FloatArray
 
 RES_PX2 = 640.0 * 480.0
@@ -243,3 +243,10 @@ def test_the_whole_is_doubted_when_chance_would_hardly_make_it() -> None:
         limit = chi2.isf(5e-4, dof)
         assert is_jointly_compatible(0.999 * limit, dof, SETTINGS)
         assert not is_jointly_compatible(1.001 * limit, dof, SETTINGS)
+
+
+@pytest.mark.parametrize("chance", [0.05, 0.5, 0.99, 0.9995, 1.0 - 1e-9, 1.0])
+def test_quantiles_of_chi_squared_are_those_of_scipy(chance: float) -> None:
+    quantiles = most_chi2(chance)
+    assert quantiles[0] == np.inf
+    np.testing.assert_allclose(quantiles[1:], chi2.ppf(chance, np.arange(1, len(quantiles))), rtol=1e-12)
