@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from carpus.core.types import Frame
 from carpus.ui.camera_calibration.maps import FieldMap
@@ -15,6 +15,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.column import scrolled
 from carpus.ui.controls.key_caps import KeyCaps
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.keys import Keys, bind
@@ -72,36 +73,29 @@ class BoardShowing(QWidget):
 
     def _lay_out(self) -> None:
         theme = self._theme
-        left = QVBoxLayout()
-        left.setSpacing(8)
-        left.addWidget(self.picture, 1)
-        foot = QHBoxLayout()
-        foot.setSpacing(12)
-        foot.addWidget(self._keys)
-        foot.addStretch(1)
-        foot.addWidget(self.undo_button)
-        foot.addWidget(self.leave_button)
-        left.addLayout(foot)
         words = self.tr("Pictures are taken by themselves when the board is still, sharp and in a new place.")
         self._by_itself = Text(theme, words, 14, REGULAR, "text2", wrap=True)
-        left.addWidget(self._by_itself)
-        column = QVBoxLayout()
-        column.setSpacing(12)
-        column.addWidget(self.count)
-        column.addWidget(self.what)
-        column.addWidget(self.how)
+        foot = in_line(self._keys, STRETCH, self.undo_button, self.leave_button, gap=12)
+        left = in_column((self.picture, 1), foot, self._by_itself, gap=8)
         been = Card(theme)
-        head = QHBoxLayout()
-        head.addWidget(Text(theme, self.tr("Where the board has been"), 16, SEMIBOLD, wrap=True), 1)
-        head.addWidget(self._field_count)
-        been.body.addLayout(head)
-        been.body.addWidget(self.fields)
-        column.addWidget(been)
+        title = Text(theme, self.tr("Where the board has been"), 16, SEMIBOLD, wrap=True)
+        fill(been.body, in_line((title, 1), self._field_count), self.fields)
         checks = Card(theme)
+        self._fill_grid()
+        checks.body.addLayout(self._grid)
+        column = in_column(self.count, self.what, self.how, been, checks, STRETCH, gap=12)
+        self._right = QWidget()
+        in_column((scrolled(column), 1), self.bar, self.primary, gap=12, margins=(0, 0, 0, 0), within=self._right)
+        margins = (MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
+        in_line((left, 1), self._right, gap=MARGIN_PX, margins=margins, within=self)
+
+    def _fill_grid(self) -> None:
+        """A row for each check."""
+        theme = self._theme
         self._grid.setHorizontalSpacing(10)
         self._grid.setVerticalSpacing(4)
-        for column_number, stretch in enumerate((0, 30, 36, 34)):
-            self._grid.setColumnStretch(column_number, stretch)
+        for column, stretch in enumerate((0, 30, 36, 34)):
+            self._grid.setColumnStretch(column, stretch)
         self._cells: list[tuple[StateText, Text, Text, Text]] = []
         for number in range(CHECKS):
             cells = (
@@ -113,21 +107,6 @@ class BoardShowing(QWidget):
             for place, cell in enumerate(cells):
                 self._grid.addWidget(cell, 2 * number + 1, place)
             self._cells.append(cells)
-        checks.body.addLayout(self._grid)
-        column.addWidget(checks)
-        column.addStretch(1)
-        self._right = QWidget()
-        right = QVBoxLayout(self._right)
-        right.setContentsMargins(0, 0, 0, 0)
-        right.setSpacing(12)
-        right.addWidget(scrolled(column), 1)
-        right.addWidget(self.bar)
-        right.addWidget(self.primary)
-        whole = QHBoxLayout(self)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
-        whole.setSpacing(MARGIN_PX)
-        whole.addLayout(left, 1)
-        whole.addWidget(self._right)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()

@@ -17,6 +17,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.field import SearchField
 from carpus.ui.controls.key_caps import KeyCaps
+from carpus.ui.controls.layouts import STRETCH, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text, heading
 from carpus.ui.patients.card import PatientCardView
 from carpus.ui.patients.entry import PatientForm
@@ -75,58 +76,38 @@ class PatientsScreen(QWidget):
         self.look_at_day()
 
     def _lay_out(self) -> None:
-        theme = self._theme
-        title = QHBoxLayout()
-        title.addWidget(heading(theme, self.tr("Patients")))
-        title.addStretch(1)
-        title.addWidget(self.clinic_button, 0, Qt.AlignmentFlag.AlignBottom)
-        title.addSpacing(8)
-        title.addWidget(self.day, 0, Qt.AlignmentFlag.AlignBottom)
-        finding = QHBoxLayout()
-        finding.setSpacing(GAP_PX)
-        finding.addWidget(self.search, 1)
-        finding.addWidget(self.new_button)
-        left = QVBoxLayout()
-        left.setSpacing(0)
-        left.addLayout(title)
-        left.addSpacing(8)
-        left.addLayout(finding)
-        left.addSpacing(14)
-        left.addWidget(self.header)
-        left.addWidget(self.list, 1)
-        left.addWidget(self._nobody)
-        left.addWidget(self.archive_button, 0, Qt.AlignmentFlag.AlignLeft)
+        theme, foot_line = self._theme, Qt.AlignmentFlag.AlignBottom
         self._above_welcome = QWidget()
         self._above_welcome.setFixedHeight(GAP_PX)
         self._above_welcome.hide()
-        left.addWidget(self._above_welcome)
-        left.addStretch(0)
-        self._left = left
-        columns = QHBoxLayout()
-        columns.setSpacing(MARGIN_PX)
-        columns.addLayout(left, 824)
-        columns.addWidget(self.card, 384)
+        self._left = in_column(
+            in_line(
+                heading(theme, self.tr("Patients")),
+                STRETCH,
+                (self.clinic_button, 0, foot_line),
+                8,
+                (self.day, 0, foot_line),
+            ),
+            8,
+            in_line((self.search, 1), self.new_button, gap=GAP_PX),
+            14,
+            self.header,
+            (self.list, 1),
+            self._nobody,
+            (self.archive_button, 0, Qt.AlignmentFlag.AlignLeft),
+            self._above_welcome,
+            gap=0,
+        )
+        self._left.addStretch(0)
         policy = self.card.sizePolicy()
         policy.setRetainSizeWhenHidden(True)  # the search field keeps its width while nobody is found
         self.card.setSizePolicy(policy)
-        page = QVBoxLayout()
-        page.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 12)
-        page.setSpacing(GAP_PX)
-        page.addLayout(self.notice_place)
-        page.addLayout(columns, 1)
-        foot = QHBoxLayout()
-        foot.setContentsMargins(MARGIN_PX, 6, MARGIN_PX, 6)
-        foot.setSpacing(32)
-        foot.addWidget(Text(theme, terms.LEGAL_SENTENCE, 12, REGULAR, "text2", wrap=True), 1)
-        foot.addWidget(
-            KeyCaps(theme, [("↑ ↓", self.tr("choose")), (self.tr("Enter"), self.tr("start")), ("F1", self.tr("help"))])
-        )
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addLayout(page, 1)
-        whole.addWidget(Line(theme))
-        whole.addLayout(foot)
+        columns = in_line((self._left, 824), (self.card, 384), gap=MARGIN_PX)
+        page = in_column(self.notice_place, (columns, 1), gap=GAP_PX, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, 12))
+        keys = [("↑ ↓", self.tr("choose")), (self.tr("Enter"), self.tr("start")), ("F1", self.tr("help"))]
+        legal = Text(theme, terms.LEGAL_SENTENCE, 12, REGULAR, "text2", wrap=True)
+        foot = in_line((legal, 1), KeyCaps(theme, keys), gap=32, margins=(MARGIN_PX, 6, MARGIN_PX, 6))
+        in_column((page, 1), Line(theme), foot, gap=0, margins=(0, 0, 0, 0), within=self)
 
     def _connect(self) -> None:
         self.search.installEventFilter(self)

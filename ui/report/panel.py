@@ -43,22 +43,7 @@ class ReportPanel(QWidget):
         self.comment.setAccessibleName(self.tr("Comment on the report"))
         theme.follow(self.comment, lambda: self.comment.setFixedHeight(theme.px(COMMENT_PX)))
         column.addWidget(self.comment)
-        self.sentence = QComboBox()
-        self.sentence.setEditable(True)
-        self.sentence.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
-        self.sentence.setAccessibleName(self.tr("Sentence to insert"))
-        self.sentence.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        completer = QCompleter(self.sentence.model(), self.sentence)
-        completer.setFilterMode(Qt.MatchFlag.MatchContains)
-        completer.setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
-        self.sentence.setCompleter(completer)
-        if (line := self.sentence.lineEdit()) is not None:
-            line.setPlaceholderText(self.tr("Type part of a sentence"))
-        self.sentence.setToolTip(
-            self.tr("These places take the session’s figures: {places}").replace(
-                "{places}", ", ".join(f"{{{name}}}" for name in PLACES)
-            )
-        )
+        self.sentence = self._sentence_box()
         column.addWidget(self.sentence)
         row = QHBoxLayout()
         self.insert = Button(theme, self.tr("Insert"), height_px=38)
@@ -93,6 +78,26 @@ class ReportPanel(QWidget):
         self.remember.clicked.connect(self._remember)
         self.forget.clicked.connect(self._forget)
         self.keep.clicked.connect(self._keep_form)
+
+    def _sentence_box(self) -> QComboBox:
+        """The sentences to choose from, found by any part of them."""
+        box = QComboBox()
+        box.setEditable(True)
+        box.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
+        box.setAccessibleName(self.tr("Sentence to insert"))
+        box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        completer = QCompleter(box.model(), box)
+        completer.setFilterMode(Qt.MatchFlag.MatchContains)
+        completer.setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
+        box.setCompleter(completer)
+        if (line := box.lineEdit()) is not None:
+            line.setPlaceholderText(self.tr("Type part of a sentence"))
+        box.setToolTip(
+            self.tr("These places take the session’s figures: {places}").replace(
+                "{places}", ", ".join(f"{{{name}}}" for name in PLACES)
+            )
+        )
+        return box
 
     def begin(self, report: SessionReport) -> None:
         """Show what a report has."""

@@ -99,33 +99,7 @@ class SettingsScreen(QWidget):
 
     def _lay_out(self) -> None:
         theme, narrow = self._theme, Qt.AlignmentFlag.AlignLeft
-        self._folded = (
-            self._card(
-                self.tr("Order of the angles"),
-                self.tr(
-                    "Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ "
-                    "order; sessions in different orders are never compared."
-                ),
-                self.angle_order,
-            ),
-            self._card(
-                self.tr("Agreement"),
-                self.tr(
-                    "The most that Carpus and another measurement may differ by and still stand for each other: what "
-                    "would not change your treatment. Set it before you compare; with none, nothing is judged."
-                ),
-                (self.agreement, 0, narrow),
-            ),
-            self._card(
-                self.tr("Other programs"),
-                self.tr(
-                    "While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any "
-                    "computer in the same network can read them; no name and no picture is in them. From the next "
-                    "set-up on."
-                ),
-                self.stream,
-            ),
-        )
+        self._folded = self._research_cards()
         self.therapist.setMaximumWidth(theme.px(220))
         self._limits = Card(theme, 0)  # what is in it changes when new limits are put into force
         self._limits.set_colors("canvas", "canvas")
@@ -163,6 +137,35 @@ class SettingsScreen(QWidget):
         head = in_line((heading(theme, self.tr("Settings")), 1), self.back, margins=(0, 0, 8, 0))
         beside = in_line(self._left, (self._stack, 1), gap=GAP_PX)
         in_column(head, (beside, 1), gap=12, margins=(MARGIN_PX, GAP_PX, MARGIN_PX - 8, GAP_PX), within=self)
+
+    def _research_cards(self) -> tuple[Card, ...]:
+        return (
+            self._card(
+                self.tr("Order of the angles"),
+                self.tr(
+                    "Order of the wrist’s angles in review, progress and reports. Session files keep the papers’ "
+                    "order; sessions in different orders are never compared."
+                ),
+                self.angle_order,
+            ),
+            self._card(
+                self.tr("Agreement"),
+                self.tr(
+                    "The most that Carpus and another measurement may differ by and still stand for each other: what "
+                    "would not change your treatment. Set it before you compare; with none, nothing is judged."
+                ),
+                (self.agreement, 0, Qt.AlignmentFlag.AlignLeft),
+            ),
+            self._card(
+                self.tr("Other programs"),
+                self.tr(
+                    "While a hand is measured, its angles, places and events can go out over Lab Streaming Layer. Any "
+                    "computer in the same network can read them; no name and no picture is in them. From the next "
+                    "set-up on."
+                ),
+                self.stream,
+            ),
+        )
 
     def _measuring_cards(self) -> tuple[Card, Card]:
         start = self._card(
