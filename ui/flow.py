@@ -180,8 +180,8 @@ class Owner(Protocol):
 
 
 class Place(Generic[F]):
-    """A screen as an attribute that has its place's name. Its module, ``FOLDER.CLASS`` below :mod:`carpus.ui`, is
-    loaded when it is made."""
+    """A screen as an attribute that has its place's name. Its module, named as folder and class below
+    :mod:`carpus.ui`, is loaded when it is made."""
 
     def __init__(self, flow: str) -> None:
         folder, self._class = flow.split(".")
