@@ -181,11 +181,12 @@ class LiveSession:
         self,
         open_session: Callable[[], SessionSink],
         open_pictures: Callable[[], PictureSink] | None = None,
+        at_end: Callable[[], None] = lambda: None,
     ) -> None:
         """Opens the session file (and a raw recording) and stores everything captured from now on.
 
-        Both are opened, filled and closed in threads of their own. Raises what kept a file from opening; then nothing
-        is recorded.
+        Both are opened, filled and closed in threads of their own, closed after ``at_end`` has come back. Raises what
+        kept a file from opening; then nothing is recorded.
         """
         if self.recording:
             raise RuntimeError("a recording runs already")
@@ -199,6 +200,7 @@ class LiveSession:
             self._tell,
             self.notice,
             waits=self._backlog.waits,
+            at_end=at_end,
         )
         recording.start()
         with self._lock:

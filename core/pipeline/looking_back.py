@@ -88,12 +88,16 @@ class LookingBack:
 
         Raises :class:`NotLookedBack` where it is not all there after :data:`END_S`.
         """
-        self._ending.set()
-        self._thread.join(END_S)
-        self._end(f"not done {END_S:g} s after the end")
+        self.wait()
         if self._trouble:
             raise NotLookedBack(detail=self._trouble)
         return _motion_at(self._pieces, timestamp_s)
+
+    def wait(self) -> None:
+        """Until all that was taken is looked back at, :data:`END_S` at most; then it is given up."""
+        self._ending.set()
+        self._thread.join(END_S)
+        self._end(f"not done {END_S:g} s after the end")
 
     @property
     def has_more(self) -> bool:

@@ -342,12 +342,12 @@ class SourceMeasuring:
             recording_id=identity,
         )
         said = replace(self._info, recorded=recorded, recording_id=identity)
-        looking_back = None
+        looking_back, at_end = None, lambda: None
         if self._settings.smooth:
             looking_back = LookingBack(
                 TrackedHand(calibration, self.camera, learnt.applied(self._settings.tracker)),
             )
-            pipeline.keep = looking_back.take
+            pipeline.keep, at_end = looking_back.take, looking_back.wait
         fallback = Fallback(self._elsewhere, self._session.notice)
         try:
             self._session.start_recording(
@@ -355,6 +355,7 @@ class SourceMeasuring:
                     SessionWriter.create(path, header, self.camera, calibration, fallback=fallback), looking_back
                 ),
                 self._open_pictures(path.with_suffix(RAW_SUFFIX), said) if self._set_up.keep_pictures else None,
+                at_end,
             )
         except BaseException:
             pipeline.keep = None

@@ -48,7 +48,8 @@ class LiveRecording:
     """The session file and the raw pictures, each opened, filled and closed in a thread of its own.
 
     ``tell`` hears what ends one of them early, and once that there is little room left; ``notice`` what they go on in
-    spite of. With ``waits`` whoever puts waits for the disk.
+    spite of. With ``waits`` whoever puts waits for the disk. ``at_end`` waits for what a finished file holds besides,
+    and not in the writing thread, where every second counts as the disk's.
     """
 
     def __init__(
@@ -61,8 +62,9 @@ class LiveRecording:
         notice: Callable[[CarpusFault], None],
         *,
         waits: bool,
+        at_end: Callable[[], None] = lambda: None,
     ) -> None:
-        self.paused = False
+        self.paused, self._at_end = False, at_end
         self.first_index: int | None = None
         """Index of the first frame that is recorded, None until it is captured."""
         self.disk_free: int | None = None
@@ -105,6 +107,8 @@ class LiveRecording:
 
     def finish(self) -> Path:
         """Waits until all is stored; the session file. Raises the fault that ended it early."""
+        if self.rows.fault is None:
+            self._at_end()
         try:
             return self.rows.finish()
         finally:

@@ -28,7 +28,7 @@ from carpus.core.capture.devices import xtion
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
 from carpus.core.pipeline import measuring
-from carpus.core.records.set_up import PRACTICE_PATIENT
+from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
 from carpus.core.session.writer import SessionWriter
@@ -385,6 +385,7 @@ def test_a_window_closed_while_recording_keeps_the_session(qtbot: QtBot, open_de
     (entry,) = again.library.sessions(PRACTICE_PATIENT)
     assert entry.complete
     assert entry.duration_s > 0.8
+    assert entry.path.with_suffix(MARKERS_SUFFIX).is_file()
     assert again.journey.patients.screen.findChildren(NoticeStrip) == []
 
 

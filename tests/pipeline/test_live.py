@@ -291,6 +291,19 @@ def test_everything_tracked_is_recorded_in_one_thread() -> None:
     assert sink.threads == {"writing"}
 
 
+def test_what_the_end_waits_for_besides_is_no_time_of_the_disk() -> None:
+    source, sink = HeldSource(), FakeSession(OUT)
+    waited: list[tuple[str, str]] = []
+    with LiveSession(source) as live:
+        live.begin_tracking(tracked)
+        deliver_tracked(live, source, 3)
+        live.start_recording(lambda: sink, None, lambda: waited.append((threading.current_thread().name, sink.ended)))
+        deliver_tracked(live, source, 3)
+        live.stop_recording()
+    assert waited == [(threading.current_thread().name, "")], "beside the writing thread, before the file is closed"
+    assert sink.ended == "closed"
+
+
 def test_stop_drains_from_source_to_sink() -> None:
     source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
 
