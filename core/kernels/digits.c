@@ -292,12 +292,56 @@ static void scene(
     }
 }
 
+static const double PI = 3.14159265358979323846;
+
+/* A blob larger than its disc measures a neighbour without one as well; of one digit. */
+static void unresolved(
+    const int64_t *assigned, const double *area_px, const double *whole_px, const double *disc_m2, const double *visible,
+    const double *expected, const double *spread, double fx, double was_seen, double merged_from, double merged_share,
+    double *measured, double *variance)
+{
+    int alone[3];
+    for (int d = 0; d < 3; d++)
+        alone[d] = assigned[d] < 0;
+    for (int d = 0; d < 3; d++) {
+        const double *at = expected + 3 * d, across = fx / at[2], face = disc_m2[d] * (across * across);
+        if (assigned[d] < 0 || visible[d] < was_seen || !(area_px[assigned[d]] > merged_from * face))
+            continue;
+        const int other = d < 2 && alone[d + 1] ? d + 1 : d > 0 && alone[d - 1] ? d - 1 : -1;
+        if (other < 0)
+            continue;
+        alone[other] = 0;
+        const double more = (area_px[assigned[d]] - whole_px[d]) / face;
+        const double half = sqrt(face / PI) * (more < 2.0 ? more : 2.0);
+        double gap[2], far2 = 0.0, shifted2 = 0.0, unsure2 = 0.0;
+        for (int k = 0; k < 2; k++) {
+            const int i = 3 * d + k, j = 3 * other + k;
+            gap[k] = expected[j] - expected[i];
+            far2 += gap[k] * gap[k];
+            unsure2 += spread[i * SEEN + i] + spread[j * SEEN + j] - 2.0 * spread[i * SEEN + j];
+        }
+        const double by = half / sqrt(far2 + unsure2);
+        for (int k = 0; k < 2; k++)
+            shifted2 += gap[k] * by * (gap[k] * by);
+        const double stray2 = half * half * (1.0 + merged_share * merged_share) - shifted2;
+        for (int k = 0; k < 2; k++) {
+            measured[3 * other + k] = measured[3 * d + k] + gap[k] * by;
+            variance[3 * other + k] = variance[3 * d + k] + stray2;
+            measured[3 * d + k] -= gap[k] * by;
+            variance[3 * d + k] += stray2;
+        }
+        const double deep = 2.0 * half * at[2] / fx;
+        variance[3 * d + 2] += deep * deep;
+    }
+}
+
 /* What the blobs as named measure of the discs, and how surely. */
 int digits_measured(
     int blobs, const int64_t *assigned, const uint8_t *with_depth, const double *value, const double *blob_variance,
-    const double *area_px, const double *whole_px, const double *expected, const double *noise_factor, double whole_from,
-    double shade_share, double radius_m, double fx, double crowded_radii, double crowded_px, double pixel_sd,
-    double skin_px, double *measured, double *variance)
+    const double *area_px, const double *whole_px, const double *disc_m2, const uint8_t *has_discs, const double *visible,
+    const double *expected, const double *spread, const double *noise_factor, double whole_from, double shade_share,
+    double radius_m, double fx, double crowded_radii, double crowded_px, double was_seen, double merged_from,
+    double merged_share, double pixel_sd, double skin_px, double *measured, double *variance)
 {
     for (int r = 0; r < CHAINS; r++) {
         double radius[3];
@@ -322,15 +366,19 @@ int digits_measured(
                 if (!with_depth[disc])
                     y[2] = NAN;
                 const double missing = whole_from - area_px[blob] / whole_px[disc];
-                const double wander = shade_share * sqrt(whole_px[disc] / 3.14159265358979323846) * (missing < 0.0 ? 0.0 : missing);
+                const double wander = shade_share * sqrt(whole_px[disc] / PI) * (missing < 0.0 ? 0.0 : missing);
                 const double close = crowded[d] ? crowded_px : 0.0;
                 const double own = pixel_sd * pixel_sd + skin_px * skin_px + wander * wander + close * close;
                 if (isfinite(own))
                     of[0] = of[1] = own;
             }
-            for (int k = 0; k < 3; k++)
-                of[k] *= noise_factor[3 * disc + k];
         }
+        if (has_discs[r] && blobs)
+            unresolved(assigned + 3 * r, area_px, whole_px + 3 * r, disc_m2 + 3 * r, visible + 3 * r, expected + SEEN * r,
+                       spread + SEEN * SEEN * r, fx, was_seen, merged_from, merged_share, measured + SEEN * r,
+                       variance + SEEN * r);
+        for (int k = 0; k < SEEN; k++)
+            variance[SEEN * r + k] *= noise_factor[SEEN * r + k];
     }
     return 0;
 }
@@ -410,8 +458,8 @@ int digits_named(
     double least_seen, double most_seen, double least_facing, const double *value, const double *variance,
     const double *area, const uint8_t *is_free, const double *disc_m2, const double *noise_factor, const uint8_t *has_discs,
     double prior, double depth_range, double outlier, double gate2, double impossible, double assumed, double whole_from,
-    double shade_share, double radius_m, double crowded_radii, double crowded_px, double pixel_sd, double skin_px,
-    double flat, double learning, const double *mean, const double *covariance, const double *probability, double *nine,
+    double shade_share, double radius_m, double crowded_radii, double crowded_px, double merged_from, double merged_share,
+    double pixel_sd, double skin_px, double flat, double learning, const double *mean, const double *covariance, const double *probability, double *nine,
     double *square, double *rows, double *slope, double *centre_m, double *by_place, double *out_mean,
     double *out_covariance, double *out_probability, int64_t *assigned, uint8_t *with_depth, double *nis, int64_t *dof,
     const double *most_nis, double was_seen, uint8_t *ordinary, uint8_t *settled)
@@ -453,10 +501,15 @@ int digits_named(
     for (int d = 0; d < ALL; d++) {
         with_depth[d] = assigned[d] >= 0 && deep[d * free_blobs + assigned[d]];
         assigned[d] = assigned[d] >= 0 ? blob_of[assigned[d]] : -1;
-        out_m2[d] = assigned[d] >= 0 && tilt[d] < flat ? area[assigned[d]] / facing[d] : NAN;
     }
-    digits_measured(blobs, assigned, with_depth, value, variance, area, whole_px, expected, noise_factor, whole_from,
-                    shade_share, radius_m, fx, crowded_radii, crowded_px, pixel_sd, skin_px, measured, noise);
+    for (int d = 0; d < ALL; d++) {
+        const int64_t *digit = assigned + d / 3 * 3;
+        const int resolved = digit[0] >= 0 && digit[1] >= 0 && digit[2] >= 0;
+        out_m2[d] = resolved && tilt[d] < flat ? area[assigned[d]] / facing[d] : NAN;
+    }
+    digits_measured(blobs, assigned, with_depth, value, variance, area, whole_px, disc_m2, has_discs, seen, expected,
+                    by_both, noise_factor, whole_from, shade_share, radius_m, fx, crowded_radii, crowded_px, was_seen,
+                    merged_from, merged_share, pixel_sd, skin_px, measured, noise);
     for (int j = 0; j < DIGIT; j++)
         share[j] = j < 2 * SLOTS ? 1.0 : learning;
     const int failed = corrected(CHAINS, modes, DIGIT, SEEN, mean, covariance, probability, expected, slope, error, whole_mean,

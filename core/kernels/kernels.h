@@ -149,16 +149,17 @@ KERNEL int digits_named(
     const double variance[blobs * 3], const double area[blobs], const uint8_t is_free[blobs], const double *disc_m2,
     const double *noise_factor, const uint8_t *has_discs, double prior, double depth_range, double outlier, double gate2,
     double impossible, double assumed, double whole_from, double shade_share, double radius_m, double crowded_radii,
-    double crowded_px, double pixel_sd, double skin_px, double flat, double learning, const double mean[modes * 105],
-    const double *covariance, const double *probability, double *nine, double *square, double *rows, double *slope,
-    double *centre_m, double *by_place, double *out_mean, double *out_covariance, double *out_probability,
-    int64_t *assigned, uint8_t *with_depth, double *nis, int64_t *dof, const double *most_nis, double was_seen,
-    uint8_t *ordinary, uint8_t *settled);
+    double crowded_px, double merged_from, double merged_share, double pixel_sd, double skin_px, double flat,
+    double learning, const double mean[modes * 105], const double *covariance, const double *probability, double *nine,
+    double *square, double *rows, double *slope, double *centre_m, double *by_place, double *out_mean,
+    double *out_covariance, double *out_probability, int64_t *assigned, uint8_t *with_depth, double *nis, int64_t *dof,
+    const double *most_nis, double was_seen, uint8_t *ordinary, uint8_t *settled);
 KERNEL int digits_measured(
     int blobs, const int64_t *assigned, const uint8_t *with_depth, const double *value, const double *blob_variance,
-    const double *area_px, const double *whole_px, const double *expected, const double *noise_factor, double whole_from,
-    double shade_share, double radius_m, double fx, double crowded_radii, double crowded_px, double pixel_sd,
-    double skin_px, double *measured, double *variance);
+    const double *area_px, const double *whole_px, const double *disc_m2, const uint8_t *has_discs, const double *visible,
+    const double *expected, const double *spread, const double *noise_factor, double whole_from, double shade_share,
+    double radius_m, double fx, double crowded_radii, double crowded_px, double was_seen, double merged_from,
+    double merged_share, double pixel_sd, double skin_px, double *measured, double *variance);
 KERNEL int digits_read(
     const double *mean, const double *covariance, const double *slope, const double *centre_m, const double *by_place,
     const double *palm_m, const double *rotation, const double *translation, const double *turn_covariance,

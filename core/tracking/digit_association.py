@@ -2,7 +2,8 @@
 
 First every disc by itself, eq. (12) of the wrist paper resolved for all discs at once; a disc that is turned away or
 was hidden a moment ago is less likely to be seen. Then digit by digit: where the discs of one are not
-jointly compatible, all ways to name them are weighed jointly.
+jointly compatible, all ways to name them are weighed jointly. A blob larger than its disc is one of two discs that the
+picture does not resolve, and measures both.
 """
 
 from __future__ import annotations
@@ -57,8 +58,8 @@ class DigitScene:
     ``covariance`` (5, n, n) of the digits; ``linearised`` h; ``spread`` (5, 9, 9) covariance of the discs' images, the
     palm's error included; ``palm_part`` that error alone; ``visible`` (5, 3) chance that each disc is to be seen;
     ``free`` (D,) blobs that are not the palm's; ``area_px`` (D,) of the blobs, ``whole_px`` (5, 3) of each disc where
-    nothing hides it, NaN where not known yet; ``noise_factor`` (5, 9); ``learning`` share of what is said of the
-    anatomy that is believed; ``has_discs`` (5,) digits that carry discs at all.
+    nothing hides it and ``disc_m2`` (5, 3) its area, NaN where not known yet; ``noise_factor`` (5, 9); ``learning``
+    share of what is said of the anatomy that is believed; ``has_discs`` (5,) digits that carry discs at all.
     """
 
     covariance: FloatArray
@@ -70,6 +71,7 @@ class DigitScene:
     free: NDArray[np.bool_]
     area_px: FloatArray
     whole_px: FloatArray
+    disc_m2: FloatArray
     noise_factor: FloatArray
     resolution_px2: float
     view: DigitView
@@ -197,9 +199,10 @@ def measured_as_named(
         measured, variance = np.empty((CHAINS, 9)), np.empty((CHAINS, 9))
         kernels.digits_measured(
             len(scene.blobs), names.assigned, names.with_depth, scene.blobs.value, scene.blobs.variance, scene.area_px,
-            scene.whole_px, scene.linearised.value, scene.noise_factor, noise.whole_from, noise.shade_share,
-            settings.marker_radius_m, scene.view.camera.fx_px, fingers.crowded_radii, fingers.crowded_px,
-            noise.pixel_sd_px, fingers.skin_px, measured, variance,
+            scene.whole_px, scene.disc_m2, scene.has_discs, scene.visible, scene.linearised.value, scene.spread,
+            scene.noise_factor, noise.whole_from, noise.shade_share, settings.marker_radius_m,
+            scene.view.camera.fx_px, fingers.crowded_radii, fingers.crowded_px, fingers.was_seen, fingers.merged_from,
+            fingers.merged_share, noise.pixel_sd_px, fingers.skin_px, measured, variance,
         )  # fmt: skip
         return measured, variance
     blob = np.maximum(names.assigned, 0)
@@ -216,9 +219,47 @@ def measured_as_named(
         crowded_px = np.where(is_crowded(expected[..., :2], radius_px, fingers.crowded_radii), fingers.crowded_px, 0.0)
         own = (noise.pixel_sd_px**2 + fingers.skin_px**2 + wander_px**2 + crowded_px**2)[..., None]
         variance[..., :2] = np.where(np.isfinite(own) & is_named[..., None], own, variance[..., :2])
+        _measure_unresolved(scene, names.assigned, fingers, measured, variance)
     else:
         measured, variance = np.full((CHAINS, DISCS, 3), np.nan), np.ones((CHAINS, DISCS, 3))
     return measured.reshape(CHAINS, 9), variance.reshape(CHAINS, 9) * scene.noise_factor
+
+
+def _measure_unresolved(
+    scene: DigitScene, assigned: NDArray[np.int64], own: FingerSettings, measured: FloatArray, variance: FloatArray
+) -> None:
+    """Blobs larger than their discs measure a neighbour without a blob of its own as well (unresolved measurements,
+    Koch and van Keuk 1997): ``measured`` and ``variance`` (5, 3, 3) are changed in place.
+
+    Two discs side by side cover more than one by as much of a disc as their middles lie apart in diameters, all but;
+    either lies half of that from the centre, along the line on which they are expected, as surely as that is known. The
+    depth is of either. A disc that was hidden a moment ago may have been given any blob.
+    """
+    expected, spread = scene.linearised.value.reshape(CHAINS, DISCS, 3), scene.spread
+    face_px = scene.disc_m2 * (scene.view.camera.fx_px / expected[..., 2]) ** 2
+    area_px = scene.area_px[np.maximum(assigned, 0)]
+    alone = (assigned < 0) & scene.has_discs[:, None]
+    known = (assigned >= 0) & (scene.visible >= own.was_seen)
+    for chain, disc in np.argwhere(known & (area_px > own.merged_from * face_px)).tolist():
+        other = next((d for d in (disc + 1, disc - 1) if 0 <= d < DISCS and alone[chain, d]), None)
+        if other is None:
+            continue
+        alone[chain, other] = False
+        face = face_px[chain, disc]
+        radius_px = math.sqrt(face / math.pi)
+        half_px = radius_px * min((area_px[chain, disc] - scene.whole_px[chain, disc]) / face, 2.0)
+        gap = expected[chain, other, :2] - expected[chain, disc, :2]
+        unsure2 = sum(
+            spread[chain, i, i] + spread[chain, j, j] - 2.0 * spread[chain, i, j]
+            for i, j in ((3 * disc, 3 * other), (3 * disc + 1, 3 * other + 1))
+        )
+        shift = gap * (half_px / math.sqrt(gap @ gap + unsure2))
+        stray2 = half_px**2 * (1.0 + own.merged_share**2) - shift @ shift
+        measured[chain, other, :2] = measured[chain, disc, :2] + shift
+        variance[chain, other, :2] = variance[chain, disc, :2] + stray2
+        measured[chain, disc, :2] -= shift
+        variance[chain, disc, :2] += stray2
+        variance[chain, disc, 2] += (2.0 * half_px * expected[chain, disc, 2] / scene.view.camera.fx_px) ** 2
 
 
 def updated_as_associated(

@@ -282,6 +282,7 @@ class DigitNaming:
             picture.free,
             picture.area_px,
             self._memory.disc_m2 * visibility.facing_m2,
+            self._memory.disc_m2,
             self._memory.noise_factor,
             self._model.resolution_px2,
             seat.view,
@@ -318,15 +319,16 @@ class DigitNaming:
             blobs.variance, area_px, free, memory.disc_m2, memory.noise_factor, self._model.has_discs,
             *log_densities(self._model.resolution_px2 / own.clutter, noise.depth_outlier, names), names.gate_sd**2,
             IMPOSSIBLE, math.log(names.prior_marker / names.prior_clutter), noise.whole_from, noise.shade_share,
-            settings.marker_radius_m, own.crowded_radii, own.crowded_px, noise.pixel_sd_px, own.skin_px, own.flat_rad,
-            learning, estimates.mean, estimates.covariance, estimates.probability, nine, square, rows, slope, centre_m,
-            by_place, out.mean, out.covariance, out.probability, assigned, with_depth, nis, dof,
-            most_chi2_row(names.consistent), own.was_seen, ordinary, settled,
+            settings.marker_radius_m, own.crowded_radii, own.crowded_px, own.merged_from, own.merged_share,
+            noise.pixel_sd_px, own.skin_px, own.flat_rad, learning, estimates.mean, estimates.covariance,
+            estimates.probability, nine, square, rows, slope, centre_m, by_place, out.mean, out.covariance,
+            out.probability, assigned, with_depth, nis, dof, most_chi2_row(names.consistent), own.was_seen, ordinary,
+            settled,
         )  # fmt: skip
         scene = DigitScene(
             points.covariance, DigitsLinearisation(value, slope, error, points.mean, by_digits, centre_m, by_place),
-            by_both, by_palm, visible, blobs, free, area_px, whole_px, memory.noise_factor, self._model.resolution_px2,
-            seat.view, learning, self._model.has_discs,
+            by_both, by_palm, visible, blobs, free, area_px, whole_px, memory.disc_m2, memory.noise_factor,
+            self._model.resolution_px2, seat.view, learning, self._model.has_discs,
         )  # fmt: skip
         if not ordinary.item():
             named = associate_digits(estimates, scene, settings)
@@ -372,11 +374,13 @@ def disc_visibility(
 def areas_m2(
     named: UpdatedDigits, area_px: FloatArray, tilt_rad: FloatArray, facing_m2: FloatArray, own: FingerSettings
 ) -> FloatArray:
-    """Areas (5, 3) of the discs as seen, NaN where not or too tilted."""
+    """Areas (5, 3) of the discs as seen, NaN where too tilted, and on digits that do not show a blob for every disc:
+    one of them may be that of two."""
     assigned = named.names.assigned
     if not area_px.size:
         return np.full(assigned.shape, np.nan)
-    return np.where((assigned >= 0) & (tilt_rad < own.flat_rad), area_px[assigned] / facing_m2, np.nan)
+    resolved = (assigned >= 0).all(axis=1, keepdims=True)
+    return np.where(resolved & (tilt_rad < own.flat_rad), area_px[assigned] / facing_m2, np.nan)
 
 
 def learnt_sizes(known_m2: FloatArray, seen_m2: FloatArray, own: FingerSettings) -> FloatArray:

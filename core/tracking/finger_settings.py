@@ -38,8 +38,10 @@ class FingerSettings:
     chance ``was_seen`` was hidden a moment ago; ``surely_sd`` beyond its reach a joint surely is not.
     ``size_grows``, ``size_shrinks``: how much of a picture's is taken into a disc's size, which half a disc understates
     and nothing overstates, while it is tilted by less than ``flat_rad``; tilted discs show no less than
-    ``least_facing``. Centres of discs nearer than ``crowded_radii`` stray by ``crowded_px``. ``click_px`` of a disc
-    with no depth. ``across_m``: how closely a disc holds its joints across the line of sight where errors stay;
+    ``least_facing``. Centres of discs nearer than ``crowded_radii`` stray by ``crowded_px``. A blob ``merged_from``
+    times as large as its disc seen square holds a neighbour's too (of single ones 99.9 % are smaller); where along
+    it either lies is unsure by ``merged_share`` of what lies between them and its centre. ``click_px`` of a disc with
+    no depth. ``across_m``: how closely a disc holds its joints across the line of sight where errors stay;
     ``sure_turn_rad`` of the palm, all axes, at which half as much is learnt of the fingers.
     ``gap_s`` between pictures from which on limits count before a picture too; a
     finger ``most_beyond_rad`` past its limits was misread.
@@ -85,6 +87,8 @@ class FingerSettings:
     least_facing: float = 0.15
     crowded_px: float = 0.5
     crowded_radii: float = 2.4
+    merged_from: float = 1.25
+    merged_share: float = 0.5
     click_px: float = 2.0
     across_m: float = 0.00015
     sure_turn_rad: float = math.radians(1.0)
