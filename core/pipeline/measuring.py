@@ -169,6 +169,10 @@ class SmoothedSession:
         else:
             self._early.append((kind, text))
 
+    def flush(self) -> None:
+        """Bring everything taken so far to the disk."""
+        self._writer.flush()
+
     def close(self) -> None:
         """Wait a little for the looking back and finish; a session without a single frame is none."""
         if not self._times_s:

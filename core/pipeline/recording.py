@@ -25,6 +25,10 @@ class SessionSink(Sink, Protocol):
 
     def add_event(self, time_s: float, kind: str, text: str) -> None: ...
 
+    def flush(self) -> None:
+        """Bring everything taken so far to the disk."""
+        ...
+
     def go_on_elsewhere(self) -> SessionSink:
         """Another file with what this one, which hangs in the disk, has taken and not stored."""
         ...
@@ -71,7 +75,7 @@ class LiveRecording:
         """Bytes, as last looked at while a row was written."""
         self._low_disk_bytes, self._tell, self._disk_warned = settings.low_disk_bytes, tell, False
         told_s, moved_s = settings.told_stall_s, settings.moved_stall_s
-        self.rows: Recorder[SessionSink, TrackedFrame | Note] = Recorder(
+        self.rows: Recorder[SessionSink, TrackedFrame | Note | None] = Recorder(
             "writing",
             open_session,
             self._write_row,
@@ -108,6 +112,7 @@ class LiveRecording:
     def finish(self) -> Path:
         """Waits until all is stored; the session file. Raises the fault that ended it early."""
         if self.rows.fault is None:
+            self.rows.put(None)  # what was taken is on the disk while the rest is waited for
             self._at_end()
         try:
             return self.rows.finish()
@@ -116,9 +121,12 @@ class LiveRecording:
                 with suppress(Exception):  # told as pictures_failed
                     self.pictures.finish()
 
-    def _write_row(self, sink: SessionSink, item: TrackedFrame | Note) -> None:
-        """In the writing thread, which alone may be held up by a slow disk; looks at the room left now and then."""
-        if isinstance(item, Note):
+    def _write_row(self, sink: SessionSink, item: TrackedFrame | Note | None) -> None:
+        """In the writing thread, which alone may be held up by a slow disk; looks at the room left now and then. None:
+        to the disk with what is held."""
+        if item is None:
+            sink.flush()
+        elif isinstance(item, Note):
             sink.add_event(item.time_s, item.kind, item.text)
         else:
             sink.append(item)

@@ -124,6 +124,7 @@ class FakeSession:
         self.rows: list[TrackedFrame] = []
         self.pictures: list[Frame] = []
         self.events: list[tuple[float, str, str]] = []
+        self.flushed = 0
         self.ended = ""
         self.threads: set[str] = set()
         self._fault_at = fault_at
@@ -139,6 +140,9 @@ class FakeSession:
 
     def add_event(self, time_s: float, kind: str, text: str) -> None:
         self.events.append((time_s, kind, text))
+
+    def flush(self) -> None:
+        self.flushed = len(self.rows)
 
     def close(self) -> None:
         self._end("closed")

@@ -294,10 +294,15 @@ def test_everything_tracked_is_recorded_in_one_thread() -> None:
 def test_what_the_end_waits_for_besides_is_no_time_of_the_disk() -> None:
     source, sink = HeldSource(), FakeSession(OUT)
     waited: list[tuple[str, str]] = []
+
+    def wait() -> None:
+        wait_until(lambda: sink.flushed == 3)  # a kill meanwhile loses nothing
+        waited.append((threading.current_thread().name, sink.ended))
+
     with LiveSession(source) as live:
         live.begin_tracking(tracked)
         deliver_tracked(live, source, 3)
-        live.start_recording(lambda: sink, None, lambda: waited.append((threading.current_thread().name, sink.ended)))
+        live.start_recording(lambda: sink, None, wait)
         deliver_tracked(live, source, 3)
         live.stop_recording()
     assert waited == [(threading.current_thread().name, "")], "beside the writing thread, before the file is closed"
