@@ -25,7 +25,7 @@ from pathlib import Path
 import numpy as np
 
 from carpus import __version__
-from carpus.app.batch.places import Place
+from carpus.app.batch.places import TrackingInput
 from carpus.app.batch.processes import outcomes
 from carpus.app.batch.work import Task
 from carpus.core.agreement.retest import StudyFigures, studies
@@ -92,7 +92,7 @@ def tracked(made: Sequence[Mounting], exercise: str, folder: Path, processes: in
     tasks = []
     for one in made:
         recording, session = folder / one.name, folder / f"{one.name}.h5"
-        place = Place(recording, recording / CLICKS_FILE, session, session.name)
+        place = TrackingInput(recording, recording / CLICKS_FILE, session, session.name)
         tasks.append(Task(place, TrackSettings(), f"P{one.person + 1}", exercise))
     faults = [each.said for each in outcomes(tasks, processes) if each.result == "fault"]
     if faults:

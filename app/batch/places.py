@@ -16,7 +16,7 @@ SESSION_SUFFIX = ".h5"
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class TrackingInput:
     """One recording (or session, tracked again), its ``clicks`` (None for a session), the ``session`` to be made and
     what that is called in tables: its path in the folder of all."""
 
@@ -55,7 +55,7 @@ def recordings_in(folder: Path, left_out: Path) -> Iterator[Path]:
             yield from recordings_in(path, left_out)
 
 
-def places(named: Sequence[Path], output: Path) -> list[Place]:
+def places(named: Sequence[Path], output: Path) -> list[TrackingInput]:
     """All that is named, folders searched; each once, sessions under ``output`` as the recordings lie to each other.
 
     What is named and is no folder of recordings counts as one recording, there or not: its fault is told later.
@@ -77,7 +77,7 @@ def places(named: Sequence[Path], output: Path) -> list[Place]:
     for real, path in found.items():
         name = names[real] if taken[names[real]] == 1 else real.relative_to(base)
         session = name.with_name(name.name + SESSION_SUFFIX)
-        out.append(Place(path.absolute(), clicks_of(path.absolute()), output / session, session.as_posix()))
+        out.append(TrackingInput(path.absolute(), clicks_of(path.absolute()), output / session, session.as_posix()))
     return out
 
 

@@ -14,7 +14,7 @@ from typing import Literal
 from threadpoolctl import threadpool_limits
 
 from carpus import __version__
-from carpus.app.batch.places import Place
+from carpus.app.batch.places import TrackingInput
 from carpus.app.settings import load_settings
 from carpus.app.sources import open_recording
 from carpus.core.calibration.clicks import read_clicks
@@ -40,7 +40,7 @@ _INTRINSICS = {"default": "the usual values of the Xtion", "driver": "the driver
 class Task:
     """What is to be done with one recording."""
 
-    place: Place
+    place: TrackingInput
     settings: TrackSettings
     subject_id: str = ""
     exercise: str = ""
@@ -54,7 +54,7 @@ class Outcome:
     """What came of it: shares 0 to 1 of ``frames``, NaN after a fault; ``said`` the fault, or what is doubtful;
     ``measures`` of the session."""
 
-    place: Place
+    place: TrackingInput
     result: Result
     said: tuple[str, ...] = ()
     frames: int = 0
@@ -81,7 +81,7 @@ def work(task: Task) -> Outcome:
         return fault_of(task.place, f"something unforeseen happened ({type(cause).__name__}: {cause})")
 
 
-def fault_of(place: Place, sentence: str, *, may_pass: bool = False) -> Outcome:
+def fault_of(place: TrackingInput, sentence: str, *, may_pass: bool = False) -> Outcome:
     """The outcome of a recording that could not be tracked."""
     return Outcome(place, "fault", (sentence,), may_pass=may_pass)
 

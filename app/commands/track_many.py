@@ -11,7 +11,7 @@ from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.app.batch.places import SESSION_SUFFIX, Place, places
+from carpus.app.batch.places import SESSION_SUFFIX, TrackingInput, places
 from carpus.app.batch.processes import LIMIT_S, cores, outcomes
 from carpus.app.batch.tables import MEASURES_FILE, check_outcomes, fault_lines, write_outcomes
 from carpus.app.batch.work import Outcome, Task, fault_of
@@ -95,7 +95,7 @@ def _coming(tasks: Sequence[Task], arguments: argparse.Namespace) -> Iterator[Ou
     return outcomes_on(arguments.scheduler, tasks, limit_s)
 
 
-def _task(place: Place, arguments: argparse.Namespace, usual: TrackSettings, chosen: Chosen) -> Task:
+def _task(place: TrackingInput, arguments: argparse.Namespace, usual: TrackSettings, chosen: Chosen) -> Task:
     settings = usual
     if place.clicks is None:
         told = settings_told(read_outline(place.recording).header.parameters)

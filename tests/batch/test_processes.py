@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from carpus.app.batch import processes, work
-from carpus.app.batch.places import Place
+from carpus.app.batch.places import TrackingInput
 from carpus.app.batch.processes import DIED, cores, outcomes
 from carpus.app.batch.work import Outcome, Task
 from carpus.core.errors import OutputBusy
@@ -22,7 +22,7 @@ from tests.batch.deadly import deadly
 
 
 def task(folder: Path, name: str, kind: str = "") -> Task:
-    return Task(Place(folder / name, None, folder / f"{name}.h5", f"{name}.h5"), TrackSettings(), kind)
+    return Task(TrackingInput(folder / name, None, folder / f"{name}.h5", f"{name}.h5"), TrackSettings(), kind)
 
 
 def _children() -> list[int]:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 
-from carpus.app.batch.places import Place
+from carpus.app.batch.places import TrackingInput
 from carpus.app.batch.processes import cores, outcomes
 from carpus.app.batch.work import Task
 from carpus.core.calibration.clicks import read_clicks
@@ -72,7 +72,8 @@ def report() -> Iterator[str]:
         with tempfile.TemporaryDirectory() as name:
             tasks = [
                 Task(
-                    Place(recording, recording / CLICKS_FILE, Path(name) / f"{number}.h5", f"{number}"), TrackSettings()
+                    TrackingInput(recording, recording / CLICKS_FILE, Path(name) / f"{number}.h5", f"{number}"),
+                    TrackSettings(),
                 )
                 for number in range(EACH * count)
             ]
