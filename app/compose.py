@@ -8,7 +8,7 @@ import logging
 import os
 import re
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import date
 from functools import cache, partial
@@ -24,7 +24,7 @@ from PySide6.QtWidgets import QApplication
 
 from carpus import __version__
 from carpus.app.desktop.care_cameras import CareCameras
-from carpus.app.desktop.journey import Journey, Parts
+from carpus.app.desktop.journey import CORE, SCREENS, Journey, Parts, load
 from carpus.app.desktop.no_folder import NoFolder
 from carpus.app.desktop.preferences import PreferenceKeeper
 from carpus.app.desktop.touring import Tour
@@ -122,14 +122,24 @@ class Desktop:
         self.journey.way.made.connect(lambda: QTimer.singleShot(SETTLED_MS, settle))
 
     def _load(self) -> None:
-        """While the window waits for the person, in a thread of its own: what the other screens are made of."""
+        """While the window waits for the person: what the other screens are made of, as far as it may be in a thread of
+        its own."""
 
         def work() -> None:
-            for _ in self.journey.load():
+            for _ in load(CORE):
                 if self._closed:
                     break
 
-        self._loading.run(work, lambda _: settle(), self.journey.messages.fault)
+        self._loading.run(work, lambda _: self._load_on(load(SCREENS)), self.journey.messages.fault)
+
+    def _load_on(self, loaded: Iterator[str]) -> None:
+        """The next module, when the window has done what came meanwhile."""
+        if self._closed:
+            return
+        if next(loaded, ""):
+            QTimer.singleShot(0, lambda: self._load_on(loaded))  # also once another window is this one
+        else:
+            settle()
 
     def speak_anew(self) -> None:
         """The language was changed: everything is put together again, at the same place, and this becomes it."""

@@ -5,7 +5,7 @@ Each knows its own way (:mod:`ui.flow`); here is what belongs to none: the top b
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date, datetime
@@ -56,6 +56,16 @@ if TYPE_CHECKING:
     from carpus.ui.sessions.flow import SessionsFlow
     from carpus.ui.setup.flow import CameraFlow, ExerciseFlow
 
+CORE = (
+    "carpus.core.pipeline.correction",
+    "carpus.core.agreement.compared_files",
+    "carpus.core.agreement.retest",
+    "carpus.core.calibration.camera.calibrate",
+    "carpus.core.calibration.card.measure",
+    "carpus.core.formats.film",
+    "carpus.core.results.side_by_side",
+)
+"""What takes longest to load of what screens use, and has nothing of Qt in it: for whatever thread."""
 ALL_KEYS = ("help", "settings", "search", "new_patient", "back", "quit")
 
 
@@ -237,16 +247,15 @@ class Journey(QObject):
         if self.now.source is not None:
             self.live.finish()
 
-    @staticmethod
-    def load() -> Iterator[str]:
-        """Load what all screens are made of, one module after the other."""
-        for module in (
-            *(place.module for place in PLACES.values()),
-            "carpus.ui.settings.flow",
-            "carpus.ui.plot.canvas",
-        ):
-            import_module(module)
-            yield module
-
 
 PLACES = {name: place for name, place in vars(Journey).items() if isinstance(place, Place)}
+SCREENS = (*(place.module for place in PLACES.values()), "carpus.ui.settings.flow", "carpus.ui.plot.canvas")
+"""What all screens are made of. For the window's thread alone: Qt makes a class when it is first named, and where two
+threads name one each at once the process ends."""
+
+
+def load(modules: Sequence[str]) -> Iterator[str]:
+    """Load modules, one after the other."""
+    for module in modules:
+        import_module(module)
+        yield module

@@ -4,16 +4,22 @@ is made when it is first gone to, and is then as if it had been there from the s
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import pytest
 from PySide6.QtCore import QEvent, QObject
 from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
+from carpus.app import compose
 from carpus.app.compose import Desktop
+from carpus.app.desktop.journey import CORE, SCREENS, load
 from carpus.app.settings import ScreenSettings, Settings
 from carpus.ui import language
 from carpus.ui.flow import ASIDE, STEPS, TABS
@@ -68,6 +74,27 @@ def test_a_start_makes_no_screen_but_the_first(open_desktop: Callable[..., Deskt
     assert set(desktop.journey.way.flows) == {"patients"}
     desktop.close()
     assert set(desktop.journey.way.flows) == {"patients"}
+
+
+def test_what_screens_are_made_of_is_loaded_in_the_windows_thread(
+    open_desktop: Callable[..., Desktop], qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two threads that name classes of Qt for the first time at once end the process."""
+    seen: dict[str, threading.Thread] = {}
+
+    def noted(modules: Sequence[str]) -> Iterator[str]:
+        for module in load(modules):
+            seen[module] = threading.current_thread()
+            yield module
+
+    monkeypatch.setattr(compose, "load", noted)
+    open_desktop()._load()
+    qtbot.waitUntil(lambda: {*CORE, *SCREENS} <= set(seen), timeout=60_000)
+    assert {seen[module] for module in SCREENS} == {threading.main_thread()}
+    assert threading.main_thread() not in {seen[module] for module in CORE}
+    code = f"import sys, importlib; [importlib.import_module(one) for one in {CORE!r}]; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not [one for one in done.stdout.split() if one.startswith(("PySide6", "carpus.ui"))]
 
 
 class ShownWindows(QObject):
