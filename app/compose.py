@@ -36,6 +36,7 @@ from carpus.app.standard_streams import on_stop
 from carpus.core.capture.source import FrameSource
 from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, OutputNotWritable
+from carpus.core.formats.film import UNFINISHED
 from carpus.core.records.interrupted import Recovered, recover
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
@@ -269,6 +270,8 @@ def compose(
     library.angle_order = lambda: settings.report.angle_order
     LINES.names = library.pseudonyms
     recovered, faults = recover(library)
+    with contextlib.suppress(OSError):  # of a program that was killed
+        (library.folder / UNFINISHED).unlink(missing_ok=True)
 
     @cache
     def sources() -> Sources:

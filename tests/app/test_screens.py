@@ -21,6 +21,7 @@ from carpus.app import compose
 from carpus.app.compose import Desktop
 from carpus.app.desktop.journey import CORE, SCREENS, load
 from carpus.app.settings import ScreenSettings, Settings
+from carpus.core.formats.film import UNFINISHED
 from carpus.ui import language
 from carpus.ui.flow import ASIDE, STEPS, TABS
 from carpus.ui.help import guide
@@ -74,6 +75,16 @@ def test_a_start_makes_no_screen_but_the_first(open_desktop: Callable[..., Deskt
     assert set(desktop.journey.way.flows) == {"patients"}
     desktop.close()
     assert set(desktop.journey.way.flows) == {"patients"}
+
+
+def test_a_film_that_a_killed_program_left_goes_with_the_next_start(
+    open_desktop: Callable[..., Desktop], tmp_path: Path
+) -> None:
+    left = tmp_path / "data" / UNFINISHED
+    left.parent.mkdir()
+    left.write_bytes(b"a hand")
+    assert set(open_desktop().journey.way.flows) == {"patients"}
+    assert not left.exists()
 
 
 def test_what_screens_are_made_of_is_loaded_in_the_windows_thread(

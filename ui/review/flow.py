@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from pathlib import Path
 
-from carpus.core.formats.film import UNFINISHED, write_film, write_picture
+from carpus.core.formats.film import write_film, write_picture
 from carpus.core.hand.exercises import exercise_named
 from carpus.ui.check_card.standing_words import unsure_words
 from carpus.ui.export.flow import Exporting
@@ -22,8 +21,6 @@ class ReviewFlow(Flow):
 
     def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, ReviewScreen(context.theme, context.keys, context.background, context.library))
-        with suppress(OSError):  # of a program that was killed
-            (context.library.folder / UNFINISHED).unlink(missing_ok=True)
         screen, way = self.screen, context.way
         self.exporting = Exporting(context)
         screen.told.connect(context.messages.fault)
