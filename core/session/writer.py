@@ -258,7 +258,8 @@ class SessionWriter:
         if self._fallback is None:
             raise FolderGone(folder)
         fallback, self._fallback = self._fallback, None
-        held = HeldRows(list(self._held.frames), list(self._held.pictures), list(self._held.events))
+        now = self._held  # once: the writer that hangs may come back and take another
+        held = HeldRows(list(now.frames), list(now.pictures), list(now.events))
         stored = self.stored
         if stored and not held.frames:
             raise EndStalled(folder)

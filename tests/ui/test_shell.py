@@ -13,6 +13,9 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.words import Words
 from carpus.ui.background import Background
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.field import Choices
+from carpus.ui.controls.layouts import in_column
 from carpus.ui.controls.text import Text, heading
 from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
 from carpus.ui.icons import octagon
@@ -151,6 +154,25 @@ def test_a_message_gives_three_answers_and_its_buttons_act_by_key(qtbot: QtBot, 
     qtbot.keyClick(card.answers[-1], Qt.Key.Key_Escape)
     assert done[-1] == "on", "Esc gives the answer that loses nothing"
     assert not card.isVisible()
+
+
+def test_tab_leads_to_what_is_chosen_and_arrows_choose_another(qtbot: QtBot, theme: Theme, shell: Shell) -> None:
+    host = QWidget(shell.stage)
+    before, choices = Button(theme, "Before"), Choices(theme, [(one, one) for one in "abc"], "c")
+    in_column(before, choices, within=host)
+    host.show()
+    told: list[object] = []
+    choices.chosen.connect(told.append)
+    before.setFocus()
+    qtbot.keyClick(before, Qt.Key.Key_Tab)
+    assert choices.buttons()[2].hasFocus()
+    qtbot.keyClick(choices.buttons()[2], Qt.Key.Key_Left)
+    assert (choices.value(), told) == ("b", ["b"])
+    choices.choose_nothing()
+    before.setFocus()
+    qtbot.keyClick(before, Qt.Key.Key_Tab)
+    assert choices.buttons()[0].hasFocus()
+    assert choices.value() is None
 
 
 def test_settings_act_at_once_and_tell_what_was_chosen(qtbot: QtBot, theme: Theme) -> None:

@@ -129,7 +129,8 @@ class DegreesField(QLineEdit):
 
 
 class Choices(QWidget):
-    """Exclusive choices side by side; arrow keys move, the chosen one is filled and says so by its check state."""
+    """Exclusive choices side by side; Tab leads to the chosen one, arrow keys choose another. The chosen one is filled
+    and says so by its check state."""
 
     chosen = Signal(object)
 
@@ -152,11 +153,18 @@ class Choices(QWidget):
         if isinstance(row, QHBoxLayout):
             row.addStretch(1)
         self._group.idClicked.connect(lambda number: self.chosen.emit(self._values[number]))
+        self._group.idToggled.connect(self._lead_tab)
         self.choose(current if current in self._values else self._values[0])
 
     def choose(self, value: object) -> None:
         """Select without a signal."""
         self._group.button(self._values.index(value)).setChecked(True)
+
+    def _lead_tab(self) -> None:
+        """Qt does it only once a button has had the keyboard."""
+        at = max(self._group.checkedId(), 0)
+        for number, button in enumerate(self.buttons()):
+            button.setFocusPolicy(Qt.FocusPolicy.StrongFocus if number == at else Qt.FocusPolicy.ClickFocus)
 
     def choose_nothing(self) -> None:
         """Take the choice back: the person must make it."""
