@@ -15,13 +15,18 @@ from pathlib import Path
 
 import pytest
 
+from carpus.app.desktop.journey import PLACES
 from carpus.core.capture.devices.cameras import CAMERAS, camera_kind, kind_of
 from carpus.core.formats.formats import FORMATS
-from carpus.core.hand.exercises import EXERCISES, exercises_of
+from carpus.core.hand.exercises import EXERCISES, exercise_named, exercises_of
 from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_names
 from carpus.core.hand.sites import PALM_MARKERS
+from carpus.core.simulation.motions import MOTIONS
+from carpus.ui.export.sheet import NAMES
 
 ROOT = Path(__file__).parents[2]
+GIVEN = {"uri", "camera", "patience_s", "notice"}
+"""What a camera's opening is given."""
 
 PROTOCOL_FILE = '''"""Four fingers without the thumb."""
 
@@ -119,8 +124,8 @@ def test_every_registered_line_leads_to_its_file() -> None:
     for name in CAMERAS:
         kind = camera_kind(name)
         taken = signature(kind.open).parameters
-        assert {"uri", "camera", "patience_s", "notice"} <= set(taken), name
-        assert not [one for one in taken.values() if one.default is one.empty], name
+        assert set(taken) >= GIVEN, name
+        assert {key for key, one in taken.items() if one.default is one.empty} <= GIVEN, f"{name} needs what none gives"
         assert all(len(vendor) == len(product) == 4 for vendor, product in kind.models), name
         assert all((kind.title, kind.rules, kind.port)), name
         assert kind_of(f"{name}:1") == name
@@ -129,6 +134,45 @@ def test_every_registered_line_leads_to_its_file() -> None:
     for protocol in PROTOCOLS:
         assert exercises_of(protocol), protocol.name
     assert {one.id for protocol in PROTOCOLS for one in exercises_of(protocol)} == {one.id for one in EXERCISES}
+    assert len({one.id for one in EXERCISES}) == len(EXERCISES)
+    assert exercise_named("one of old").id == "FREE", "the last of them"
+    assert {one.motion for one in EXERCISES} - set(MOTIONS) == set(), (
+        "movements that the simulated patient does not know"
+    )
+    joints = {one.id: one.joint for one in EXERCISES if one.joint and one.joint not in one.protocol.joint_names()}
+    assert joints == {}, "joints that their discs do not have"
+
+
+def test_the_pages_name_every_format_and_camera() -> None:
+    page = (ROOT / "resources" / "formats.md").read_text(encoding="utf-8")
+    assert [name for name in FORMATS if f"| `{name}` |" not in page] == []
+    assert f"--format {','.join(FORMATS)} " in page
+    assert set(NAMES) == set(FORMATS), "the window's words for them"
+    page = (ROOT / "resources" / "camera.md").read_text(encoding="utf-8")
+    assert [name for name in CAMERAS if f"`{name}`" not in page] == []
+
+
+REACHED_OTHERWISE = {"app.commands", "core.records.migrations", "core.tracking.state_model"}
+"""By the name of a command, by Alembic; and the whole state in one place, for readers, which its test holds."""
+
+
+def test_nothing_lies_about_that_is_not_registered_or_imported() -> None:
+    """A new file without its line would be heard of by nobody."""
+    files = {
+        ".".join(path.relative_to(ROOT).with_suffix("").parts): path.read_text(encoding="utf-8")
+        for part in ("app", "core", "ui")
+        for path in (ROOT / part).rglob("*.py")
+    }
+    reached: set[str] = set()
+    for source in [*files.values(), (ROOT / "carpus" / "__init__.py").read_text(encoding="utf-8")]:
+        for module, names in re.findall(r"from carpus\.([\w.]+) import (\([^)]*\)|[^\n]*)", source):
+            reached |= {module, *(f"{module}.{name}" for name in re.findall(r"\w+", names))}
+        reached |= set(re.findall(r"import carpus\.([\w.]+)", source))
+    reached |= {f"core.formats.{form.module}" for form in FORMATS.values()}
+    reached |= {f"core.capture.devices.{module}" for module in CAMERAS.values()}
+    reached |= {place.module.removeprefix("carpus.") for place in PLACES.values()}
+    alone = {name for name in files if name.rpartition(".")[2] not in ("__init__", "__main__")} - reached
+    assert {name for name in alone if not name.startswith(tuple(REACHED_OTHERWISE))} == set()
 
 
 def test_every_place_that_the_table_names_is_there() -> None:

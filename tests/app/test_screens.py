@@ -25,10 +25,11 @@ from carpus.core.formats.film import UNFINISHED
 from carpus.ui import language
 from carpus.ui.flow import ASIDE, STEPS, TABS
 from carpus.ui.help import guide
+from tests.ui.test_layout import STATES
 
 ROOT = Path(__file__).parents[2]
 NAMED = re.compile(r"""way\.(?:show|go|aside)\("(\w+)"|\bplace (?:==|!=) "(\w+)\"""")
-
+LED = re.compile(r'way\.(?:show|aside)\("(\w+)"')
 
 Looks = dict[tuple[str, str], set[tuple[int, str]]]
 
@@ -68,6 +69,10 @@ def test_every_screen_has_a_page_and_every_place_that_is_named_is_there(open_des
     named = {one for path in sources for found in NAMED.findall(path.read_text("utf-8")) for one in found if one}
     assert "review" in named
     assert named <= set(way.makers)
+    led = {one for path in sources for one in LED.findall(path.read_text("utf-8"))} | {*STEPS, *TABS}
+    assert set(way.makers) - led == set(), "screens that nobody leads to"
+    shown = {place for place in way.makers for state in STATES if f"{state}_".startswith(f"{place}_")}
+    assert set(way.makers) - shown == set(), "screens without a picture"
 
 
 def test_a_start_makes_no_screen_but_the_first(open_desktop: Callable[..., Desktop]) -> None:
