@@ -12,7 +12,7 @@ from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.further_measures import FurtherMeasure, session_reaches
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.norms import graded_totals
-from carpus.ui.report.further_rows import further_rows, main_words, short_words
+from carpus.ui.report.further_rows import further_rows, main_words, measure_name, short_words
 from carpus.ui.report.tables import table_rows
 from carpus.ui.report.words import method
 from tests.ui.fakes import session
@@ -23,9 +23,15 @@ def named(figures: SessionFigures, name: str, of: str) -> FurtherMeasure:
     return next(item for item in figures.further if (item.name, item.of) == (name, of))
 
 
+def without_words(figures: SessionFigures) -> set[str]:
+    """Measures that the report calls by the name they have in files."""
+    return {item.name for item in figures.further if item.name in measure_name(item)}
+
+
 def test_reach_and_grasp_has_its_time_speed_path_and_aperture_and_speaks_of_no_fist() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     figures = session_figures(made)
+    assert without_words(figures) == set()
     reaches = named(figures, "movement time", "reach")
     assert len(reaches.values) >= 3
     assert all(0.2 < value < 3.0 for value in reaches.values)
@@ -42,6 +48,7 @@ def test_reach_and_grasp_has_its_time_speed_path_and_aperture_and_speaks_of_no_f
 def test_thumb_opposition_counts_touches_and_measures_the_thumb_s_own_way() -> None:
     made = hand_session(exercise="THUMB_OPP", motion="opposition")
     figures = session_figures(made)
+    assert without_words(figures) == set()
     distances = [named(figures, "least distance", f"TIP1-TIP{k}").mean for k in (2, 3, 4, 5)]
     assert all(0.0 < value < 15.0 for value in distances)
     touches = [named(figures, "touches", f"TIP1-TIP{k}").mean for k in (2, 3, 4, 5)]
@@ -78,6 +85,7 @@ def test_a_hidden_thumb_is_coherent_until_its_pose_falls_apart() -> None:
 
 def test_a_fist_has_graded_totals_and_fingers_that_move_together() -> None:
     figures = session_figures(hand_session(exercise="FIST_COMPOSITE", motion="fist"))
+    assert without_words(figures) == set()
     assert {grade.finger for grade in figures.grades} <= {1, 2, 3, 4, 5}
     for grade in figures.grades:
         row = figures.row("arc", -1, f"TAM{grade.finger}")

@@ -83,12 +83,12 @@ def measure_name(item: FurtherMeasure) -> str:
         "jump when seen again": tr("Jump when seen again"),
         "synergy": tr("All fingers as one movement"),
         "tremor 3-12 Hz": tr("Tremor, 3 to 12 Hz (rms)"),
-    }.get(item.name, "")
+    }.get(item.name, item.name)
     if way is not None:
         return way.format(name=name)
     if item.name in ("co-flexion", "lag", "enslaving", "tip span", "least distance", "touches"):
         return _of_two(item)
-    return name or item.name
+    return name
 
 
 def _of_two(item: FurtherMeasure) -> str:
@@ -132,7 +132,7 @@ def _value(item: FurtherMeasure, value: float) -> str:
     if item.name == "tremor 3-12 Hz":
         return f"{numbers.fixed(value, 1)}°"
     number = numbers.fixed(value, decimals).replace("-", "\N{MINUS SIGN}")
-    unit = {"s": f"{gap}s", "mm/s": f"{gap}mm/s", "mm": f"{gap}mm", "deg": "°"}.get(item.unit, "")
+    unit = {"deg": "°", "length/chord": "", "1": "", "SPARC": "", "r": ""}.get(item.unit, f"{gap}{item.unit}")
     return f"{number}{unit}"
 
 
