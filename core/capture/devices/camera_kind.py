@@ -10,6 +10,7 @@ from carpus.core.camera import Camera
 from carpus.core.capture.devices.usb_devices import UsbCamera, usb_cameras
 from carpus.core.capture.source import FrameSource, Notice
 from carpus.core.installing import Finding
+from carpus.core.phrase import Phrase
 
 
 class LiveCamera(FrameSource, Protocol):
@@ -46,7 +47,7 @@ class CameraKind:
     open: Opening
     driver: Callable[[bool, bool], Finding | None]
     needed_mbit: int
-    port: str
+    port: Phrase
     further: Callable[[Mapping[str, str]], Sequence[Finding]] = no_findings
 
     @property
