@@ -123,9 +123,14 @@ def test_readme_tells_the_two_commands_and_contributing_has_the_map() -> None:
     assert "make test" in text
     assert "What the camera cannot see is reported" in " ".join(text.split())
     house = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    for package in sorted((ROOT / "core").iterdir()):
-        if (package / "__init__.py").exists():
-            assert f"{package.name}/" in house, f"the map misses core/{package.name}"
+    tools = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]
+    contracts = tools["importlinter"]["contracts"]
+    (floors,) = (one["layers"] for one in contracts if one.get("containers") == ["carpus.core"])
+    floor_of = {part: number for number, floor in enumerate(floors) for part in floor.split(" | ")}
+    rooms = re.findall(r"^  ((?:\w+(?:/|\.py) )+) ", house.partition("\ncore/ ")[2].partition("\nresources/")[0], re.M)
+    parts = [re.sub(r"/|\.py", "", part) for room in rooms for part in room.split()]
+    assert sorted(parts) == sorted(floor_of), "the map misses a part of core, or has one that is gone"
+    assert [floor_of[part] for part in parts] == sorted(floor_of.values()), "the map is in the order of the floors"
 
 
 LINK = re.compile(r"\]\(([^)#:]+)(?:#([\w-]+))?\)")

@@ -1,1 +1,1 @@
-"""What leaves Carpus: reports and open formats."""
+"""What reports, progress and tables say, as figures."""
