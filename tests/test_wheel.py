@@ -94,7 +94,7 @@ def test_a_source_archive_holds_all_that_a_wheel_is_built_of(wheel: Path, tmp_pa
     (path,) = tmp_path.glob("*.tar.gz")
     with tarfile.open(path) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
-        archive.extractall(tmp_path, filter="data")
+    subprocess.run(["tar", "-xf", path, "-C", tmp_path], check=True)
     assert names >= parts_of_the_checkout() | FACE | {"requirements.lock"}
     assert not [name for name in names if name.startswith(("build/", "dist/", ".venv/", ".ci/", *PARTS))]
     (unpacked,) = (folder for folder in tmp_path.iterdir() if folder.is_dir())

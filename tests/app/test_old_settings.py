@@ -7,7 +7,14 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
-from carpus.app.settings import PREFERENCES_FILE, SETTINGS_FILE, keep_preferences, load_settings, load_sound_settings
+from carpus.app.settings import (
+    PREFERENCES_FILE,
+    SETTINGS_FILE,
+    TRACKING,
+    keep_preferences,
+    load_settings,
+    load_sound_settings,
+)
 
 GOLDEN = Path(__file__).parent / "golden"
 
@@ -35,8 +42,9 @@ def test_settings_of_version_01_are_understood_name_by_name(tmp_path: Path) -> N
                 kept = getattr(settings, name)
                 assert (list(kept) if isinstance(kept, tuple) else kept) == value, name
 
+    check({name: table.pop(name) for name in TRACKING}, found.track, chosen)
     check(table, found, chosen)
-    assert found.tracker.profile == "slow", "the file says something else than the defaults"
+    assert found.track.tracker.profile == "slow", "the file says something else than the defaults"
     assert found.screen.theme == "dark"
     assert found.screen.text_scale == 1.25
     assert found.screen.keys == {"play": "P"}

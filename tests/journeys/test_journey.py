@@ -402,7 +402,7 @@ def test_a_card_takes_every_key_and_its_first_button_does_what_it_says(
     card = journey.messages.card
     assert card.isVisible()
     whole = journey.live.screen.picture.shows_whole
-    for key in (Qt.Key.Key_F7, Qt.Key.Key_F9, Qt.Key.Key_F5, Qt.Key.Key_F1, Qt.Key.Key_Escape):
+    for key in (Qt.Key.Key_F7, Qt.Key.Key_F9, Qt.Key.Key_F5, Qt.Key.Key_F1):
         qtbot.keyClick(shell.focusWidget(), key)
     assert card.isVisible()
     assert journey.live.screen.recording.state == "recording"
@@ -412,6 +412,10 @@ def test_a_card_takes_every_key_and_its_first_button_does_what_it_says(
     qtbot.mouseClick(journey.live.screen.controls.main, Qt.MouseButton.LeftButton)
     assert journey.live.screen.recording.state == "recording"
     qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Space)  # "Go on measuring"
+    assert not card.isVisible()
+    assert journey.live.screen.recording.state == "recording"
+    shell.close()
+    qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Escape)  # the answer that loses nothing
     assert not card.isVisible()
     assert journey.live.screen.recording.state == "recording"
     shell.close()

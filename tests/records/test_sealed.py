@@ -6,6 +6,7 @@ import io
 import os
 import pty
 import shutil
+import subprocess
 import sys
 import tarfile
 import time
@@ -69,8 +70,8 @@ def by_age(path: Path, passphrase: str, into: Path) -> int:
 def test_the_standard_tool_opens_it(data: Path, tmp_path: Path) -> None:
     file = sealed(data, tmp_path / "out.tar.age")
     assert by_age(file, WORDS, tmp_path / "out.tar") == 0
-    with tarfile.open(tmp_path / "out.tar") as tar:
-        tar.extractall(tmp_path / "out", filter="data")
+    (tmp_path / "out").mkdir()
+    subprocess.run(["tar", "-xf", tmp_path / "out.tar", "-C", tmp_path / "out"], check=True)
     for path in data.rglob("*.h5"):
         assert (tmp_path / "out" / path.relative_to(data)).read_bytes() == path.read_bytes()
     assert by_age(file, "another one", tmp_path / "no.tar") != 0
