@@ -139,10 +139,12 @@ def _moment(posture: object, i: int) -> object:
 
 def kept_recording(row: Row, seed: int, seconds: float = SECONDS) -> tuple[Path, Truth]:
     """Folder and truth of a recording, rendered only when the user's cache does not hold it as it would be now."""
-    key = hashlib.sha256(_SOURCE + repr((row, seed, seconds)).encode()).hexdigest()[:20]
+    take = take_of(row, seed, seconds=seconds)
+    # What is true names it too: a grasp is a real person's where that lies beside the checkout, another elsewhere.
+    drawn = _SOURCE + repr((row, seed, seconds)).encode() + take.truth.disc_position_cam_m.tobytes()
+    key = hashlib.sha256(drawn).hexdigest()[:20]
     root = Path(platformdirs.user_cache_dir("carpus", appauthor=False)) / "second_patient"
     folder = root / key
-    take = take_of(row, seed, seconds=seconds)
     if (folder / TRUTH_FILE).exists():
         return folder, dataclasses.replace(take.truth, visible_share=read_visible_share(folder / TRUTH_FILE))
     root.mkdir(parents=True, exist_ok=True)

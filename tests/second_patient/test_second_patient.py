@@ -18,11 +18,12 @@ from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.hand.wrist_frame import wrist_axes
 from carpus.core.pipeline.track import TrackSettings, track_recording
 from carpus.core.session.reader import read_session
+from tests.second_patient import recording
 from tests.second_patient.discs import NAMES, PALM, disc_points, full_bend
 from tests.second_patient.look import Look, color_of, depth_of, look_of
 from tests.second_patient.motions import ROWS, motion_of, row_named
 from tests.second_patient.patient import made_patient
-from tests.second_patient.recording import CLICKS_FILE, TRUTH_FILE, Take, recorded, take_of
+from tests.second_patient.recording import CLICKS_FILE, TRUTH_FILE, Take, kept_recording, recorded, take_of
 from tests.second_patient.sensor import COUNTS_PER_M, DISPARITY_PX_M, STEP_PX, exposed, read_depth, sensor_of
 from tests.second_patient.skeleton import Bone, placed_bones, rest_posture
 
@@ -317,3 +318,13 @@ def test_a_recording_tracks_and_its_truth_compares(tmp_path: Path) -> None:
     assert np.mean(session.status == 0) > 0.9
     assert np.allclose(session.timestamp_s, truth.timestamp_s)
     assert np.degrees(np.sqrt(np.nanmean((session.motion.angles_rad - truth.angles_rad) ** 2))) < 6.0
+
+
+def test_what_is_kept_shows_the_hand_its_truth_describes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A motion that is drawn of other data beside another checkout is no recording of this one."""
+    monkeypatch.setattr("platformdirs.user_cache_dir", lambda *_, **__: str(tmp_path))
+    row = next(row for row in ROWS if row.motion == "grasp")
+    folder, _ = kept_recording(row, 4, seconds=0.1)
+    assert kept_recording(row, 4, seconds=0.1)[0] == folder
+    monkeypatch.setattr(recording, "motion_of", lambda name, seed: motion_of(name, seed + 1))
+    assert kept_recording(row, 4, seconds=0.1)[0] != folder
