@@ -323,10 +323,10 @@ def _tell(journey: Journey, recovered: Sequence[Recovered], faults: Sequence[Car
 
 def _connect_settings(screen: SettingsScreen, journey: Journey, theme: Theme) -> None:
     """What the settings lead to, and cards that others have."""
-    way, camera = journey.way, journey.camera_state
-    screen.retest_wanted.connect(lambda: way.show("retest"))
     from carpus.ui.settings.camera_card import CameraCard
 
+    way, camera = journey.way, journey.camera_state
+    screen.retest_wanted.connect(lambda: way.show("retest"))
     card = CameraCard(theme)
     card.calibrate.connect(lambda: way.show("board"))
     card.check.connect(lambda: way.show("card"))

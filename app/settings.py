@@ -150,7 +150,7 @@ class Settings:
     updates: UpdatesSettings = field(default_factory=UpdatesSettings)
     first_start: FirstStartSettings = field(default_factory=FirstStartSettings)
     live: LiveSettings = field(default_factory=LiveSettings)
-    tracking: Mapping[str, Values] = field(default_factory=dict)
+    tracking: Mapping[str, Values] = field(default_factory=dict, metadata={"in_file": False})
     """What a person's file says in the sections of :data:`TRACKING`."""
 
     @cached_property
@@ -315,9 +315,9 @@ def _merged(below: Values, above: Values) -> Values:
 
 
 def _filled(kind: type[T], values: Values, where: str, file: str) -> T:
-    """A dataclass from a table; every key must be one of its fields."""
+    """A dataclass from a table; every key must be one of its fields, but for those that no file has."""
     hints = typing.get_type_hints(kind)
-    known = {item.name for item in fields(kind)} - {"tracking"}  # type: ignore[arg-type]
+    known = {item.name for item in fields(kind) if item.metadata.get("in_file", True)}  # type: ignore[arg-type]
     found: dict[str, Any] = {}
     for name, value in values.items():
         place = f"{where}.{name}" if where else name
