@@ -5,6 +5,7 @@ from __future__ import annotations
 import fcntl
 import multiprocessing
 import os
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[_name] = "1"
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+# What one process compiled, the next hundreds need not, whatever this computer has as its habit.
+sys.dont_write_bytecode = False
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 os.environ["LANGUAGE"] = "en_GB"  # the window speaks the computer's language; what is expected here is English
 
 # The same examples everywhere and each time, and no limit of time: a busy machine is no fault of the program.

@@ -5,7 +5,8 @@ from __future__ import annotations
 import ast
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+from tests.sources import ROOT, SOURCES, parsed
+
 SHAPING = ("hand", "detection", "calibration", "tracking")
 """Packages of core between the pictures and the stored angles; not the folders in them, which measure the camera."""
 
@@ -116,7 +117,7 @@ NO_CHOICE = {
 def shaping_numbers(path: Path) -> set[str]:
     """Names that a module gives to numbers: any with a point, and whole ones that stand alone."""
     found = set()
-    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+    for node in parsed(path).body:
         if not isinstance(node, (ast.Assign, ast.AnnAssign)) or node.value is None:
             continue
         targets = node.targets if isinstance(node, ast.Assign) else [node.target]
@@ -127,6 +128,7 @@ def shaping_numbers(path: Path) -> set[str]:
     return found
 
 
+@SOURCES
 def test_what_shapes_a_number_lies_in_settings() -> None:
     found = {
         f"{path.relative_to(ROOT / 'core').with_suffix('').as_posix()}.{name}"

@@ -8,11 +8,13 @@ import importlib
 import re
 from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[1]
+from tests.sources import ROOT, SOURCES, modules, nodes, parsed
+
+pytestmark = SOURCES
+
 DOCUMENTS = ("resources/method.md", "resources/decisions.md", "CONTRIBUTING.md")
 PLACEHOLDER = re.compile(r"NAME|CODE|SUITE|VERSION|DATE|\.\.\.|…")
 MADE = {
@@ -29,6 +31,7 @@ MADE = {
 DOTTED = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)+")
 OF_CODE = re.compile(r"[A-Z]\w*[a-z]\w*|[A-Z]+_\w+|_?[a-z]\w*_\w+|_[A-Z]\w+")
 """CamelCase, CONSTANTS and snake_case: no plain word."""
+PARTS = ("app", "core", "ui", "installer")
 OF_OTHERS = {"tmp_path", "PySide6", "RELEASE_KEY"}
 
 
@@ -36,10 +39,9 @@ OF_OTHERS = {"tmp_path", "PySide6", "RELEASE_KEY"}
 def defined() -> frozenset[str]:
     """Every name that the program defines, alone and as ``owner.name``: of modules, classes, functions, fields."""
     names: set[str] = set()
-    for part in ("app", "core", "ui", "installer", "carpus"):
-        for path in (ROOT / part).glob("*.py" if part == "carpus" else "**/*.py"):
-            names.add(path.stem)
-            names |= {f"{path.stem}.{name}" for name in _within(ast.parse(path.read_text(encoding="utf-8")), names)}
+    for path in (*modules(*PARTS), *(ROOT / "carpus").glob("*.py")):
+        names.add(path.stem)
+        names |= {f"{path.stem}.{name}" for name in _within(parsed(path), names)}
     return frozenset(names)
 
 
@@ -89,7 +91,6 @@ def test_what_is_gone_is_found() -> None:
     assert [one for one in gone if is_there(one)] == []
 
 
-PARTS = ("app", "core", "ui", "installer")
 ROLE = re.compile(r":(mod|class|func|meth|data|attr):`~?([^`]+)`")
 PLAIN = re.compile(r"(?<![:`])``([^`\n]+)``(?!`)")
 FOR_EXAMPLE = {"wrist_flexion_r", "mcp2_flexion_l", "rotation_a_b", "WRIST_FE", "MCP2_flexion"}
@@ -110,24 +111,20 @@ def written() -> frozenset[str]:
 
 @cache
 def _read() -> tuple[tuple[str, tuple[str, ...], frozenset[str]], ...]:
-    return tuple(
-        (str(path.relative_to(ROOT)), *_said_and_written(ast.parse(path.read_text(encoding="utf-8"))))
-        for part in PARTS
-        for path in sorted((ROOT / part).glob("**/*.py"))
-    )
+    return tuple((str(path.relative_to(ROOT)), *_said_and_written(nodes(path))) for path in modules(*PARTS))
 
 
-def _said_and_written(tree: ast.Module) -> tuple[tuple[str, ...], frozenset[str]]:
+def _said_and_written(tree: tuple[ast.AST, ...]) -> tuple[tuple[str, ...], frozenset[str]]:
     said = [
         node.value
-        for node in ast.walk(tree)
+        for node in tree
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
     ]
     return tuple(str(one.value) for one in said), frozenset(_words(tree, {id(one) for one in said}))
 
 
-def _words(tree: ast.Module, said: set[int]) -> Iterator[str]:
-    for node in ast.walk(tree):
+def _words(tree: tuple[ast.AST, ...], said: set[int]) -> Iterator[str]:
+    for node in tree:
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in said:
             yield from re.findall(r"\w+", node.value)
         for name in (getattr(node, field, None) for field in ("id", "attr", "arg", "name", "asname")):

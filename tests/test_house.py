@@ -8,13 +8,15 @@ import subprocess
 import sys
 import tomllib
 from collections import Counter
-from functools import cache
 from pathlib import Path
 
 import pytest
 from threadpoolctl import threadpool_info
 
-ROOT = Path(__file__).parents[1]
+from tests.sources import ROOT, SOURCES, modules, nodes
+
+pytestmark = SOURCES
+
 OWN = ("carpus",)
 PROGRAM = ("app", "core", "ui")
 """What runs at the user's; ``resources`` also keeps the scripts that made its files."""
@@ -35,19 +37,10 @@ LEGAL_SENTENCE = (
 )
 
 
-@cache
-def parsed(path: Path) -> ast.Module:
-    return ast.parse(path.read_text(encoding="utf-8"))
-
-
-def modules() -> list[Path]:
-    return sorted(path for package in PROGRAM for path in (ROOT / package).rglob("*.py"))
-
-
 def imported_packages(path: Path) -> set[str]:
     """Top-level names of every absolute import of a file, also those inside functions."""
     names: set[str] = set()
-    for node in ast.walk(parsed(path)):
+    for node in nodes(path):
         if isinstance(node, ast.Import):
             names |= {alias.name.split(".")[0] for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
@@ -69,7 +62,10 @@ def pinned(lock: str) -> dict[str, str]:
 
 def test_every_import_is_declared_as_a_run_time_need() -> None:
     foreign = {
-        name for path in modules() for name in imported_packages(path) if name not in sys.stdlib_module_names | set(OWN)
+        name
+        for path in modules(*PROGRAM)
+        for name in imported_packages(path)
+        if name not in sys.stdlib_module_names | set(OWN)
     }
     assert "numpy" in foreign
     known = declared(*EXTRAS) | set(pinned("requirements-alone.lock"))
@@ -97,8 +93,8 @@ def test_a_class_name_means_one_thing() -> None:
     """A name with an underscore is its file's own."""
     names = Counter(
         node.name
-        for path in modules()
-        for node in ast.walk(parsed(path))
+        for path in modules(*PROGRAM)
+        for node in nodes(path)
         if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
     )
     assert {name for name, count in names.items() if count > 1} == set()
@@ -107,8 +103,8 @@ def test_a_class_name_means_one_thing() -> None:
 def test_core_loads_no_window_and_no_command_line() -> None:
     names = [
         ".".join(("carpus", *path.relative_to(ROOT).with_suffix("").parts))
-        for path in modules()
-        if path.is_relative_to(ROOT / "core") and "migrations" not in path.parts  # which only Alembic runs
+        for path in modules("core")
+        if "migrations" not in path.parts  # which only Alembic runs
     ]
     program = "import importlib, sys\n" + "".join(f"importlib.import_module({name!r})\n" for name in names)
     program += "print(sorted({'PySide6', 'shiboken6', 'pyqtgraph'} & set(sys.modules)))"
@@ -155,7 +151,7 @@ def test_links_between_pages_lead_somewhere(page: Path) -> None:
 
 def test_no_file_names_a_place_of_one_machine() -> None:
     places = re.compile(r"/(?:home|root|work|Users)/\w")
-    for path in [*modules(), *(ROOT / "installer").glob("*"), ROOT / "README.md", ROOT / "Makefile"]:
+    for path in [*modules(*PROGRAM), *(ROOT / "installer").glob("*"), ROOT / "README.md", ROOT / "Makefile"]:
         if path.is_file():
             assert not places.search(path.read_text(encoding="utf-8", errors="replace")), path
 

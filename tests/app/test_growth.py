@@ -23,8 +23,8 @@ from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_names
 from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.simulation.motions import MOTIONS
 from carpus.ui.export.sheet import NAMES
+from tests.sources import ROOT, nodes
 
-ROOT = Path(__file__).parents[2]
 GIVEN = {"uri", "camera", "patience_s", "notice"}
 """What a camera's opening is given."""
 
@@ -183,7 +183,7 @@ def test_every_place_that_the_table_names_is_there() -> None:
     for names, path in told:
         there = {
             name.id if isinstance(name, ast.Name) else name.name
-            for name in ast.walk(ast.parse((ROOT / path).read_text(encoding="utf-8")))
+            for name in nodes(ROOT / path)
             if isinstance(name, ast.Name | ast.FunctionDef | ast.ClassDef)
         }
         assert set(re.findall(r"\w{2,}", names)) - {"and"} <= there, (names, path)

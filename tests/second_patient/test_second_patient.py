@@ -26,8 +26,8 @@ from tests.second_patient.patient import made_patient
 from tests.second_patient.recording import CLICKS_FILE, TRUTH_FILE, Take, kept_recording, recorded, take_of
 from tests.second_patient.sensor import COUNTS_PER_M, DISPARITY_PX_M, STEP_PX, exposed, read_depth, sensor_of
 from tests.second_patient.skeleton import Bone, placed_bones, rest_posture
+from tests.sources import ROOT, SOURCES, nodes
 
-ROOT = Path(__file__).parents[2]
 CUPPED = row_named("hand: power grip, cupped palm")
 WRIST_CUPPED = row_named("power grip, cupped palm")
 
@@ -44,7 +44,7 @@ def look_at(take: Take) -> Look:
 
 def imported(path: Path) -> set[str]:
     names: set[str] = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in nodes(path):
         if isinstance(node, ast.Import):
             names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
@@ -52,6 +52,7 @@ def imported(path: Path) -> set[str]:
     return names
 
 
+@SOURCES
 def test_the_program_knows_nothing_of_the_second_patient_nor_it_of_the_first() -> None:
     for folder in ("app", "core", "ui", "resources", "installer"):
         for path in (ROOT / folder).rglob("*"):
@@ -67,7 +68,8 @@ def test_settings_are_not_chosen_on_it() -> None:
     users = {
         str(path.relative_to(ROOT))
         for path in (ROOT / "tests").rglob("*.py")
-        if any(name.startswith("tests.second_patient") for name in imported(path))
+        if "second_patient" in path.read_text(encoding="utf-8")
+        and any(name.startswith("tests.second_patient") for name in imported(path))
     }
     allowed = ("tests/second_patient/", "tests/accuracy/second", "tests/test_accuracy_guard.py")
     assert users

@@ -15,6 +15,7 @@ from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import SoftTissue, TissueModes, moved_by_joints, resting_or_moving
 from carpus.core.tracking.state_model import DIGIT_MEASUREMENTS, DIGIT_STATE, PALM_MEASUREMENTS, PALM_STATE, StatePart
 from carpus.core.types import FloatArray
+from tests.sources import SOURCES
 from tests.test_document_names import is_there
 
 
@@ -24,6 +25,7 @@ def test_every_number_of_the_state_is_told_once(parts: tuple[StatePart, ...], si
     assert rows == list(range(size))
 
 
+@SOURCES
 def test_every_name_that_is_told_is_in_the_program() -> None:
     told = [name for part in (*PALM_STATE, *DIGIT_STATE) for name in part.source]
     told += [name for part in (*PALM_MEASUREMENTS, *DIGIT_MEASUREMENTS) for name in (*part.h, *part.r)]

@@ -60,6 +60,7 @@ from carpus.ui.review.reason import ReasonSheet
 from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
 from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.theme import Theme
+from tests.sources import SOURCES, modules, nodes
 from tests.ui.fakes import NOW, FakeStore, home_report
 from tests.ui.gallery import ERASED_SESSION
 
@@ -240,9 +241,8 @@ def test_a_risky_answer_is_never_the_default(theme: Theme, host: QWidget) -> Non
 
 def _cards() -> Iterator[tuple[str, list[ast.Call]]]:
     """The answers of every card that the program shows, as written."""
-    root = Path(__file__).parents[2]
-    for path in sorted((*root.glob("app/**/*.py"), *root.glob("ui/**/*.py"))):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for path in modules("app", "ui"):
+        for node in nodes(path):
             if isinstance(node, ast.Tuple | ast.List):
                 calls = [
                     one for one in node.elts
@@ -259,6 +259,7 @@ HARMLESS = {
 """Last answers of cards: each leaves everything as it is, or only reads something again."""
 
 
+@SOURCES
 def test_the_last_answer_of_every_card_loses_nothing() -> None:
     seen = 0
     for place, calls in _cards():

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 from datetime import date
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -23,11 +24,12 @@ from carpus.ui.patients.listing import ListHeader, PatientList
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
 from installer import translations
+from tests.sources import ROOT, SOURCES, modules, parsed
 
-ROOT = Path(__file__).parents[2]
-SOURCES = sorted((ROOT / "ui").rglob("*.py"))
+UI = modules("ui")
 
 
+@cache
 def tr_calls(path: Path) -> list[tuple[ast.Call, bool, bool]]:
     """Calls of tr: the call, whether it is a method, whether it stands in a class."""
     found = []
@@ -41,24 +43,27 @@ def tr_calls(path: Path) -> list[tuple[ast.Call, bool, bool]]:
                     found.append((child, method, in_class))
             walk(child, in_class or isinstance(child, ast.ClassDef))
 
-    walk(ast.parse(path.read_text(encoding="utf-8")), False)
+    walk(parsed(path), False)
     return found
 
 
-@pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(ROOT)))
+@SOURCES
+@pytest.mark.parametrize("path", UI, ids=lambda path: str(path.relative_to(ROOT)))
 def test_texts_are_literals_in_the_context_of_their_place(path: Path) -> None:
     for call, method, in_class in tr_calls(path):
         assert isinstance(call.args[0], ast.Constant), f"line {call.lineno}: not a literal"
         assert method == in_class, f"line {call.lineno}: self.tr in classes, tr elsewhere"
 
 
+@SOURCES
 def test_texts_have_named_places_for_what_is_filled_in() -> None:
-    for path in SOURCES:
+    for path in UI:
         for call, _, _ in tr_calls(path):
             text = call.args[0].value  # type: ignore[attr-defined]
             assert not re.search(r"\{\}|\{\d", text), f"{path}: {text}"
 
 
+@SOURCES
 def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
     qtbot: QtBot, theme: Theme, tmp_path: Path
 ) -> None:
@@ -67,10 +72,10 @@ def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
     source, compiled = tmp_path / "xx.ts", tmp_path / "xx.qm"
     for tool in ("pyside6-lupdate", "pyside6-lrelease"):
         assert shutil.which(str(tools / tool)), f"{tool} is part of PySide6"
-    files = [str(path) for path in SOURCES]
+    files = [str(path) for path in UI]
     subprocess.run([str(tools / "pyside6-lupdate"), *files, "-ts", str(source)], check=True, capture_output=True)
     text = source.read_text(encoding="utf-8")
-    count = sum(len(tr_calls(path)) for path in SOURCES)
+    count = sum(len(tr_calls(path)) for path in UI)
     assert text.count("<source>") > 0.7 * count  # the same text twice in one context is one entry
     text = re.sub(
         r"<source>(.*?)</source>\s*<translation type=\"unfinished\"></translation>",

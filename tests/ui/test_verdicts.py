@@ -6,7 +6,6 @@ import ast
 import math
 from dataclasses import replace
 from datetime import datetime, timedelta
-from pathlib import Path
 
 import pytest
 
@@ -20,18 +19,19 @@ from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.pdf import session_report
 from carpus.ui.report.screen import suggested_name
 from carpus.ui.verdicts import change_since_first, difference, no_change_words, verdict_word
+from tests.sources import SOURCES, modules, nodes
 from tests.ui.hand_fakes import hand_session
 
 
+@SOURCES
 def test_no_change_is_never_claimed() -> None:
     assert verdict_word("no_change") == change_since_first("no_change", 2.0) == no_change_words() == "no change proven"
     assert difference(0.2) == "0°"
     said = []
-    for folder in ("ui", "app", "core"):
-        for path in (Path(__file__).parents[2] / folder).rglob("*.py"):
-            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-                if isinstance(node, ast.Call) and getattr(node.func, "attr", getattr(node.func, "id", "")) in ("tr",):
-                    said += [one.value for one in node.args if isinstance(one, ast.Constant)]
+    for path in modules("ui", "app", "core"):
+        for node in nodes(path):
+            if isinstance(node, ast.Call) and getattr(node.func, "attr", getattr(node.func, "id", "")) in ("tr",):
+                said += [one.value for one in node.args if isinstance(one, ast.Constant)]
     claims = [words for words in said if isinstance(words, str) and "no change" in words.casefold()]
     assert claims
     assert all("no change proven" in words.casefold() for words in claims), claims
