@@ -68,8 +68,7 @@ def write_guide() -> int:
     from PySide6.QtCore import QRectF
     from PySide6.QtGui import QColor, QImage, QPainter
 
-    from carpus.ui.help.cards import FILE_NAME, write_cards
-    from carpus.ui.help.drawings import paint_camera, paint_discs
+    from carpus.ui.help.cards import FILE_NAME, paint_camera, paint_discs, write_cards
     from tests.ui.gallery import render_all_screens
 
     folder = GUIDE / "pictures"

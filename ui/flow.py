@@ -21,8 +21,7 @@ from carpus.ui.camera_state import Cameras, CameraState
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.keys import Keys
 from carpus.ui.last_places import Kind, LastPlaces
-from carpus.ui.messages.files_written import tell_written
-from carpus.ui.messages.messages import Messages
+from carpus.ui.messages.messages import Messages, tell_written
 from carpus.ui.now_open import NowOpen
 from carpus.ui.opening import Opener
 from carpus.ui.ports import PatientRow

@@ -16,7 +16,7 @@ from carpus.core.installing import Finding
 from carpus.core.records.library import Library
 from carpus.ui.background import Background
 from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, load_fonts
-from carpus.ui.messages.strip import NoticeStrip
+from carpus.ui.messages.messages import NoticeStrip
 from carpus.ui.ports import Preferences
 from carpus.ui.shell import LEAST_SIZE_PX
 from carpus.ui.theme import Theme

@@ -23,7 +23,7 @@ from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.ui.patients.shelf import PatientShelf
+from carpus.ui.patients.flow import PatientShelf
 from carpus.ui.sessions.flow import SessionShelf
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces

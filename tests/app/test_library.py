@@ -29,7 +29,7 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.ui.patients.shelf import PatientShelf
+from carpus.ui.patients.flow import PatientShelf
 from carpus.ui.sessions.flow import SessionShelf
 from carpus.ui.sessions.listing import remark
 from tests.session.samples import CAMERA, make_calibration, make_frame

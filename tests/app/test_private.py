@@ -21,7 +21,7 @@ from carpus.core.records.library import Library
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.ui.controls.tooltip import plain_tooltip
+from carpus.ui.controls.text import plain_tooltip
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
 
 ROOT = Path(__file__).parents[2]

@@ -22,7 +22,7 @@ from carpus.core.records.library import Library
 from carpus.core.records.log import fingerprint, read_log
 from carpus.core.records.pin import Pin
 from carpus.core.records.values import BackupSettings, PatientEntry
-from carpus.ui.messages.strip import NoticeStrip
+from carpus.ui.messages.messages import NoticeStrip
 from tests.app.test_library import set_up, store
 from tests.records.samples import traces
 

@@ -33,7 +33,7 @@ from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.oni_writer import in_millimetres, write_oni
-from carpus.ui.messages.strip import NoticeStrip
+from carpus.ui.messages.messages import NoticeStrip
 from carpus.ui.setup.choice import SourceChoice
 from tests.journeys.conftest import SPEED, Open
 from tests.journeys.takes import RANGE_DEG, SPEC, clicks_of

@@ -48,25 +48,25 @@ from carpus.ui.help.screen import HelpScreen
 from carpus.ui.keys import Keys
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.markers.screen import MarkersScreen
+from carpus.ui.messages.messages import NoticeStrip
 from carpus.ui.messages.stop_card import Answer, StopCard
-from carpus.ui.messages.strip import NoticeStrip
 from carpus.ui.patient.guide import GuideScene
 from carpus.ui.patient.view import PatientView
 from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.ports import Preferences, ReferenceChoice
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.records.cards import BackupCard, BackupFacts, LockCard, RecordsCard
-from carpus.ui.records.erase_sheet import EraseSheet, ErasureFacts
-from carpus.ui.records.list_sheets import DeedLine, ListedRecord, LogSheet, RecordsSheet
+from carpus.ui.records.erasing import EraseSheet, ErasureFacts
+from carpus.ui.records.lists import DeedLine, ListedRecord, LogSheet, RecordsSheet
 from carpus.ui.records.lock_sheet import LockSheet
-from carpus.ui.records.pin_sheet import PinSheet
+from carpus.ui.records.locking import PinSheet
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.letter_sheet import LetterSheet
 from carpus.ui.report.pdf import progress_report, session_report
 from carpus.ui.report.screen import ReportScreen
-from carpus.ui.retest.people_sheet import PeopleSheet
+from carpus.ui.retest.flow import PeopleSheet
 from carpus.ui.retest.screen import RetestScreen
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.sessions.screen import SessionsScreen

@@ -21,9 +21,9 @@ from PySide6.QtWidgets import (
 )
 
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.focus_ring import FocusRing
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import ElidedText, Text
+from carpus.ui.shell import FocusRing
 
 ROOM_PX = 2.0
 """So much may lie outside or over another: the air that belongs to every letter."""

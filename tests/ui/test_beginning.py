@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.pipeline.live_values import StartMode
-from carpus.ui.live.beginning import COUNT_S, STILL_DEG, STILL_S, Beginning
+from carpus.ui.live.recording import COUNT_S, STILL_DEG, STILL_S, Beginning
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeFeed, FakeMeasuring

@@ -15,8 +15,7 @@ from pytestqt.qtbot import QtBot
 from carpus.app import compose
 from carpus.app.settings import RecordingSettings, Settings
 from carpus.core.records.library import Library
-from carpus.ui.clinic.screen import ClinicScreen
-from carpus.ui.clinic.words import write_clinic_page
+from carpus.ui.clinic.screen import ClinicScreen, write_clinic_page
 from carpus.ui.keys import Keys
 from carpus.ui.last_places import LastPlaces
 from carpus.ui.theme import Theme

@@ -35,8 +35,7 @@ from carpus.core.records.exercise_sets import USUAL_SETS
 from carpus.core.words import Words
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
-from carpus.ui.controls.button import Button
-from carpus.ui.controls.default_answer import ENTER, takes_enter
+from carpus.ui.controls.button import ENTER, Button, takes_enter
 from carpus.ui.controls.field import SearchField
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import Text
@@ -47,14 +46,14 @@ from carpus.ui.markers.start_angle import StartAngleSheet
 from carpus.ui.messages.stop_card import Answer, StopCard
 from carpus.ui.patients.entry import PatientForm
 from carpus.ui.ports import ReferenceChoice
-from carpus.ui.records.erase_sheet import EraseSheet
-from carpus.ui.records.list_sheets import ListedRecord, LogSheet, RecordsSheet
+from carpus.ui.records.backing_up import PassphraseSheet
+from carpus.ui.records.erasing import EraseSheet
+from carpus.ui.records.lists import ListedRecord, LogSheet, RecordsSheet
 from carpus.ui.records.lock_sheet import LockSheet
-from carpus.ui.records.passphrase_sheet import PassphraseSheet
-from carpus.ui.records.pin_sheet import PinSheet
+from carpus.ui.records.locking import PinSheet
 from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_sheet import LetterSheet
-from carpus.ui.retest.people_sheet import PeopleSheet
+from carpus.ui.retest.flow import PeopleSheet
 from carpus.ui.review.film import FilmSheet
 from carpus.ui.review.reason import ReasonSheet
 from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.records.erase_sheet import EraseSheet
+from carpus.ui.records.erasing import EraseSheet
 from carpus.ui.theme import Theme
 from tests.ui.gallery import ERASED_SESSION
 

@@ -7,7 +7,7 @@ from PySide6.QtCore import QPoint, QRect
 from PySide6.QtWidgets import QPushButton, QScrollArea, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.controls.focus_ring import FocusRing
+from carpus.ui.shell import FocusRing
 from carpus.ui.theme import Theme
 
 

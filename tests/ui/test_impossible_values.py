@@ -19,8 +19,8 @@ from carpus.ui.figures import FIGURES, Figure
 from carpus.ui.joint_figures import figures_of
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.series import Drawn, Series, paint_series
+from carpus.ui.plot.session import thinned
 from carpus.ui.plot.style import screen_style
-from carpus.ui.plot.thin import thinned
 from carpus.ui.theme import Theme
 from tests.moments import with_moment
 from tests.ui.fakes import FakeFeed

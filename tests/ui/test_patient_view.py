@@ -15,7 +15,7 @@ from carpus.ui.live.glance import Glance
 from carpus.ui.patient.figure import arc_of, figure_at
 from carpus.ui.patient.guide import LOST_AFTER_S, Guide, GuideScene
 from carpus.ui.patient.view import PatientView
-from carpus.ui.patient.window import PatientWindow
+from carpus.ui.patient.viewing import PatientWindow
 from carpus.ui.patient.words import said
 from carpus.ui.theme import Theme
 from tests.ui.fakes import set_up

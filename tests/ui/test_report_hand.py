@@ -19,7 +19,7 @@ from carpus.ui import numbers
 from carpus.ui.figures import Figure, with_side
 from carpus.ui.language import speaking
 from carpus.ui.plot.course import axis_top_deg, panels_of
-from carpus.ui.progress.tables import write_table
+from carpus.ui.progress.flow import write_table
 from carpus.ui.progress.words import headline
 from carpus.ui.report.hand_part import CHANGE_COLUMN, GAP_PT, LEAST_SIZE_PT, column_edges, lines_of
 from carpus.ui.report.hand_rows import (

@@ -20,7 +20,7 @@ from carpus.ui.numbers import day_beside, day_month
 from carpus.ui.plot.course import panels_of
 from carpus.ui.plot.export import picture
 from carpus.ui.plot.series import Series
-from carpus.ui.plot.thin import thinned
+from carpus.ui.plot.session import thinned
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.progress.words import headline
 from carpus.ui.review.screen import ReviewScreen

@@ -22,8 +22,8 @@ from carpus.ui.background import Background
 from carpus.ui.figures import Figure
 from carpus.ui.keys import Keys
 from carpus.ui.playback.skeleton import modelled_px
-from carpus.ui.plot.readings import paint_readings
 from carpus.ui.plot.session import HandPlot, joint_at
+from carpus.ui.plot.session_view import paint_readings
 from carpus.ui.plot.style import screen_style
 from carpus.ui.report.hand_rows import COLUMNS, limits_words
 from carpus.ui.review.screen import ReviewScreen

@@ -18,7 +18,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.ui import language, terms
 from carpus.ui.background import Background
-from carpus.ui.live.light_view import LightView
+from carpus.ui.live.controls import LightView
 from carpus.ui.numbers import day_month
 from carpus.ui.patients.listing import ListHeader, PatientList
 from carpus.ui.theme import Theme

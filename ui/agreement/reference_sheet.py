@@ -12,14 +12,11 @@ from PySide6.QtWidgets import QComboBox, QGridLayout, QSizePolicy, QWidget
 
 from carpus.core.hand.sites import PALM_MARKERS
 from carpus.ui.agreement.words import angle_name
-from carpus.ui.controls.button import Button
-from carpus.ui.controls.column import RING_PX, scroll_area
+from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.field import Choices, Labelled
-from carpus.ui.controls.host import host_of
-from carpus.ui.controls.layouts import STRETCH, fill, in_line
+from carpus.ui.controls.layouts import RING_PX, STRETCH, fill, host_of, in_line, scroll_area
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
-from carpus.ui.controls.tick import Tick
 from carpus.ui.marker_words import marker_name
 from carpus.ui.ports import ReferenceChoice
 from carpus.ui.theme import Theme

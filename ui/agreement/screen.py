@@ -8,23 +8,37 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QComboBox, QGridLayout, QVBoxLayout, QWidget
 
-from carpus.ui.agreement.table import AgreementTable
-from carpus.ui.agreement.words import angle_name, headline, in_order, joined_rows, left_words, most_moved, remark_words
+from carpus.ui.agreement.words import (
+    angle_name,
+    angle_token,
+    headline,
+    in_order,
+    interval,
+    joined_rows,
+    judgement_words,
+    left_words,
+    limits,
+    most_moved,
+    remark_words,
+    share,
+    signed,
+    tenths,
+)
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import STRETCH, empty, fill, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, fill, in_column, in_line, scroll_area
 from carpus.ui.controls.progress_bar import ThinBar
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, heading
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, heading, named_by_color
+from carpus.ui.icons import State
 from carpus.ui.keys import Keys, bind
 from carpus.ui.plot.agreement import AgreementPlot, View
 from carpus.ui.plot.agreement_view import AgreementChart
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.translate import say
 
-if TYPE_CHECKING:  # a window loads nothing that reads files
-    from carpus.core.agreement.compare import Compared
+if TYPE_CHECKING:
+    from carpus.core.agreement.compare import Compared, Pairs
 
 
 class AgreementScreen(QWidget):
@@ -250,3 +264,70 @@ class AgreementScreen(QWidget):
             for words in left:
                 body.addWidget(caption(theme, words, wrap=True))
         body.addStretch(1)
+
+
+COLUMNS = 7
+COLUMN_SHARES = (20, 18, 20, 7, 15, 9, 21)
+STATE_TOKEN = {"good": "good", "warn": "warn", "bad": "bad"}
+
+
+class AgreementTable(QWidget):
+    """Rows of texts; the interval of a figure stands below it."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self._grid = QGridLayout(self)
+        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid.setHorizontalSpacing(12)
+        self._grid.setVerticalSpacing(3)
+        for column, stretch in enumerate(COLUMN_SHARES):
+            self._grid.setColumnStretch(column, stretch)
+
+    def show_compared(self, compared: Compared, limit_deg: float) -> None:
+        """Replace all rows."""
+        empty(self._grid)
+        heads = (
+            self.tr("Angle"), self.tr("Mean difference"), self.tr("Limits of agreement"), self.tr("RMSE"),
+            self.tr("ICC(2,1)"), self.tr("Curve match"), self.tr("In words"),
+        )  # fmt: skip
+        for column, head in enumerate(heads):
+            self._grid.addWidget(caption(self._theme, head, wrap=True), 0, column)
+        for number, pairs in enumerate(compared.pairs):
+            row = 3 * number + 1
+            self._grid.addWidget(Line(self._theme), row, 0, 1, COLUMNS)
+            self._add_row(row + 1, pairs, limit_deg, readings=compared.shift is None)
+
+    def _add_row(self, row: int, pairs: Pairs, limit_deg: float, *, readings: bool) -> None:
+        theme, name, figures = self._theme, pairs.name, pairs.figures_deg
+        state, words = judgement_words(pairs, limit_deg, readings=readings)
+        first = (
+            named_by_color(theme, angle_name(name), angle_token(name)),
+            Text(theme, signed(figures.bias, name), 14, SEMIBOLD, wrap=True),
+            Text(theme, limits(figures, name), 14, REGULAR, wrap=True),
+            Text(theme, tenths(figures.rmse), 14, SEMIBOLD),
+            Text(theme, share(figures.icc), 14, SEMIBOLD),
+            Text(theme, share(figures.cmc), 14, REGULAR),
+            _Judged(theme, state, words),
+        )
+        low, high = figures.icc_interval
+        icc = self.tr("{low} to {high}").format(low=share(low), high=share(high)) if low == low else ""
+        second = {1: interval(figures.bias_interval, name), 4: icc}
+        for column, widget in enumerate(first):
+            spans = 1 if column in second else 2
+            self._grid.addWidget(widget, row, column, spans, 1, Qt.AlignmentFlag.AlignVCenter)
+        for column, text in second.items():
+            self._grid.addWidget(caption(theme, f"({text})" if text else "", wrap=True), row + 1, column)
+
+
+class _Judged(QWidget):
+    """Sign and words, which may need two lines."""
+
+    def __init__(self, theme: Theme, state: State, words: str) -> None:
+        super().__init__()
+        row = QGridLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setHorizontalSpacing(8)
+        row.addWidget(Sign(theme, state), 0, 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(Text(theme, words, 14, SEMIBOLD, STATE_TOKEN.get(state, "text2"), wrap=True), 0, 1)
+        row.setColumnStretch(1, 1)

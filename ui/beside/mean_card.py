@@ -15,7 +15,7 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.plot.beside import BesidePlot
-from carpus.ui.plot.still import StillPlot
+from carpus.ui.plot.card import StillPlot
 from carpus.ui.plot.style import screen_style
 from carpus.ui.theme import Theme
 

@@ -10,8 +10,7 @@ from PySide6.QtWidgets import QComboBox, QGridLayout
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.ui import numbers
 from carpus.ui.beside.words import step_words
-from carpus.ui.controls.card import Card
-from carpus.ui.controls.key_caps import KeyCaps
+from carpus.ui.controls.card import Card, KeyCaps
 from carpus.ui.controls.layouts import in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text
 from carpus.ui.playback.playing import Playing

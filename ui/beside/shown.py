@@ -16,7 +16,7 @@ from carpus.core.results.seen import best_motion
 from carpus.core.results.side_by_side import SideBySide, side_by_side
 from carpus.core.session.values import Session
 from carpus.ui import numbers, terms
-from carpus.ui.beside.rows import BesideRow
+from carpus.ui.beside.differences import BesideRow
 from carpus.ui.beside.words import facts_words, headline, heads, middle_words, name_of, table_rows
 from carpus.ui.figures import FINGERS, Figure, figure_of, with_side
 from carpus.ui.plot.beside import BesidePlot

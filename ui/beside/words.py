@@ -13,7 +13,7 @@ from carpus.core.results.progress import Progress, ProgressPoint
 from carpus.core.results.ranges import RangeRow, is_total
 from carpus.core.results.side_by_side import ComparedRange, SideBySide
 from carpus.ui import numbers, terms
-from carpus.ui.beside.rows import BesideRow
+from carpus.ui.beside.differences import BesideRow
 from carpus.ui.figures import figure_of
 from carpus.ui.icons import State
 from carpus.ui.plot.style import CURVE_TOKENS

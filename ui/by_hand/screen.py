@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime
 
-from PySide6.QtCore import QDate, Qt, Signal
+from PySide6.QtCore import QDate, QSize, Qt, Signal
 from PySide6.QtGui import QKeySequence, QResizeEvent, QShortcut
-from PySide6.QtWidgets import QBoxLayout, QComboBox, QDateEdit, QWidget
+from PySide6.QtWidgets import QBoxLayout, QComboBox, QDateEdit, QSizePolicy, QWidget
 
 from carpus.core.measures.by_hand import MEASURES, HandMeasure, HandValue, Key, counted, measure_named
 from carpus.core.results.figures import SessionFigures
@@ -16,15 +16,15 @@ from carpus.core.results.ranges import RangeRow
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.change_rows import add_changes
-from carpus.ui.by_hand.chart import HandChart
 from carpus.ui.by_hand.form import HandForm
 from carpus.ui.by_hand.names import changes, measure_name
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.column import ScrolledColumn, scroll_area
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import STRETCH, empty, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, in_column, in_line, scroll_area
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
+from carpus.ui.plot.by_hand import paint_course
+from carpus.ui.plot.card import StillPlot
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
 
@@ -277,3 +277,27 @@ class ByHandScreen(QWidget):
     def _save(self) -> None:
         if not self.form.problems():
             self.save.emit(self.unsaved(), self.form.doubts())
+
+
+class HandChart(StillPlot):
+    """One measure over the days."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme)
+        self.measure: HandMeasure | None = None
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        theme.changed.connect(self.updateGeometry)
+
+    def show_course(
+        self, measure: HandMeasure, values: Sequence[HandValue], ours: Sequence[tuple[datetime, float]]
+    ) -> None:
+        """Draw the values that count of one hand, and Carpus's own by day."""
+        self.measure = measure
+        self.setAccessibleName(self.tr("{name} over the days").format(name=measure_name(measure)))
+        self.show_painted(lambda painter, style, box: paint_course(painter, style, box, measure, values, ours))
+
+    def sizeHint(self) -> QSize:
+        return QSize(400, self._theme.px(250))
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(260, self.sizeHint().height())

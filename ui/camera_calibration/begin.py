@@ -10,11 +10,10 @@ from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QVBoxLayout, QWidget
 from carpus.core.calibration.camera.board import Pattern
 from carpus.core.calibration.camera.sheet import RULER_MM, Paper
 from carpus.ui.camera_calibration.values import BoardChoice
-from carpus.ui.controls.button import Button
+from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.column import ScrolledColumn, scroll_area
-from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.field import Choices
+from carpus.ui.controls.layouts import ScrolledColumn, scroll_area
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, caption, heading
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 

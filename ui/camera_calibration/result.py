@@ -10,11 +10,9 @@ from PySide6.QtWidgets import QBoxLayout, QGridLayout, QHBoxLayout, QVBoxLayout,
 from carpus.ui.camera_calibration.maps import LandingMap
 from carpus.ui.camera_calibration.values import BoardResult
 from carpus.ui.camera_calibration.words import effect_rows, headline, kept_words, result_rows
-from carpus.ui.controls.button import Button
+from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.column import ScrolledColumn, scroll_area
-from carpus.ui.controls.default_answer import ENTER
-from carpus.ui.controls.layouts import empty
+from carpus.ui.controls.layouts import ScrolledColumn, empty, scroll_area
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 

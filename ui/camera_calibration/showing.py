@@ -12,10 +12,8 @@ from carpus.ui.camera_calibration.overlay import paint_corners, paint_target
 from carpus.ui.camera_calibration.values import BoardProgress
 from carpus.ui.camera_calibration.words import Row, check_rows, lack_words, side_name, step_words, to_go_words
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.column import scrolled
-from carpus.ui.controls.key_caps import KeyCaps
-from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
+from carpus.ui.controls.card import Card, KeyCaps, Line
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line, scrolled
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.keys import Keys, bind

@@ -12,12 +12,10 @@ from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 from carpus.ui.camera_calibration.overlay import paint_discs
 from carpus.ui.check_card.values import CameraChecks, CardProgress
 from carpus.ui.check_card.words import cause_words, check_day, figure_rows, headline, hint
-from carpus.ui.controls.button import Button
+from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.column import ScrolledColumn, scroll_area, scrolled
-from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import empty
+from carpus.ui.controls.layouts import ScrolledColumn, empty, scroll_area, scrolled
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind

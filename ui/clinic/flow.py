@@ -8,10 +8,9 @@ from datetime import date
 from carpus.core.durable import replace_file
 from carpus.core.records.clinic_week import clinic_week
 from carpus.core.records.values import ClinicWeek
-from carpus.ui.clinic.screen import ClinicScreen
-from carpus.ui.clinic.words import write_clinic_page
+from carpus.ui.clinic.screen import ClinicScreen, write_clinic_page
 from carpus.ui.flow import Flow, ScreenContext
-from carpus.ui.messages.files_written import tell_written
+from carpus.ui.messages.messages import tell_written
 
 
 class ClinicFlow(Flow):

@@ -6,9 +6,8 @@ from typing import Literal
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QHelpEvent, QKeyEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QApplication, QPushButton, QSizePolicy, QToolTip
+from PySide6.QtWidgets import QApplication, QPushButton, QSizePolicy, QToolTip, QWidget
 
-from carpus.ui.controls.default_answer import ENTER, is_enter, says_enter
 from carpus.ui.fonts import MEDIUM, SEMIBOLD, font
 from carpus.ui.icons import paint_icon
 from carpus.ui.keys import key_name
@@ -23,7 +22,7 @@ HEIGHT_PX = {"primary": 52, "plain": 44, "quiet": 44, "well": 40}
 class Button(QPushButton):
     """``primary`` one per screen, ``plain`` outlined, ``quiet`` without outline, ``well`` a filled small one.
 
-    ``hint`` is the key shown beside the text, "Enter" on a default button (:mod:`ui.controls.default_answer`);
+    ``hint`` is the key shown beside the text, "Enter" on a default button (:mod:`ui.controls.button`);
     ``icon`` a line icon before it; a mnemonic (&) is underlined.
     """
 
@@ -196,3 +195,42 @@ def icon_button(theme: Theme, icon: str, name: str, kind: Kind = "quiet") -> But
     button.setToolTip(name)
     button.setAccessibleName(name)
     return button
+
+
+ENTER = "Enter"
+"""The key hint of a default button."""
+
+
+def is_enter(event: QKeyEvent) -> bool:
+    """Whether Enter was pressed, of either block of keys: alone, or with Ctrl, as from a field of several lines."""
+    left_alone = Qt.KeyboardModifier.KeypadModifier | Qt.KeyboardModifier.ControlModifier
+    return not event.modifiers() & ~left_alone and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+
+
+def takes_enter(widget: QWidget | None) -> bool:
+    """Whether a widget that has the keyboard keeps Enter to itself, as buttons do."""
+    return isinstance(widget, QPushButton) and getattr(widget, "on_enter", "press") != "pass"
+
+
+def says_enter(button: QPushButton) -> bool:
+    """Whether Enter would press a default button now."""
+    now: QWidget | None = button.window().focusWidget()
+    return button.isEnabled() and (now is button or not takes_enter(now))
+
+
+def press(button: QPushButton | None) -> bool:
+    """Press the default button; whether there was one that can be pressed."""
+    if button is None or not button.isVisible() or not button.isEnabled():
+        return False
+    button.click()
+    return True
+
+
+class Tick(Button):
+    """A plus, and a check once it is wanted. Enter is not its own."""
+
+    def __init__(self, theme: Theme, words: str) -> None:
+        super().__init__(theme, words, "quiet", icon="plus", height_px=38)
+        self.on_enter = "pass"
+        self.setCheckable(True)
+        self.toggled.connect(lambda on: self.set_face(words, icon="check" if on else "plus"))

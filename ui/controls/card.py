@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QPainter, QPen
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from collections.abc import Sequence
 
+from PySide6.QtCore import QRect, QRectF, QSize, Qt
+from PySide6.QtGui import QPainter, QPen, QResizeEvent
+from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
+
+from carpus.ui.controls.text import MEDIUM, Text
+from carpus.ui.keys import key_name
 from carpus.ui.theme import CARD_PADDING_PX, CARD_RADIUS_PX, Theme
 
 
@@ -66,3 +70,66 @@ class Line(Surface):
             self.setFixedWidth(1)
         else:
             self.setFixedHeight(1)
+
+
+SPACE_PX = 7
+
+
+class KeyCaps(QWidget):
+    """Keys and what they do, in one line: ``[("Space", "accept"), ...]``."""
+
+    def __init__(self, theme: Theme, keys: Sequence[tuple[str, str]], gap_px: int = 16) -> None:
+        super().__init__()
+        self._theme, self._gap_px = theme, gap_px
+        self._keys: tuple[tuple[str, str], ...] = ()
+        self._pairs: list[tuple[QWidget, Text]] = []
+        self.set_keys(keys)
+        self.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
+        theme.changed.connect(self._fit)
+
+    def set_keys(self, keys: Sequence[tuple[str, str]]) -> None:
+        """Show others."""
+        if self._keys == tuple(keys):
+            return
+        for part in (part for pair in self._pairs for part in pair):
+            part.setParent(None)
+            part.deleteLater()
+        self._keys, self._pairs = tuple(keys), []
+        for name, words in keys:
+            cap, said = Surface(self._theme, "surface", "border"), Text(self._theme, words, 12, MEDIUM, "text2")
+            inside = QVBoxLayout(cap)
+            inside.setContentsMargins(6, 0, 6, 0)
+            inside.addWidget(Text(self._theme, key_name(name), 12, MEDIUM), 0, Qt.AlignmentFlag.AlignCenter)
+            for part in (cap, said):
+                part.setParent(self)
+            self._pairs.append((cap, said))
+        self._fit()
+
+    def _places(self) -> list[tuple[int, int, int]]:
+        """Left edge of each cap, of its words, and where these end."""
+        places, left = [], 0
+        for cap, said in self._pairs:
+            words = left + cap.sizeHint().width() + SPACE_PX
+            places.append((left, words, words + said.sizeHint().width()))
+            left = places[-1][2] + self._gap_px
+        return places
+
+    def _fit(self) -> None:
+        self.updateGeometry()
+        height = self.height()
+        for (cap, said), (left, words, end) in zip(self._pairs, self._places(), strict=True):
+            cap.setGeometry(QRect(left, 1, words - SPACE_PX - left, height - 2))
+            said.setGeometry(QRect(words, 0, end - words, height))
+            for part in (cap, said):
+                part.setVisible(end <= self.width() + 1)  # else left out whole; the help names every key
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit()
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(0, self.sizeHint().height())
+
+    def sizeHint(self) -> QSize:
+        places = self._places()
+        high = max((said.sizeHint().height() for _, said in self._pairs), default=0)
+        return QSize(places[-1][2] if places else 0, high + 8)

@@ -10,8 +10,7 @@ from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLineEdit, QSpinBox, QW
 
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.flow import FlowLayout
-from carpus.ui.controls.layouts import in_column, in_line
+from carpus.ui.controls.layouts import FlowLayout, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, Sign, Text, caption
 from carpus.ui.fonts import font
 from carpus.ui.theme import Theme

@@ -16,11 +16,10 @@ from PySide6.QtWidgets import (
 )
 from shiboken6 import isValid
 
-from carpus.ui.controls.button import Button
+from carpus.ui.controls.button import ENTER, Button, is_enter, press
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.default_answer import ENTER, is_enter, press
 from carpus.ui.controls.field import SearchField
-from carpus.ui.controls.host import host_of
+from carpus.ui.controls.layouts import host_of
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.theme import Theme
 

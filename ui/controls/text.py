@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from html import escape
 
 from PySide6.QtCore import QEvent, QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEvent, QPalette, QShowEvent
@@ -272,3 +273,8 @@ def named_by_color(theme: Theme, name: str, token: str) -> QWidget:
     line.addWidget(bar)
     line.addWidget(Text(theme, name, 14, MEDIUM, wrap=True), 1)
     return named
+
+
+def plain_tooltip(text: str) -> str:
+    """A text as a tooltip shows it letter by letter; Qt would take tags in it for tags, and load their pictures."""
+    return f"<span>{escape(text)}</span>" if "<" in text else text

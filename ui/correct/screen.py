@@ -17,12 +17,9 @@ from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, FloatArray, TrackStatus
 from carpus.ui import numbers
 from carpus.ui.background import Background
-from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Card
-from carpus.ui.controls.column import scrolled
-from carpus.ui.controls.default_answer import ENTER
-from carpus.ui.controls.key_caps import KeyCaps
-from carpus.ui.controls.layouts import STRETCH, empty, in_column, in_line
+from carpus.ui.controls.button import ENTER, Button
+from carpus.ui.controls.card import Card, KeyCaps
+from carpus.ui.controls.layouts import STRETCH, empty, in_column, in_line, scrolled
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.correct.picture import CorrectionPicture
 from carpus.ui.correct.places import Places

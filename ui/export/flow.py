@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QFileDialog
 
 from carpus.ui.export.sheet import ExportSheet
 from carpus.ui.flow import ScreenContext
-from carpus.ui.messages.files_written import tell_written
+from carpus.ui.messages.messages import tell_written
 
 
 class Exporting(QObject):

@@ -8,12 +8,11 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP, QCoreApplication, Signal
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.formats.formats import FORMATS
-from carpus.ui.controls.button import Button
+from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.layouts import STRETCH, fill, in_line
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
-from carpus.ui.controls.tick import Tick
 from carpus.ui.theme import Theme
 
 CONTEXT = "ExportSheet"

@@ -12,8 +12,7 @@ from carpus.core.errors import CarpusFault
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.column import scrolled
-from carpus.ui.controls.layouts import in_column, in_line
+from carpus.ui.controls.layouts import in_column, in_line, scrolled
 from carpus.ui.controls.text import Text, heading
 from carpus.ui.help import cards, guide
 from carpus.ui.keys import DEFAULT_KEYS, Keys, action_words

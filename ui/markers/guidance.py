@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
 
-from carpus.ui.controls.button import Button
-from carpus.ui.controls.default_answer import ENTER
-from carpus.ui.controls.text import MEDIUM, REGULAR, StateText, Text, heading
+from carpus.core.calibration.result import ALL_STRAIGHT
+from carpus.core.words import marker_in_words
+from carpus.ui.controls.button import ENTER, Button
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, heading
 from carpus.ui.fault_words import finding_words
 from carpus.ui.hand_drawing import HandDrawing, MarkerState
-from carpus.ui.marker_words import click_instruction, marker_place
-from carpus.ui.markers import proposals
+from carpus.ui.icons import State
+from carpus.ui.marker_words import click_instruction, finger_name, marker_name, marker_place
 from carpus.ui.markers.clicking import Clicking
 from carpus.ui.markers.remedy import Remedy, at_fault, face
-from carpus.ui.markers.straight import StraightFingers
 from carpus.ui.markers.verdict import DISC_DOUBTED, NAMES_WRONG, VerdictPanel, headline, rows_before, rows_of
 from carpus.ui.ports import Calibrator, Judged
 from carpus.ui.theme import MARGIN_PX, Theme
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
+from carpus.ui.translate import say, tr
 
 COLUMN_PX = 376
 ALL_FITS_PX = 700
@@ -141,7 +143,7 @@ class Guidance(QWidget):
             self._show_proposals(clicking, calibrator)
 
     def _show_proposals(self, clicking: Clicking, calibrator: Calibrator) -> None:
-        words = proposals.words_for(clicking)
+        words = proposal_words(clicking)
         self.step.show_state(words.state, words.step, token="warn" if words.state == "warn" else "text2")
         self.title.setText(words.title)
         self.place.setText(words.place)
@@ -193,3 +195,117 @@ def _hand_states(clicking: Clicking, wrong: Sequence[str]) -> dict[str, MarkerSt
     if (clicking.missing and not clicking.proposed) or clicking.current in clicking.unnamed:
         states[clicking.current] = "next"
     return states
+
+
+MOST_NAMED = 4
+"""So many doubtful or missing markers are named one by one."""
+
+
+@dataclass(frozen=True, slots=True)
+class ProposalWords:
+    """State and line above the title, title, what to do, face of the primary button."""
+
+    state: State
+    step: str
+    title: str
+    place: str
+    primary: str
+
+
+def proposal_words(clicking: Clicking) -> ProposalWords:
+    """Which names need a look, and what Enter does."""
+    asked, open_names, doubtful = len(clicking.order), clicking.unnamed, clicking.doubtful
+    named = len(clicking.proposed)
+    primary = tr("Names are right") if not open_names else tr("Take {count} names").format(count=named)
+    if not open_names and not doubtful:
+        whole = tr("All {count} markers found").format(count=asked)
+        todo = tr("Drag a name to another disc to change it.")
+        if clicking.protocol.has_fingers:
+            todo = tr("Each finger’s line runs from the wrist to its tip. Drag a name to another disc to change it.")
+        return ProposalWords("good", whole, tr("Are these names right?"), todo, primary)
+    if doubtful:
+        step = (
+            tr("1 name is doubtful")
+            if len(doubtful) == 1
+            else tr("{count} names are doubtful").format(count=len(doubtful))
+        )
+        todo = tr("Look at: {markers}. Enter says yes; drag a name to another disc to change it.")
+        title = tr("Is this the {marker}?").format(marker=marker_in_words(doubtful[0], say))
+        return ProposalWords("warn", step, title, todo.format(markers=_list(doubtful)), tr("Yes, it is"))
+    step = tr("{named} of {asked} markers found").format(named=asked - len(open_names), asked=asked)
+    todo = tr("Not found: {markers}. Take the other names with Enter, then click these.")
+    return ProposalWords(
+        "warn", step, click_instruction(clicking.current), todo.format(markers=_list(open_names)), primary
+    )
+
+
+def _list(names: tuple[str, ...]) -> str:
+    words = [marker_name(names[0]), *(marker_in_words(name, say) for name in names[1:])]
+    if len(words) > MOST_NAMED:
+        return tr("{markers} and {count} more").format(
+            markers=", ".join(words[:MOST_NAMED]), count=len(words) - MOST_NAMED
+        )
+    return ", ".join(words)
+
+
+class StraightFingers(QWidget):
+    """``changed`` carries the answer, thumb to little: True where the finger lies straight. All do until clicked."""
+
+    changed = Signal(object)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._question = Text(theme, self.tr("Do the fingers lie straight?"), 14, SEMIBOLD)
+        self._said = Text(theme, "", 12, REGULAR, "text2", wrap=True)
+        self.buttons: list[Button] = []
+        grid = QGridLayout()
+        grid.setSpacing(4)
+        for number in range(1, 6):
+            button = Button(theme, finger_name(str(number)), "well", height_px=32)
+            button.setCheckable(True)
+            button.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # the keys 1 to 5 do it; Enter goes on
+            button.clicked.connect(self._clicked)
+            grid.addWidget(button, (number - 1) // 3, (number - 1) % 3)
+            self.buttons.append(button)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(4)
+        column.addWidget(self._question)
+        column.addLayout(grid)
+        column.addWidget(self._said)
+        self.show_answer(ALL_STRAIGHT)
+
+    @property
+    def answer(self) -> tuple[bool, ...]:
+        """Thumb to little, True where the finger lies straight."""
+        return tuple(not button.isChecked() for button in self.buttons)
+
+    def show_answer(self, straight: tuple[bool, ...]) -> None:
+        """Show an answer without telling it."""
+        for number, (button, lies_straight) in enumerate(zip(self.buttons, straight, strict=True), start=1):
+            button.setChecked(not lies_straight)
+            self._name(button, number)
+        self._say()
+
+    def toggle(self, number: int) -> None:
+        """The finger, 1 thumb to 5 little, cannot lie straight, or can after all."""
+        self.buttons[number - 1].click()
+
+    def _clicked(self) -> None:
+        for number, button in enumerate(self.buttons, start=1):
+            self._name(button, number)
+        self._say()
+        self.changed.emit(self.answer)
+
+    def _name(self, button: Button, number: int) -> None:
+        finger = finger_name(str(number))
+        face = self.tr("{finger} bent").format(finger=finger) if button.isChecked() else finger
+        button.set_face(face)
+
+    def _say(self) -> None:
+        bent = self.answer.count(False)
+        self._said.setText(
+            self.tr("Click a finger that cannot lie straight (keys 1 to 5).")
+            if not bent
+            else self.tr("A bent finger is measured from its own rest, and less surely.")
+        )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from carpus.core.calibration.result import Verdict
-from carpus.ui.controls.default_answer import ENTER
+from carpus.ui.controls.button import ENTER
 from carpus.ui.translate import tr
 
 Remedy = Literal["swap", "click_these", "correct", "take_spot", "new_picture"]

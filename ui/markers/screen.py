@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from PySide6.QtCore import QEvent, QObject, Qt, QTimer
-from PySide6.QtGui import QKeyEvent, QResizeEvent
+from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, Qt, QTimer
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.types import ByteImage, FloatArray
@@ -14,16 +14,17 @@ from carpus.core.words import marker_in_words
 from carpus.ui import terms
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.key_caps import KeyCaps
+from carpus.ui.controls.card import KeyCaps
+from carpus.ui.controls.layouts import host_of
 from carpus.ui.controls.text import REGULAR, Text
 from carpus.ui.keys import Keys, bind
 from carpus.ui.markers.clicking import Clicking
 from carpus.ui.markers.guidance import COLUMN_PX, Guidance
-from carpus.ui.markers.last_picture import LastPicture
 from carpus.ui.markers.naming import Naming
 from carpus.ui.markers.picture import MarkerPicture
 from carpus.ui.markers.remedy import Remedy, at_fault, exchanged
 from carpus.ui.markers.start_angle import StartAngleSheet
+from carpus.ui.picture.photo import Photo, label_size
 from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM
 from carpus.ui.ports import Calibrator
 from carpus.ui.theme import MARGIN_PX, Theme
@@ -372,3 +373,49 @@ class MarkersScreen(QWidget):
                 self._refresh()
                 return True
         return False
+
+
+SMALL_PX, LARGE_PX = (158, 138), (420, 335)
+
+
+class LastPicture(Photo):
+    """Lies on the lower left of its host; a click or M makes it large and small."""
+
+    def __init__(self, theme: Theme, host: QWidget) -> None:
+        super().__init__(theme)
+        self.setParent(host)
+        self._large = False
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        host.installEventFilter(self)
+        theme.changed.connect(self._fit)
+        self.hide()
+
+    def show_picture(self, color_rgb: ByteImage | None, day: str) -> None:
+        """Set the picture; without one nothing is shown."""
+        super().show_picture(color_rgb, self.tr("Last time, {day}").format(day=day))
+        self._large = False
+        self._fit()
+
+    def toggle(self) -> None:
+        """Large or small."""
+        self._large = not self._large
+        self._fit()
+
+    def _fit(self) -> None:
+        scale = 1.0 if self._large else min(self._theme.text_scale, host_of(self).width() / 832)
+        width, height = (round(scale * size) for size in (LARGE_PX if self._large else SMALL_PX))
+        width = max(width, round(label_size(self._theme, self._label).width()) + 24)
+        self.setGeometry(13, host_of(self).height() - height - 13, width, height)
+
+    def place(self) -> tuple[QRectF, QPointF]:
+        """The picture above its label."""
+        room = QRectF(self.rect()).adjusted(3, 3, -3, -self._theme.px(23))
+        return room, QPointF(3, self.height() - self._theme.px(22))
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() == QEvent.Type.Resize:
+            self._fit()
+        return False
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        self.toggle()

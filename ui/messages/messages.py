@@ -7,7 +7,8 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, Qt, QTimer, QUrl, Signal
+from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.errors import CameraLost
@@ -15,11 +16,15 @@ from carpus.core.records.interrupted import Recovered
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.words import Words
 from carpus.ui import numbers
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Card
+from carpus.ui.controls.layouts import in_column, in_line
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.fault_words import fault_words
 from carpus.ui.messages.stop_card import Answer, StopCard
-from carpus.ui.messages.strip import NoticeStrip
 from carpus.ui.now_open import practice_name
 from carpus.ui.theme import Theme
+from carpus.ui.translate import tr
 
 log = logging.getLogger(__name__)
 
@@ -171,3 +176,81 @@ class Messages(QObject):
         seconds = round(time.monotonic() - self._lost_since_s)
         if self._shown is not None and self._shown.icon == "unplug":
             self.card.set_waiting(self.tr("Waiting for the camera … {seconds} s").format(seconds=seconds))
+
+
+class NoticeStrip(Card):
+    """``answered`` by the button, ``later`` by the other one or Esc; without words on the button it only tells."""
+
+    answered = Signal()
+    later = Signal()
+
+    def __init__(self, theme: Theme, words: Words, button: str, icon: str = "history", later: str = "") -> None:
+        super().__init__(theme, 0, "soft", "accent")
+        self.words = words
+        texts = in_column(Text(theme, words.happened, 20, SEMIBOLD, wrap=True), gap=4)
+        for line in (words.safe, words.do):
+            if line:
+                texts.addWidget(Text(theme, line, 14, REGULAR, wrap=True))
+        self.button = Button(theme, button, "plain", height_px=40)
+        self.button.setVisible(bool(button))
+        self.later_button = Button(theme, later or self.tr("Later"), "quiet", hint=self.tr("Esc"), height_px=36)
+        buttons = in_column(self.button, (self.later_button, 0, Qt.AlignmentFlag.AlignHCenter), gap=4)
+        row = in_line(
+            (Sign(theme, icon, 24, (26, 32)), 0, Qt.AlignmentFlag.AlignTop),
+            (texts, 1),
+            buttons,
+            gap=20,
+            margins=(24, 14, 18, 12),
+        )
+        row.setAlignment(buttons, Qt.AlignmentFlag.AlignTop)  # a stretch here would pull it open on an empty list
+        self.body.addLayout(row)
+        self.setAccessibleName(" ".join((words.happened, words.safe, words.do)))
+        self.button.clicked.connect(self.answered)
+        self.later_button.clicked.connect(self.later)
+
+
+def put_off_last(screen: QWidget) -> bool:
+    """Answer the last strip that is shown on a screen by Later, as Esc does; whether there was one."""
+    strips = [strip for strip in screen.findChildren(NoticeStrip) if strip.isVisible()]
+    if strips:
+        strips[-1].later.emit()
+    return bool(strips)
+
+
+MOST_NAMES = 3
+"""On the card; a data set has dozens, and each name may need two lines."""
+BREAK = "\u200b"
+"""Where a long name may go on in the next line; it takes no room."""
+
+
+def shown(names: Sequence[str]) -> str:
+    """Names for a card.
+
+    >>> shown(["a", "b"]), shown(list("abcdefgh"))
+    ('a, b', 'a, b, c, …')
+    """
+    listed = [name.replace("_", f"_{BREAK}").replace(".", f"{BREAK}.") for name in names[:MOST_NAMES]]
+    return ", ".join([*listed, *(["…"] if len(names) > MOST_NAMES else [])])
+
+
+def tell_written(tell: Messages, folder: str, names: Sequence[str]) -> None:
+    """Say what went where, and offer to open the folder."""
+    count = len(names)
+    what = tr("1 file was written.") if count == 1 else tr("{count} files were written.")
+    tell.ask(
+        Words(
+            what.format(count=count),
+            tr("Folder: {folder}").format(folder=folder),
+            tr("Files: {names}").format(names=shown(names)),
+        ),
+        (
+            Answer(tr("Open the folder"), lambda: open_folder(folder), "O"),
+            Answer(tr("Go on"), lambda: None),
+        ),
+        icon="download",
+    )
+
+
+def open_folder(folder: str) -> None:
+    """Show a folder in the system's own way."""
+    QDesktopServices.openUrl(QUrl.fromLocalFile(folder))

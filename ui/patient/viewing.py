@@ -5,17 +5,18 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject
-from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QApplication
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
+from PySide6.QtGui import QCloseEvent, QGuiApplication, QScreen
+from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
 
 from carpus.core.records.set_up import SetUp
 from carpus.ui.live.glance import Glance
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.patient.guide import Guide, GuideScene
-from carpus.ui.patient.window import PatientWindow
+from carpus.ui.patient.view import PatientView
+from carpus.ui.theme import Theme
 
-if TYPE_CHECKING:  # what a flow works on is stored
+if TYPE_CHECKING:
     from carpus.ui.flow import ScreenContext
 
 
@@ -120,3 +121,58 @@ class PatientViewing(QObject):
 
     def _closed(self) -> None:
         self._live.set_patient_view(False)
+
+
+STALE_MS = 900
+"""Where nothing was told for so long nothing old is left standing."""
+LEAST_PX = (480, 360)
+
+
+class PatientWindow(QWidget):
+    """Never takes the keyboard: space bar and pedal go on stopping the recording. ``closed`` when it goes."""
+
+    closed = Signal()
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(None, Qt.WindowType.Window | Qt.WindowType.WindowDoesNotAcceptFocus)
+        self.setAttribute(Qt.WidgetAttribute.WA_ShowWithoutActivating)
+        self.setAttribute(Qt.WidgetAttribute.WA_QuitOnClose, False)
+        self.setProperty("stays_when_locked", True)
+        self.setWindowTitle("Carpus")
+        self.setMinimumSize(*LEAST_PX)
+        self.view = PatientView(theme)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.view)
+        self._watch = QTimer(self)
+        self._watch.setSingleShot(True)
+        self._watch.setInterval(STALE_MS)
+        self._watch.timeout.connect(lambda: self.view.show_scene(GuideScene()))
+
+    def open_beside(self, other: QWidget) -> None:
+        """Show on a screen that the other window is not on; on the same one as a window."""
+        own: QScreen | None = other.screen()
+        free = [screen for screen in QGuiApplication.screens() if screen is not own]
+        if free:
+            self.setScreen(free[0])
+            self.setGeometry(free[0].geometry())
+            self.setWindowState(Qt.WindowState.WindowFullScreen)  # showFullScreen would take the keyboard
+        else:
+            self.resize(self.view.sizeHint())
+            self.setWindowState(Qt.WindowState.WindowNoState)
+        self.show()
+
+    def show_running(self, scene: GuideScene) -> None:
+        """A scene that is true only now: without the next one it goes."""
+        self.view.show_scene(scene)
+        self._watch.start()
+
+    def show_standing(self, scene: GuideScene) -> None:
+        """A scene that holds until another one comes."""
+        self._watch.stop()
+        self.view.show_scene(scene)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        self._watch.stop()
+        self.closed.emit()
+        event.accept()

@@ -11,13 +11,10 @@ from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.ui import numbers, terms
-from carpus.ui.controls.button import Button
+from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.column import scroll_area
-from carpus.ui.controls.default_answer import ENTER
-from carpus.ui.controls.layouts import STRETCH, empty, fill, in_column, in_line
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption
-from carpus.ui.controls.tooltip import plain_tooltip
+from carpus.ui.controls.layouts import STRETCH, empty, fill, in_column, in_line, scroll_area
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption, plain_tooltip
 from carpus.ui.figures import figure_of, followed_name
 from carpus.ui.picture.photo import Photo
 from carpus.ui.ports import PatientCard, PatientRow, ResultLine

@@ -13,15 +13,11 @@ from carpus.core.errors import NameUnsuited
 from carpus.core.names import MOST_CHARACTERS, folded, name_of
 from carpus.core.records.values import PatientEntry
 from carpus.ui import numbers, terms
-from carpus.ui.controls.button import Button
-from carpus.ui.controls.column import scroll_area
-from carpus.ui.controls.default_answer import is_enter
+from carpus.ui.controls.button import Button, Tick, is_enter
 from carpus.ui.controls.field import Choices, Labelled
-from carpus.ui.controls.host import host_of
-from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, fill, host_of, in_column, in_line, scroll_area
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
-from carpus.ui.controls.tick import Tick
 from carpus.ui.fault_words import fault_words
 from carpus.ui.ports import PatientStore
 from carpus.ui.theme import Theme

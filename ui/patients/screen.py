@@ -14,9 +14,8 @@ from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import PatientEntry
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Line
+from carpus.ui.controls.card import KeyCaps, Line
 from carpus.ui.controls.field import SearchField
-from carpus.ui.controls.key_caps import KeyCaps
 from carpus.ui.controls.layouts import STRETCH, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text, heading
 from carpus.ui.patients.card import PatientCardView

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QRectF, QSize
-from PySide6.QtGui import QPainter, QResizeEvent, QShowEvent
+from PySide6.QtGui import QPainter, QPaintEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.ui.controls.card import paint_card
+from carpus.ui.plot.style import PlotStyle, screen_style
 from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:
@@ -94,3 +96,23 @@ class PlotCard(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         paint_card(painter, self._theme, QRectF(self.rect()))
         self.paint_ground(painter)
+
+
+class StillPlot(QWidget):
+    """``painted`` paints into the whole of it, in the screen's style; without one nothing is shown."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self._painted: Callable[[QPainter, PlotStyle, QRectF], None] | None = None
+
+    def show_painted(self, painted: Callable[[QPainter, PlotStyle, QRectF], None] | None) -> None:
+        """Show another one."""
+        self._painted = painted
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        if self._painted is not None:
+            painter = QPainter(self)
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            self._painted(painter, screen_style(self._theme), QRectF(self.rect()))

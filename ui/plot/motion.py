@@ -15,9 +15,9 @@ from carpus.core.types import FloatArray
 from carpus.ui import numbers
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.marks import Mark, Name, Scales
-from carpus.ui.plot.planes import AXIS_LETTERS, AXIS_TOKENS
 from carpus.ui.plot.series import LONGEST_STEP_S, Series
 from carpus.ui.plot.session import SessionPlot, Value, row_at
+from carpus.ui.plot.ways import AXIS_LETTERS, AXIS_TOKENS
 from carpus.ui.translate import tr
 
 MotionKind = Literal["place", "zyz"]

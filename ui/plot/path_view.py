@@ -20,9 +20,9 @@ from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.history import History
 from carpus.ui.plot.marks import Mark
-from carpus.ui.plot.planes import ACROSS, ACROSS_SIGN, AXIS_LETTERS, AXIS_TOKENS, UP
 from carpus.ui.plot.polygon import polygon, runs
 from carpus.ui.plot.style import PlotStyle, screen_style
+from carpus.ui.plot.ways import ACROSS, ACROSS_SIGN, AXIS_LETTERS, AXIS_TOKENS, UP
 from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:

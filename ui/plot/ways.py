@@ -18,7 +18,6 @@ from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot.axes import Panel, Scale, crisp
 from carpus.ui.plot.marks import Mark
-from carpus.ui.plot.planes import ACROSS, ACROSS_SIGN, AXIS_LETTERS, AXIS_TOKENS, UP
 from carpus.ui.plot.polygon import polygon, runs
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
@@ -305,3 +304,12 @@ def _paint_bar(painter: QPainter, style: PlotStyle, plot: WayPlot, box: QRectF) 
     painter.setFont(style.label)
     painter.setPen(style.color("text2"))
     painter.drawText(QPointF(left, y - 4 * style.unit), f"{length:.0f}{numbers.NARROW_GAP}mm")
+
+
+UP = (0, 2, 2)
+ACROSS = (1, 0, 1)
+ACROSS_SIGN = (-1.0, 1.0, -1.0)
+"""From above and from the fingers Y of W0 points to the left of the picture, on both hands."""
+AXIS_TOKENS = ("curve_c", "curve_a", "curve_b")
+"""X turns pro/supination, Y flexion, Z deviation: each axis has the colour of its angle."""
+AXIS_LETTERS = ("X", "Y", "Z")

@@ -18,8 +18,7 @@ from carpus.ui.by_hand.change_rows import add_changes
 from carpus.ui.by_hand.names import changes, day_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.column import ScrolledColumn, scroll_area
-from carpus.ui.controls.layouts import STRETCH, empty, fill, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, fill, in_column, in_line, scroll_area
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
 from carpus.ui.keys import Keys, bind, letter_key
 from carpus.ui.plot.course_view import ProgressChart

@@ -9,11 +9,9 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.card import Card, KeyCaps, Line
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.flow import FlowLayout
-from carpus.ui.controls.key_caps import KeyCaps
-from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, FlowLayout, fill, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme

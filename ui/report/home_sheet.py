@@ -10,12 +10,11 @@ from PySide6.QtWidgets import QComboBox, QGridLayout, QLineEdit, QSpinBox, QWidg
 from carpus.core.hand.exercises import Exercise
 from carpus.core.records.values import HomePlan
 from carpus.ui import numbers, terms
-from carpus.ui.controls.button import Button
+from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.field import Choices, Labelled, number_field
 from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
-from carpus.ui.controls.tick import Tick
 from carpus.ui.language import LANGUAGES, spoken
 from carpus.ui.report.home_page import DRAWN, MOST_NOTE, MOST_TASKS, HomeReport, HomeTask
 from carpus.ui.report.session_page import SessionReport

@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QPlainTextEdit, QWidget
 
-from carpus.ui.controls.button import Button
+from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.field import Choices, Labelled
 from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
-from carpus.ui.controls.tick import Tick
 from carpus.ui.language import LANGUAGES, spoken
 from carpus.ui.report.letter_page import MOST_ADDRESS_LINES, address_lines
 from carpus.ui.theme import Theme

@@ -5,16 +5,31 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
+from PySide6.QtGui import QPainter, QPicture
+
+from carpus.ui.fonts import SEMIBOLD
 from carpus.ui.language import speaking
 from carpus.ui.report.beside_page import BesideReport, paint_beside_page
-from carpus.ui.report.comment_page import comment_pages, paint_comment_page
 from carpus.ui.report.framed import paint_framed
 from carpus.ui.report.home_page import HomeReport, paint_home_page
 from carpus.ui.report.letter_page import LetterReport, paint_letter_page
 from carpus.ui.report.motion_page import paint_motion_page
 from carpus.ui.report.page import Page
 from carpus.ui.report.progress_page import ProgressReport, paint_progress_page
-from carpus.ui.report.session_page import SessionReport, paint_session_page, paint_watermark
+from carpus.ui.report.session_page import (
+    COMMENT_LEADING_PT,
+    LOWEST_PT,
+    SessionReport,
+    comment_lines,
+    is_short,
+    paint_comment_lines,
+    paint_head,
+    paint_session_page,
+    paint_watermark,
+    what_words,
+)
+from carpus.ui.terms import LEGAL_SENTENCE
+from carpus.ui.translate import tr
 
 Report = SessionReport | ProgressReport | BesideReport | LetterReport | HomeReport
 
@@ -52,3 +67,29 @@ def _painted(report: Report, number: int, count: int, paint: Callable[[Page], No
     with speaking(report.language):
         paint_framed(page, report.form, number, count, body)
     page.painter.restore()
+
+
+FIRST_PT, LEGAL_PT = 118.0, 40.0
+LINES_ON_A_PAGE = int((LOWEST_PT - LEGAL_PT - FIRST_PT) / COMMENT_LEADING_PT)
+
+
+def comment_pages(report: SessionReport) -> list[list[str]]:
+    """The lines of each page; none where the comment has room on the first page of the report."""
+    if not report.comment.strip():
+        return []
+    nowhere = QPicture()
+    painter = QPainter(nowhere)
+    try:
+        page = Page(painter, 1.0)
+        lines = [] if is_short(page, report.comment) else comment_lines(page, report.comment)
+    finally:
+        painter.end()
+    return [lines[start : start + LINES_ON_A_PAGE] for start in range(0, len(lines), LINES_ON_A_PAGE)]
+
+
+def paint_comment_page(page: Page, report: SessionReport, lines: list[str]) -> None:
+    """One page of the comment."""
+    y = paint_head(page, tr("Session report"), report.pseudonym, what_words(report))
+    page.title(tr("Comment of the therapist"), y + 18)
+    paint_comment_lines(page, lines, FIRST_PT)
+    page.said(LEGAL_SENTENCE, LOWEST_PT - 30, 8.0, SEMIBOLD)

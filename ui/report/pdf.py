@@ -8,10 +8,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QSizeF
-from PySide6.QtGui import QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter
+from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, QRectF, QSizeF, Qt
+from PySide6.QtGui import QColor, QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
 
-from carpus.core.calibration.camera.sheet import PrintedSheet
+from carpus.core.calibration.camera.sheet import Disc, PrintedSheet, SheetBox, SheetLine, SheetText
 from carpus.core.durable import private
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
 from carpus.core.measures.by_hand import HandValue, of_session
@@ -24,13 +24,13 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.report_form import PAPER_PT, ReportForm
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session
-from carpus.ui.fonts import load_fonts
+from carpus.ui.fonts import REGULAR, SEMIBOLD, load_fonts
 from carpus.ui.report.hand_rows import followed_keys, followed_kinds
 from carpus.ui.report.page import Page
 from carpus.ui.report.pages import Report, pages_of
 from carpus.ui.report.progress_page import ProgressReport
 from carpus.ui.report.session_page import SessionReport
-from carpus.ui.report.sheet_page import paint_sheet
+from carpus.ui.translate import say
 
 TITLE = "Carpus report"
 """What a viewer writes above its window and a mail program into its list: nobody's name."""
@@ -211,3 +211,35 @@ def _store(path: Path, content: bytes) -> None:
             path.unlink(missing_ok=True)
             raise DiskFull(path, str(cause.strerror)) from cause
         raise OutputNotWritable(path, str(cause.strerror)) from cause
+
+
+POINTS_PER_MM = 72.0 / 25.4
+_LINE_PT = 0.5
+
+
+def paint_sheet(page: Page, sheet: PrintedSheet) -> None:
+    """All marks of a sheet, edges as sharp as the printer has them."""
+    painter, mm = page.painter, page.point * POINTS_PER_MM
+    # Half-covered edge pixels would make two squares that meet at a corner leak into each other.
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+    for mark in sheet.marks:
+        if isinstance(mark, SheetBox):
+            box = QRectF(mark.left_mm * mm, mark.top_mm * mm, mark.width_mm * mm, mark.height_mm * mm)
+            painter.fillRect(box, QColor(mark.color))
+        elif isinstance(mark, Disc):
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(mark.color))
+            radius = mark.radius_mm * mm
+            painter.drawEllipse(QPointF(mark.x_mm * mm, mark.y_mm * mm), radius, radius)
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+        elif isinstance(mark, SheetLine):
+            style = Qt.PenStyle.DashLine if mark.dashed else Qt.PenStyle.SolidLine
+            painter.setPen(QPen(QColor("#000000"), _LINE_PT * page.point, style))
+            ends = [QPointF(x * mm, y * mm) for x, y in (mark.from_mm, mark.to_mm)]
+            painter.drawLine(*ends)
+        elif isinstance(mark, SheetText):
+            place = mark.x_mm * POINTS_PER_MM, mark.y_mm * POINTS_PER_MM
+            weight, words = SEMIBOLD if mark.bold else REGULAR, say(mark.text)
+            room = (sheet.width_mm - mark.x_mm) * POINTS_PER_MM - 12.0
+            size = mark.size_pt * min(1.0, room / max(page.width_of(words, mark.size_pt, weight), 1.0))
+            page.text(words, *place, size, weight)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt, QUrl, Signal
-from PySide6.QtGui import QColor, QDesktopServices, QPainter, QPixmap
-from PySide6.QtPrintSupport import QPrintDialog
+from PySide6.QtCore import QMarginsF, QSize, Qt, QUrl, Signal
+from PySide6.QtGui import QColor, QDesktopServices, QPageLayout, QPageSize, QPainter, QPixmap
+from PySide6.QtPrintSupport import QPrintDialog, QPrinter
 from PySide6.QtWidgets import QFileDialog, QLabel, QScrollArea, QSizePolicy, QWidget
 
 from carpus.core.durable import replace_file
@@ -15,8 +15,7 @@ from carpus.core.results.report_form import PAPER_PT, ReportForm
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.column import RING_PX, scrolled
-from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
+from carpus.ui.controls.layouts import RING_PX, STRETCH, fill, in_column, in_line, scrolled
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.keys import Keys, bind
 from carpus.ui.report.beside_page import BesideReport
@@ -25,7 +24,6 @@ from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import Page
 from carpus.ui.report.pages import Report, pages_of
 from carpus.ui.report.panel import ReportPanel
-from carpus.ui.report.paper import print_on, printer_for
 from carpus.ui.report.pdf import write_report
 from carpus.ui.report.progress_page import ProgressReport
 from carpus.ui.report.session_page import SessionReport
@@ -314,3 +312,42 @@ class PagePreview(QWidget):
         painter.drawRect(0, 0, size.width() - 1, size.height() - 1)
         painter.end()
         return picture
+
+
+POINTS_PER_INCH = 72.0
+SIZES = {"a4": QPageSize.PageSizeId.A4, "letter": QPageSize.PageSizeId.Letter}
+NAME = "Carpus report"
+"""What a printer's list of jobs shows: nobody's name."""
+
+
+def printer_for(report: Report) -> QPrinter:
+    """The usual printer, set to the paper of the report."""
+    printer = QPrinter(QPrinter.PrinterMode.HighResolution)
+    size = QPageSize(SIZES[report.form.paper])
+    printer.setPageLayout(QPageLayout(size, QPageLayout.Orientation.Portrait, QMarginsF(0, 0, 0, 0)))
+    printer.setFullPage(True)
+    printer.setDocName(NAME)
+    pages = len(pages_of(report))
+    printer.setFromTo(1, pages)
+    return printer
+
+
+def print_on(printer: QPrinter, report: Report) -> None:
+    """Print the pages that were asked for, smaller where the printer has other paper than the report."""
+    first = max(printer.fromPage(), 1)
+    last = printer.toPage() or len(pages_of(report))
+    printer.setFullPage(True)
+    there = printer.pageLayout().pageSize().size(QPageSize.Unit.Point)
+    width, height = PAPER_PT[report.form.paper]
+    share = min(1.0, there.width() / (width - 1.0), there.height() / (height - 1.0))
+    painter = QPainter()
+    if not painter.begin(printer):
+        return
+    try:
+        for number, paint in enumerate(pages_of(report)[first - 1 : last]):
+            if number:
+                printer.newPage()
+            point = printer.resolution() / POINTS_PER_INCH
+            paint(Page(painter, point * share))
+    finally:
+        painter.end()

@@ -13,8 +13,7 @@ from carpus.core.measures.change import DEFAULT_LIMITS, FEWEST_PEOPLE, ErrorLimi
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.column import ScrolledColumn, scroll_area
-from carpus.ui.controls.layouts import STRETCH, empty, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, in_column, in_line, scroll_area
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind
 from carpus.ui.retest.words import (

@@ -10,8 +10,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import STRETCH, in_line
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Text
-from carpus.ui.controls.tooltip import plain_tooltip
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Text, plain_tooltip
 from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.tables import repetition_words
 from carpus.ui.report.words import corrected_words

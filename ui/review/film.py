@@ -14,12 +14,11 @@ from carpus.core.hand.exercises import Exercise
 from carpus.core.results.hand_cutout import DrawnAngle, box_of, cut_out, drawn_angle
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage
-from carpus.ui.controls.button import Button
+from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
-from carpus.ui.controls.tick import Tick
 from carpus.ui.picture.convert import image_of
 from carpus.ui.picture.overlay import ToScreen, haloed
 from carpus.ui.picture.photo import paint_label

@@ -9,8 +9,7 @@ from PySide6.QtWidgets import QComboBox
 
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Card
-from carpus.ui.controls.key_caps import KeyCaps
+from carpus.ui.controls.card import Card, KeyCaps
 from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.text import MEDIUM, Text
 from carpus.ui.playback.playing import Playing

@@ -11,8 +11,7 @@ from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import other_hand_of, previous_of
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.column import ScrolledColumn
-from carpus.ui.controls.layouts import empty, in_column, in_line
+from carpus.ui.controls.layouts import ScrolledColumn, empty, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
 from carpus.ui.controls.words_table import WordsTable
 from carpus.ui.ports import StoredResult

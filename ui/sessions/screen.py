@@ -12,11 +12,9 @@ from carpus.core.hand.exercises import exercise_named, exercises_of
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background
-from carpus.ui.controls.button import Button
+from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.column import scroll_area
-from carpus.ui.controls.default_answer import ENTER
-from carpus.ui.controls.layouts import in_column, in_line
+from carpus.ui.controls.layouts import in_column, in_line, scroll_area
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.keys import Keys, bind
 from carpus.ui.sessions.listing import SessionLine, SessionList, remark

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from PySide6.QtWidgets import QDialog, QPlainTextEdit, QWidget
+
 from carpus.core.about import licence_texts, newest_version
 from carpus.core.measures.change import ErrorLimits
 from carpus.ui.background import Background
+from carpus.ui.controls.layouts import in_column
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.ports import Preferences
-from carpus.ui.settings.licences import LicencesWindow
 from carpus.ui.settings.screen import PartName, SettingsScreen
+from carpus.ui.theme import MARGIN_PX, Theme
 
 
 class SettingsFlow(Flow):
@@ -42,3 +45,16 @@ class SettingsFlow(Flow):
                 lambda _: screen.show_newest(folder, None),
                 screen,
             )
+
+
+class LicencesWindow(QDialog):
+    """A window of its own with a long text; Esc closes it."""
+
+    def __init__(self, parent: QWidget, theme: Theme, text: str) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Parts and their licences"))
+        self.text = QPlainTextEdit(text)
+        self.text.setReadOnly(True)
+        self.text.setAccessibleName(self.windowTitle())
+        in_column(self.text, margins=(MARGIN_PX, MARGIN_PX, MARGIN_PX, MARGIN_PX), within=self)
+        self.resize(theme.px(860), theme.px(600))

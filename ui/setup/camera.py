@@ -9,9 +9,8 @@ from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QProgressBar, QVBoxLayou
 
 from carpus.core.hand.exercises import Exercise
 from carpus.core.records.set_up import SetUp
-from carpus.ui.controls.button import Button
+from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.default_answer import ENTER
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.setup.choice import SourceChoice, SourceKind
 from carpus.ui.setup.option import Options

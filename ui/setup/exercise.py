@@ -18,15 +18,13 @@ from carpus.core.results.figures import SessionFigures
 from carpus.core.results.goals import GoalProposal, Goals, proposals
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
-from carpus.ui.controls.button import Button
+from carpus.ui.controls.button import ENTER, Button, is_enter, press
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.column import scrolled
-from carpus.ui.controls.default_answer import ENTER, is_enter, press
 from carpus.ui.controls.field import Choices, DegreesField, Labelled, number_field
+from carpus.ui.controls.layouts import scrolled
 from carpus.ui.controls.text import SEMIBOLD, Text, caption, heading
 from carpus.ui.figures import figure_of
 from carpus.ui.ports import PatientRow
-from carpus.ui.setup.goal_words import proposal_words
 from carpus.ui.setup.option import Options
 from carpus.ui.setup.set_words import set_words
 from carpus.ui.theme import MARGIN_PX, Theme
@@ -375,3 +373,29 @@ def _set_id(set_id: str) -> str:
 
 def _lower(words: str) -> str:
     return inside(words)
+
+
+def proposal_words(exercise: Exercise, proposed: Sequence[GoalProposal]) -> str:
+    """``Proposed from the last 3 sessions: flexion 42° (mean 37°; a gain can be told from 47°).``"""
+    if not proposed:
+        return ""
+    parts = [
+        tr("{movement} {goal} (mean {mean}; a gain can be told from {told})")
+        .format(
+            movement=_name(exercise, one),
+            goal=numbers.degrees(one.goal_deg),
+            mean=numbers.degrees(one.basis_deg),
+            told=numbers.degrees(one.told_from_deg),
+        )
+        .strip()
+        for one in proposed
+    ]
+    sessions = max(one.sessions for one in proposed)
+    head = tr("Proposed from the last session:") if sessions == 1 else tr("Proposed from the last {count} sessions:")
+    return f"{head.format(count=sessions)} {', '.join(parts)}."
+
+
+def _name(exercise: Exercise, one: GoalProposal) -> str:
+    if exercise.angle is None:
+        return ""
+    return inside(terms.movement_name(SIDES[exercise.angle][0 if one.direction > 0 else 1]))

@@ -23,8 +23,8 @@ from carpus.core.records.exercise_sets import (
 from carpus.core.records.set_up import CoursePart
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.column import scrolled
 from carpus.ui.controls.field import Labelled, number_field
+from carpus.ui.controls.layouts import scrolled
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text, caption
 from carpus.ui.theme import Theme

@@ -12,8 +12,7 @@ from PySide6.QtWidgets import QHBoxLayout, QWidget
 from carpus.core.purpose import PURPOSE
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.column import scrolled
-from carpus.ui.controls.layouts import STRETCH, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, in_column, in_line, scrolled
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
