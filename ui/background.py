@@ -69,7 +69,6 @@ class Background(QObject):
 
     @property
     def busy(self) -> bool:
-        """Whether an answer is still awaited."""
         return bool(self._answers)
 
     def wait(self, timeout_ms: int = 60_000) -> bool:

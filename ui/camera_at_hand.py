@@ -164,15 +164,12 @@ class AtCameraFlow(Flow):
 
     @property
     def is_at_work(self) -> bool:
-        """Whether a camera is open."""
         return self.hand.is_open
 
     def begin(self) -> None:
-        """Open the camera and look."""
         raise NotImplementedError
 
     def back(self) -> None:
-        """From the camera to where it is chosen."""
         raise NotImplementedError
 
     def leave(self) -> None:
@@ -182,11 +179,9 @@ class AtCameraFlow(Flow):
         self.hand.close()
 
     def close(self) -> None:
-        """Wait until it is let go."""
         self.hand.wait()
 
     def sign_lines(self) -> list[str]:
-        """That it is simulated."""
         simulated = self.screen.shows_simulated
         return [self.tr("Simulated camera: nothing here is of a real one.")] if simulated else []
 
@@ -195,7 +190,6 @@ class AtCameraFlow(Flow):
         self.context.messages.fault(fault)
 
     def _meet(self, session: LiveSession) -> None:
-        """A camera is open: go on, or ask first."""
         info = session.info
         self._kind, self._now = info.name, info.serial
         if not info.is_nameless or (self._now and self._now == self._said):

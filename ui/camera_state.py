@@ -77,7 +77,6 @@ class CameraState(QObject):
         self._timer.timeout.connect(self.look)
 
     def start(self) -> None:
-        """Look now, and go on looking."""
         self._timer.start()
         self.look()
         self.read()
@@ -88,11 +87,9 @@ class CameraState(QObject):
         show()
 
     def stop(self) -> None:
-        """Look no more."""
         self._timer.stop()
 
     def look(self) -> None:
-        """Look once whether one is there."""
         name = "" if self._is_demo else self._cameras.name()
         self.there, self.name = name is not None, name or ""
         self.looked.emit()

@@ -48,7 +48,6 @@ class Figure:
 
     @property
     def token(self) -> str:
-        """Colour of its curve."""
         return TOKENS[self.row]
 
     @property
@@ -58,7 +57,6 @@ class Figure:
 
     @property
     def range_deg(self) -> tuple[float, float]:
-        """Ends of the gauge."""
         if self.row == "spread":
             return -30.0, 30.0
         if self.is_lift:

@@ -193,7 +193,6 @@ class Place(Generic[F]):
         return cast("F", owner.way.flow(self._place))
 
     def make(self, context: ScreenContext) -> F:
-        """A new one."""
         made: F = getattr(import_module(self.module), self._class)(context)
         return made
 

@@ -30,7 +30,6 @@ class LastPlaces:
         return str(Path.home())
 
     def keep(self, kind: Kind, folder: str) -> None:
-        """Remember a folder."""
         self._keep(kind, folder)
 
     def ask_where_to_save(self, window: QWidget, kind: Kind, name: str, title: str, kinds: str) -> Path | None:
@@ -47,7 +46,6 @@ class LastPlaces:
         return self._kept("window")
 
     def keep_window(self, place: str) -> None:
-        """Remember the window's place."""
         self._keep("window", place)
 
     def _keep(self, name: str, value: str) -> None:

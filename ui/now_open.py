@@ -46,12 +46,10 @@ class NowOpen:
 
     @property
     def kind(self) -> SourceKind:
-        """Kind of the source last asked for."""
         return self.choice.kind
 
     @property
     def is_practice(self) -> bool:
-        """Whether the practice patient is open."""
         return self.patient is not None and self.patient.patient_id == PRACTICE_PATIENT
 
     @property

@@ -47,7 +47,6 @@ class PatientRow:
 
     @classmethod
     def of(cls, record: PatientRecord) -> PatientRow:
-        """As the store has them."""
         entry = record.entry
         return cls(
             record.patient_id, entry.pseudonym, entry.side, entry.dominance, record.last_exercise, record.last_session,

@@ -183,7 +183,6 @@ class AmberLine(Surface):
         return self._words.text()
 
     def show_lines(self, lines: Sequence[str]) -> None:
-        """Say these sentences, or hide."""
         words = " ".join(lines)
         self._words.setText(words)
         self.setAccessibleName(words)

@@ -147,17 +147,14 @@ class TopBar(Surface):
             button.clicked.connect(lambda _=False, number=number: self.step.emit(number))
 
     def show_tabs(self, names: Sequence[str], current: int) -> None:
-        """The views of an open patient."""
         self._show_way([WayButton(self._theme, name, number, current, False) for number, name in enumerate(names)])
         for number, button in enumerate(self._way):
             button.clicked.connect(lambda _=False, number=number: self.tab.emit(number))
 
     def show_nothing(self) -> None:
-        """Neither steps nor tabs."""
         self._show_way([])
 
     def way(self) -> list[WayButton]:
-        """The steps or tabs shown."""
         return self._way
 
     def _show_way(self, buttons: list[WayButton]) -> None:
@@ -172,7 +169,6 @@ class TopBar(Surface):
         self._fit()
 
     def show_recording(self, recording: bool) -> None:
-        """The red line that is seen from afar."""
         self._under.set_colors("band_bad" if recording else "surface")
 
     def lock_aside(self, locked: bool) -> None:
@@ -201,7 +197,6 @@ class WayButton(Button):
 
     @property
     def is_current(self) -> bool:
-        """Whether this is where the person is."""
         return self._number == self._current
 
     def _face(self) -> QFont:
@@ -269,13 +264,11 @@ class AgainButton(Button):
         self.resized.emit()
 
     def shorten(self, short: bool) -> None:
-        """Say it in short, or in words again."""
         if short != self._short:
             self._short = short
             self._show()
 
     def width_px(self, *, short: bool) -> int:
-        """Room for it."""
         face = QFontMetricsF(font(14 * self._theme.text_scale, SEMIBOLD))
         text = self._in_short if short else self.words
         return round(face.horizontalAdvance(text)) + self._theme.px(18) + 8 + 2 * 16
@@ -336,7 +329,6 @@ class RecordingPill(Surface):
         self.hide()
 
     def show_state(self, state: PillState, seconds: float) -> None:
-        """Set state and recorded time."""
         pattern = self.tr("Recording {time}") if state == "recording" else self.tr("Paused at {time}")
         text = pattern.format(time=numbers.clock(seconds)) if state != "off" else ""
         if (state, text) != (self.state, self._words.text()):

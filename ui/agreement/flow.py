@@ -65,7 +65,6 @@ class AgreementFlow(Flow):
 
     @property
     def is_at_work(self) -> bool:
-        """Whether something runs that ends with the window."""
         return self._background.busy
 
     def show(self, session_id: str) -> None:
@@ -79,15 +78,12 @@ class AgreementFlow(Flow):
             self._ask()
 
     def up(self) -> None:
-        """To the session."""
         self.to_session()
 
     def leave(self) -> None:
-        """The screen is left: what runs is given up."""
         self._stop.set()
 
     def close(self) -> None:
-        """The window closes."""
         self._stop.set()
         self._background.wait()
 

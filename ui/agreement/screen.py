@@ -25,11 +25,11 @@ from carpus.ui.agreement.words import (
     tenths,
 )
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.card import Card, Line, named_by_color
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, fill, in_column, in_line, scroll_area
 from carpus.ui.controls.progress_bar import ThinBar
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, heading, named_by_color
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, heading
 from carpus.ui.icons import State
 from carpus.ui.keys import Keys, bind
 from carpus.ui.plot.agreement import AgreementPlot, View
@@ -159,7 +159,6 @@ class AgreementScreen(QWidget):
         self.columns_button.setVisible(may_map)
 
     def running(self, name: str) -> None:
-        """A comparison has begun."""
         self._compared = None
         self.facts.setText(name)
         self.answer.setText(self.tr("Comparing with {name}…").format(name=name))
@@ -192,14 +191,12 @@ class AgreementScreen(QWidget):
         self._show_plot()
 
     def first(self) -> QWidget:
-        """What takes the keyboard."""
         if self._compared is not None:
             return self.angle
         return self.stop_button if self._work.isVisibleTo(self) else self.other_button
 
     @property
     def compared(self) -> Compared | None:
-        """What is shown."""
         return self._compared
 
     @property
@@ -285,7 +282,6 @@ class AgreementTable(QWidget):
             self._grid.setColumnStretch(column, stretch)
 
     def show_compared(self, compared: Compared, limit_deg: float) -> None:
-        """Replace all rows."""
         empty(self._grid)
         heads = (
             self.tr("Angle"), self.tr("Mean difference"), self.tr("Limits of agreement"), self.tr("RMSE"),

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QGridLayout, QWidget
 
 from carpus.ui.beside.shown import Shown, Watched, kinds
-from carpus.ui.beside.words import other_hand_words
+from carpus.ui.beside.words import BesideRow, other_hand_words
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.card import Card, Line, named_by_color
 from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, in_column, in_line, scroll_area
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, named_by_color, plain_tooltip
-from carpus.ui.icons import State
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, plain_tooltip
 from carpus.ui.keys import Keys
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import limit_words
@@ -63,7 +61,6 @@ class DifferencesCard(Card):
         self.setMaximumHeight(max(needed, self._theme.px(70)) + around + 4 if shown else NO_LIMIT_PX)
 
     def clear(self) -> None:
-        """While others are read."""
         self.table.show_rows((), ())
         self._facts.setText("")
         self._limits.setText("")
@@ -88,7 +85,6 @@ class DifferencesCard(Card):
         self.followed.setVisible(bool(found))
 
     def show_differences(self, now: Shown) -> None:
-        """The table, and what it rests on."""
         self._facts.setText(now.facts)
         self._facts.setToolTip(plain_tooltip(now.facts))
         self.table.show_rows(now.heads, now.rows)
@@ -118,7 +114,6 @@ class BesideTable(QWidget):
             self._grid.setColumnStretch(column, stretch)
 
     def show_rows(self, heads: Sequence[str], rows: Sequence[BesideRow]) -> None:
-        """Replace all rows."""
         empty(self._grid)
         self.rows = tuple(rows)
         for column, head in enumerate(heads):
@@ -157,20 +152,3 @@ class _Said(QWidget):
         )
         strong = SEMIBOLD if row.strong else REGULAR
         line.addWidget(Text(theme, row.words, 14, strong, "text" if row.strong else "text2", wrap=True), 1)
-
-
-@dataclass(frozen=True, slots=True)
-class BesideRow:
-    """Movement, both figures, their difference, the error it must exceed, and what may be said; ``strong`` where the
-    difference is beyond error."""
-
-    movement: str
-    first: str
-    second: str
-    difference: str
-    error: str
-    words: str
-    verdict: str
-    token: str = ""
-    state: State = "none"
-    strong: bool = False

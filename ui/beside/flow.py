@@ -49,7 +49,6 @@ class BesideFlow(Flow):
         self.context.way.go("beside")
 
     def up(self) -> None:
-        """Where one came from."""
         patient = self.context.now.patient
         if self.back_to == "review" or patient is None:
             self.to_session()
@@ -57,16 +56,13 @@ class BesideFlow(Flow):
             self.context.way.show("sessions", patient.patient_id)
 
     def leave(self) -> None:
-        """Another screen is shown."""
         self.screen.playing.stop()
 
     def close(self) -> None:
-        """The window closes."""
         self.screen.playing.stop()
         self._background.wait()
 
     def sign_lines(self) -> list[str]:
-        """Which of the two is simulated."""
         shown = self.screen.shown
         both = None if shown is None or self.context.now.is_practice else shown.both
         simulated = both is not None and (both.first.simulated or both.second.simulated)

@@ -46,7 +46,6 @@ class MeanCard(Card):
 
     @property
     def quantity(self) -> Quantity:
-        """The angle whose curves are shown."""
         assert self._shown is not None
         return self._shown.quantities[max(self._quantities.currentIndex(), 0)]
 
@@ -82,7 +81,6 @@ class MeanCurves(StillPlot):
         theme.changed.connect(self.update)
 
     def show_plot(self, plot: BesidePlot | None) -> None:
-        """Draw another one."""
         self.plot = plot
         self.show_painted(None if plot is None else plot.paint)
 

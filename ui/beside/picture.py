@@ -32,7 +32,6 @@ class BesidePicture(SessionPicture):
 
     @property
     def mirrored(self) -> bool:
-        """Whether left and right are exchanged."""
         return self._mirrored
 
     def open(self, session: Session | None, words: str = "") -> None:
@@ -42,14 +41,12 @@ class BesidePicture(SessionPicture):
         self._look_at_hand()
 
     def set_mirrored(self, mirrored: bool) -> None:
-        """Exchange left and right, or not."""
         if mirrored != self._mirrored:
             self._mirrored = mirrored
             self._look_at_hand()
             self._show()
 
     def show_words(self, name: str, repetition: str, value: str) -> None:
-        """What stands in the corners."""
         if (name, repetition, value) != (self.name, self.repetition, self.value):
             self.name, self.repetition, self.value = name, repetition, value
             self.setAccessibleDescription(" · ".join(part for part in (name, repetition, value) if part))
@@ -75,7 +72,6 @@ class BesidePicture(SessionPicture):
         self.set_hand_area(self._turned(self.session.calibration.clicks.pixel, self.session), room)
 
     def _turned(self, pixel: FloatArray, session: Session) -> FloatArray:
-        """Pixels (..., 2) as they are shown."""
         if not self._mirrored:
             return pixel
         out = pixel.copy()

@@ -60,12 +60,10 @@ class BesidePlayer(Card):
         return grid
 
     def show_tight(self, tight: bool) -> None:
-        """Large text: fewer words."""
         for shown in (self._hints, self._step_name):
             shown.setVisible(not tight)
 
     def show_names(self, names: Sequence[str]) -> None:
-        """What tells the two apart."""
         for line, name in enumerate(names):
             self._names[line].setText(name)
             self.tracks[line].setAccessibleName(self.tr("Time in the session: {name}").format(name=name))
@@ -74,7 +72,6 @@ class BesidePlayer(Card):
         self, times_s: Sequence[float], currents: Sequence[int], ends_s: Sequence[float],
         repetitions: Sequence[Sequence[ShownRepetition]],
     ) -> None:  # fmt: skip
-        """Where both are."""
         for line, track in enumerate(self.tracks):
             self._times[line].setText(numbers.clock_tenths(times_s[line]))
             track.show_session(max(ends_s[line], 1e-3), repetitions[line], currents[line])

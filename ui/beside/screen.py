@@ -260,7 +260,6 @@ class BesideScreen(QWidget):
         self.playing.seek((starts[0] if starts else 0.0) if at_start else now.step.when_first(at_s))
 
     def _seek_in(self, place: int, time_s: float) -> None:
-        """One of the two was put on a time."""
         if self.together is not None:
             step = self.together.step
             self.playing.seek(step.when_second(time_s) if place else step.when_first(time_s))
@@ -271,7 +270,6 @@ class BesideScreen(QWidget):
             self.playing.seek(self.together.at_share(self.playing.time_s, share))
 
     def step(self, pictures: int) -> None:
-        """Go some pictures on or back."""
         if self.together is not None:
             self.playing.seek(self.playing.time_s + pictures * self.together.period_s())
 

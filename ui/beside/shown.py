@@ -16,8 +16,7 @@ from carpus.core.results.seen import best_motion
 from carpus.core.results.side_by_side import SideBySide, side_by_side
 from carpus.core.session.values import Session
 from carpus.ui import numbers, terms
-from carpus.ui.beside.differences import BesideRow
-from carpus.ui.beside.words import facts_words, headline, heads, middle_words, name_of, table_rows
+from carpus.ui.beside.words import BesideRow, facts_words, headline, heads, middle_words, name_of, table_rows
 from carpus.ui.figures import FINGERS, Figure, figure_of, with_side
 from carpus.ui.plot.beside import BesidePlot
 from carpus.ui.report.hand_rows import compared_row, followed_keys, followed_kinds, trains_thumb
@@ -37,7 +36,6 @@ class Watched:
 
     @classmethod
     def of(cls, session: Session, figures: SessionFigures) -> Watched:
-        """Work out what was seen."""
         return cls(session, figures, seen_angles(session))
 
 
@@ -53,37 +51,30 @@ class Shown:
 
     @property
     def names(self) -> tuple[str, str]:
-        """What tells the two apart."""
         first, second = self.both.first, self.both.second
         return name_of(first, second), name_of(second, first)
 
     @property
     def head(self) -> tuple[str, str]:
-        """The answer, and the figures behind it."""
         return headline(self.both)
 
     @property
     def facts(self) -> str:
-        """What was compared."""
         return facts_words(self.both)
 
     @property
     def heads(self) -> tuple[str, ...]:
-        """Heads of the table."""
         return heads(self.both)
 
     @property
     def rows(self) -> list[BesideRow]:
-        """The table."""
         return table_rows(self.both, whole_hand=bool(self.followed))
 
     def plot(self, quantity: Quantity) -> BesidePlot:
-        """The curves of one of the quantities."""
         return BesidePlot(quantity, *self.means[self.quantities.index(quantity)], self.names)
 
     @property
     def main_quantity(self) -> Quantity:
-        """The curve that belongs to the answer."""
         main = self.both.main
         if main is not None and main.first.joint and (main.first.joint, -1) in self.quantities:
             return main.first.joint, -1

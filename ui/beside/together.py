@@ -25,18 +25,15 @@ class Together:
 
     @classmethod
     def of(cls, watched: tuple[Watched, Watched], step: Step) -> Together:
-        """Kept in step one way."""
         one, other = watched
         return cls(watched, in_step(one.figures.repetitions, other.figures.repetitions, ends_s(watched), step))
 
     @property
     def repetitions(self) -> tuple[tuple[ShownRepetition, ...], tuple[ShownRepetition, ...]]:
-        """Of both."""
         one, other = self.watched
         return one.figures.repetitions, other.figures.repetitions
 
     def row(self, place: int, time_s: float) -> int:
-        """The row that one of the two is at."""
         return row_at(self.watched[place].seen.time_s, self.step.at(time_s)[place])
 
     def current(self, place: int, time_s: float) -> int:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from carpus.core.hand.exercises import SIDES
 from carpus.core.hand.sites import WRIST_ANGLES
@@ -13,7 +14,6 @@ from carpus.core.results.progress import Progress, ProgressPoint
 from carpus.core.results.ranges import RangeRow, is_total
 from carpus.core.results.side_by_side import ComparedRange, SideBySide
 from carpus.ui import numbers, terms
-from carpus.ui.beside.differences import BesideRow
 from carpus.ui.figures import figure_of
 from carpus.ui.icons import State
 from carpus.ui.plot.style import CURVE_TOKENS
@@ -23,6 +23,23 @@ from carpus.ui.report.hand_rows import AT_LEAST
 from carpus.ui.report.tables import is_deficit, mean_words, repetition_words, too_slow, turned
 from carpus.ui.translate import tr
 from carpus.ui.verdicts import difference, no_change_words, reason_words
+
+
+@dataclass(frozen=True, slots=True)
+class BesideRow:
+    """Movement, both figures, their difference, the error it must exceed, and what may be said; ``strong`` where the
+    difference is beyond error."""
+
+    movement: str
+    first: str
+    second: str
+    difference: str
+    error: str
+    words: str
+    verdict: str
+    token: str = ""
+    state: State = "none"
+    strong: bool = False
 
 
 def name_of(figures: SessionFigures, other: SessionFigures) -> str:

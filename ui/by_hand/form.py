@@ -66,7 +66,6 @@ class MeasureRow(QObject):
         self._of_carpus: RangeRow | None = None
 
     def place(self, theme: Theme, grid: QGridLayout, line: int) -> None:
-        """Into a line of the form."""
         grid.addWidget(self.name, line, 0)
         for number, (_, field) in enumerate(self.fields):
             grid.addWidget(field, line, 1 + number)
@@ -79,7 +78,6 @@ class MeasureRow(QObject):
         grid.addWidget(self.last, line, LAST, Qt.AlignmentFlag.AlignRight)
 
     def keys(self, side: Side) -> list[Key]:
-        """What its fields are values of."""
         return [(self.measure.id, way, side if self.measure.of_hand else "") for way in self.measure.ways]
 
     def show(self, values: Sequence[HandValue], side: Side, day: date, of_carpus: RangeRow | None) -> None:
@@ -238,16 +236,13 @@ class HandForm(QWidget):
     def show_values(
         self, values: Sequence[HandValue], side: Side, day: date, of_carpus: Mapping[str, RangeRow]
     ) -> None:
-        """What is stored of a day and a hand."""
         for name, row in self.rows.items():
             row.show(values, side, day, of_carpus.get(name))
 
     def first(self) -> QWidget:
-        """Where the keyboard begins."""
         return next(iter(self.rows.values())).fields[0][1]
 
     def problems(self) -> list[tuple[ValueField, str]]:
-        """Fields that cannot be kept, and why."""
         return [(f, f.problem) for row in self.rows.values() for _, f in row.fields if f.problem]
 
     def doubts(self) -> list[str]:
@@ -299,7 +294,6 @@ class ValueField(QLineEdit):
 
     @property
     def is_empty(self) -> bool:
-        """Whether nothing is written."""
         return not self.text().strip()
 
     @property

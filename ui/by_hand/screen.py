@@ -126,12 +126,10 @@ class ByHandScreen(QWidget):
     # --- what is shown ------------------------------------------------------------------------------------
     @property
     def side(self) -> Side:
-        """The hand that is entered."""
         return "left" if self.hand.value() == "left" else "right"
 
     @property
     def day_shown(self) -> date:
-        """The day that is entered."""
         return date(self.day.date().year(), self.day.date().month(), self.day.date().day())
 
     @property
@@ -163,7 +161,6 @@ class ByHandScreen(QWidget):
         self._fill()
 
     def _choose(self, side: Side, day: date) -> None:
-        """Set day and hand without their signals."""
         for widget in (self.day, self.hand):
             widget.blockSignals(True)
         self.day.setDate(QDate(day.year, day.month, day.day))
@@ -185,7 +182,6 @@ class ByHandScreen(QWidget):
             self.state.setText(self.tr("Kept."))
 
     def first(self) -> QWidget:
-        """What has the keyboard first."""
         return self.form.first() if self.form.rows else self
 
     def _fill(self) -> None:

@@ -126,7 +126,6 @@ class BoardBeginning(QWidget):
 
     @property
     def choice(self) -> BoardChoice:
-        """What is chosen now."""
         return BoardChoice(
             cast("Pattern", self.pattern.value()),
             cast("Paper", self.paper.value()),
@@ -142,7 +141,6 @@ class BoardBeginning(QWidget):
         self._show_camera()
 
     def set_camera_there(self, there: bool) -> None:
-        """A camera was plugged in or out."""
         if there != self._camera_there:
             self._camera_there = there
             self._show_camera()
@@ -165,5 +163,4 @@ class BoardBeginning(QWidget):
         )
 
     def first(self) -> QWidget:
-        """What has the keyboard."""
         return self.begin_button if self.begin_button.isEnabled() else self.print_button

@@ -57,11 +57,9 @@ class BoardFlow(AtCameraFlow):
 
     # --- the way ------------------------------------------------------------------------------------------
     def title(self) -> str:
-        """It is of no patient."""
         return self.tr("Camera calibration")
 
     def show(self) -> None:
-        """Choose and print."""
         self.close_patient()
         self.leave()
         camera = self.context.camera
@@ -77,7 +75,6 @@ class BoardFlow(AtCameraFlow):
             self.back()
 
     def back(self) -> None:
-        """To the beginning."""
         self.leave()
         self.screen.show_beginning()
 
@@ -104,7 +101,6 @@ class BoardFlow(AtCameraFlow):
         self.begin()
 
     def begin(self) -> None:
-        """Open the camera and look for the board."""
         self.leave()
         choice, self.practice = self._choice, self._choice.practice
         newest, known = Newest[BoardProgress](), self._known

@@ -84,7 +84,6 @@ class BoardResultView(QWidget):
         self._next.setVisible(not narrow)
 
     def show_result(self, result: BoardResult) -> None:
-        """A calibration that nobody has kept yet."""
         self.result = result
         answer, basis = headline(result)
         self.answer.setText(answer)
@@ -97,7 +96,6 @@ class BoardResultView(QWidget):
         self._fill_effect(result)
 
     def first(self) -> QWidget:
-        """What has the keyboard."""
         return self.use_button if self.use_button.isVisibleTo(self) else self.again_button
 
     def _fill_table(self, result: BoardResult) -> None:

@@ -43,7 +43,6 @@ class BoardScreen(QWidget):
 
     @property
     def is_showing(self) -> bool:
-        """Whether the board is being shown."""
         return self._parts.currentWidget() is self.showing
 
     @property
@@ -55,20 +54,16 @@ class BoardScreen(QWidget):
 
     @property
     def is_beginning(self) -> bool:
-        """Whether nothing is under way."""
         return self._parts.currentWidget() is self.beginning
 
     def show_beginning(self) -> None:
-        """Choose and print."""
         self._show(self.beginning)
 
     def show_showing(self, *, simulated: bool) -> None:
-        """The camera is being opened."""
         self.showing.begin(simulated=simulated)
         self._show(self.showing)
 
     def show_result(self, result: BoardResult) -> None:
-        """What came of it."""
         self.result.show_result(result)
         self._show(self.result)
 
@@ -78,7 +73,6 @@ class BoardScreen(QWidget):
         self.turned.emit()
 
     def first(self) -> QWidget:
-        """What has the keyboard."""
         if self.is_showing:
             return self.showing.picture
         return self.result.first() if self._parts.currentWidget() is self.result else self.beginning.first()

@@ -88,7 +88,6 @@ class BoardShowing(QWidget):
         in_line((left, 1), self._right, gap=MARGIN_PX, margins=margins, within=self)
 
     def _fill_grid(self) -> None:
-        """A row for each check."""
         theme = self._theme
         self._grid.setHorizontalSpacing(10)
         self._grid.setVerticalSpacing(4)
@@ -115,7 +114,6 @@ class BoardShowing(QWidget):
 
     # --- states -------------------------------------------------------------------------------------------
     def begin(self, *, simulated: bool = False) -> None:
-        """The camera is being opened."""
         self.progress, self._note, self.simulated = None, "", simulated
         self.picture.clear(self.tr("The camera is being opened."))
         self.what.setText(self.tr("One moment"))
@@ -128,7 +126,6 @@ class BoardShowing(QWidget):
         self._fill()
 
     def opened(self) -> None:
-        """Pictures come from now on."""
         self.bar.hide()
         self.what.setText(self.tr("Hold the board in the picture"))
         self.how.setText(self.tr("All of it, flat towards the camera, about 60 cm away."))
@@ -150,7 +147,6 @@ class BoardShowing(QWidget):
         self.how.setText(words)
 
     def show_progress(self, now: BoardProgress) -> None:
-        """What the newest picture showed."""
         self.progress = now
         judged = now.judgement
         what, how = step_words(now.step)
@@ -167,7 +163,6 @@ class BoardShowing(QWidget):
         self.picture.update()
 
     def work(self) -> None:
-        """The calibration is being worked out."""
         self.what.setText(self.tr("Working it out"))
         self.how.setText(self.tr("A few seconds; put the board down."))
         self.picture.setFocus(Qt.FocusReason.OtherFocusReason)  # else on the way back, where a key more would leave
@@ -183,7 +178,6 @@ class BoardShowing(QWidget):
         self.primary.setEnabled(True)
 
     def _fill(self) -> None:
-        """The map and the checks."""
         now = self.progress
         if now is None:
             self._field_count.setText("")

@@ -23,7 +23,6 @@ class BoardChoice:
 
     @property
     def board(self) -> Board:
-        """The board in its printed size."""
         board, share = BOARDS[self.pattern], self.ruler_mm / RULER_MM
         return replace(board, square_m=board.square_m * share, code_m=board.code_m * share)
 

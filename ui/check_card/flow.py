@@ -49,7 +49,6 @@ class CardFlow(AtCameraFlow):
 
     # --- the way ------------------------------------------------------------------------------------------
     def title(self) -> str:
-        """It is of no patient."""
         return self.tr("Check card")
 
     def show(self, practice: bool | None = None) -> None:
@@ -67,7 +66,6 @@ class CardFlow(AtCameraFlow):
             self.to_patient()
 
     def back(self) -> None:
-        """To the history."""
         self.leave()
         self.screen.show_checks(self.screen.checks)
         if self._unread:
@@ -99,7 +97,6 @@ class CardFlow(AtCameraFlow):
 
     # --- a check ------------------------------------------------------------------------------------------
     def begin(self) -> None:
-        """Open the camera and look at the card."""
         self.leave()
         newest = self._newest = Newest()
         practice, known, cameras = self.practice, self._known, self.context.cameras

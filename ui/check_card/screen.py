@@ -166,7 +166,6 @@ class CardScreen(QWidget):
     # --- states -------------------------------------------------------------------------------------------
     @property
     def is_measuring(self) -> bool:
-        """Whether a check runs."""
         return self._parts.currentWidget() is self.measuring
 
     @property
@@ -175,12 +174,10 @@ class CardScreen(QWidget):
         return self.checks.simulated
 
     def set_camera_there(self, there: bool) -> None:
-        """Whether a camera is plugged in."""
         self._camera_there = there
         self._show_button()
 
     def show_checks(self, checks: CameraChecks) -> None:
-        """All checks of a camera."""
         self.checks = checks
         self.camera.choose(checks.simulated)
         answer, basis = headline(checks)
@@ -204,7 +201,6 @@ class CardScreen(QWidget):
         self.check_button.set_face(words if ready else self.tr("Check · plug the camera in"))
 
     def begin_measuring(self) -> None:
-        """The camera is being opened."""
         self.progress = None
         self.picture.clear(self.tr("The camera is being opened."))
         self.left_s.setText(self.tr("{seconds} s").format(seconds=round(CHECK_S)))
@@ -213,7 +209,6 @@ class CardScreen(QWidget):
         self._show(self.measuring)
 
     def show_frame(self, color_rgb: ByteImage) -> None:
-        """The newest picture."""
         self.picture.show_frame(color_rgb)
 
     def show_lost(self, words: str) -> None:
@@ -237,7 +232,6 @@ class CardScreen(QWidget):
             self.first().setFocus(Qt.FocusReason.OtherFocusReason)
 
     def first(self) -> QWidget:
-        """What has the keyboard."""
         if self.is_measuring:
             return self.leave_button
         return self.check_button if self.check_button.isEnabled() else self.print_button

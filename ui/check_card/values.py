@@ -25,7 +25,6 @@ class CameraChecks:
 
     @property
     def newest(self) -> CardCheck | None:
-        """The newest check."""
         return self.checks[-1] if self.checks else None
 
 

@@ -27,7 +27,6 @@ class ClinicFlow(Flow):
         screen.page.connect(self._save)
 
     def title(self) -> str:
-        """It is of no patient."""
         return self.tr("Clinic")
 
     def show(self) -> None:

@@ -76,7 +76,6 @@ class ClinicScreen(QWidget):
         return next(iter(self.due.buttons), self.save)
 
     def show_week(self, week: ClinicWeek) -> None:
-        """Show a week."""
         self.shown = week
         self._asked = week.monday
         self.days.setText(week_words(week.monday))

@@ -54,7 +54,6 @@ class Button(QPushButton):
 
     @property
     def shown_key(self) -> str:
-        """The key that is written on it now."""
         return "" if self._key == ENTER and not says_enter(self) else self._key
 
     @property
@@ -85,7 +84,6 @@ class Button(QPushButton):
 
     @property
     def _words(self) -> str:
-        """The text without the sign of its key."""
         return self.text().replace("&&", "\0").replace("&", "").replace("\0", "&")
 
     def _parts_px(self) -> tuple[float, float, float]:
@@ -122,7 +120,6 @@ class Button(QPushButton):
         return super().event(event)
 
     def _colors(self) -> tuple[QColor, QColor, QColor | None, QColor]:
-        """Body, text, outline, hint."""
         color = self._theme.color
         if self._kind == "primary":
             if not self.isEnabled():

@@ -1,4 +1,4 @@
-"""Surfaces: the white card, the separator line, and the row of key caps."""
+"""Surfaces: the white card, the separator line; the row of key caps, a name in the colour of its curve."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPen, QResizeEvent
-from PySide6.QtWidgets import QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from carpus.ui.controls.text import MEDIUM, Text
 from carpus.ui.keys import key_name
@@ -38,7 +38,6 @@ class Surface(QWidget):
 
     @property
     def edge(self) -> str:
-        """Token of its outline."""
         return str(self.property("edge"))
 
     def set_colors(self, fill: str, edge: str = "", edge_px: float = 1.0) -> None:
@@ -88,7 +87,6 @@ class KeyCaps(QWidget):
         theme.changed.connect(self._fit)
 
     def set_keys(self, keys: Sequence[tuple[str, str]]) -> None:
-        """Show others."""
         if self._keys == tuple(keys):
             return
         for part in (part for pair in self._pairs for part in pair):
@@ -133,3 +131,16 @@ class KeyCaps(QWidget):
         places = self._places()
         high = max((said.sizeHint().height() for _, said in self._pairs), default=0)
         return QSize(places[-1][2] if places else 0, high + 8)
+
+
+def named_by_color(theme: Theme, name: str, token: str) -> QWidget:
+    """A name after a bar in the colour of its curve; without a token room for one."""
+    named, bar = QWidget(), Surface(theme, token)
+    bar.setObjectName("bar")
+    bar.setFixedSize(5, 14)
+    line = QHBoxLayout(named)
+    line.setContentsMargins(0, 0, 0, 0)
+    line.setSpacing(11)
+    line.addWidget(bar)
+    line.addWidget(Text(theme, name, 14, MEDIUM, wrap=True), 1)
+    return named

@@ -156,7 +156,6 @@ class Choices(QWidget):
         self.choose(current if current in self._values else self._values[0])
 
     def choose(self, value: object) -> None:
-        """Select without a signal."""
         self._group.button(self._values.index(value)).setChecked(True)
 
     def _lead_tab(self) -> None:
@@ -178,7 +177,6 @@ class Choices(QWidget):
         return self._values[chosen] if chosen >= 0 else None
 
     def buttons(self) -> list[ChoiceButton]:
-        """The buttons in order."""
         return [self._group.button(number) for number in range(len(self._values))]  # type: ignore[misc]
 
 

@@ -20,11 +20,9 @@ class ThinBar(QProgressBar):
         self._take_theme()
 
     def begin(self) -> None:
-        """Work has begun."""
         self.setRange(0, 0)
 
     def show_progress(self, done: int, total: int) -> None:
-        """So many steps of all."""
         self.setRange(0, max(total, 1))
         self.setValue(done)
 

@@ -7,9 +7,8 @@ from html import escape
 
 from PySide6.QtCore import QEvent, QRect, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEvent, QPalette, QShowEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QToolTip, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QToolTip, QWidget
 
-from carpus.ui.controls.card import Surface
 from carpus.ui.fonts import DISPLAY_FROM_PX, MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.icons import State, paint_icon, paint_mark, paint_state
 from carpus.ui.theme import Theme
@@ -23,7 +22,6 @@ __all__ = [
     "Text",
     "caption",
     "heading",
-    "named_by_color",
     "paint_status",
 ]
 
@@ -55,7 +53,6 @@ class Text(QLabel):
         self._leave_room()
 
     def set_look(self, token: str, weight: int) -> None:
-        """Another colour and weight."""
         if (token, weight) != (self._token, self._weight):
             self._token, self._weight = token, weight
             self._take_theme()
@@ -102,7 +99,6 @@ class Text(QLabel):
         return super().event(event)
 
     def _line_px(self) -> int:
-        """Height of a line with something in it."""
         return self.fontMetrics().boundingRect(QRect(0, 0, 1000, 1000), 0, "x").height()
 
     def _take_theme(self) -> None:
@@ -134,7 +130,6 @@ class ElidedText(Text):
 
     @property
     def shown_text(self) -> str:
-        """What there is room for."""
         return self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
 
     def paintEvent(self, event: QPaintEvent) -> None:
@@ -187,12 +182,10 @@ class StateText(QWidget):
             self._resize()
 
     def text(self) -> str:
-        """The word shown."""
         return self._text
 
     @property
     def state(self) -> State:
-        """The state shown."""
         return self._state
 
     def _resize(self) -> None:
@@ -260,19 +253,6 @@ class Sign(QWidget):
             paint_status(painter, self._theme, self._name, box)
         else:
             paint_icon(painter, self._name, box, self._theme.color(self._token))
-
-
-def named_by_color(theme: Theme, name: str, token: str) -> QWidget:
-    """A name after a bar in the colour of its curve; without a token room for one."""
-    named, bar = QWidget(), Surface(theme, token)
-    bar.setObjectName("bar")
-    bar.setFixedSize(5, 14)
-    line = QHBoxLayout(named)
-    line.setContentsMargins(0, 0, 0, 0)
-    line.setSpacing(11)
-    line.addWidget(bar)
-    line.addWidget(Text(theme, name, 14, MEDIUM, wrap=True), 1)
-    return named
 
 
 def plain_tooltip(text: str) -> str:

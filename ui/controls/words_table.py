@@ -33,7 +33,6 @@ class WordsTable(QWidget):
         self._grid.setVerticalSpacing(4)
 
     def show_rows(self, heads: Sequence[str], rows: Sequence[tuple[str, ...]], keys: Sequence[str] = ()) -> None:
-        """Replace all rows."""
         empty(self._grid)
         self.rows = tuple(rows)
         self.buttons = tuple(self._button(row[0], key) for row, key in zip(rows, keys, strict=False))

@@ -60,7 +60,6 @@ class CorrectFlow(Flow):
 
     @property
     def is_at_work(self) -> bool:
-        """Whether something runs that ends with the window."""
         return self._tracking.busy
 
     @property
@@ -82,7 +81,6 @@ class CorrectFlow(Flow):
         self._say()
 
     def show(self, session_id: str, session: Session, row: int) -> None:
-        """Put the markers of a picture right."""
         if self._running:
             self.open_sheet()
             return
@@ -121,7 +119,6 @@ class CorrectFlow(Flow):
         self.context.way.back()
 
     def up(self) -> None:
-        """To the session."""
         self.to_session()
 
     def stop(self) -> None:

@@ -39,7 +39,6 @@ class Places:
         return places
 
     def changed(self, row: int) -> Mapping[str, Place]:
-        """What a person said of a picture."""
         return self._changed.get(row, {})
 
     def modelled(self, row: int) -> FloatArray:
@@ -104,7 +103,6 @@ class Places:
         own[name] = (float(at[0]), float(at[1]))
 
     def exchange(self, row: int, one: str, other: str) -> None:
-        """Two markers change places."""
         places = self.now(row)
         self._remember(row)
         own = self._changed.setdefault(row, {})
@@ -117,7 +115,6 @@ class Places:
             del self._changed[row]
 
     def hide(self, row: int, name: str) -> None:
-        """A marker is not to be seen here."""
         self._remember(row)
         self._changed.setdefault(row, {})[name] = None
 
@@ -136,5 +133,4 @@ class Places:
         self._undo.append((row, dict(self._changed.get(row, {}))))
 
     def corrections(self) -> tuple[Correction, ...]:
-        """All of it, in the order of time."""
         return tuple(Correction(row, dict(places)) for row, places in sorted(self._changed.items()) if places)

@@ -96,7 +96,6 @@ class ResultsSheet(Sheet):
         return self._both
 
     def show_running(self, whose: str, percent: int) -> None:
-        """How far it is."""
         self._show(self.tr("Tracking again: {percent} %").format(percent=percent), whose)
         self.bar.setValue(percent)
         self.words.setText(
@@ -106,7 +105,6 @@ class ResultsSheet(Sheet):
         self._show_parts(running=True, both=None)
 
     def show_reading(self, whose: str) -> None:
-        """Both results are being read."""
         self._show(self.tr("Reading both results…"), whose)
         self.words.setText("")
         self.later.set_face(self.tr("Decide later"))

@@ -146,7 +146,6 @@ class CorrectScreen(QWidget):
 
     # --- life ---------------------------------------------------------------------------------------------
     def begin(self, session_id: str, session: Session, row: int) -> None:
-        """Show a picture of a session."""
         self._session_id, self._session = session_id, session
         self.places = Places(session)
         self._figures = session_figures(session)
@@ -180,11 +179,9 @@ class CorrectScreen(QWidget):
     # --- time ---------------------------------------------------------------------------------------------
     @property
     def row(self) -> int:
-        """Number of the picture shown."""
         return self._row
 
     def show_row(self, row: int) -> None:
-        """Show a picture."""
         if self._session is None:
             return
         row = int(np.clip(row, 0, len(self._session) - 1))
@@ -198,7 +195,6 @@ class CorrectScreen(QWidget):
         self._refresh()
 
     def go_on(self, pictures: int) -> None:
-        """Some pictures on or back."""
         self.show_row(self._row + pictures)
 
     def _seek(self, time_s: float) -> None:
@@ -224,12 +220,10 @@ class CorrectScreen(QWidget):
 
     # --- what a person says -------------------------------------------------------------------------------
     def choose(self, name: str) -> None:
-        """Make a marker the one that keys move."""
         self.current = name
         self._refresh()
 
     def put(self, name: str, pixel: FloatArray) -> None:
-        """A marker is here."""
         if self.places is not None:
             self.current = name
             self.places.put(self._row, name, pixel, self._spots)
@@ -260,7 +254,6 @@ class CorrectScreen(QWidget):
             self._refresh()
 
     def undo(self) -> None:
-        """Take the last step back."""
         if self.places is not None:
             row = self.places.undo()
             if row >= 0:

@@ -80,7 +80,6 @@ class ExportSheet(Sheet):
 
     @property
     def formats(self) -> Sequence[str]:
-        """Those that are ticked."""
         return [name for name, box in self.boxes.items() if box.isChecked()]
 
     def begin(self) -> None:
@@ -90,13 +89,11 @@ class ExportSheet(Sheet):
         self.open(self.take)
 
     def running(self) -> None:
-        """From now on show how far it is."""
         self._runs = True
         self.bar.begin()
         self._show_state()
 
     def progress(self, done: int, total: int) -> None:
-        """So many steps of all."""
         self.bar.show_progress(done, total)
 
     def leave(self) -> None:

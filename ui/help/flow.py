@@ -18,7 +18,6 @@ class HelpFlow(Flow):
         self.screen.told.connect(context.messages.fault)
 
     def show(self) -> None:
-        """The page of the screen one is on."""
         way = self.context.way
         if way.may_aside():
             self.screen.start_folder = self.context.places.folder("reports")

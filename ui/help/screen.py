@@ -80,7 +80,6 @@ class HelpScreen(QWidget):
         self._fit()
 
     def first(self) -> QWidget:
-        """What gets the keyboard."""
         return self.text
 
     def _fit(self) -> None:
@@ -88,7 +87,6 @@ class HelpScreen(QWidget):
         self.show_page(self.page)
 
     def show_page(self, name: str) -> None:
-        """Show a page from its beginning."""
         self.page = name
         self.pages[name].setChecked(True)
         if name == guide.KEYS_PAGE:
@@ -111,7 +109,6 @@ class HelpScreen(QWidget):
             self.save_cards(path)
 
     def save_cards(self, path: str) -> None:
-        """Write both cards, a page each."""
         try:
             cards.write_cards(Path(path))
         except CarpusFault as fault:

@@ -27,7 +27,6 @@ class Behind:
         self._most_waiting = 0
 
     def begin(self) -> None:
-        """A recording begins."""
         self.left_out, self._left_out_before, self._most_waiting = 0, None, 0
 
     def look(self, newest: Frame | None, view: TrackedView | None) -> bool:

@@ -53,11 +53,9 @@ class Controls(Surface):
         self.refresh()
 
     def begin(self) -> None:
-        """A source is shown: no pain was noted."""
         self.pain.set_face(self.tr("Pain"), icon="")
 
     def noted_pain(self, score: int) -> None:
-        """The button says so until the next one."""
         self.pain.set_face(self.tr("Pain {score} noted").format(score=score), icon="check")
 
     def say_storing(self, words: str = "") -> None:
@@ -65,7 +63,6 @@ class Controls(Surface):
         self.main.set_face(words or self.tr("Storing…"), icon="", hint="")
 
     def refresh(self) -> None:
-        """By the state of the recording."""
         recording = self._recording
         state = recording.state
         runs = state != "off" and not recording.storing  # what is stopped takes no more notes

@@ -58,7 +58,6 @@ class RunningCount:
         return any(start <= time_s < end for start, end in self._passive_s)
 
     def append(self, frames: Sequence[TrackedFrame]) -> None:
-        """Add frames that are being recorded."""
         for frame, (value, sd, valid) in zip(frames, self._read(frames), strict=True):
             if self._times and frame.timestamp_s <= self._times[-1]:
                 continue

@@ -67,7 +67,6 @@ class CourseRun(QObject):
         return True
 
     def end(self) -> None:
-        """No rest is kept any more."""
         self._timer.stop()
         self._rest_left_s = 0
         self._live.recording.rest(on=False)

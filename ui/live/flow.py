@@ -39,7 +39,6 @@ class LiveFlow(Flow):
 
     @property
     def is_recording(self) -> bool:
-        """Whether a recording runs or is paused."""
         return self.screen.recording.state != "off"
 
     def show(self) -> None:
@@ -55,15 +54,12 @@ class LiveFlow(Flow):
             self.context.way.show("camera", now.patient.patient_id)
 
     def up(self) -> None:
-        """Back to the camera."""
         self.context.way.show("camera")
 
     def sign_lines(self) -> list[str]:
-        """How far the camera is to be trusted."""
         return session_lines(self.context.camera.standing) if self.context.now.kind == "camera" else []
 
     def show_research(self, *, on: bool) -> None:
-        """The path with its axes and the speeds, or neither."""
         self.screen.show_research(on=on)
 
     def _leaving(self, place: str) -> None:

@@ -34,7 +34,6 @@ class HandMap(QWidget):
         theme.changed.connect(self.update)
 
     def set_side(self, side: Side) -> None:
-        """Which hand is drawn."""
         self._side = side
         self.update()
 
@@ -46,7 +45,6 @@ class HandMap(QWidget):
             self.update()
 
     def words(self) -> str:
-        """What is hidden and what to do."""
         return map_words(self.seen, infers_ends=self._infers_ends) if self.seen else ""
 
     def sizeHint(self) -> QSize:

@@ -65,7 +65,6 @@ class Reading:
         return Reading(figure=own[(own.index(self.figure) + 1) % len(own)])
 
     def with_next_finger(self) -> Reading:
-        """Of the same angle of the next finger."""
         figure = self.figure
         return self if figure is None else Reading(figure=Figure(figure.finger % len(FINGERS) + 1, figure.row))
 

@@ -32,12 +32,10 @@ class OnPicture:
         picture.overlay = self._paint
 
     def toggle(self) -> None:
-        """Hide or show it all."""
         self._is_on = not self._is_on
         self._picture.update()
 
     def toggle_side(self) -> None:
-        """One finger from the side, or not."""
         self._side_on = not self._side_on
         self._picture.update()
 

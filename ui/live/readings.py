@@ -25,7 +25,6 @@ class Readings:
         self._history, self._recording = history, recording
 
     def now(self, shown: Reading) -> Reading:
-        """The figures now of what is shown."""
         history, recording, figure = self._history, self._recording, shown.figure
         count, lost = recording.count, recording.camera_lost
         if figure is not None:

@@ -54,14 +54,12 @@ class Recording(QObject):
         self._begun_at_s = -HASTY_S
 
     def open(self, measuring: Measuring, set_up: SetUp) -> None:
-        """On this source from now on."""
         self.measuring, self.set_up, self.count = measuring, set_up, None
         self.camera_lost = self.under_way = self._rests = False
         self._arm()
 
     @property
     def state(self) -> RecordingState:
-        """What the pill says."""
         feed = self.measuring.feed if self.measuring else None
         if feed is None or not feed.recording or (self.under_way and self.count is None):
             return "off"  # also while it is being started: nothing can be noted in it yet
@@ -79,12 +77,10 @@ class Recording(QObject):
 
     @property
     def recorded_s(self) -> float:
-        """Seconds stored so far."""
         return self.count.recorded_s if self.count else 0.0
 
     @property
     def repetitions(self) -> int:
-        """Full repetitions so far."""
         return self.count.repetitions if self.count else 0
 
     @property
@@ -142,7 +138,6 @@ class Recording(QObject):
             self._arm()
 
     def set_camera_lost(self, *, lost: bool) -> None:
-        """The camera went or came back."""
         self.camera_lost = lost
         self._arm()
         self.changed.emit()
@@ -174,7 +169,6 @@ class Recording(QObject):
 
     # --- while it runs, and its end -----------------------------------------------------------------------
     def toggle_pause(self) -> None:
-        """Pause or go on."""
         if self.measuring is not None and self.measuring.feed.recording and not (self.camera_lost or self.storing):
             feed = self.measuring.feed
             (feed.resume_recording if feed.paused else feed.pause_recording)()
@@ -185,12 +179,10 @@ class Recording(QObject):
         return self.measuring is not None and self.measuring.feed.add_event(kind, text)
 
     def answer_spot(self, answer: SpotAnswer) -> None:
-        """What a person says of blue spots."""
         if self.measuring is not None:
             self.measuring.answer_spot(answer)
 
     def say_way(self, *, passive: bool) -> None:
-        """Who moves the hand from now on."""
         if self.note(PASSIVE if passive else ACTIVE, ""):
             self.passive = passive
             if self.count is not None:
@@ -236,7 +228,6 @@ class Beginning:
         self._lately: deque[tuple[float, FloatArray]] = deque()
 
     def stop(self) -> None:
-        """Neither waits nor counts."""
         self.waits, self._begins_s = False, math.nan
         self._lately.clear()
 
@@ -252,7 +243,6 @@ class Beginning:
 
     @property
     def counts(self) -> bool:
-        """Whether it is counted down."""
         return math.isfinite(self._begins_s)
 
     def left_s(self, now_s: float) -> int:

@@ -223,7 +223,6 @@ class LiveScreen(QWidget):
 
     # --- life ---------------------------------------------------------------------------------------------
     def begin(self, measuring: Measuring, set_up: SetUp) -> None:
-        """Show a source whose tracking has begun."""
         exercise, calibration = set_up.exercise, measuring.calibration
         self.history.clear(set_up.protocol)
         self._whole_hand = set_up.protocol.has_fingers
@@ -246,7 +245,6 @@ class LiveScreen(QWidget):
         self.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def end(self) -> None:
-        """Stop drawing and let go of the source."""
         self._timer.stop()
         self.recording.measuring = None
         self.recording_changed.emit("off", 0.0)
@@ -258,13 +256,11 @@ class LiveScreen(QWidget):
         self._fit()
 
     def toggle_speeds(self) -> None:
-        """Curves of the angles or of the speeds."""
         self.curves.show_speeds(not self.curves.shows_speeds)
         self.fingers.show_speeds(self.curves.shows_speeds)
         self.speeds.set_face(self.tr("Angles") if self.curves.shows_speeds else self.tr("Speeds"))
 
     def choose(self, reading: Reading) -> None:
-        """Make an angle the big number."""
         reading = self.readings.with_targets(reading)
         self.on_picture.figure = reading.figure
         if reading.figure is not None:
@@ -315,7 +311,6 @@ class LiveScreen(QWidget):
         return view is not None and (self._view is None or view.tracked.index != self._view.tracked.index)
 
     def tick(self) -> None:
-        """Pull what is new and draw it."""
         recording, measuring = self.recording, self.recording.measuring
         if measuring is None:
             return

@@ -41,17 +41,14 @@ class Clicking:
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """Markers not clicked yet."""
         return tuple(name for name in self.order if name not in self.pixel)
 
     @property
     def complete(self) -> bool:
-        """Whether every marker has a click."""
         return not self.missing
 
     @property
     def unnamed(self) -> tuple[str, ...]:
-        """Markers neither clicked nor proposed."""
         return tuple(name for name in self.missing if name not in self.proposed)
 
     @property
@@ -65,7 +62,6 @@ class Clicking:
         self.current = (self.unnamed or self.missing or (self.current,))[0]
 
     def take_all(self) -> None:
-        """Confirm every proposal."""
         for name in self.order:
             if name in self.proposed and name not in self.pixel:
                 self.pixel[name] = self.proposed[name].pixel
@@ -74,7 +70,6 @@ class Clicking:
         self._go_on()
 
     def confirm(self, name: str) -> None:
-        """Confirm one proposal."""
         one = self.proposed.pop(name)
         self.pixel[name], self.widths_px[name] = one.pixel, one.width_px
         self._go_on()
@@ -141,7 +136,6 @@ class Clicking:
             self._go_on()
 
     def swap(self, one: str, other: str) -> None:
-        """Exchange the names of two clicks."""
         self.pixel[one], self.pixel[other] = self.pixel[other], self.pixel[one]
 
     def step(self, by: int) -> None:

@@ -58,13 +58,11 @@ class MarkersFlow(Flow):
         )
 
     def leave(self) -> None:
-        """Let the pictures go."""
         self.screen.end()
 
     close = leave
 
     def sign_lines(self) -> list[str]:
-        """How far the camera is to be trusted."""
         return session_lines(self.context.camera.standing) if self.context.now.kind == "camera" else []
 
     def check_registration(self, verdict: Verdict) -> None:

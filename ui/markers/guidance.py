@@ -95,7 +95,6 @@ class Guidance(QWidget):
         return self._column.minimumHeightForWidth(self._theme.px(COLUMN_PX)) + 2 * (MARGIN_PX - 4)
 
     def show_preview(self, calibrator: Calibrator) -> None:
-        """Before a picture is taken."""
         self.step.show_state("none", self.tr("Picture"))
         self.title.setText(self.tr("Lay the hand flat and still"))
         self.place.setText(
@@ -281,7 +280,6 @@ class StraightFingers(QWidget):
         return tuple(not button.isChecked() for button in self.buttons)
 
     def show_answer(self, straight: tuple[bool, ...]) -> None:
-        """Show an answer without telling it."""
         for number, (button, lies_straight) in enumerate(zip(self.buttons, straight, strict=True), start=1):
             button.setChecked(not lies_straight)
             self._name(button, number)

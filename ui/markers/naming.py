@@ -43,7 +43,6 @@ class Naming(QObject):
         self._proposing = self._judging = 0
 
     def begin(self, calibrator: Calibrator) -> None:
-        """On another source."""
         self.calibrator, self.start_angles_rad = calibrator, np.zeros(3)
         self.aim()
 
@@ -66,7 +65,6 @@ class Naming(QObject):
 
     @property
     def work(self) -> Work:
-        """How far the markers are."""
         if self.clicking is None:
             return "aiming"
         if self.outcome is None:
@@ -146,13 +144,11 @@ class Naming(QObject):
             self.edit()
 
     def undo(self) -> None:
-        """Take back the marker set last."""
         if self.clicking is not None and self.clicking.undo():
             self.ask_for_names()
             self.edit()
 
     def say_straight(self, answer: tuple[bool, ...]) -> None:
-        """Which fingers lie straight."""
         if self.clicking is not None and self.clicking.straight_fingers != answer:
             self.clicking.straight_fingers = answer
             self.edit()
@@ -195,7 +191,6 @@ class Naming(QObject):
             self.started.emit()
 
     def remedy(self) -> Remedy:
-        """What mends a verdict that is not good."""
         assert self.outcome is not None
         assert self.calibrator is not None
         return remedy_of(self.outcome.verdict, is_live=self.calibrator.is_live)

@@ -91,7 +91,6 @@ class MarkerPicture(PictureView):
         self.setAccessibleName(self.tr("Picture to click the markers on"))
 
     def show_wrong(self, names: Collection[str]) -> None:
-        """Mark clicks that are at fault."""
         self.wrong = frozenset(names)
         self.update()
 

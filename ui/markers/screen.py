@@ -170,11 +170,9 @@ class MarkersScreen(QWidget):
         return self.clicking is not None and bool(self.clicking.pixel)
 
     def first(self) -> QWidget:
-        """What gets the keyboard."""
         return self.picture
 
     def begin(self, calibrator: Calibrator, last_rgb: ByteImage | None = None, last_day: str = "") -> None:
-        """Show a source's picture and begin."""
         self.naming.begin(calibrator)
         self.picture.clicking = None  # of another picture
         self._name_start_angles()
@@ -186,7 +184,6 @@ class MarkersScreen(QWidget):
             self.hold()
 
     def end(self) -> None:
-        """Stop the preview and let go."""
         self._preview.stop()
         self.naming.calibrator = None
 
@@ -397,7 +394,6 @@ class LastPicture(Photo):
         self._fit()
 
     def toggle(self) -> None:
-        """Large or small."""
         self._large = not self._large
         self._fit()
 
@@ -408,7 +404,6 @@ class LastPicture(Photo):
         self.setGeometry(13, host_of(self).height() - height - 13, width, height)
 
     def place(self) -> tuple[QRectF, QPointF]:
-        """The picture above its label."""
         room = QRectF(self.rect()).adjusted(3, 3, -3, -self._theme.px(23))
         return room, QPointF(3, self.height() - self._theme.px(22))
 

@@ -61,7 +61,6 @@ class StartAngleSheet(Sheet):
         body.addLayout(buttons)
 
     def begin(self, angles_rad: FloatArray) -> None:
-        """Open with the present angles."""
         for column, (direction, value) in self.fields.items():
             direction.choose(SIDES[column][0 if angles_rad[column] >= 0 else 1])
             value.setValue(round(abs(math.degrees(angles_rad[column]))))

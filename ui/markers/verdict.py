@@ -157,7 +157,6 @@ class VerdictPanel(Card):
         self.updateGeometry()
 
     def states(self) -> list[State]:
-        """State of each row."""
         return [line[0].state for line in self._lines]
 
 

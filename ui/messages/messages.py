@@ -62,7 +62,6 @@ class Messages(QObject):
 
     @property
     def busy(self) -> bool:
-        """Whether a message waits for its answer."""
         return self._shown is not None
 
     def cover(self, host: QWidget) -> None:
@@ -116,7 +115,6 @@ class Messages(QObject):
         self._clock.start()
 
     def camera_back(self) -> None:
-        """Take the waiting card away."""
         self._clock.stop()
         self._waiting = [message for message in self._waiting if message.icon != "unplug"]
         if self._shown is not None and self._shown.icon == "unplug":

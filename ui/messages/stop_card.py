@@ -103,7 +103,6 @@ class StopCard(Sheet):
 
     @property
     def answers(self) -> list[Button]:
-        """The buttons, the primary last."""
         return [button for button, _ in self._answers]
 
     def _take(self, answer: Answer) -> None:

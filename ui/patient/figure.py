@@ -35,12 +35,10 @@ class Arc:
     """Above 1 a small angle is drawn larger than the hand shows it, so that its way can be seen from afar."""
 
     def at(self, value_deg: float) -> QPointF:
-        """The place of an angle."""
         turned = math.radians(self.zero_deg + self.sense * self.gain * value_deg)
         return self.pivot + QPointF(math.cos(turned), math.sin(turned)) * self.radius
 
     def path(self, from_deg: float, to_deg: float) -> QPainterPath:
-        """The way between two angles."""
         box = QRectF(self.pivot.x() - self.radius, self.pivot.y() - self.radius, 2 * self.radius, 2 * self.radius)
         path = QPainterPath()
         start = -(self.zero_deg + self.sense * self.gain * from_deg)

@@ -74,7 +74,6 @@ class Guide:
         """How often the goal was reached, for a sound."""
 
     def take(self, glance: Glance) -> GuideScene:
-        """The scene of this moment."""
         counted = {"tries": glance.state == "off", "done": glance.done, "asked": glance.asked}
         counted["starts_s"] = glance.starts_s
         goal = self._goals[self._aim]

@@ -48,13 +48,11 @@ class PatientView(QWidget):
         return QSize(1280, 720)
 
     def begin(self, set_up: SetUp | None) -> None:
-        """Another exercise, or nothing."""
         self._set_up = set_up
         self.audience = "child" if set_up is not None and set_up.for_child else "adult"
         self.show_scene(GuideScene())
 
     def show_scene(self, scene: GuideScene) -> None:
-        """Show how it stands."""
         if scene != self.scene:
             self.scene = scene
             words = self.words()
@@ -62,7 +60,6 @@ class PatientView(QWidget):
             self.update()
 
     def words(self) -> Said:
-        """What is read."""
         return said(self._set_up.exercise.id if self._set_up else "", self.scene, self.audience)
 
     # --- painting -----------------------------------------------------------------------------------------

@@ -39,11 +39,9 @@ class PatientViewing(QObject):
 
     @property
     def is_open(self) -> bool:
-        """Whether the patient sees anything."""
         return self.window is not None and self.window.isVisible()
 
     def toggle(self) -> None:
-        """Open it, or close it."""
         if self.is_open:
             self.close()
             return
@@ -66,7 +64,6 @@ class PatientViewing(QObject):
             self.close()
 
     def begin(self, set_up: SetUp) -> None:
-        """An exercise is shown live from now on."""
         self._set_up, self._sounded = set_up, 0
         self._guide = Guide(set_up.exercise, set_up.target_positive_deg, set_up.target_negative_deg)
         if self.window is not None:
@@ -81,7 +78,6 @@ class PatientViewing(QObject):
             self._stand(GuideScene("rest", done=done, asked=asked, rest_share=share, rest_s=left_s))
 
     def stored(self) -> None:
-        """A recording has ended."""
         self._stand(GuideScene("done", asked=self._asked, done=self._done))
 
     def leave(self) -> None:
@@ -95,7 +91,6 @@ class PatientViewing(QObject):
         self._hidden = True
 
     def show_again(self) -> None:
-        """It was unlocked."""
         self._hidden = False
 
     @property

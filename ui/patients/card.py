@@ -138,7 +138,6 @@ class PatientCardView(Card):
         self.sessions_button.setEnabled(row.session_count > 0 or card.has_sessions)
 
     def _show_why(self, row: PatientRow) -> None:
-        """Why the patient comes, and since when."""
         shown, day = row.diagnosis, row.onset_day
         for text, words in (
             (self._diagnosis, shown),

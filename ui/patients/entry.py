@@ -153,7 +153,6 @@ class PatientForm(Sheet):
         self._fit()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Enter leads to what is still asked."""
         if is_enter(event) and not self.save.isEnabled() and self._asked is not None:
             self._asked.buttons()[0].setFocus(Qt.FocusReason.TabFocusReason)
             event.accept()
@@ -209,7 +208,6 @@ class PatientForm(Sheet):
         self.listed.setChecked(words in map(folded, self._known.stringList()))
 
     def _list(self, wanted: bool) -> None:
-        """Into the clinic's list or out of it."""
         try:
             self._store.list_diagnosis(name_of(self._why()), listed=wanted)
         except NameUnsuited as fault:

@@ -53,11 +53,9 @@ class PatientsFlow(Flow):
         self.context.way.go("patients")
 
     def first(self) -> QWidget:
-        """The search: typing finds."""
         return self.screen.search
 
     def up(self) -> None:
-        """Esc closes what is told above the list first."""
         if not put_off_last(self.screen):
             self.to_patient()
 
@@ -80,11 +78,9 @@ class PatientShelf:
         self._shown: dict[str, int] = {}
 
     def patients(self, search: str = "") -> Sequence[PatientRow]:
-        """The first rows, newest session first."""
         return [PatientRow.of(record) for record in self._library.patients.listed(search, most=MOST_ROWS)]
 
     def archived(self) -> Sequence[str]:
-        """Who is in the archive."""
         return [one.pseudonym for one in Records(self._library).archived() if one.recorded is None]
 
     def card(self, patient_id: str) -> PatientCard:
@@ -113,11 +109,9 @@ class PatientShelf:
         return PatientCard(row, results, repetition_words(last), note, last.when, picture, said, True, about)
 
     def suggest_pseudonym(self) -> str:
-        """A free name."""
         return self._library.patients.suggest_pseudonym()
 
     def add(self, entry: PatientEntry) -> str:
-        """Enter a new patient."""
         patient_id = self._library.patients.add(entry)
         self._library.notes.patient("added", patient_id)
         return patient_id
@@ -130,11 +124,9 @@ class PatientShelf:
         self._library.notes.patient("changed", patient_id)
 
     def diagnoses(self) -> Sequence[str]:
-        """The clinic's own list."""
         return of_clinic.diagnoses(self._library.store)
 
     def list_diagnosis(self, words: str, *, listed: bool) -> None:
-        """Take one into the list, or out of it."""
         of_clinic.list_diagnosis(self._library.store, words, listed=listed)
 
     def _first_alike(self, patient_id: str, last: SessionFigures) -> SessionFigures | None:

@@ -35,13 +35,11 @@ class PatientModel(QAbstractListModel):
         self.today = today
 
     def show_rows(self, rows: Sequence[PatientRow]) -> None:
-        """Replace all rows."""
         self.beginResetModel()
         self._rows = tuple(rows)
         self.endResetModel()
 
     def row(self, number: int) -> PatientRow:
-        """The patient of a row."""
         return self._rows[number]
 
     def find(self, patient_id: str) -> int:
@@ -214,7 +212,6 @@ class PatientList(QListView):
         self.viewport().update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Only whole rows are shown."""
         row = self._theme.px(ROW_PX)
         rest = self.height() % row if self.height() < self.rows.rowCount() * row else 0
         self.setViewportMargins(0, 0, 0, rest)

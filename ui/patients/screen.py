@@ -167,7 +167,6 @@ class PatientsScreen(QWidget):
         self.form.begin(None, taken, name if isinstance(name, str) else "")
 
     def change_patient(self, patient_id: str) -> None:
-        """Open the form with a patient's entry."""
         row = next(row for row in self._rows if row.patient_id == patient_id)
         self._changing = patient_id
         others = (other.pseudonym for other in self._rows if other is not row)
@@ -262,7 +261,6 @@ class _Nobody(QWidget):
         self.button.clicked.connect(self.create_wanted)
 
     def show_for(self, search: str, register_empty: bool, rows_shown: bool) -> None:
-        """Choose the sentence, or hide."""
         self.setVisible(register_empty or not rows_shown)
         self.button.setVisible(not rows_shown)  # beside an empty list there is “New patient” above
         if not rows_shown:

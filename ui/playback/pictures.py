@@ -45,7 +45,6 @@ class RowReader(Generic[Found]):
         self._round += 1
 
     def ask(self, row: int) -> None:
-        """This row is wanted now."""
         self._wanted = row
         if not self.busy:
             self._read()

@@ -29,7 +29,6 @@ class Playing(QObject):
         self.end_s = end_s
 
     def seek(self, time_s: float) -> None:
-        """Be at a time."""
         if self.end_s >= 0.0:
             self.time_s = min(max(time_s, 0.0), self.end_s)
             self.moved.emit(self.time_s)
@@ -45,7 +44,6 @@ class Playing(QObject):
             self.changed.emit(True)
 
     def stop(self) -> None:
-        """Stay here."""
         self._timer.stop()
         self.changed.emit(False)
 

@@ -76,12 +76,10 @@ class Scrubber(QWidget):
         self.setAccessibleName(self.tr("Time in the session"))
 
     def show_session(self, end_s: float, repetitions: Sequence[ShownRepetition], current: int) -> None:
-        """Set what is drawn."""
         self._end_s, self._repetitions, self._current = end_s, tuple(repetitions), current
         self.update()
 
     def show_time(self, time_s: float) -> None:
-        """Move the knob."""
         self._time_s = time_s
         self.update()
 

@@ -111,7 +111,6 @@ class AgreementPlot:
 
     # --- what is drawn ------------------------------------------------------------------------------------
     def ground(self) -> list[Mark]:
-        """What stays: limit, grid, words."""
         if self.view == "curves":
             return [Scales(), _Along(self)]
         more, less = _shows(self.pairs.name)
@@ -151,7 +150,6 @@ class AgreementPlot:
         ]
 
     def beside(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        """The words right of the panel."""
         metrics, unit = QFontMetricsF(style.end_label), style.unit
         token, left = angle_token(self.pairs.name), panel.box.right() + 12 * unit
         if self.view == "curves":
@@ -182,7 +180,6 @@ class AgreementPlot:
             painter.drawText(QPointF(left, top + metrics.height() + metrics.ascent()), second)
 
     def paint(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
-        """All of it at once, as on paper."""
         panel = self.panel(style, box)
         for mark in (*self.ground(), *self.moving()):
             mark.paint(painter, style, panel)

@@ -35,13 +35,11 @@ class AgreementChart(ZoomCard):
         self.setAccessibleName(self.tr("Difference of the two measurements"))
 
     def show_plot(self, plot: AgreementPlot | None) -> None:
-        """Draw another one, all of it."""
         self._plot, self._window = plot, None
         self.forget()
 
     @property
     def plot(self) -> AgreementPlot | None:
-        """What is shown."""
         return self._plot
 
     def minimumSizeHint(self) -> QSize:
@@ -52,7 +50,6 @@ class AgreementChart(ZoomCard):
         return None if self._plot is None else self._plot.extent()
 
     def panel(self) -> Panel | None:
-        """Where the values are."""
         if self._plot is None:
             return None
         box = QRectF(self.rect()).adjusted(16.5, self._theme.px(HEAD_PX) + 0.5, -16.5, -8.5)

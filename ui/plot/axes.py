@@ -51,7 +51,6 @@ class Panel:
     end_s: float
 
     def x(self, time_s: FloatArray | float) -> FloatArray:
-        """Painter x of times."""
         share = (np.asarray(time_s, dtype=np.float64) - self.start_s) / (self.end_s - self.start_s)
         return self.box.left() + share * self.box.width()
 

@@ -72,7 +72,6 @@ class BesidePlot:
         return Panel(box.adjusted(left, head, -max(right, last), -foot), scale, 0.0, 1.0)
 
     def paint(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
-        """All of it."""
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         panel = self.panel(style, box)
         Scales().paint(painter, style, panel)
@@ -101,7 +100,6 @@ class BesidePlot:
         self._paint_places(painter, style, panel)
 
     def _paint_unseen(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        """Hatched where neither was seen."""
         neither = np.isnan(self.first.mean_deg) & np.isnan(self.second.mean_deg)
         for start, stop in runs(neither):
             left, right = (

@@ -93,7 +93,6 @@ class Key:
     entries: Sequence[tuple[str, str, str]]
 
     def lines(self, style: PlotStyle, box: QRectF) -> list[list[tuple[float, str, str, str]]]:
-        """Each entry after its left edge."""
         metrics, unit = QFontMetricsF(style.end_label), style.unit
         lines: list[list[tuple[float, str, str, str]]] = [[]]
         across = 8 * unit

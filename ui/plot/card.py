@@ -107,7 +107,6 @@ class StillPlot(QWidget):
         self._painted: Callable[[QPainter, PlotStyle, QRectF], None] | None = None
 
     def show_painted(self, painted: Callable[[QPainter, PlotStyle, QRectF], None] | None) -> None:
-        """Show another one."""
         self._painted = painted
         self.update()
 

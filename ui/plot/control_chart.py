@@ -49,7 +49,6 @@ class ControlPlot:
         )
 
     def panel(self, box: QRectF) -> Panel:
-        """Checks one after the other, evenly."""
         return Panel(box, self.scale(), -0.5, max(len(self.value) - 0.5, 0.5))
 
 

@@ -35,7 +35,6 @@ class ControlCharts(PlotCard):
         self.setAccessibleName(self.tr("Checks of this camera"))
 
     def show_checks(self, checks: Sequence[CardCheck], empty_words: str = "") -> None:
-        """The checks of one camera, oldest first."""
         self._plots, self.empty_words = control_plots(checks), empty_words
         self.forget()
 
@@ -43,7 +42,6 @@ class ControlCharts(PlotCard):
         return QSize(self._theme.px(420), self._theme.px(380))
 
     def panels(self) -> list[Panel]:
-        """One under the other."""
         scale = self._theme.text_scale
         height = (self.height() - 2 * EDGE_PX) / 2
         boxes = [

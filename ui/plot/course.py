@@ -195,7 +195,6 @@ class Goals:
 
     @property
     def newest_deg(self) -> float:
-        """Of the newest session."""
         return self.goal_deg(len(self.progress.points) - 1)
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:

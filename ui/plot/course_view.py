@@ -49,7 +49,6 @@ class ProgressChart(ZoomCard):
         self.setAccessibleName(self.tr("Range over the sessions"))
 
     def show_progress(self, progress: Progress) -> None:
-        """Draw another course."""
         self._progress = progress
         self._window = None
         self._pointed = None
@@ -61,7 +60,6 @@ class ProgressChart(ZoomCard):
         return -1 if self._pointed is None else self._pointed[0]
 
     def step(self, by: int) -> None:
-        """Point at the next or the last session."""
         found = [at for at in self.points() if at[1] == self._first_key()]
         if not found:
             return
@@ -71,7 +69,6 @@ class ProgressChart(ZoomCard):
         self._point_at((number, key))
 
     def open_pointed(self) -> None:
-        """Open the session that is pointed at."""
         if self._pointed is not None:
             self.opened.emit(self._progress.points[self._pointed[0]].figures.session_id)
 
@@ -97,7 +94,6 @@ class ProgressChart(ZoomCard):
         return next(iter(course.panels_of(self._progress)), None)
 
     def points(self) -> list[tuple[int, RowKey, QPointF]]:
-        """Every point that is shown."""
         return [
             (number, key, at)
             for panel, key in self.panels()

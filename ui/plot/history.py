@@ -54,7 +54,6 @@ class Block:
     predicted: BoolArray
 
     def series(self, figure: int) -> Series:
-        """One of them."""
         return Series(self.time_s, self.value_deg[:, figure], self.sd_deg[:, figure], self.predicted[:, figure])
 
 
@@ -131,7 +130,6 @@ class History:
 
     @property
     def waiting(self) -> bool:
-        """Whether time goes on without frames."""
         return self._waited_s > 0.0
 
     @property
@@ -155,7 +153,6 @@ class History:
         return self._rows[-1, _SPEEDS] if len(self._rows) else np.full(2, math.nan)
 
     def angle(self, column: int) -> Series:
-        """One angle with its band."""
         rows = self._rows
         return Series(
             rows[:, _TIME], rows[:, 1 + column], rows[:, 4 + column], rows[:, _STATUS] == TrackStatus.PREDICTED
@@ -191,7 +188,6 @@ class History:
         return value, sd, shown and math.isfinite(value)
 
     def figure_speed_deg_s(self, figure: int) -> float:
-        """Newest speed of a figure with its sign."""
         return float(self._hand.speed_deg_s[-1, figure]) if len(self._rows) and self.has_fingers else math.nan
 
     def inferred(self, figure: int) -> bool:
@@ -287,11 +283,9 @@ class _Hand:
         return _Hand(value, sd, np.where(np.isfinite(value), speed, math.nan), measured, seen)
 
     def then(self, more: _Hand) -> _Hand:
-        """This and more."""
         return _Hand(*(np.concatenate((getattr(self, f.name), getattr(more, f.name))) for f in fields(self)))
 
     def at(self, part: BoolArray) -> _Hand:
-        """Some of it."""
         return _Hand(*(getattr(self, f.name)[part] for f in fields(self)))
 
 

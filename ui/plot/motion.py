@@ -78,7 +78,6 @@ class MotionPlot(SessionPlot):
         return [Scales(), Name(self.panel_name(key), above=False)]
 
     def panel_name(self, key: int) -> str:
-        """What a panel shows."""
         if self.kind == "zyz":
             return (*ZYZ_NAMES[:2], f"γ, {ZYZ_SUM}")[key]
         return panel_words()[key]

@@ -164,7 +164,6 @@ class PathView(PlotCard):
         return STILL_SPAN_MM if self._pure else FREE_SPAN_MM
 
     def _names(self, plane: int) -> tuple[str, str, str, str]:
-        """Up, across, title, letters."""
         thumb = self.tr("thumb ←") if self._side == "right" else self.tr("thumb →")
         return (
             (self.tr("fingers ↑"), thumb, self.tr("From above"), "XY"),
@@ -239,7 +238,6 @@ class PathView(PlotCard):
         painter.drawText(under, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), letters)
 
     def _paint_forearm(self, painter: QPainter) -> None:
-        """Whether the forearm lies still."""
         head, distance = self._head(), self._history.from_home_mm()
         if not self._pure or not math.isfinite(distance):
             return

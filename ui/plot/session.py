@@ -99,7 +99,6 @@ class SessionPlot:
 
     @property
     def shown_s(self) -> tuple[float, float]:
-        """Left and right end of what is shown."""
         return self.window_s or (0.0, self.end_s)
 
     @property
@@ -112,7 +111,6 @@ class SessionPlot:
 
     @property
     def end_s(self) -> float:
-        """Right end of the time axis."""
         return max(float(self.curves.time_s[-1]), 1.0) if len(self.curves.time_s) else 1.0
 
     def order(self) -> list[int]:
@@ -121,7 +119,6 @@ class SessionPlot:
         return [first, *[k for k in (FLEXION, 0, PRONOSUPINATION) if k != first]]
 
     def series(self, column: int) -> Series:
-        """One angle as it is drawn."""
         curves = self.curves
         return Series(
             curves.time_s,
@@ -169,7 +166,6 @@ class SessionPlot:
         return [(WRIST_ANGLES[key], self.series(key))]
 
     def values(self, key: int, time_s: float) -> list[Value]:
-        """What is known at a time."""
         value, sd = value_at(self.curves, key, time_s)
         name = terms.movement_name(SIDES[key][0 if value >= 0 else 1]) if math.isfinite(value) else no_value_words()
         return [Value(name, CURVE_TOKENS[key], value, sd)]
@@ -185,7 +181,6 @@ class HandPlot(SessionPlot):
     """What :meth:`joint_series` has found: it is asked at every step of the wheel."""
 
     def figures(self, panel: int) -> list[Figure]:
-        """What is drawn in a panel."""
         if self.finger and panel == 1:
             return [Figure(self.finger, "spread")]
         return [Figure(self.finger or FINGERS[panel], row) for row in BENDING]
@@ -218,7 +213,6 @@ class HandPlot(SessionPlot):
         return out
 
     def still(self, place: int, key: int) -> list[Mark]:
-        """Scale and name of a panel."""
         words = group_words()[key] if self.finger else finger_name(str(FINGERS[key]))
         return [Scales(), Name(words, above=bool(self.finger) and key == 0)]
 

@@ -37,13 +37,11 @@ class WaysView(PlotCard):
         self.forget()
 
     def set_time(self, time_s: float) -> None:
-        """Put the hand where it was at a time."""
         self._time_s = time_s
         self.draw()
 
     # --- places -------------------------------------------------------------------------------------------
     def panels(self) -> list[Panel]:
-        """One for each plane."""
         head = HEAD_PX * self._theme.text_scale
         box = QRectF(self.rect()).adjusted(EDGE_PX, head, -EDGE_PX, -10)
         return side_by_side(screen_style(self._theme), box, BETWEEN_PX)

@@ -142,7 +142,6 @@ class PlotMenu(QObject):
         """Where saving begins."""
 
     def made(self) -> QMenu:
-        """All of it, with its keys."""
         card, menu = self._card, QMenu(self._card)
         for words, action in (
             (self.tr("Show all") + "\t0", card.show_all),
@@ -161,7 +160,6 @@ class PlotMenu(QObject):
         return menu
 
     def open(self, at: QPoint) -> None:
-        """Show it at a place of the screen."""
         if self._card.extent() is not None:
             menu = self.made()
             menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
@@ -172,7 +170,6 @@ class PlotMenu(QObject):
         QGuiApplication.clipboard().setImage(export.picture(self._card))
 
     def save_picture(self) -> None:
-        """Ask for a name and write the picture."""
         self._ask("png", "PNG (*.png)")
 
     def _ask(self, kind: str, filter_words: str) -> None:

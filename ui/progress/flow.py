@@ -39,7 +39,6 @@ class ProgressFlow(Flow):
         self.context.way.go("progress")
 
     def up(self) -> None:
-        """Where one came from: the list of patients, or the session."""
         if self.context.way.came_from("progress") == "patients":
             self.to_patient()
         else:

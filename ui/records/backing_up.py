@@ -95,7 +95,6 @@ class BackingUp(QObject):
         self._background.wait(600_000)
 
     def look_again(self) -> None:
-        """Work out how it stands, and show it."""
         store = self._library.store
 
         def show(last: LastBackup | None) -> None:
@@ -126,7 +125,6 @@ class BackingUp(QObject):
         self._context.messages.strip(place, words, self.tr("To the settings"), to_settings)
 
     def look(self) -> None:
-        """Once a minute: is it time?"""
         settings, now = self._settings, self._now()
         if settings.hour < 0 or not settings.folder or now.hour < settings.hour or self._context.way.is_recording():
             return
@@ -195,7 +193,6 @@ class BackingUp(QObject):
             self._read(lambda: _newest(Path(folder)))
 
     def ask_restore_sealed(self) -> None:
-        """The same of a sealed file."""
         title = self.tr("Sealed back-up")
         folder = str(_sealed_in(self._settings.folder))
         name, _ = QFileDialog.getOpenFileName(self.card.window(), title, folder, self.tr("Sealed files (*.age)"))

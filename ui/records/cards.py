@@ -103,7 +103,6 @@ class BackupCard(Card):
         )
 
     def show_facts(self, facts: BackupFacts) -> None:
-        """How it stands now."""
         fill = "warn_soft" if facts.state == "warn" else "good_soft" if facts.state == "good" else "soft"
         self.state_card.set_colors(fill, fill)
         self.sign.show_state(facts.state, "")
@@ -183,7 +182,6 @@ class LockCard(Card):
         self.disk_remedy.setVisible(bool(remedy))
 
     def show_pin(self, *, is_set: bool) -> None:
-        """Whether there is one."""
         self.pin_button.set_face(self.tr("Change PIN…") if is_set else self.tr("Set a PIN…"))
         for button in self.minutes.buttons():
             button.setEnabled(is_set)

@@ -53,11 +53,9 @@ class Erasing(QObject):
         self._sessions().moved.connect(self._moved)
 
     def ask_session(self, session_id: str) -> None:
-        """Show what goes with a session."""
         self._ask(lambda: self._records.plan_session(session_id))
 
     def ask_patient(self, patient_id: str) -> None:
-        """Show what goes with a patient."""
         self._ask(lambda: self._records.plan_patient(patient_id))
 
     def _ask(self, work: Callable[[], ErasurePlan]) -> None:
@@ -99,7 +97,6 @@ class Erasing(QObject):
             )
 
     def _erased(self, plan: ErasurePlan, files: int) -> None:
-        """Said where it was, without its name."""
         single = plan.kind == "session"
         self._gone(single)
         what = self.tr("The session is erased.") if single else self.tr("The patient is erased.")
@@ -163,7 +160,6 @@ class Erasing(QObject):
             self._patients.refresh(chosen)
 
     def _refused(self, single: bool, fault: Exception) -> None:
-        """Some of it may be gone all the same."""
         self._gone(single)
         self._context.messages.fault(fault)
 
@@ -273,7 +269,6 @@ class EraseSheet(Sheet):
         body.addLayout(in_line(self.for_good, STRETCH, self.cancel, self.instead))
 
     def begin(self, facts: ErasureFacts) -> None:
-        """Say what goes and what stays, and wait."""
         self._pseudonym = facts.pseudonym
         single = facts.when is not None
         self.title.setText(

@@ -137,7 +137,6 @@ class RecordLists(QObject):
             self._erasing.ask_patient(identity)
 
     def show_log(self) -> None:
-        """Who did what and when."""
         self._run(lambda: (self._records.log(), self._records.names()), self._show_log)
 
     def _show_log(self, found: tuple[Sequence[LoggedDeed], dict[str, str]]) -> None:
@@ -231,7 +230,6 @@ class RecordsSheet(Sheet):
         self.buttons: list[Button] = []
 
     def begin(self, title: str, words: str, records: Sequence[ListedRecord]) -> None:
-        """Show them."""
         self.title.setText(title)
         self.words.setText(words)
         self.buttons = []
@@ -304,7 +302,6 @@ class LogSheet(Sheet):
         )
 
     def begin(self, deeds: Sequence[DeedLine]) -> None:
-        """Show the deeds."""
         self.title.setText(self.tr("Log: {n} lines").format(n=len(deeds)))
         self.table.setRowCount(len(deeds))
         for row, deed in enumerate(reversed(deeds)):

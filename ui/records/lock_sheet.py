@@ -115,7 +115,6 @@ class LockSheet(Sheet):
         self.said.show()
 
     def say(self, words: str) -> None:
-        """Why a PIN could not be tried at all."""
         self.line.clear()
         self.said.setText(words)
         self.said.show()
@@ -150,7 +149,6 @@ class LockSheet(Sheet):
             self.tried.emit(self.line.text())
 
     def close_sheet(self) -> None:
-        """The PIN was the one."""
         self._clock.stop()
         self.line.clear()
         super().close_sheet()

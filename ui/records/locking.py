@@ -70,11 +70,9 @@ class Locking(QObject):
 
     @property
     def locked(self) -> bool:
-        """Whether the PIN is asked for."""
         return self.sheet.isVisibleTo(self._shell)
 
     def end(self) -> None:
-        """The window closes."""
         self.idle.wait(0)
         self._background.wait(WAIT_MS)
 
@@ -164,7 +162,6 @@ class Locking(QObject):
         self._restart()
 
     def look_again(self) -> None:
-        """There may be another PIN."""
         self.card.show_pin(is_set=self.pin.is_set)
         self._restart()
 
@@ -269,7 +266,6 @@ class PinSheet(Sheet):
         self.open(self.old if is_set else self.new)
 
     def say(self, words: str) -> None:
-        """What keeps it from being changed."""
         self.said.setText(words)
         self.said.show()
 

@@ -42,7 +42,6 @@ class BesideReport:
 
     @property
     def sessions(self) -> tuple[SessionFigures, SessionFigures]:
-        """Both sessions."""
         return self.shown.both.first, self.shown.both.second
 
 

@@ -66,18 +66,15 @@ class ReportFlow(Flow):
             self.context.way.go("report")
 
     def first(self) -> QWidget:
-        """What is done with a report."""
         return self.screen.save_button
 
     def up(self) -> None:
-        """To what it was made of."""
         if isinstance(self.screen.shown, BesideReport):
             self.context.way.go("beside")
         else:
             self.to_session()
 
     def show_research(self, *, on: bool) -> None:
-        """Whether reports have the page of movement."""
         self._research = on
 
     def _show_session(self, session_id: str) -> None:

@@ -111,7 +111,6 @@ class HomeSheet(Sheet):
         self.open()
 
     def chosen(self) -> list[Exercise]:
-        """What is ticked."""
         return [exercise for exercise in DRAWN if self.ticks[exercise.id].isChecked()]
 
     def _again(self) -> date | None:

@@ -52,7 +52,6 @@ class Page:
 
     @property
     def style(self) -> PlotStyle:
-        """Curves on paper."""
         return paper_style(self.point)
 
     @property
@@ -66,7 +65,6 @@ class Page:
         return A4_PT[0] - MARGIN_PT
 
     def box(self, left: float, top: float, width: float, height: float) -> QRectF:
-        """A rectangle in painter units."""
         return QRectF(left * self.point, top * self.point, width * self.point, height * self.point)
 
     def face(self, size_pt: float, weight: int = REGULAR) -> QFont:
@@ -188,14 +186,12 @@ class Page:
         return last
 
     def rule(self, y: float, left: float | None = None, right: float | None = None) -> None:
-        """A fine line across."""
         self.painter.setPen(QPen(QColor(LIGHT.line), 0.6 * self.point))
         start = (self.left if left is None else left) * self.point
         end = (self.right if right is None else right) * self.point
         self.painter.drawLine(QPointF(start, y * self.point), QPointF(end, y * self.point))
 
     def card(self, left: float, top: float, width: float, height: float) -> None:
-        """A rounded outline."""
         self.painter.setPen(QPen(QColor(LIGHT.line), 0.8 * self.point))
         self.painter.setBrush(Qt.BrushStyle.NoBrush)
         self.painter.drawRoundedRect(self.box(left, top, width, height), 6 * self.point, 6 * self.point)

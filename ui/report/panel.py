@@ -107,7 +107,6 @@ class ReportPanel(QWidget):
         return box
 
     def begin(self, report: SessionReport) -> None:
-        """Show what a report has."""
         self.keep_comment()
         self._soon.stop()
         self._report, self._kept, self._usual = None, report.comment, report.form.left_out
@@ -123,7 +122,6 @@ class ReportPanel(QWidget):
         self._show_sentences()
 
     def keep_comment(self) -> None:
-        """What is written holds from now on."""
         self._take_comment()
         if self._report is not None and self._report.comment.strip() != self._kept.strip():
             self._kept = self._report.comment

@@ -42,7 +42,6 @@ class ProgressReport:
 
     @property
     def sessions(self) -> tuple[SessionFigures, ...]:
-        """Whose figures are on the page."""
         return tuple(point.figures for point in self.progress.points)
 
 

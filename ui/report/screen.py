@@ -128,7 +128,6 @@ class ReportScreen(QWidget):
         self.save_button.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _show_changed(self, report: Report) -> None:
-        """Other parts, or another comment."""
         self._report = report
         self._show_saved()
         self._show_pages(report)
@@ -148,7 +147,6 @@ class ReportScreen(QWidget):
 
     @property
     def shown(self) -> Report | None:
-        """What is on the screen."""
         return self._report
 
     def _show_saved(self) -> None:
@@ -161,7 +159,6 @@ class ReportScreen(QWidget):
         self.open_button.setVisible(bool(path))
 
     def ask_and_save(self) -> None:
-        """Ask for a name, then save."""
         start = str(Path(self._folder) / self._name)
         path, _ = QFileDialog.getSaveFileName(self, self.tr("Save report"), start, self.tr("PDF (*.pdf)"))
         if path:
@@ -258,7 +255,6 @@ class PagePreview(QWidget):
         theme.changed.connect(self._lay_out)
 
     def show_report(self, report: Report) -> None:
-        """Show another page."""
         self._report = report
         self._lay_out()
 

@@ -77,7 +77,6 @@ class SessionReport:
 
     @property
     def sessions(self) -> tuple[SessionFigures, ...]:
-        """Whose figures are on the page."""
         return (self.figures,)
 
 
@@ -89,22 +88,18 @@ class OfSession:
 
     @property
     def form(self) -> ReportForm:
-        """Letterhead and paper."""
         return self.report.form
 
     @property
     def pseudonym(self) -> str:
-        """The made-up name."""
         return self.report.pseudonym
 
     @property
     def side(self) -> Side:
-        """The hand."""
         return self.report.figures.side
 
     @property
     def sessions(self) -> tuple[SessionFigures, ...]:
-        """Whose figures are on the page."""
         return self.report.sessions
 
 

@@ -46,11 +46,9 @@ class RetestFlow(Flow):
         screen.save.connect(self._save)
 
     def title(self) -> str:
-        """It is of no patient."""
         return self.tr("Test and retest")
 
     def show(self) -> None:
-        """The study as it stands now."""
         self.close_patient()
         self.context.way.go("retest")
         self._read()

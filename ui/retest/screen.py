@@ -173,7 +173,6 @@ class RetestScreen(QWidget):
         table.setVisible(bool(shown))
 
     def first(self) -> QWidget:
-        """What takes the keyboard."""
         return self.measure_button if self.measure_button.isEnabled() else self.people_button
 
     def _measure(self) -> None:

@@ -76,7 +76,6 @@ class ReviewCharts(QWidget):
         return plot
 
     def _show_ways(self, reviewed: Reviewed) -> None:
-        """Of the wrist, or of a finger's joints."""
         if not reviewed.is_hand or self.number == WRIST:
             self.ways.show_plot(wrist_way(reviewed.motion), self.tr("Path of the wrist, with the hand’s axes"))
             return
@@ -86,6 +85,5 @@ class ReviewCharts(QWidget):
         self.ways.show_plot(finger_ways(reviewed.motion, self.number), words)
 
     def set_time(self, time_s: float) -> None:
-        """Put the cursors of both."""
         self.curves.set_time(time_s)
         self.ways.set_time(time_s)

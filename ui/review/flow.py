@@ -52,17 +52,14 @@ class ReviewFlow(Flow):
         self.context.way.go("review")
 
     def sign_lines(self) -> list[str]:
-        """What must not be forgotten of the camera that measured."""
         figures = self.screen.figures
         words = unsure_words(figures.camera) if figures is not None else ""
         return [words] if words else []
 
     def leave(self) -> None:
-        """Another screen is shown."""
         self.screen.playing.stop()
 
     def close(self) -> None:
-        """The window closes."""
         self.screen.playing.stop()
 
     def show_research(self, *, on: bool) -> None:

@@ -68,7 +68,6 @@ class ReviewPicture(SessionPicture):
         self.update()
 
     def show_time(self, time_s: float, row: int) -> None:
-        """Where one is in it."""
         self._time_s = time_s
         self.show_row(row)
         self.update()
@@ -79,7 +78,6 @@ class ReviewPicture(SessionPicture):
         super().show_stored(picture)
 
     def _place_soon(self) -> None:
-        """When they have their new size."""
         QTimer.singleShot(0, self, self._place_buttons)
 
     def _place_buttons(self) -> None:

@@ -84,7 +84,6 @@ class Player(Card):
             shown.setVisible(on)
 
     def show_session(self, end_s: float, repetitions: Sequence[ShownRepetition], current: int) -> None:
-        """Length and repetitions."""
         self._end_s = end_s
         self.scrubber.show_session(end_s, repetitions, current)
 

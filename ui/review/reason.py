@@ -59,7 +59,6 @@ class ReasonSheet(Sheet):
         body.addLayout(row)
 
     def begin(self, number: int) -> None:
-        """Ask about a repetition, counted from 1."""
         self._title.setText(self.tr("Is repetition {number} passive, or left out?").format(number=number))
         self.line.clear()
         self._written("")

@@ -51,7 +51,6 @@ class ResultTables(QScrollArea):
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
 
     def show_places(self, *, whole_hand: bool) -> None:
-        """Which tables there are."""
         self.hand.setVisible(whole_hand)
         self.limits.setVisible(whole_hand)
         self.range.setVisible(not whole_hand)
@@ -64,7 +63,6 @@ class ResultTables(QScrollArea):
         self.hand.show_rows((), ())
 
     def needed_px(self) -> int:
-        """How high what is shown of a wrist is."""
         needed, gap = 0 if self.range.isHidden() else self.range.sizeHint().height(), self._column.spacing()
         shown: list[QWidget] = [widget for widget in self._ways if not widget.isHidden()]
         shown += [self.further] if self.further.rows else []
@@ -75,7 +73,6 @@ class ResultTables(QScrollArea):
         return needed + self.notes.fontMetrics().height() + 2 * gap
 
     def show_session(self, reviewed: Reviewed) -> None:
-        """Replace all of them."""
         figures = reviewed.figures
         previous, other = previous_of(reviewed.history, figures), other_hand_of(reviewed.history, figures)
         if reviewed.is_hand:

@@ -57,22 +57,18 @@ class Reviewed:
         return cls(session, choices, history, camera, results, by_hand, *drawn, modelled, figures)
 
     def chosen(self, choices: RepetitionChoices) -> Reviewed:
-        """With other choices."""
         return replace(self, choices=choices, figures=_figures(self.session, choices, self.history, self.camera))
 
     @property
     def id(self) -> str:
-        """The session's identity."""
         return self.session.header.session_id
 
     @property
     def is_hand(self) -> bool:
-        """Whether it is of the whole hand."""
         return self.joints is not None
 
     @property
     def saved_at(self) -> datetime:
-        """When the session was over and stored."""
         return self.figures.when + timedelta(seconds=self.figures.duration_s)
 
     def under(self, time_s: float) -> list[int]:
@@ -127,7 +123,6 @@ class Reviewed:
         return replace(self.choices, left_out=reasons)
 
     def with_edges(self, number: int, start_s: float, end_s: float) -> RepetitionChoices:
-        """A repetition begins and ends elsewhere."""
         return replace(self.choices, edges_s={**self.choices.edges_s, number: (start_s, end_s)})
 
     def nudged(self, number: int, time_s: float, by_s: float) -> RepetitionChoices:

@@ -153,12 +153,10 @@ class ReviewScreen(QWidget):
 
     @property
     def shown(self) -> bool:
-        """Whether a session is on the screen."""
         return self.reviewed is not None
 
     @property
     def figures(self) -> SessionFigures | None:
-        """Its figures."""
         return None if self.reviewed is None else self.reviewed.figures
 
     def _show(self, reviewed: Reviewed) -> None:
@@ -200,7 +198,6 @@ class ReviewScreen(QWidget):
         self.picture.show_time(time_s, row_at(self.reviewed.curves.time_s, time_s))
 
     def step(self, frames: int) -> None:
-        """Go some pictures on or back."""
         if self.reviewed is not None and len(times := self.reviewed.curves.time_s):
             row = row_at(times, self.playing.time_s) + frames
             self.playing.seek(float(times[np.clip(row, 0, len(times) - 1)]))

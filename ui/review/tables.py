@@ -100,7 +100,6 @@ class RangeTable(_Table[TableRow]):
     _head: TableRow | None = None
 
     def show_rows(self, head: TableRow, rows: Sequence[TableRow]) -> None:
-        """Replace the table."""
         self._head = head
         self._show(rows, [f"{row.movement} {row.today} {row.change}".strip() for row in rows])
 
@@ -155,7 +154,6 @@ class HandTable(_Table[FingerRow]):
     _heads: Sequence[str] = ()
 
     def show_rows(self, heads: Sequence[str], rows: Sequence[FingerRow]) -> None:
-        """Replace the table."""
         self._heads = tuple(heads)
         spoken = []
         for row in rows:

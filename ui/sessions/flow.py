@@ -40,19 +40,16 @@ class SessionsFlow(Flow):
         screen.changed.connect(self._look_for_open)
 
     def show(self, patient_id: str) -> None:
-        """All sessions of a patient."""
         self.open_patient(patient_id)
         now = self.context.now
         self.screen.begin(patient_id, now.name, now.session_id)
         self.context.way.go("sessions")
 
     def up(self) -> None:
-        """To the patient."""
         if not put_off_last(self.screen):
             self.to_patient()
 
     def show_research(self, *, on: bool) -> None:
-        """Whether another measurement can be compared with."""
         self.screen.reference_button.setVisible(on)
 
     def _show_progress(self, session_id: str) -> None:
@@ -99,7 +96,6 @@ class SessionShelf:
         return (choices.not_counted_reason or "by hand") if choices.not_counted else ""
 
     def with_figures(self, line: SessionLine) -> SessionLine:
-        """The same with what its file says."""
         entry = self._library.entry(line.session_id)
         try:
             figures = self._library.figures(entry)
@@ -118,7 +114,6 @@ class SessionShelf:
         )
 
     def other_patients(self, patient_id: str) -> Sequence[tuple[str, str]]:
-        """Everybody else."""
         rows = self._library.patients.listed()
         return [(row.patient_id, row.entry.pseudonym) for row in rows if row.patient_id != patient_id]
 
@@ -128,19 +123,16 @@ class SessionShelf:
         return sum(one.patient_id == patient_id and one.recorded is not None for one in found)
 
     def set_aside(self, session_id: str, reason: str) -> None:
-        """Let it count nowhere, or again."""
         choices = self._library.choices(session_id)
         self._library.keep_choices(session_id, replace(choices, not_counted=bool(reason), not_counted_reason=reason))
 
     def move(self, session_id: str, patient_id: str) -> None:
-        """Give it to another patient."""
         self._library.pictures.forget()
         self._library.index.move(session_id, patient_id)
         self._library.notes.session("moved", session_id, to=fingerprint(patient_id))
         self._library.forget_figures(session_id)
 
     def rename_exercise(self, session_id: str, exercise: str) -> None:
-        """Say that it was another exercise."""
         self._library.index.rename_exercise(session_id, exercise)
         self._library.notes.session("renamed", session_id, exercise=exercise.lower())
         self._library.forget_figures(session_id)

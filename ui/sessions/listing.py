@@ -85,7 +85,6 @@ class SessionModel(QAbstractListModel):
         """At most two, the one that was ticked first before the other."""
 
     def show_lines(self, lines: Sequence[SessionLine]) -> None:
-        """Replace all rows."""
         self.beginResetModel()
         self.lines = tuple(lines)
         there = [line.session_id for line in lines]

@@ -163,12 +163,10 @@ class SessionsScreen(QWidget):
             self._show_ticks()
 
     def chosen(self) -> SessionLine | None:
-        """The session that the card is about."""
         index: QModelIndex = self.list.currentIndex()
         return self.list.rows.lines[index.row()] if index.isValid() else None
 
     def first(self) -> QWidget:
-        """What takes the keyboard."""
         return self.list if self.list.rows.lines else self
 
     def _show_chosen(self) -> None:
@@ -196,12 +194,10 @@ class SessionsScreen(QWidget):
 
     # --- what is done -------------------------------------------------------------------------------------
     def open_chosen(self) -> None:
-        """Review the chosen session."""
         if self.open_button.isEnabled():
             self._emit_chosen(self.opened)
 
     def compare_ticked(self) -> None:
-        """The two that are ticked side by side."""
         ticked = self.list.rows.ticked
         if len(ticked) == 2:
             self.pair_wanted.emit(*ticked)
@@ -259,7 +255,6 @@ class SessionsScreen(QWidget):
             self.erase_wanted.emit(line.session_id)
 
     def _move(self, session_id: str, patient_id: str) -> str:
-        """Whose it is now."""
         self._shelf.move(session_id, patient_id)
         return dict(self._shelf.other_patients(self._patient_id))[patient_id]
 

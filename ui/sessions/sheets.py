@@ -59,7 +59,6 @@ class SetAsideSheet(_Asking):
         self._buttons(self.take, self.close_button)
 
     def begin(self) -> None:
-        """Ask for the reason."""
         self.line.clear()
         self._written("")
         self.open()

@@ -42,7 +42,6 @@ class CameraCard(Card):
         self.calibrate_button.clicked.connect(self.calibrate)
 
     def show_standing(self, state: State, words: str) -> None:
-        """How far it is to be trusted today."""
         sign = Sign(self._theme, state)
         self._row.replaceWidget(self._sign, sign)
         self._sign.hide()

@@ -60,11 +60,9 @@ class ReportCard(Card):
         self._show_logo()
 
     def show_form(self, form: ReportForm) -> None:
-        """It was changed elsewhere."""
         self._form = form
 
     def ask_logo(self) -> None:
-        """Ask for a picture and take it."""
         kinds = self.tr("Pictures (*.png *.jpg *.jpeg)")
         path, _ = QFileDialog.getOpenFileName(self, self.tr("Choose a logo"), "", kinds)
         if path:

@@ -250,7 +250,6 @@ class SettingsScreen(QWidget):
         self._left.setLayout(index)
 
     def show_limits(self, measured: ErrorLimits) -> None:
-        """The limits that hold from now on."""
         self._measured = measured
         while (item := self._limits.body.takeAt(0)) is not None:
             if (old := item.widget()) is not None:
@@ -276,7 +275,6 @@ class SettingsScreen(QWidget):
         self._fold()
 
     def choose(self, part: PartName) -> None:
-        """Show one part."""
         self.index[part].setChecked(True)
         self._stack.setCurrentIndex(get_args(PartName).index(part))
 
@@ -331,7 +329,6 @@ class SettingsScreen(QWidget):
 
     @property
     def preferences(self) -> Preferences:
-        """What is chosen now."""
         return self._preferences
 
     def _change(self, preferences: Preferences) -> None:
@@ -348,7 +345,6 @@ class SettingsScreen(QWidget):
             self._change(replace(self._preferences, agreement_limit_deg=value if math.isfinite(value) else 0.0))
 
     def ask_folder(self) -> None:
-        """Ask for another data folder."""
         over = self if self.isVisible() else QApplication.activeWindow()  # the first start asks from another screen
         path = QFileDialog.getExistingDirectory(over, self.tr("Data folder"), self._preferences.data_folder)
         if path:

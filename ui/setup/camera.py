@@ -119,12 +119,10 @@ class CameraScreen(QWidget):
         self._show()
 
     def first(self) -> QWidget:
-        """What takes the keyboard."""
         return self.sources.current()
 
     @property
     def is_opening(self) -> bool:
-        """Whether a source is being opened."""
         return self._opening
 
     def set_camera_ready(self, there: bool, name: str = "") -> None:
@@ -134,7 +132,6 @@ class CameraScreen(QWidget):
             self._show()
 
     def set_path(self, path: str) -> None:
-        """The recording that was chosen."""
         self._path = path
         self.sources.choose("file")
         self._show()
@@ -151,7 +148,6 @@ class CameraScreen(QWidget):
         self._show()
 
     def show_progress(self, done: int, total: int) -> None:
-        """How far the opening is."""
         self.progress.setRange(0, total)
         self.progress.setValue(done)
 

@@ -194,7 +194,6 @@ class ExerciseScreen(QWidget):
 
     @property
     def exercises(self) -> Options:
-        """The exercises of the markers chosen."""
         return self.lists[str(self.protocol.value())]
 
     def choose(self, exercise: Exercise, protocol: MarkerProtocol | None = None) -> None:
@@ -208,7 +207,6 @@ class ExerciseScreen(QWidget):
         return self.exercises.current()
 
     def set_up(self) -> SetUp:
-        """What is chosen."""
         assert self._row is not None
         exercise = self._exercise()
         side: Side = "left" if self.side.value() == "left" else "right"
@@ -297,7 +295,6 @@ class ExerciseScreen(QWidget):
         return None if value is None else "left" if value == "left" else "right"
 
     def _show_side(self) -> None:
-        """Another hand has goals of its own."""
         self._show_goals()
         self._show_problem()
 

@@ -44,7 +44,6 @@ class Option(QPushButton):
         self.toggled.connect(lambda on: self._mark.show_sign("chosen" if on else "open", size_px=22))
 
     def show_sentence(self, sentence: str, state: State = "none", words: str = "") -> None:
-        """Change what is said of it."""
         self._sentence.setText(sentence)
         self._state.show_state(state, words, token="text")
         self.setAccessibleDescription(" ".join(part for part in (sentence, words) if part))
@@ -52,7 +51,6 @@ class Option(QPushButton):
 
     @property
     def state_words(self) -> str:
-        """The word beside the state icon."""
         return self._state.text()
 
     def heightForWidth(self, width: int) -> int:
@@ -90,15 +88,12 @@ class Options(QWidget):
         self.choose(self._values[0])
 
     def choose(self, value: object) -> None:
-        """Select one."""
         self._group.button(self._values.index(value)).setChecked(True)
 
     def value(self) -> object:
-        """What is chosen."""
         return self._values[self._group.checkedId()]
 
     def option(self, value: object) -> Option:
-        """The button of a value."""
         return self._group.button(self._values.index(value))  # type: ignore[return-value]
 
     def current(self) -> Option:

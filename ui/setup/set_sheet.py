@@ -74,13 +74,11 @@ class PartRow:
         return (self.exercise, self.count, self.unit, self.rest, self.earlier, self.remove)
 
     def part(self) -> CoursePart:
-        """As it is shown."""
         exercise = exercise_named(str(self.exercise.currentData()))
         timed, count = bool(self.unit.currentData()), self.count.value()
         return CoursePart(exercise, 0 if timed else count, count if timed else 0, self.rest.value())
 
     def _keep_possible(self) -> None:
-        """What has no repetitions goes by time."""
         counts = exercise_named(str(self.exercise.currentData())).counts
         if not counts and not self.unit.currentData():
             self.unit.setCurrentIndex(1)
@@ -203,7 +201,6 @@ class SetSheet(Sheet):
         self._judge()
 
     def _keep_order(self) -> None:
-        """Tab goes along the rows."""
         order: list[QWidget] = [self.which, self.name]
         order += [widget for row in self.rows for widget in row.widgets]
         order += [self.add, self.delete, self.close_button, self.keep]

@@ -66,7 +66,6 @@ class BubbleView(QWidget):
         self.hide()
 
     def show_bubble(self, bubble: Bubble | None) -> None:
-        """Say what a bubble says, or nothing."""
         if bubble == self.bubble:
             return
         self.bubble = bubble

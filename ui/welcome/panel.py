@@ -102,7 +102,6 @@ class WelcomePanel(Card):
         self.body.addLayout(foot)
 
     def show_looking(self) -> None:
-        """The computer is being looked at."""
         self.state.setText(self.tr("This computer is being looked at …"))
         self.again_button.setEnabled(False)
 
@@ -128,7 +127,6 @@ class WelcomePanel(Card):
         self.again_button.setEnabled(True)
 
     def _fold(self) -> None:
-        """What stands well is a detail."""
         for row in self.checks:
             row.setVisible(row.check.state != "good" or self.details_button.isChecked())
 
