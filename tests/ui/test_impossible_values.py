@@ -18,7 +18,7 @@ from carpus.core.results.seen import joint_curves
 from carpus.ui.figures import FIGURES, Figure
 from carpus.ui.joint_figures import figures_of
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.series import Drawn, Series, paint_series
+from carpus.ui.plot.series import Curve, Series, paint_curves
 from carpus.ui.plot.session import thinned
 from carpus.ui.plot.style import screen_style
 from carpus.ui.theme import Theme
@@ -69,11 +69,9 @@ def drawn(theme: Theme, many: list[Series]) -> list[QRectF]:
     picture = QImage(600, 120, QImage.Format.Format_RGB32)
     panel = Panel(QRectF(0, 0, 600, 120), Scale(-15.0, 115.0, (90.0, 0.0), ()), 0.0, 20.0)
     painter = QPainter(picture)
-    shared = Drawn()
-    for series in many:
-        paint_series(painter, screen_style(theme), panel, series, "curve_a", shared)
+    numbers = paint_curves(painter, screen_style(theme), panel, [Curve(series, "curve_a") for series in many])
     painter.end()
-    return shared.numbers
+    return numbers
 
 
 def test_numbers_of_values_beyond_the_scale_never_cover_each_other(qapp: QApplication, theme: Theme) -> None:

@@ -26,7 +26,7 @@ from carpus.ui.numbers import with_spread
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.history import History
 from carpus.ui.plot.live_curves import LiveCurves
-from carpus.ui.plot.series import Series, paint_series
+from carpus.ui.plot.series import Curve, Series, paint_curves
 from carpus.ui.plot.session import SessionPlot, paint_session
 from carpus.ui.plot.session_view import CurveView
 from carpus.ui.plot.style import screen_style
@@ -242,7 +242,7 @@ def drawn_series(theme: Theme, series: Series, start_s: float, end_s: float, rat
     image.fill(QColor("white"))
     painter = QPainter(image)
     panel = Panel(QRectF(0, 0, 600, 200), Scale(-90.0, 90.0, (), ()), start_s, end_s)
-    paint_series(painter, screen_style(theme), panel, series, "curve_a")
+    paint_curves(painter, screen_style(theme), panel, [Curve(series, "curve_a")])
     painter.end()
     return pixels(image)[..., :3].astype(np.float64)
 

@@ -17,8 +17,8 @@ from PySide6.QtGui import QFontMetricsF, QPainter
 from carpus.core.types import FloatArray
 from carpus.ui.agreement.words import angle_token, ends, interval, signed
 from carpus.ui.plot.axes import Panel, Scale, hatch, time_labels
-from carpus.ui.plot.marks import Curve, Curves, Level, Mark, Remark, Scales, Times
-from carpus.ui.plot.series import Series
+from carpus.ui.plot.marks import Curves, Level, Mark, Remark, Scales, Times
+from carpus.ui.plot.series import Curve, Series
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
 

@@ -51,14 +51,32 @@ class Panel:
     end_s: float
 
     def x(self, time_s: FloatArray | float) -> FloatArray:
-        share = (np.asarray(time_s, dtype=np.float64) - self.start_s) / (self.end_s - self.start_s)
-        return self.box.left() + share * self.box.width()
+        return x_px(np.asarray(time_s, dtype=np.float64), *self.across())
 
     def y(self, value: FloatArray | float) -> FloatArray:
         """Painter y of values, kept inside the panel."""
-        clipped = np.clip(np.asarray(value, dtype=np.float64), self.scale.low, self.scale.high)
-        share = (self.scale.high - clipped) / (self.scale.high - self.scale.low)
-        return self.box.top() + share * self.box.height()
+        return y_px(np.asarray(value, dtype=np.float64), *self.down())
+
+    def across(self) -> tuple[float, float, float, float]:
+        """What :func:`x_px` takes."""
+        return self.box.left(), self.box.width(), self.start_s, self.end_s
+
+    def down(self) -> tuple[float, float, float, float]:
+        """What :func:`y_px` takes."""
+        return self.box.top(), self.box.height(), self.scale.low, self.scale.high
+
+
+Edge = float | FloatArray
+
+
+def x_px(time_s: FloatArray, left: Edge, width: Edge, start_s: Edge, end_s: Edge) -> FloatArray:
+    """Painter x of times in a panel, or each in its own."""
+    return np.asarray(left + (time_s - start_s) / (end_s - start_s) * width)
+
+
+def y_px(value: FloatArray, top: Edge, height: Edge, low: Edge, high: Edge) -> FloatArray:
+    """Painter y of values, kept inside the panel, or each inside its own."""
+    return np.asarray(top + (high - np.minimum(np.maximum(value, low), high)) / (high - low) * height)
 
 
 def time_labels(start_s: float, end_s: float) -> list[tuple[float, str]]:

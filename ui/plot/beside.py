@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -17,7 +17,7 @@ from carpus.ui.figures import figure_of, with_side
 from carpus.ui.plot.axes import Panel, Scale, angle_scale, hatch
 from carpus.ui.plot.marks import EndLabels, Scales, Times
 from carpus.ui.plot.polygon import runs
-from carpus.ui.plot.series import Drawn, Series, paint_series
+from carpus.ui.plot.series import Curve, Series, paint_curves
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
 
@@ -82,19 +82,15 @@ class BesidePlot:
             painter.setPen(style.color("text2"))
             painter.drawText(panel.box, int(Qt.AlignmentFlag.AlignCenter), _nothing())
             return
-        drawn = Drawn()
         painter.save()
         painter.setClipRect(panel.box.adjusted(-1, -2, 1, 2), Qt.ClipOperation.IntersectClip)
         self._paint_unseen(painter, style, panel)
-        for mean, token, with_band in ((self.second, TOKENS[1], False), (self.first, TOKENS[0], True)):
-            whole = self._series(mean, with_band=with_band)
-            for begin, past in whole.stretches():  # a gap of one is no gap of the other: it stays open, not hatched
-                sd = None if whole.sd is None else whole.sd[begin:past]
-                part = replace(
-                    whole, time_s=whole.time_s[begin:past], value=whole.value[begin:past], sd=sd,
-                    predicted=whole.predicted[begin:past],
-                )  # fmt: skip
-                paint_series(painter, style, panel, part, token, drawn)
+        # A gap of one is no gap of the other: it stays open, not hatched.
+        means = ((self.second, TOKENS[1], False), (self.first, TOKENS[0], True))
+        paint_curves(
+            painter, style, panel,
+            [Curve(self._series(mean, with_band=band), token, hatched=False) for mean, token, band in means],
+        )  # fmt: skip
         painter.restore()
         self._paint_names(painter, style, panel)
         self._paint_places(painter, style, panel)

@@ -10,8 +10,7 @@ import numpy as np
 from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.ui import numbers
 from carpus.ui.figures import figure_of
-from carpus.ui.plot.marks import Curve
-from carpus.ui.plot.series import Series
+from carpus.ui.plot.series import Curve, Series
 from carpus.ui.plot.session import HandPlot, SessionPlot, Value
 from carpus.ui.translate import tr
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QFontMetricsF, QPainter, QPen
+from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPen
 
 from carpus.ui import numbers
 from carpus.ui.figures import FIGURES, FINGERS, ROWS, Figure, Row, row_name, side_word, spread_labels
@@ -18,7 +18,8 @@ from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.history import SHOWN_S, History
-from carpus.ui.plot.marks import Curve, Curves, Mark, Scales, Target
+from carpus.ui.plot.marks import DrawnCurves, Scales, Target
+from carpus.ui.plot.series import Curve, Drawing
 from carpus.ui.plot.style import screen_style
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
@@ -36,6 +37,7 @@ SPREADING_ROWS: tuple[Row, ...] = ("spread",)
 ROOMY_FROM_PX, SPREADS_FROM_PX = 290, 160
 WEAK_SD_DEG = 10.0
 """From this spread on a figure is marked as weak."""
+_NUMBER_OF = {figure: number for number, figure in enumerate(FIGURES)}
 
 
 class FingerCurves(PlotCard):
@@ -155,61 +157,70 @@ class FingerCurves(PlotCard):
         self._cells.update()
 
     def show_marks(self, canvas: Canvas) -> None:
-        block, now_s = self._history.block(speeds=self._speeds), self._history.now_s
-        marks: list[list[Mark]] = []
+        block = self._history.block(speeds=self._speeds)
+        placed: list[tuple[Panel, list[Curve]]] = []
+        boxes = iter(canvas.boxes)
         for finger in FINGERS:
-            for panel, rows in zip(self.panels(finger), (BENDING_ROWS, SPREADING_ROWS), strict=True):
-                own = [FIGURES.index(Figure(finger, row)) for row in rows if panel.box.height() > 0.0]
-                marks.append([Curves([Curve(block.series(k).from_time(now_s), FIGURES[k].token) for k in own])])
-        canvas.show_marks(marks)
+            for rows in (BENDING_ROWS, SPREADING_ROWS):
+                own = [Figure(finger, row) for row in rows] if (box := next(boxes)).panel.box.height() > 0.0 else []
+                placed.append((box.own, [Curve(block.series(_NUMBER_OF[one]), one.token) for one in own]))
+        drawing = Drawing(screen_style(self._theme), placed)
+        canvas.show_marks([[DrawnCurves(drawing, number)] for number in range(len(placed))])
 
     def _paint_figures(self, painter: QPainter) -> None:
         """The numbers below the curves; they change ten times a second at most."""
+        scale = self._theme.text_scale
+        number, words = _Face.of(font(16 * scale, SEMIBOLD)), _Face.of(font(12 * scale, MEDIUM))
+        shown_rows = self._rows()
         for figure in FIGURES:
-            if figure.row in self._rows():
-                self._paint_figure(painter, figure)
+            if figure.row in shown_rows:
+                self._paint_figure(painter, figure, number, words)
 
-    def _paint_figure(self, painter: QPainter, figure: Figure) -> None:
-        theme, scale = self._theme, self._theme.text_scale
-        cell, style = self.cell(figure), screen_style(self._theme)
+    def _paint_figure(self, painter: QPainter, figure: Figure, number: _Face, words: _Face) -> None:
+        theme, cell = self._theme, self.cell(figure)
         value, sd, measured = self._values.get(figure, (math.nan, math.nan, False))
-        if self._waiting:
-            value = math.nan
-        predicted = not measured or self._history.inferred(FIGURES.index(figure))
+        is_known = math.isfinite(value) and not self._waiting
+        inferred = self._history.inferred(_NUMBER_OF[figure])
+        predicted = inferred or not measured
         middle = cell.center().y()
-        if predicted and math.isfinite(value):
-            axes.hatch(painter, style, cell.adjusted(14, 3, 0, -3), alpha=70)
-        pen = QPen(theme.color(figure.token), 3)
-        pen.setCapStyle(Qt.PenCapStyle.FlatCap)
-        if predicted:
-            pen.setDashPattern([1.4, 1.0])
-        painter.setPen(pen)
-        if math.isfinite(value):
-            painter.drawLine(QPointF(cell.left(), middle), QPointF(cell.left() + 11, middle))
-        painter.setFont(font(16 * scale, SEMIBOLD))
+        if is_known:
+            self._paint_line(painter, figure, cell, predicted=predicted)
+        painter.setFont(number.font)
         painter.setPen(theme.color("text2" if predicted else "text"))
-        metrics = QFontMetricsF(painter.font())
-        left, baseline = cell.left() + 18, middle + metrics.capHeight() / 2
-        text = numbers.degrees(value)
+        left, baseline = cell.left() + 18, middle + number.metrics.capHeight() / 2
+        text = numbers.degrees(value if is_known else math.nan)
         painter.drawText(QPointF(left, baseline), text)
-        left += metrics.horizontalAdvance(text) + 4
-        words = numbers.spread(sd) if math.isfinite(value) else ""
-        painter.setFont(font(12 * scale, MEDIUM))
-        inferred = self._history.inferred(FIGURES.index(figure))
-        if inferred and words:
-            words = self.tr("follows the middle joint")
-            if QFontMetricsF(painter.font()).horizontalAdvance(words) > cell.right() - left:
-                words = self.tr("follows")
-        if math.isfinite(value) and (name := cell_word(figure, value)):
-            both, room = f"{words} {name}", cell.right() - left - 18
+        if not is_known:
+            return
+        left += number.metrics.horizontalAdvance(text) + 4
+        wide_px = words.metrics.horizontalAdvance
+        beside = numbers.spread(sd)
+        if inferred and beside:
+            beside = self.tr("follows the middle joint")
+            if wide_px(beside) > cell.right() - left:
+                beside = self.tr("follows")
+        if name := cell_word(figure, value):
+            both = f"{beside} {name}"
             # What an angle is goes before how sure it is.
-            words = both if QFontMetricsF(painter.font()).horizontalAdvance(both) < room else name
+            beside = both if wide_px(both) < cell.right() - left - 18 else name
+        painter.setFont(words.font)
         painter.setPen(theme.color("text2"))
-        painter.drawText(QPointF(left, baseline), words)
-        left += QFontMetricsF(painter.font()).horizontalAdvance(words) + 5
-        if math.isfinite(value) and not inferred and sd >= WEAK_SD_DEG and left + 13 < cell.right():
+        painter.drawText(QPointF(left, baseline), beside)
+        left += wide_px(beside) + 5
+        if not inferred and sd >= WEAK_SD_DEG and left + 13 < cell.right():
             box = QRectF(left, middle - 6.5, 13, 13)  # a triangle: the half disc is that of a marker seen now and then
             paint_state(painter, "warn", box, theme.color("warn"), theme.color("surface"))
+
+    def _paint_line(self, painter: QPainter, figure: Figure, cell: QRectF, *, predicted: bool) -> None:
+        """The key to the curve: its colour, solid or dashed on hatching."""
+        pen = QPen(self._theme.color(figure.token), 3)
+        pen.setCapStyle(Qt.PenCapStyle.FlatCap)
+        if predicted:
+            axes.hatch(painter, screen_style(self._theme), cell.adjusted(14, 3, 0, -3), alpha=70)
+            pen.setDashPattern([1.4, 1.0])
+        painter.setPen(pen)
+        middle = cell.center().y()
+        painter.drawLine(QPointF(cell.left(), middle), QPointF(cell.left() + 11, middle))
 
     def paint_ground(self, painter: QPainter) -> None:
         theme, scale = self._theme, self._theme.text_scale
@@ -260,6 +271,18 @@ class FingerCurves(PlotCard):
         painter.setFont(font(shown * self._theme.text_scale, weight))
         painter.setPen(self._theme.color(token))
         painter.drawText(QPointF(left, top + QFontMetricsF(painter.font()).ascent()), text)
+
+
+@dataclass(frozen=True, slots=True)
+class _Face:
+    """A font and what it measures, made once for all the numbers."""
+
+    font: QFont
+    metrics: QFontMetricsF
+
+    @staticmethod
+    def of(face: QFont) -> _Face:
+        return _Face(face, QFontMetricsF(face))
 
 
 def cell_word(figure: Figure, value_deg: float) -> str:

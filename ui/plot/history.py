@@ -46,15 +46,19 @@ _COLUMNS = 22
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """Samples of all figures: ``time_s`` (n,), ``value_deg``, ``sd_deg`` and ``predicted`` (n, F)."""
+    """Samples of all figures: ``time_s`` (n,) from ``start_s`` on, ``value_deg``, ``sd_deg``, ``predicted`` (n, F)."""
 
     time_s: FloatArray
     value_deg: FloatArray
     sd_deg: FloatArray
     predicted: BoolArray
+    start_s: float
 
     def series(self, figure: int) -> Series:
-        return Series(self.time_s, self.value_deg[:, figure], self.sd_deg[:, figure], self.predicted[:, figure])
+        return Series(
+            self.time_s, self.value_deg[:, figure], self.sd_deg[:, figure], self.predicted[:, figure],
+            start_s=self.start_s,
+        )  # fmt: skip
 
 
 class History:
@@ -165,17 +169,17 @@ class History:
 
     # --- fingers ------------------------------------------------------------------------------------------
     def block(self, *, speeds: bool = False) -> Block:
-        """The curves of all figures over the shown time, every third frame; speeds in degrees/s without sign."""
-        rows, hand = self._rows, self._hand
+        """The curves of all figures over the shown time up to now, every third frame; speeds in degrees/s without
+        sign."""
+        rows, hand, now_s = self._rows, self._hand, self.now_s
         if not self.has_fingers:
             none = np.empty((0, len(FIGURES)))
-            return Block(np.empty(0), none, none, none.astype(bool))
-        part = (rows[:, _TIME] >= self.now_s - SHOWN_S) & ((self._index % EVERY == 0) | (len(rows) < EVERY))
-        predicted = ~hand.measured[part] | self._mix.inferred
+            return Block(np.empty(0), none, none, none.astype(bool), now_s)
+        part = (rows[:, _TIME] >= now_s - SHOWN_S) & ((self._index % EVERY == 0) | (len(rows) < EVERY))
+        value, sd = hand.value_deg[part], hand.sd_deg[part]
         if speeds:
-            value = np.abs(hand.speed_deg_s[part])
-            return Block(rows[part, _TIME], value, np.zeros_like(value), predicted)
-        return Block(rows[part, _TIME], hand.value_deg[part], hand.sd_deg[part], predicted)
+            value, sd = np.abs(hand.speed_deg_s[part]), np.zeros_like(value)
+        return Block(rows[part, _TIME] - now_s, value, sd, ~hand.measured[part] | self._mix.inferred, now_s)
 
     def figure_value(self, figure: int) -> tuple[float, float, bool]:
         """Newest value, its standard deviation, and whether its discs have been seen of late, as :meth:`seen` says."""
@@ -296,8 +300,8 @@ def _row(frame: TrackedFrame) -> FloatArray:
     row[_SDS] = np.degrees(frame.moment.angles_sd_rad)
     row[_STATUS] = frame.status
     row[_POSITION] = 1000.0 * frame.moment.position_m
-    row[11] = 1000.0 * float(np.linalg.norm(frame.moment.velocity_m_s))
-    row[12] = math.degrees(float(np.linalg.norm(frame.moment.angular_velocity_rad_s)))
+    row[11] = 1000.0 * math.hypot(*frame.moment.velocity_m_s)
+    row[12] = math.degrees(math.hypot(*frame.moment.angular_velocity_rad_s))
     row[_AXES] = rotation_in_place(frame.moment.rotation_w2_w0, frame.moment.w0_turn_rad).ravel()
     if frame.status == TrackStatus.LOST:
         row[_ANGLES] = row[_SDS] = row[_POSITION] = row[_SPEEDS] = row[_AXES] = math.nan

@@ -24,7 +24,8 @@ from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.history import SHOWN_S, History
-from carpus.ui.plot.marks import Curve, Curves, Dot, Hatch, Mark, Remark, Scales, StayWithin, Target, Times, fitted
+from carpus.ui.plot.marks import Curves, Dot, Hatch, Mark, Remark, Scales, StayWithin, Target, Times, fitted
+from carpus.ui.plot.series import Curve
 from carpus.ui.plot.style import CURVE_TOKENS, screen_style
 from carpus.ui.theme import Theme
 

@@ -17,7 +17,7 @@ from PySide6.QtGui import QFont, QFontMetricsF, QPaintDevice, QPainter, QPen
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel
-from carpus.ui.plot.series import Drawn, Series, paint_series
+from carpus.ui.plot.series import Curve, Drawing
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
 
@@ -172,28 +172,26 @@ class Hatch:
 
 
 @dataclass(frozen=True, slots=True)
-class Curve:
-    """A quantity over time with its band: solid where measured, dashed where predicted, hatched where lost."""
-
-    series: Series
-    token: str
-
-    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel, drawn: Drawn | None = None) -> None:
-        paint_series(painter, style, panel, self.series, self.token, drawn)
-
-
-@dataclass(frozen=True, slots=True)
 class Curves:
     """All curves of a panel: numbers beyond the scale cover none of each other, a gap of several is hatched once."""
 
     curves: Sequence[Curve]
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        drawn = Drawn()
+        DrawnCurves(Drawing(style, [(panel, self.curves)]), 0).paint(painter, style, panel)
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnCurves:
+    """The same of one of many panels, of which the curves are worked out at once."""
+
+    drawing: Drawing
+    number: int
+
+    def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         painter.save()
         painter.setClipRect(panel.box.adjusted(0, -2, 0, 2).toAlignedRect(), Qt.ClipOperation.IntersectClip)
-        for curve in self.curves:
-            curve.paint(painter, style, panel, drawn)
+        self.drawing.paint(painter, style, self.number)
         painter.restore()
 
 

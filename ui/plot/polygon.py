@@ -30,5 +30,7 @@ def polygon(x_px: FloatArray, y_px: FloatArray) -> QPolygonF:
 
 def runs(flag: np.ndarray) -> list[tuple[int, int]]:
     """First and one-past-last index of each stretch of True."""
-    edges = np.flatnonzero(np.diff(np.concatenate(([False], flag, [False])).astype(np.int8)))
-    return [(int(start), int(stop)) for start, stop in edges.reshape(-1, 2)]
+    wide = np.zeros(len(flag) + 2, dtype=np.bool_)
+    wide[1:-1] = flag
+    edges = np.flatnonzero(wide[1:] != wide[:-1]).tolist()
+    return list(zip(edges[::2], edges[1::2], strict=True))

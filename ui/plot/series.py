@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import shiboken6
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QFontMetricsF, QPaintEngine, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QFontMetricsF, QPaintEngine, QPainter, QPen, QPolygonF
 
 from carpus.core.types import FloatArray
-from carpus.ui.plot.axes import Panel, hatch
+from carpus.ui.plot.axes import Panel, hatch, x_px, y_px
 from carpus.ui.plot.polygon import polygon, runs
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.theme import BAND_ALPHA
@@ -20,13 +21,14 @@ from carpus.ui.theme import BAND_ALPHA
 LONGEST_STEP_S = 0.2
 """Neighbouring samples further apart than this are not joined: a gap stays a gap."""
 
-PIECE = 32
+PIECE = 256
 """Points of the pieces in which a band goes onto a picture of pixels."""
 DASH_PX = 4.0
 """Design pixels of a dash, and of what is left open after it, where a curve is level."""
 MOST_HALVINGS = 4
+LEAST_PX = 1e-6
+"""What rounding leaves of a dash at the end of a segment would be a blot as wide as the line."""
 
-_ALL = slice(None)
 _wrapped: Any = shiboken6.wrapInstance
 
 
@@ -49,11 +51,6 @@ class Series:
         """The same with times counted from ``start_s``."""
         return replace(self, time_s=self.time_s - start_s, start_s=start_s)
 
-    def is_whole(self) -> bool:
-        """Whether every value is known and every two neighbours are joined, as in most of what is drawn."""
-        steps = self.time_s[1:] - self.time_s[:-1]
-        return bool(np.isfinite(self.value).all()) and (not len(steps) or float(steps.max()) <= self.longest_step_s)
-
     def gaps_s(self) -> list[tuple[float, float]]:
         """Times without a value, between and inside samples."""
         known = np.flatnonzero(np.isfinite(self.value))
@@ -62,123 +59,141 @@ class Series:
         times = np.concatenate(([self.time_s[0]], self.time_s[known], [self.time_s[-1]]))
         return [(float(a), float(b)) for a, b in pairwise(times) if b - a > self.longest_step_s]
 
-    def stretches(self) -> list[tuple[int, int]]:
-        """First and one-past-last index of each run of known samples, cut where the time between two is too long."""
-        known = np.isfinite(self.value)
-        joined = np.concatenate(([False], np.diff(self.time_s) <= self.longest_step_s)) if len(known) else known
-        out: list[tuple[int, int]] = []
-        for start, stop in runs(known):
-            cuts = [start, *(start + 1 + np.flatnonzero(~joined[start + 1 : stop])).tolist(), stop]
-            out += [(int(a), int(b)) for a, b in pairwise(cuts)]
-        return out
-
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
-    """What stands in a panel already: numbers beyond its scale, and gaps by their first and last pixel."""
+class Curve:
+    """A quantity over time with its band: solid where measured, dashed where predicted, hatched where lost."""
 
-    numbers: list[QRectF] = field(default_factory=list)
-    gaps: set[tuple[int, int]] = field(default_factory=set)
-
-
-def paint_series(
-    painter: QPainter, style: PlotStyle, panel: Panel, series: Series, token: str, drawn: Drawn | None = None
-) -> None:
-    """Gaps, band, line; measured values beyond the scale stay at its edge with an arrow, and their number where it
-    covers none that is ``drawn``."""
-    if not len(series.value):
-        return
-    drawn = Drawn() if drawn is None else drawn
-    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    whole = series.is_whole()
-    if not whole:
-        _paint_gaps(painter, style, panel, series, drawn.gaps)
-    color, from_px = style.color(token), float(panel.x(-series.start_s))
-    x, y = panel.x(series.time_s), panel.y(series.value)
-    band = None
-    if series.sd is not None:
-        width = np.where(np.isfinite(series.sd), series.sd, 0.0)
-        band = panel.y(series.value + width), panel.y(series.value - width)
-    for start, stop in [(0, len(x))] if whole else series.stretches():
-        part = slice(start, stop)
-        edges = None if band is None else (band[0][part], band[1][part])
-        _paint_stretch(painter, style, color, x[part], y[part], edges, series.predicted[part], from_px)
-    _paint_beyond(painter, style, panel, series, color, drawn.numbers)
+    series: Series
+    token: str
+    hatched: bool = True
+    """Where it is lost; else it stays open there."""
 
 
-def _paint_stretch(
-    painter: QPainter,
-    style: PlotStyle,
-    color: QColor,
-    x: FloatArray,
-    y: FloatArray,
-    band: tuple[FloatArray, FloatArray] | None,
-    predicted: np.ndarray,
-    from_px: float,
-) -> None:
-    """A curve without gaps and its ``band`` (upper, lower), all (n,) in painter units; dashes are counted from
-    ``from_px``, so that they go along with a curve that runs through its panel."""
-    if band is not None:
-        fill = QColor(color)
-        fill.setAlpha(BAND_ALPHA)
+def paint_curves(painter: QPainter, style: PlotStyle, panel: Panel, curves: Sequence[Curve]) -> list[QRectF]:
+    """All curves of a panel. Returns where the numbers of what is beyond its scale stand."""
+    return Drawing(style, [(panel, curves)]).paint(painter, style, 0)
+
+
+class Drawing:
+    """The curves of some panels in painter units, one after the other: what they cost in Python is paid once for all.
+
+    Segment k goes from sample k to the next: ``_joined`` (n - 1,) says which of them there are, ``_ends`` (n - 1, 4)
+    where; ``_dashes`` (m, 4) are the dashes of the segments ``_dash_of`` (m,).
+    """
+
+    def __init__(self, style: PlotStyle, placed: Sequence[tuple[Panel, Sequence[Curve]]]) -> None:
+        self._panels = [panel for panel, _ in placed]
+        self._curves = [[curve for curve in curves if len(curve.series.value)] for _, curves in placed]
+        many = [curve.series for own in self._curves for curve in own]
+        if not many:
+            return
+        sizes = [len(one.value) for one in many]
+        past = np.cumsum(sizes)
+        self._segments = [slice(end - size, end - 1) for end, size in zip(past.tolist(), sizes, strict=True)]
+        time_s = np.concatenate([one.time_s for one in many])
+        value = np.concatenate([one.value for one in many])
+        width = np.concatenate([np.zeros(len(one.value)) if one.sd is None else one.sd for one in many])
+        width[~np.isfinite(width)] = 0.0
+        known = np.isfinite(value)
+        longest_s = np.repeat([one.longest_step_s for one in many], sizes)
+        self._joined = known[:-1] & known[1:] & (np.diff(time_s) <= longest_s[1:])
+        self._joined[past[:-1] - 1] = False  # no curve goes on as the next
+        panels = [panel for panel, own in zip(self._panels, self._curves, strict=True) for _ in own]
+        across, down = (
+            np.repeat(np.array(edges).T, sizes, axis=1)
+            for edges in ([panel.across() for panel in panels], [panel.down() for panel in panels])
+        )
+        self._x, y = x_px(time_s, *across), y_px(value, *down)
+        self._upper, self._lower = y_px(value + width, *down), y_px(value - width, *down)
+        self._ends = np.array((self._x[:-1], y[:-1], self._x[1:], y[1:])).T
+        predicted = np.concatenate([one.predicted for one in many])[1:]
+        self._solid, dashed = self._joined & ~predicted, np.flatnonzero(self._joined & predicted)
+        from_px = x_px(np.repeat([-one.start_s for one in many], sizes), *across)[dashed]
+        self._dashes, of = _dashes(self._ends[dashed], from_px, DASH_PX * style.unit)
+        self._dash_of = dashed[of]
+
+    def paint(self, painter: QPainter, style: PlotStyle, number: int) -> list[QRectF]:
+        """One panel's: gaps, bands, then lines. What is measured beyond the scale stays at its edge with an arrow, and
+        with its number where that covers no other; returns where these numbers stand."""
+        curves, panel = self._curves[number], self._panels[number]
+        numbers: list[QRectF] = []
+        if not curves:
+            return numbers
+        before = sum(len(own) for own in self._curves[:number])
+        placed = list(zip(curves, self._segments[before : before + len(curves)], strict=True))
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        gaps: set[tuple[int, int]] = set()
+        for curve, own in placed:
+            if curve.hatched and not self._joined[own].all():
+                _paint_gaps(painter, style, panel, curve.series, gaps)
+        self._paint_bands(painter, style, placed)
+        self._paint_lines(painter, style, placed)
+        for curve in curves:
+            _paint_beyond(painter, style, panel, curve, numbers)
+        return numbers
+
+    def _paint_bands(self, painter: QPainter, style: PlotStyle, placed: Sequence[tuple[Curve, slice]]) -> None:
+        """On pixels in pieces, for lines that go to and fro, and without antialiasing, a third: then they fit, and the
+        edge is translucent anyway."""
         painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(fill)
-        # Without antialiasing: a third of the cost, and the band's edge is translucent anyway.
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
-        _fill_between(painter, x, *band)
+        longest = PIECE if _on_pixels(painter) else len(self._x)
+        for curve, own in placed:
+            if curve.series.sd is None:
+                continue
+            painter.setBrush(style.color(curve.token, BAND_ALPHA))
+            for first, past in runs(self._joined[own]):
+                for start in range(own.start + first, own.start + past, longest):
+                    part = slice(start, min(start + longest, own.start + past) + 1)
+                    x, around = self._x[part], np.concatenate((self._upper[part], self._lower[part][::-1]))
+                    painter.drawPolygon(polygon(np.concatenate((x, x[::-1])), around))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
-    painter.setBrush(Qt.BrushStyle.NoBrush)
-    painter.setPen(
-        QPen(color, style.line_width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.SquareCap, Qt.PenJoinStyle.BevelJoin)
-    )
-    dash = DASH_PX * style.unit
-    for flag in (False, True):
-        for first, last in runs(predicted == flag):
-            # One sample of the other kind closes the join, or each change would leave a hole.
-            part = slice(max(0, first - 1), last)
-            if flag:
-                _draw_dashes(painter, x[part], y[part], from_px, dash)
-            elif _on_pixels(painter):
-                _draw_segments(painter, x[part], y[part])
+
+    def _paint_lines(self, painter: QPainter, style: PlotStyle, placed: Sequence[tuple[Curve, slice]]) -> None:
+        """A line on pixels piece by piece, as pyqtgraph draws it: to stroke one of many points takes five times as
+        long, of one that goes to and fro in every pixel seventy times."""
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        pen = QPen(Qt.PenStyle.SolidLine)
+        pen.setWidthF(style.line_width)
+        pen.setCapStyle(Qt.PenCapStyle.SquareCap)
+        pen.setJoinStyle(Qt.PenJoinStyle.BevelJoin)
+        on_pixels = _on_pixels(painter)
+        for curve, own in placed:
+            pen.setColor(style.color(curve.token))
+            painter.setPen(pen)
+            dashes = self._dashes[slice(*np.searchsorted(self._dash_of, (own.start, own.stop)))]
+            solid = self._solid[own]
+            if on_pixels:
+                dashes = np.concatenate((self._ends[own][solid], dashes))
             else:
-                painter.drawPolyline(polygon(x[part], y[part]))
+                for first, past in runs(solid):
+                    ends = self._ends[own.start + first : own.start + past]
+                    painter.drawPolyline(polygon(np.append(ends[0, 0], ends[:, 2]), np.append(ends[0, 1], ends[:, 3])))
+            if len(dashes):  # no Python object per line: Qt reads the array
+                painter.drawLines(_wrapped(dashes.ctypes.data, QLineF), len(dashes))
 
 
 def _on_pixels(painter: QPainter) -> bool:
     return painter.paintEngine().type() == QPaintEngine.Type.Raster
 
 
-def _draw_segments(painter: QPainter, x: FloatArray, y: FloatArray, shown: np.ndarray | slice = _ALL) -> None:
-    """A line piece by piece, as pyqtgraph draws it on pixels: to stroke one of many points takes five times as long,
-    of one that goes to and fro in every pixel seventy times. No Python object per piece: Qt reads the array."""
-    ends = np.ascontiguousarray(np.array((x[:-1], y[:-1], x[1:], y[1:])).T[shown])
-    if len(ends):
-        painter.drawLines(_wrapped(ends.ctypes.data, QLineF), len(ends))
-
-
-def _draw_dashes(painter: QPainter, x: FloatArray, y: FloatArray, from_px: float, dash: float) -> None:
-    """Every second of the stretches that are ``dash`` wide, or a half, a quarter ... of it where it is steep."""
-    if len(x) < 2:
-        return
-    steep = np.diff(y) / np.maximum(np.diff(x), 1e-9)
-    finer = 2.0 ** np.clip(np.round(0.5 * np.log2(1.0 + steep**2)), 0, MOST_HALVINGS)
-    least = dash / finer.max()
-    edges = from_px + least * np.arange(np.ceil((x[0] - from_px) / least), np.ceil((x[-1] - from_px) / least))
-    at = np.sort(np.concatenate((x, edges)))
-    middle = 0.5 * (at[1:] + at[:-1])
-    own = finer[np.minimum(np.searchsorted(x, middle), len(finer)) - 1]
-    shown = np.floor((middle - from_px) * own / dash) % 2 == 0
-    _draw_segments(painter, at, np.interp(at, x, y), shown)
-
-
-def _fill_between(painter: QPainter, x: FloatArray, upper: FloatArray, lower: FloatArray) -> None:
-    """Fill with the painter's brush; on pixels in pieces, which takes half as long and without antialiasing fits."""
-    piece = PIECE if _on_pixels(painter) else len(x)
-    for start in range(0, max(len(x) - 1, 1), piece):
-        part = slice(start, start + piece + 1)
-        painter.drawPolygon(
-            polygon(np.concatenate((x[part], x[part][::-1])), np.concatenate((upper[part], lower[part][::-1])))
-        )
+def _dashes(ends: FloatArray, from_px: FloatArray, dash: float) -> tuple[FloatArray, np.ndarray]:
+    """Every second of the stretches, counted from ``from_px`` (n,), that are ``dash`` wide, or a half, a quarter ... of
+    it where a segment of ``ends`` (n, 4) is steep: both ends of each (m, 4), and the segment (m,) that it is of."""
+    x0, y0, x1, y1 = ends.T
+    steep = (y1 - y0) / np.maximum(x1 - x0, 1e-9)
+    width = dash / 2.0 ** np.clip(np.round(0.5 * np.log2(1.0 + steep**2)), 0, MOST_HALVINGS)
+    first = np.floor((x0 - from_px) / width)
+    many = np.maximum(np.ceil((x1 - from_px) / width) - first, 0.0).astype(np.int64)
+    of = np.repeat(np.arange(len(ends)), many)
+    cell = first[of] + np.arange(len(of)) - np.repeat(np.cumsum(many) - many, many)
+    left = np.maximum(from_px[of] + cell * width[of], x0[of])
+    right = np.minimum(from_px[of] + (cell + 1) * width[of], x1[of])
+    shown = (cell % 2 == 0) & (right - left > LEAST_PX)
+    of, left, right = of[shown], left[shown], right[shown]
+    down = steep[of]
+    return np.array((left, y0[of] + down * (left - x0[of]), right, y0[of] + down * (right - x0[of]))).T, of
 
 
 def _paint_gaps(
@@ -194,10 +209,9 @@ def _paint_gaps(
             hatch(painter, style, QRectF(left, panel.box.top(), right - left, panel.box.height()))
 
 
-def _paint_beyond(
-    painter: QPainter, style: PlotStyle, panel: Panel, series: Series, color: QColor, numbered: list[QRectF]
-) -> None:
+def _paint_beyond(painter: QPainter, style: PlotStyle, panel: Panel, curve: Curve, numbered: list[QRectF]) -> None:
     """Each measured excursion past the scale: an arrow at the edge with the extreme value."""
+    series, color = curve.series, style.color(curve.token)
     low, high = float(np.fmin.reduce(series.value)), float(np.fmax.reduce(series.value))
     if panel.scale.low <= low and high <= panel.scale.high:
         return

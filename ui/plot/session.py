@@ -21,8 +21,8 @@ from carpus.ui.figures import FINGERS, Figure, Row, spread_labels
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.marks import Curve, Curves, Mark, Name, RepetitionMarks, Scales, StayWithin, Target, Times
-from carpus.ui.plot.series import LONGEST_STEP_S, Series
+from carpus.ui.plot.marks import Curves, Mark, Name, RepetitionMarks, Scales, StayWithin, Target, Times
+from carpus.ui.plot.series import LONGEST_STEP_S, Curve, Series
 from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle
 from carpus.ui.translate import tr
 
