@@ -11,8 +11,9 @@ import signal
 from contextlib import suppress
 from multiprocessing.connection import Connection
 
-NICER = 10
-"""Whoever tracks, draws and stores comes first."""
+NICER = 5
+"""Whoever tracks, draws and stores comes first, three times; at the end of a recording they wait for this one, which at
+twice as much came to nothing on a computer that others keep busy."""
 BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 TELL_EVERY = 15
 """Frames."""

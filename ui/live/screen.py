@@ -48,6 +48,8 @@ DRAW_AFTER_MS = 25
 """Never sooner after the last drawing; what arrives in between is in the curves, not drawn on its own."""
 DRAWING_SHARE = 0.5
 """At most this part of a processor goes to drawing: on a slow computer fewer drawings, not fewer pictures tracked."""
+STORING_EVERY_MS = 500
+"""While what was recorded is stored, which is waited for, and needs the processor."""
 TICK_EVERY_MS = 40
 """So often figures and state go on where no pictures come."""
 VALUES_EVERY = 3
@@ -301,7 +303,8 @@ class LiveScreen(QWidget):
         since_ms = 1e3 * (time.monotonic() - self._ticked_at_s)
         if self._drawing_ms is None:  # the first look since: all that was asked for has been painted
             self._drawing_ms = 1e3 * (time.thread_time() - self._ticked_cpu_s)
-        if since_ms < max(DRAW_AFTER_MS, self._drawing_ms / DRAWING_SHARE):
+        least_ms = STORING_EVERY_MS if self.recording.storing else DRAW_AFTER_MS
+        if since_ms < max(least_ms, self._drawing_ms / DRAWING_SHARE):
             return
         is_new = self._is_new(self.recording.measuring.feed.newest())
         if since_ms >= TICK_EVERY_MS or (is_new and not self.recording.camera_lost):

@@ -107,6 +107,10 @@ class History:
         recent = self._rows[:, _TIME] >= self._rows[-1, _TIME] - KEPT_S
         if not recent.all():
             self._rows, self._index, self._hand = self._rows[recent], self._index[recent], self._hand.at(recent)
+        if self.has_fingers:
+            of_late = self._rows[:, _TIME] >= self._rows[-1, _TIME] - SHARE_S
+            self._seen_share = np.asarray(self._hand.seen[of_late].mean(axis=0))
+            self._shown = measured_figures(self._protocol, self._seen_share[None] >= HIDDEN_SHARE)[0]
         if not np.isfinite(self._home_mm).all() and self._rows[-1, _TIME] - self._rows[0, _TIME] >= HOME_S:
             self.set_home()
 
@@ -187,8 +191,7 @@ class History:
         if not len(self._rows) or not self.has_fingers:
             return math.nan, math.nan, False
         value, sd = float(hand.value_deg[-1, figure]), float(hand.sd_deg[-1, figure])
-        visible = self._recent_share() >= HIDDEN_SHARE
-        shown = bool(measured_figures(self._protocol, visible[None])[0, figure]) and self.status == TrackStatus.TRACKED
+        shown = bool(self._shown[figure]) and self.status == TrackStatus.TRACKED
         return value, sd, shown and math.isfinite(value)
 
     def figure_speed_deg_s(self, figure: int) -> float:
@@ -209,11 +212,8 @@ class History:
             return dict.fromkeys(self._protocol.markers, "hidden")
         return {
             name: "seen" if part >= SEEN_SHARE else "hidden" if part < HIDDEN_SHARE else "partly"
-            for name, part in zip(self._protocol.markers, self._recent_share().tolist(), strict=True)
+            for name, part in zip(self._protocol.markers, self._seen_share.tolist(), strict=True)
         }
-
-    def _recent_share(self) -> FloatArray:
-        return np.asarray(self._hand.seen[self._rows[:, _TIME] >= self._rows[-1, _TIME] - SHARE_S].mean(axis=0))
 
     # --- place --------------------------------------------------------------------------------------------
     def path_mm(self) -> FloatArray:
