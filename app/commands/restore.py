@@ -47,7 +47,8 @@ def run(arguments: argparse.Namespace) -> int:
         for words, paths in (("comes", plan.added), ("changes", plan.replaced), ("goes", plan.lost)):
             for path in paths:
                 print(f"{words}: {path}")
-        print(f"{len(plan.added)} sessions come, {len(plan.replaced)} change, {len(plan.lost)} go. Nothing was done.")
+        added, changed, gone = len(plan.added), len(plan.replaced), len(plan.lost)
+        print(f"Sessions added: {added}, changed: {changed}, taken away: {gone}. Nothing was done.")
     if arguments.into is None:
         return 0
     with bar("restoring", "byte") as progress:

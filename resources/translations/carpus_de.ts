@@ -7814,8 +7814,8 @@
         <translation>Ordner mit den Sicherungen</translation>
     </message>
     <message>
-        <source>Restore the back-up of {when}? {come} sessions come, {change} change, {go} go.</source>
-        <translation>Sicherung vom {when} wiederherstellen? {come} Sitzungen kommen, {change} ändern sich, {go} gehen.</translation>
+        <source>Restore the back-up of {when}? Sessions added: {come}, changed: {change}, taken away: {go}.</source>
+        <translation>Sicherung vom {when} wiederherstellen? Sitzungen hinzugefügt: {come}, geändert: {change}, entfernt: {go}.</translation>
     </message>
     <message>
         <source>Carpus closes when it is done. Start it again then.</source>

@@ -7814,7 +7814,7 @@
         <translation>Cartella che contiene le copie</translation>
     </message>
     <message>
-        <source>Restore the back-up of {when}? {come} sessions come, {change} change, {go} go.</source>
+        <source>Restore the back-up of {when}? Sessions added: {come}, changed: {change}, taken away: {go}.</source>
         <translation>Ripristinare la copia del {when}? Sedute aggiunte: {come}, cambiate: {change}, tolte: {go}.</translation>
     </message>
     <message>

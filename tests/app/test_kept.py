@@ -164,7 +164,7 @@ def test_a_back_up_by_command_comes_back_elsewhere(
     assert main(["backup", place, "--compare"]) == 0
     store(library, set_up(linden, "Linden 42"))
     assert main(["restore", place, "--against", data]) == 0
-    assert "0 sessions come, 0 change, 1 go." in capsys.readouterr().out
+    assert "Sessions added: 0, changed: 0, taken away: 1." in capsys.readouterr().out
     assert main(["restore", place, "--into", str(tmp_path / "new")]) == 0
     assert main(["restore", place, "--into", str(tmp_path / "new")]) == 1
     restored = Library(tmp_path / "new")

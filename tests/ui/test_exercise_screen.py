@@ -7,9 +7,11 @@ from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.ui.ports import PatientRow
+from carpus.ui.setup.camera import CameraScreen
 from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.theme import Theme
 from tests.ui.fakes import set_up
@@ -84,3 +86,22 @@ def test_enter_goes_on_from_every_field_and_after_the_targets_were_taken(qtbot: 
         field.setFocus()
         qtbot.keyClick(field, Qt.Key.Key_Return)
         assert len(sent) == before + 1, field
+
+
+def test_while_a_source_is_opened_the_keyboard_leads_nowhere_else(qtbot: QtBot, theme: Theme) -> None:
+    """The button that was pressed can no longer be: Qt would go on to what comes next, the way back."""
+    host = QWidget()
+    qtbot.addWidget(host)
+    column, before = QVBoxLayout(host), QPushButton("Exercise")
+    screen = CameraScreen(theme)
+    column.addWidget(before)
+    column.addWidget(screen)
+    host.show()
+    with qtbot.waitActive(host, timeout=60_000):
+        host.activateWindow()
+    screen.begin(set_up(), "practice")
+    screen.primary.setFocus()
+    screen.show_opening(True, "The simulated patient is being drawn.")
+    assert host.focusWidget() is screen
+    screen.show_opening(False)
+    assert screen.primary.isEnabled()

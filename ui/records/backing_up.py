@@ -209,7 +209,7 @@ class BackingUp(QObject):
         self._background.run(read, lambda known: self._ask(*known), self._failed, self)
 
     def _ask(self, backup: Backup, content: Content, plan: RestorePlan) -> None:
-        what = self.tr("Restore the back-up of {when}? {come} sessions come, {change} change, {go} go.")
+        what = self.tr("Restore the back-up of {when}? Sessions added: {come}, changed: {change}, taken away: {go}.")
         when = numbers.report_date(backup.made.astimezone())
         self._context.messages.ask(
             Words(

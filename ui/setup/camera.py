@@ -137,7 +137,10 @@ class CameraScreen(QWidget):
         self._show()
 
     def show_opening(self, opening: bool, words: str = "") -> None:
-        """While a source is being opened nothing can be chosen."""
+        """While a source is being opened nothing can be chosen, and the keyboard stays here: it would go to the first
+        step from what can no longer be pressed."""
+        if opening and self.isVisible():
+            self.setFocus(Qt.FocusReason.OtherFocusReason)
         self._opening = opening
         self.progress.setVisible(opening)
         self.progress.setRange(0, 0)
