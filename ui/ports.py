@@ -12,7 +12,7 @@ from typing import Literal, Protocol
 
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.camera import Camera
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, StartMode, TrackedView
 from carpus.core.records.set_up import SetUp

@@ -6,7 +6,7 @@ import math
 from datetime import date
 
 from carpus.core.hand.exercises import SIDES, known_exercise
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.types import FloatArray
 from carpus.ui import numbers
 from carpus.ui.translate import say, tr

@@ -24,7 +24,7 @@ from carpus.core.capture.paced import PacedSource
 from carpus.core.dates import iso
 from carpus.core.errors import IntrinsicsAssumed, NameUnsuited, RecordingMissing
 from carpus.core.hand.exercises import EXERCISES
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.names import name_of
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.pipeline.live import Listener

@@ -13,7 +13,7 @@ from carpus.core.calibration.naming import propose_names
 from carpus.core.calibration.result import ALL_STRAIGHT, Calibration, Clicks
 from carpus.core.camera import Camera
 from carpus.core.detection.appearance import expected_radius_px
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.types import Detections, FloatArray, Frame, Side
 from carpus.ui.ports import FoundMarker, Judged, ProposedMarker, VerdictLimits

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from carpus.core.hand.back_surface import BackSurface
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.phrase import Phrase, phrase
 from carpus.core.types import FloatArray, Side
 from carpus.core.words import Say, Words, marker_in_words, markers_in_words, on_one_line

@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 
 from carpus.core.camera import Camera
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.types import Frame, Region, TrackedFrame, TrackStatus
 
 REACH = {False: 1.5, True: 0.6}

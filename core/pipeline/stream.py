@@ -14,7 +14,7 @@ import numpy as np
 
 from carpus.core.calibration.result import Clicks
 from carpus.core.errors import ExtraMissing
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.types import Side, TrackedFrame
 

@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from carpus.core.hand.exercises import EXERCISES, Exercise
-from carpus.core.hand.marker_protocol import MarkerProtocol
-from carpus.core.hand.protocols import protocol_named, protocol_names
+from carpus.core.hand.protocols import MarkerProtocol, protocol_named, protocol_names
 from carpus.core.types import Side
 
 MARKERS_SUFFIX = ".markers.jpg"

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core import so3
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
 

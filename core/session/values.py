@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.dates import is_moment
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.names import name_of
 from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, Side, SurfaceSamples, TrackedFrame
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.hand.sites import PALM_SITES, SITES
 from carpus.core.hand.wrist_frame import wrist_axes
 from carpus.core.simulation.spec import RandomStream, RecordingSpec

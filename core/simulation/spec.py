@@ -14,8 +14,7 @@ import numpy as np
 
 from carpus.core.depth_sensor import SENSORS
 from carpus.core.errors import SettingsInvalid
-from carpus.core.hand.marker_protocol import MarkerProtocol
-from carpus.core.hand.protocols import protocol_named
+from carpus.core.hand.protocols import MarkerProtocol, protocol_named
 from carpus.core.limits import Limits, check_limits
 from carpus.core.types import Side
 

@@ -10,7 +10,7 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.hand.sites import SITES
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, SLOTS, is_crowded

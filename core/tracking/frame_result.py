@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.kernels.choice import NOTHING, in_c
 from carpus.core.tracking.consistency import ConsistencyTest, passed_over
 from carpus.core.tracking.finger_model import FingerModel

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.hand.sites import PALM_MARKERS
 
 _PALM = MarkerProtocol("palm", PALM_MARKERS)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from carpus.core import so3
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.hand.sites import DIGITS, joint_discs
 from carpus.core.types import FloatArray, Side
 

@@ -1,4 +1,4 @@
-"""What grows by one file and one line, done in a copy: a further marker protocol is simulated, tracked, stored, read
+"""What grows by one line, done in a copy: a further marker protocol is simulated, tracked, stored, read
 back, exported, reported on and tracked again."""
 
 from __future__ import annotations
@@ -28,15 +28,8 @@ from tests.sources import ROOT, nodes
 GIVEN = {"uri", "camera", "patience_s", "notice"}
 """What a camera's opening is given."""
 
-PROTOCOL_FILE = '''"""Four fingers without the thumb."""
-
-from carpus.core.hand.marker_protocol import MarkerProtocol
-from carpus.core.hand.sites import CHAIN_NAMES, PALM_MARKERS
-
-FINGERS18 = MarkerProtocol("fingers18", (*PALM_MARKERS, *(name for chain in CHAIN_NAMES[1:] for name in chain[2:])))
-'''
 BEFORE = "(WRIST6, HAND21)"
-IMPORT = "from carpus.core.hand.hand21 import HAND21\n"
+FURTHER = "MarkerProtocol('fingers18', PALM_MARKERS + tuple(name for chain in CHAIN_NAMES[1:] for name in chain[2:]))"
 
 WALK = """
 import json
@@ -88,7 +81,7 @@ if __name__ == "__main__":
 
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The program with one more file, and one line changed where protocols are registered, with its import."""
+    """The program with one more protocol in the line where they are registered."""
     folder = tmp_path_factory.mktemp("grown")
     shutil.copytree(ROOT / "carpus", folder / "carpus", symlinks=True)
     (folder / "core").mkdir()
@@ -98,17 +91,14 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
         if part.name != "hand":
             (folder / "core" / part.name).symlink_to(part)
     shutil.copytree(ROOT / "core" / "hand", folder / "core" / "hand", ignore=shutil.ignore_patterns("__pycache__"))
-    (folder / "core" / "hand" / "fingers18.py").write_text(PROTOCOL_FILE, encoding="utf-8")
     register = folder / "core" / "hand" / "protocols.py"
     text = register.read_text(encoding="utf-8")
-    assert text.count(BEFORE) == text.count(IMPORT) == 1
-    text = text.replace(BEFORE, BEFORE.replace(")", ", FINGERS18)"))
-    text = text.replace(IMPORT, "from carpus.core.hand.fingers18 import FINGERS18\n" + IMPORT)
-    register.write_text(text, encoding="utf-8")
+    assert text.count(BEFORE) == 1
+    register.write_text(text.replace(BEFORE, BEFORE.replace(")", f", {FURTHER})")), encoding="utf-8")
     return folder
 
 
-def test_a_marker_protocol_is_one_file_and_one_registered_line(copy: Path, tmp_path: Path) -> None:
+def test_a_marker_protocol_is_one_registered_line(copy: Path, tmp_path: Path) -> None:
     script = tmp_path / "walk.py"
     script.write_text(WALK, encoding="utf-8")
     environment = os.environ | {"PYTHONPATH": str(copy), "QT_QPA_PLATFORM": "offscreen", "CARPUS_DEBUG": "1"}

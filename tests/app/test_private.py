@@ -121,7 +121,7 @@ from carpus.core.capture.files.raw_tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.durable import replace_file
 from carpus.core.formats.new_output import new_text
-from carpus.core.hand.wrist6 import WRIST6
+from carpus.core.hand.protocols import WRIST6
 import numpy as np
 folder, camera = Path(sys.argv[1]), Camera(500, 500, 320, 240)
 write_clicks(folder / "clicks.json", Clicks("right", WRIST6, np.zeros((6, 2))))

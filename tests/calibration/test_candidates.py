@@ -14,7 +14,7 @@ from carpus.core.calibration.naming import NamingSettings, propose_names
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.hand.hand21 import HAND21
+from carpus.core.hand.protocols import HAND21
 from carpus.core.simulation.recording import SimulatedPictures, clicks_of
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import FloatArray, Frame, Side

@@ -10,8 +10,8 @@ import pytest
 from carpus.core.calibration.finger_order import FingerOrderSettings, misnamed
 from carpus.core.calibration.palm_names import plan_view
 from carpus.core.hand.anatomy import anatomy_from_size
-from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.kinematics import disc_centres
+from carpus.core.hand.protocols import HAND21
 from carpus.core.hand.sites import joint_angle_names
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core.hand.anatomy import anatomy_from_size, palm_axes
-from carpus.core.hand.hand21 import HAND21
+from carpus.core.hand.protocols import HAND21
 from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.hand.wrist_frame import wrist_axes
 

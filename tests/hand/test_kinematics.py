@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
-from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.kinematics import DIP_PER_PIP, SEGMENTS, disc_centres, joint_centres, segment_frames
+from carpus.core.hand.protocols import HAND21
 from carpus.core.hand.sites import joint_angle_names
 from carpus.core.types import FloatArray, Side
 

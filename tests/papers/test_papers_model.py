@@ -7,8 +7,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from carpus.core.hand.anatomy import anatomy_from_size
-from carpus.core.hand.hand21 import HAND21
 from carpus.core.hand.kinematics import joint_centres
+from carpus.core.hand.protocols import HAND21
 from carpus.core.hand.sites import SITE_CHAINS, SITES
 from carpus.core.papers.chain import as_written, by_the_discs, hand_measured, palm_modelled
 from carpus.core.papers.settings import PaperSettings

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from carpus.core.hand.exercises import FLEXION, Exercise
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.measures.fingers import FURTHER_RAD
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import LONGEST_GAP_S, even_signal

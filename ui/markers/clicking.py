@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from carpus.core.calibration.result import ALL_STRAIGHT, Clicks
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.types import FloatArray, Side
 from carpus.ui.ports import ProposedMarker
 

@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPen
 
 from carpus.core.camera import Camera
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.types import FloatArray, Side, TrackedFrame, TrackStatus
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.picture.overlay import HALO, LEAST_RING_PX, ToScreen, ellipse, haloed

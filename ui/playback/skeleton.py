@@ -9,7 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPainter, QPolygonF
 
 from carpus.core.camera import Camera
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.types import FloatArray
 from carpus.ui.picture.overlay import haloed
 from carpus.ui.picture.view import PictureView

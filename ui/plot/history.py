@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.hand.exercises import STILL_RADIUS_MM
-from carpus.core.hand.marker_protocol import MarkerProtocol
+from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.measures.forearm import USUAL_CENTRE_M, rotation_in_place, wrist_centre
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.ui.figures import FIGURES

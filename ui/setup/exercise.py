@@ -10,8 +10,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from carpus.core.hand.exercises import SIDES, Exercise, exercise_named, exercises_of
-from carpus.core.hand.marker_protocol import MarkerProtocol
-from carpus.core.hand.protocols import PROTOCOLS, protocol_named
+from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_named
 from carpus.core.records.exercise_sets import ExerciseSet, begun
 from carpus.core.records.set_up import SetUp
 from carpus.core.results.figures import SessionFigures
