@@ -16,9 +16,8 @@ from pathlib import Path
 from typing import NoReturn
 
 from carpus import __version__
-from carpus.app.command_line import CommandParser
+from carpus.app.command_line import CommandParser, flushed, on_stop, open_closed, say
 from carpus.app.commands import COMMANDS
-from carpus.app.standard_streams import flushed, on_stop, open_closed, say
 from carpus.core.errors import CarpusFault
 from carpus.core.purpose import PURPOSE
 

@@ -23,23 +23,22 @@ from PySide6.QtGui import QPixmap
 from PySide6.QtWidgets import QApplication
 
 from carpus import __version__
+from carpus.app.command_line import on_stop
 from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.journey import CORE, SCREENS, Journey, Parts, load
 from carpus.app.desktop.no_folder import NoFolder
 from carpus.app.desktop.preferences import PreferenceKeeper
-from carpus.app.desktop.touring import Tour
-from carpus.app.desktop.welcoming import Welcome
+from carpus.app.desktop.welcoming import Tour, Welcome
 from carpus.app.desktop.witness import Witness
 from carpus.app.settings import DATA_VARIABLE, LockSettings, Settings, keep_preferences, sessions_folder
 from carpus.app.settings import settings_folder as own_settings_folder
-from carpus.app.standard_streams import on_stop
 from carpus.core.capture.source import FrameSource
 from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.formats.film import UNFINISHED
-from carpus.core.records.interrupted import Recovered, recover
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
+from carpus.core.records.new_sessions import Recovered, recover
 from carpus.core.records.set_up import SetUp
 from carpus.ui import language
 from carpus.ui.background import Background

@@ -11,14 +11,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from carpus.app.command_line import tell
 from carpus.app.settings import load_sound_settings, sessions_folder
-from carpus.app.standard_streams import tell
 from carpus.core.errors import CarpusFault
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.session.reader import read_outline
 
 if TYPE_CHECKING:
-    from carpus.core.formats.export import Exported
+    from carpus.core.formats.formats import Exported
     from carpus.core.records.log import Deed, Kind
     from carpus.core.records.of_sessions import MadeKind
     from carpus.core.results.repetition_rows import RepetitionChoices

@@ -32,8 +32,7 @@ from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CalibrationImpossible, RecordingEmpty, SettingsInvalid
 from carpus.core.formats.csv_tables import repetition_table, tables
-from carpus.core.formats.export import Exported, Wanted, export_sessions
-from carpus.core.formats.formats import FORMATS
+from carpus.core.formats.formats import FORMATS, Exported, Wanted, export_sessions
 from carpus.core.formats.provenance import provenance
 from carpus.core.hand.exercises import EXERCISES
 from carpus.core.hand.protocols import protocol_named

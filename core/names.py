@@ -1,14 +1,15 @@
-"""Names: what a pseudonym, a name or a passphrase may be, one rule for window, commands, store and files; what is
-told of one that nobody knows; where what is known of cameras lies, by their serial numbers."""
+"""What a person may type: pseudonyms, names and passphrases by one rule for window, commands, store and files, with
+what is told of one that nobody knows; least and largest numbers; and where what is known of cameras lies, by serial
+number."""
 
 from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 
-from carpus.core.errors import NameUnsuited
+from carpus.core.errors import NameUnsuited, SettingsInvalid
 from carpus.core.phrase import phrase
 
 MOST_CHARACTERS = 100
@@ -90,3 +91,17 @@ def file_stem(serial: str) -> str:
     '1206-a-b'
     """
     return re.sub(r"[^A-Za-z0-9.]+", "-", serial).strip("-.") or "camera"
+
+
+Limits = Mapping[str, tuple[float, float]]
+"""Least and largest value by the name of the field."""
+
+
+def check_limits(where: str, chosen: object, limits: Limits) -> None:
+    """Raise :class:`SettingsInvalid` for a number beyond its limits, also one of several, and for no number of several.
+    None is no number."""
+    for name, (low, high) in limits.items():
+        value = getattr(chosen, name)
+        several = value if isinstance(value, tuple) else (value,)
+        if not several or not all(one is None or low <= one <= high for one in several):  # a NaN lies nowhere
+            raise SettingsInvalid(where, f"{name} = {value}, from {low:g} to {high:g}")

@@ -16,7 +16,7 @@ NO_CHOICE = {
         "detection/blobs._BEYOND_M",
         "hand/anatomy_prior._FIXED",
         "hand/back_surface._NOWHERE",
-        "tracking/anatomy_refinement._NARROW_RAD",
+        "tracking/finger_model._NARROW_RAD",
         "tracking/association.IMPOSSIBLE",
         "tracking/digit_readout._NARROW2",
         "tracking/joint_limits._WIDE",
@@ -25,7 +25,7 @@ NO_CHOICE = {
         "tracking/palm_view.FLOOR",
         "tracking/digit_filter.FLOOR",
         "tracking/reacquire._LOOSE_M2",
-        "tracking/shape_learning._FLOOR_M",
+        "tracking/predicted_measurement._FLOOR_M",
         "tracking/hand_filter._NEAREST_M",
         "detection/detector._NEAREST_M",
         "tracking/surface_fit._NO_NOISE",
@@ -46,9 +46,9 @@ NO_CHOICE = {
     "when a search for a least sum of squares has settled": {
         "calibration/neutral_pose._ROUNDS",
         "calibration/neutral_pose._SETTLED",
-        "hand/digit_fitting._DIFFERENCE_STEP",
-        "hand/digit_fitting._MOST_STEPS",
-        "hand/digit_fitting._SETTLED",
+        "hand/anatomy_prior._DIFFERENCE_STEP",
+        "hand/anatomy_prior._MOST_STEPS",
+        "hand/anatomy_prior._SETTLED",
     },
     "tables of the clinical reference; how far a hand may be from them lies in settings": {
         "calibration/calibrate._MCP3_OVER_HAND_LENGTH",
@@ -76,8 +76,8 @@ NO_CHOICE = {
     },
     "limits and layouts of files and tables": {
         "calibration/clicks._MOST_BYTES",
-        "detection/color_histogram.BINS",
-        "detection/color_histogram._RANGES",
+        "detection/appearance.BINS",
+        "detection/appearance._RANGES",
         "detection/detector._SIMILARITY_BINS",
         "detection/stencil.WEDGES",
         "hand/back_surface.TABLE_ROWS",
@@ -86,7 +86,6 @@ NO_CHOICE = {
     "axes and signs": {
         "calibration/calibrate._TOWARDS_CAMERA",
         "hand/anatomy_prior._DOWN",
-        "hand/digit_fitting._DOWN",
         "tracking/finger_depth._DOWN",
         "tracking/digit_association.BENDS",
         "tracking/hand_geometry._DOWN",
@@ -101,7 +100,7 @@ NO_CHOICE = {
     "a unit: noise is told per sample at 30 Hz": {"tracking/motion.REFERENCE_DT_S"},
     "where a number stands among others": {
         "calibration/back._CORNERS",
-        "calibration/finger_order._THUMB",
+        "calibration/name_checks._THUMB",
         "tracking/finger_depth.FLEXION",
         "tracking/hand_geometry.DISCS",
         "tracking/palm_state.PALM_DISCS",
@@ -109,7 +108,7 @@ NO_CHOICE = {
     },
     "about the line of sight depths tell nothing: a rank, which no figure hangs on": {"tracking/readout._TILT_KNOWN"},
     "what is home keeps nothing: any time far below a frame's": {"tracking/soft_tissue._AT_ONCE_S"},
-    "half of a picture's weight now and half right after": {"tracking/disc_anew._TWICE"},
+    "half of a picture's weight now and half right after": {"tracking/hand_filter._TWICE"},
 }
 """Numbers of modules that are no setting, by the reason."""
 

@@ -1,4 +1,5 @@
-"""Tasks in processes of their own, here or on a cluster's worker: one that dies, hangs or grows takes nothing along.
+"""Tasks in processes of their own, here or beside the workers of a Dask scheduler (other machines that see the same
+folders and have Carpus installed): one that dies, hangs or grows takes nothing along.
 
 Not by :mod:`multiprocessing`: the workers of a cluster are often daemons, which it lets have no children, and those
 that track have some.
@@ -6,7 +7,9 @@ that track have some.
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
+import hashlib
 import os
 import pickle
 import queue
@@ -17,10 +20,10 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from typing import BinaryIO, NoReturn
+from typing import Any, BinaryIO, NoReturn
 
 from carpus.app.batch.work import Outcome, Task, clear_leftovers, fault_of, work
-from carpus.core.errors import CarpusFault, OutputBusy
+from carpus.core.errors import CarpusFault, ExtraMissing, OutputBusy, SchedulerUnreachable
 from carpus.core.installing import is_packed
 from carpus.core.words import one_sentence
 
@@ -199,6 +202,73 @@ def _listen(questions: BinaryIO, waiting: queue.SimpleQueue) -> None:  # type: i
 
 def _interrupt(*_: object) -> NoReturn:
     raise KeyboardInterrupt
+
+
+PATIENCE_S = 15.0
+"""A scheduler that is there answers within this time."""
+_CHILDREN = Children()
+"""Of this worker; they end with it."""
+
+
+class MayPass(Exception):
+    """A fault that may be gone when tried again: what Dask retries."""
+
+
+def on_worker(task: Task, limit_s: float) -> Outcome:
+    """What a worker does with one task, in a process beside it."""
+    outcome = _CHILDREN.outcome(task, limit_s)
+    if outcome.may_pass:
+        raise MayPass(" ".join(outcome.said))
+    return outcome
+
+
+def outcomes_on(address: str, tasks: Sequence[Task], limit_s: float = LIMIT_S) -> Iterator[Outcome]:
+    """Outcomes as they come. What a worker that died was at is done by another; what ends one after the other, or may
+    pass and does not, is a fault. A task that an earlier run left under way is not begun twice.
+
+    Raises :class:`ExtraMissing` and :class:`SchedulerUnreachable`, both before anything is tracked.
+    """
+    try:
+        from distributed import Client, Security, as_completed
+        from distributed.comm.core import connect
+    except ImportError as cause:
+        raise ExtraMissing("distributed") from cause
+
+    async def knock() -> None:
+        await (await connect(address, timeout=PATIENCE_S, **Security().get_connection_args("client"))).close()
+
+    try:
+        asyncio.run(knock())  # a client that finds no scheduler would leave a thread behind
+    except (OSError, ValueError, TypeError, RuntimeError) as cause:  # also an address that is none
+        raise SchedulerUnreachable(address, str(cause).partition("\n")[0] or type(cause).__name__) from cause
+    with Client(address, set_as_default=False) as client:
+        if not client.nthreads():
+            print("carpus: the scheduler has no workers yet; they are waited for.", file=sys.stderr)
+        futures = {client.submit(on_worker, task, limit_s, key=_key(task), retries=TRIES - 1): task for task in tasks}
+        try:
+            for future in as_completed(list(futures), loop=client.loop):
+                task = futures.pop(future)
+                yield future.result() if future.status == "finished" else fault_of(task.place, _why(future))
+                future.release()
+        finally:
+            client.cancel(list(futures))
+
+
+def _key(task: Task) -> str:
+    return f"carpus-{hashlib.sha256(pickle.dumps(task)).hexdigest()}"
+
+
+def _why(future: Any) -> str:
+    from distributed import KilledWorker
+
+    cause = None if future.status in ("cancelled", "lost") else future.exception()
+    if isinstance(cause, MayPass):
+        return str(cause)
+    if isinstance(cause, KilledWorker):
+        return DIED
+    if cause is None:
+        return "the scheduler ended or gave it up; track it again"
+    return f"something unforeseen happened on a worker ({type(cause).__name__}: {cause})"
 
 
 if __name__ == "__main__":

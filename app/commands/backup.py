@@ -8,10 +8,9 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus import __version__
-from carpus.app.command_line import ask_passphrase
+from carpus.app.command_line import ask_passphrase, bar
 from carpus.app.of_file import note_in
 from carpus.app.settings import load_sound_settings, sessions_folder, settings_folder
-from carpus.app.standard_streams import bar
 from carpus.core.errors import BackupMissing, OutputExists
 
 EXAMPLE = """carpus backup /media/backup

@@ -10,12 +10,11 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import number
-from carpus.app.standard_streams import bar, tell
+from carpus.app.command_line import bar, number, tell
 
 if TYPE_CHECKING:
     from carpus.core.calibration.camera.board import Board
-    from carpus.core.calibration.camera.gather import Gathering
+    from carpus.core.calibration.camera.views import Gathering
     from carpus.core.capture.source import FrameSource
 
 EXAMPLE = """carpus calibrate-camera --board board.pdf
@@ -73,9 +72,14 @@ def _print_board(arguments: argparse.Namespace) -> int:
 
 
 def _calibrate(arguments: argparse.Namespace) -> int:
-    from carpus.core.calibration.camera.calibrate import calibrate_camera, calibration_lines
-    from carpus.core.calibration.camera.gather import Gathering
-    from carpus.core.calibration.camera.keep import keep_calibration, stored_of, write_calibration
+    from carpus.core.calibration.camera.calibrate import (
+        calibrate_camera,
+        calibration_lines,
+        keep_calibration,
+        stored_of,
+        write_calibration,
+    )
+    from carpus.core.calibration.camera.views import Gathering
     from carpus.core.capture.given_name import keep_name
     from carpus.core.dates import is_moment
     from carpus.core.errors import OutputExists

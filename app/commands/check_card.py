@@ -8,7 +8,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.standard_streams import bar, tell
+from carpus.app.command_line import bar, tell
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -123,8 +123,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _study(arguments: argparse.Namespace) -> int:
+    from carpus.app.command_line import bar
     from carpus.app.of_file import read_choices
-    from carpus.app.standard_streams import bar
     from carpus.core.agreement.study import read_table, study_lines, study_of, write_study
 
     of_one: dict[str, object] = {"columns": {}, "markers": {}, "unit": None, "session": None}

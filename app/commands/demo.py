@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from carpus.app.command_line import bar
 from carpus.app.commands import desktop
 from carpus.app.settings import load_settings
-from carpus.app.standard_streams import bar
 from carpus.core.durable import make_private
 
 EXAMPLE = "carpus demo --data-folder out/practice"

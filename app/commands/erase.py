@@ -6,9 +6,9 @@ import argparse
 import sys
 from pathlib import Path
 
+from carpus.app.command_line import tell
 from carpus.app.of_file import data_folder_of, initials
 from carpus.app.settings import load_sound_settings, sessions_folder
-from carpus.app.standard_streams import tell
 from carpus.core.errors import FolderMissing, PatientUnknown, RecordingMissing
 from carpus.core.names import known_names
 from carpus.core.records.erasure import ErasurePlan

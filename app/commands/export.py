@@ -10,16 +10,15 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from carpus import __version__
-from carpus.app.command_line import ask_passphrase
+from carpus.app.command_line import ask_passphrase, bar
 from carpus.app.of_file import note_exported
-from carpus.app.standard_streams import bar
 from carpus.core.errors import OutputExists, SessionsMissing
 from carpus.core.formats.formats import FORMATS
 from carpus.core.names import known_names
 from carpus.core.words import one_sentence
 
 if TYPE_CHECKING:
-    from carpus.core.formats.export import Exported
+    from carpus.core.formats.formats import Exported
 
 EXAMPLE = """carpus export session.h5 --format csv,c3d --output out/export
 carpus export session.h5 --output out/export.tar.age --sealed"""
@@ -74,7 +73,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _exported(arguments: argparse.Namespace, paths: list[Path], folder: Path) -> Exported:
     """The files in a folder; what was refused is said."""
     from carpus.app.of_file import read_choices
-    from carpus.core.formats.export import Wanted, export_sessions
+    from carpus.core.formats.formats import Wanted, export_sessions
 
     with bar("exporting", "file") as progress:
         done = export_sessions(

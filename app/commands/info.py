@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from carpus.app.command_line import tell
 from carpus.app.of_file import note, read_choices
-from carpus.app.standard_streams import tell
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import RecordingMissing
 from carpus.core.results.session_lines import recording_summary, session_summary, source_summary

@@ -7,8 +7,8 @@ import csv
 import sys
 from pathlib import Path
 
+from carpus.app.command_line import tell
 from carpus.app.settings import load_sound_settings, sessions_folder
-from carpus.app.standard_streams import tell
 from carpus.core.durable import private
 from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, RegisterDamaged
 

@@ -11,7 +11,7 @@ from carpus import __version__
 from carpus.app.of_file import made
 from carpus.app.settings import ANGLE_ORDERS, load_settings
 from carpus.core.errors import OutputExists
-from carpus.core.results.angle_order import in_order
+from carpus.core.results.ranges import in_order
 from carpus.core.results.report_form import PAPERS
 from carpus.core.session.reader import read_session
 

@@ -8,10 +8,9 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import ask_passphrase
+from carpus.app.command_line import ask_passphrase, bar
 from carpus.app.of_file import note_in
 from carpus.app.settings import settings_folder
-from carpus.app.standard_streams import bar
 from carpus.core.errors import BackupMissing
 from carpus.core.names import known_names
 

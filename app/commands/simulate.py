@@ -8,8 +8,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from carpus.app.command_line import count, number
-from carpus.app.standard_streams import bar
+from carpus.app.command_line import bar, count, number
 from carpus.core.depth_sensor import SENSORS
 from carpus.core.hand.protocols import protocol_names
 from carpus.core.names import known_names

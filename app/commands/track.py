@@ -12,15 +12,14 @@ from typing import get_args
 import numpy as np
 
 from carpus import __version__
-from carpus.app.batch.places import is_many
-from carpus.app.command_line import count, number
+from carpus.app.batch.work import is_many
+from carpus.app.command_line import bar, count, number, tell
 from carpus.app.of_file import note
 from carpus.app.settings import load_settings
-from carpus.app.standard_streams import bar, tell
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict, finding_sentence
-from carpus.core.capture.identity import Recorded
 from carpus.core.capture.paced import PacedSource
+from carpus.core.capture.source import Recorded
 from carpus.core.dates import iso
 from carpus.core.errors import IntrinsicsAssumed, NameUnsuited, RecordingMissing
 from carpus.core.hand.exercises import EXERCISES

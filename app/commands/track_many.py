@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import csv
+import math
 import sys
 import time
 from collections import Counter
@@ -11,17 +13,60 @@ from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.app.batch.places import SESSION_SUFFIX, TrackingInput, places
 from carpus.app.batch.processes import LIMIT_S, cores, outcomes
-from carpus.app.batch.tables import MEASURES_FILE, check_outcomes, fault_lines, write_outcomes
-from carpus.app.batch.work import Outcome, Task, fault_of
-from carpus.app.standard_streams import bar
-from carpus.core.errors import CarpusFault, OutputNotWritable, RecordingMissing
+from carpus.app.batch.work import SESSION_SUFFIX, Outcome, Task, TrackingInput, fault_of, places
+from carpus.app.command_line import bar
+from carpus.core.errors import CarpusFault, OutputExists, OutputNotWritable, RecordingMissing
 from carpus.core.formats.measures_files import check_place, measures_file
+from carpus.core.formats.new_output import new_table
 from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.reader import read_outline
 from carpus.core.words import one_sentence
+
+OUTCOMES_FILE, MEASURES_FILE = "outcomes.csv", "measures.csv"
+_HEAD = ("recording", "session", "outcome", "frames", "tracked_share", "lost_share", "said")
+
+
+def check_outcomes(folder: Path) -> None:
+    """Raise :class:`OutputExists` where the file of the table's name is somebody else's."""
+    path = folder / OUTCOMES_FILE
+    if path.exists():
+        with path.open(newline="", encoding="utf-8", errors="replace") as file:
+            if tuple(next(csv.reader(file), ())) != _HEAD:
+                raise OutputExists(path)
+
+
+def write_outcomes(outcomes: Sequence[Outcome], folder: Path) -> Path:
+    """The table of all that was asked for, in place of that of an earlier run. Raises :class:`OutputNotWritable`."""
+    rows = (
+        (
+            str(each.place.recording),
+            each.place.name,
+            each.result,
+            str(each.frames),
+            *(f"{share:.6g}" if math.isfinite(share) else "" for share in (each.tracked, each.lost)),
+            " ".join(each.said),
+        )
+        for each in outcomes
+    )
+    return new_table(folder / OUTCOMES_FILE, _HEAD, rows, replaces=True)
+
+
+def fault_lines(outcomes: Sequence[Outcome]) -> list[str]:
+    """What was said of recordings, as a table for the terminal: faults first, then what is doubtful."""
+    told = [each for result in ("fault", "tracked", "kept") for each in outcomes if each.result == result and each.said]
+    if not told:
+        return []
+    width = min(48, max(len(str(each.place.recording)) for each in told))
+    lines = [f"{'Recording':{width}}  Outcome  What was said"]
+    for each in told:
+        name = str(each.place.recording)
+        shown = name if len(name) <= width else f"...{name[3 - width :]}"
+        for i, sentence in enumerate(each.said):
+            lines.append(f"{shown if not i else '':{width}}  {each.result if not i else '':7}  {sentence}")
+    return lines
+
 
 _OF_ONE = ("calibration", "start_angles", "recorded")
 """Options that only one recording can have."""
@@ -90,7 +135,7 @@ def _coming(tasks: Sequence[Task], arguments: argparse.Namespace) -> Iterator[Ou
     limit_s = LIMIT_S if arguments.time_limit is None else 60.0 * arguments.time_limit
     if arguments.scheduler is None:
         return outcomes(tasks, arguments.jobs or cores(), limit_s=limit_s)
-    from carpus.app.batch.cluster import outcomes_on
+    from carpus.app.batch.processes import outcomes_on
 
     return outcomes_on(arguments.scheduler, tasks, limit_s)
 

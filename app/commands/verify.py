@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from carpus.app.command_line import bar, tell
 from carpus.app.of_file import data_folder_of, note
-from carpus.app.standard_streams import bar, tell
 from carpus.core.errors import CarpusFault, PicturesLost, RecordingMissing
 from carpus.core.session.reader import read_outline, verify
 

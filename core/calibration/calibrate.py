@@ -12,20 +12,18 @@ from numpy.typing import NDArray
 from carpus.core.assignment import linear_sum_assignment
 from carpus.core.calibration.back import surface_of
 from carpus.core.calibration.candidates import is_paper, marker_candidates
-from carpus.core.calibration.finger_order import misnamed
+from carpus.core.calibration.name_checks import looks_like_other_side, misnamed, odd_disc, plan_view, shifted_names
 from carpus.core.calibration.neutral_pose import pose_by_least_squares
-from carpus.core.calibration.palm_names import looks_like_other_side, odd_disc, plan_view, shifted_names
 from carpus.core.calibration.registration import depth_offset_px
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, FindingKind, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
 from carpus.core.depth_sensor import DepthSensor
-from carpus.core.detection.appearance import MarkerAppearance, expected_radius_px, learn_appearance
-from carpus.core.detection.color_histogram import to_hsv
+from carpus.core.detection.appearance import MarkerAppearance, expected_radius_px, learn_appearance, to_hsv
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import CalibrationImpossible, ClickOnNoMarker, MarkerWithoutDepth
-from carpus.core.hand.wrist_frame import wrist_axes
+from carpus.core.hand.clinical_angles import wrist_axes
 from carpus.core.types import Detections, FloatArray, Frame, Region
 
 _MCP3_OVER_HAND_LENGTH = 0.446

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
-from carpus.core.detection import color_histogram
+from carpus.core.detection import appearance
 from carpus.core.detection.appearance import expected_radius_px, learn_appearance
 from carpus.core.detection.components import components
 from carpus.core.detection.detector import Detector
@@ -52,7 +52,7 @@ def marker_candidates(frame: Frame, camera: Camera, settings: DetectionSettings,
 
     A first, wide search for blue shows what today's paper and skin look like; the detector then finds the discs.
     """
-    hsv = color_histogram.to_hsv(frame.color_rgb)
+    hsv = appearance.to_hsv(frame.color_rgb)
     blue = cv2.inRange(hsv, *(np.array(limit) for limit in own.blue))
     opened = cv2.morphologyEx(blue, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
     spots = _paper(_disc_sized(opened, own.least_area, frame, camera, settings), frame, hsv, camera, settings, own)
@@ -112,11 +112,8 @@ def _own_colour(
     if not own.any() or not ring.any():
         return 0.0
     step = np.linalg.norm(rgb[ring] - np.median(rgb[own], axis=0), axis=1)
-    mine, around = (color_histogram.histogram(part, mask, smooth_bins=1.2).ravel() for mask in (own, ring))
-    if (
-        np.quantile(step, 0.7) < settings.least_step
-        or color_histogram.bhattacharyya(mine, around) > settings.most_alike
-    ):
+    mine, around = (appearance.histogram(part, mask, smooth_bins=1.2).ravel() for mask in (own, ring))
+    if np.quantile(step, 0.7) < settings.least_step or appearance.bhattacharyya(mine, around) > settings.most_alike:
         return 0.0
     if np.median(rgb[own].max(axis=1)) < settings.least_value:
         return 0.0
@@ -152,14 +149,14 @@ def disc_at(
     looks, centre = learn_appearance(part, (pixel - corner)[None], camera, settings)
     if not np.isfinite(centre).all():
         return Detections.none()
-    hsv = color_histogram.to_hsv(color)
+    hsv = appearance.to_hsv(color)
     v, u = np.ogrid[: color.shape[0], : color.shape[1]]
     squared = (u - centre[0, 0]) ** 2 + (v - centre[0, 1]) ** 2
     ring = (squared > (1.5 * radius_px) ** 2) & (squared < (3.0 * radius_px) ** 2)
-    around = color_histogram.histogram(hsv, ring, smooth_bins=1.2)
-    if color_histogram.bhattacharyya(looks.paper_histogram.ravel(), around.ravel()) > own.most_alike:
+    around = appearance.histogram(hsv, ring, smooth_bins=1.2)
+    if appearance.bhattacharyya(looks.paper_histogram.ravel(), around.ravel()) > own.most_alike:
         return Detections.none()
-    if not is_paper(centre + corner, frame, color_histogram.to_hsv(frame.color_rgb), camera, settings, own).all():
+    if not is_paper(centre + corner, frame, appearance.to_hsv(frame.color_rgb), camera, settings, own).all():
         return Detections.none()
     window = Detector(looks, camera, settings).region_about(centre, np.zeros((1, 2, 2)), np.array([0.5]))
     return _nearest(_moved(Detector(looks, camera, settings).detect(part, window), corner), pixel, radius_px, settings)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.assignment import linear_sum_assignment
-from carpus.core.calibration.palm_names import PalmNameSettings, average_palm, misfit, names_fit
+from carpus.core.calibration.name_checks import PalmNameSettings, average_palm, misfit, names_fit
 from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres

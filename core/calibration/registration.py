@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.detection import color_histogram
+from carpus.core.detection import appearance
 from carpus.core.detection.appearance import MarkerAppearance
 from carpus.core.types import FloatArray, Frame
 
@@ -83,8 +83,8 @@ def _skin(
     settings: RegistrationSettings,
 ) -> Image:
     """How much likelier, 0 to 1, each pixel (H, W) is skin such as lies about the discs, or paper, than ground."""
-    hsv = color_histogram.to_hsv(color_rgb)
-    paper = np.asarray(color_histogram.back_project(hsv, looks.paper_lookup) >= 128, dtype=np.float32)
+    hsv = appearance.to_hsv(color_rgb)
+    paper = np.asarray(appearance.back_project(hsv, looks.paper_lookup) >= 128, dtype=np.float32)
     near = np.zeros(paper.shape, dtype=np.uint8)
     for u, v in spots.tolist():
         cv2.circle(near, (u, v), settings.skin_px, 1, -1)

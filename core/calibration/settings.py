@@ -6,9 +6,8 @@ from dataclasses import dataclass, field
 
 from carpus.core.calibration.back import BackSettings
 from carpus.core.calibration.candidates import CandidateSettings
-from carpus.core.calibration.finger_order import FingerOrderSettings
+from carpus.core.calibration.name_checks import FingerOrderSettings, OddDiscSettings, PalmNameSettings, SideSettings
 from carpus.core.calibration.naming import NamingSettings
-from carpus.core.calibration.palm_names import OddDiscSettings, PalmNameSettings, SideSettings
 from carpus.core.calibration.registration import RegistrationSettings
 
 

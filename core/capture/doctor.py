@@ -19,8 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.capture.devices.camera_kind import CameraKind
-from carpus.core.capture.devices.cameras import CAMERAS, camera_kind, kind_of, kind_to_open, open_camera
+from carpus.core.capture.devices.cameras import CAMERAS, CameraKind, camera_kind, kind_of, kind_to_open, open_camera
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.files.raw import MB_PER_MINUTE
 from carpus.core.capture.source import SourceInfo

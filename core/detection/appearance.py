@@ -1,4 +1,7 @@
-"""What the markers look like today: learnt from the clicked discs, so it follows light, paper and skin."""
+"""What the markers look like today: learnt from the clicked discs, so it follows light, paper and skin.
+
+Hue and saturation hardly change when the light on a disc does; brightness does, and is left out.
+"""
 
 from __future__ import annotations
 
@@ -10,12 +13,49 @@ from numpy.typing import NDArray
 
 from carpus.core.assignment import linear_sum_assignment
 from carpus.core.camera import Camera
-from carpus.core.detection import color_histogram
 from carpus.core.detection.blobs import outlines, refined_centres
 from carpus.core.detection.components import Components, components
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.stencil import packed, stencil_for, unpacked, window_pixels
 from carpus.core.types import ByteImage, FloatArray, Frame
+
+BINS = 32
+"""Bins of hue (of 180) and of saturation (of 256)."""
+_HUE_WIDTH = 180 / BINS
+_RANGES = [0.0, 180.0, 0.0, 256.0]
+
+
+def to_hsv(color_rgb: ByteImage) -> ByteImage:
+    """Hue 0-179, saturation and value 0-255 of an RGB picture."""
+    return np.asarray(cv2.cvtColor(color_rgb, cv2.COLOR_RGB2HSV), dtype=np.uint8)
+
+
+def histogram(hsv: ByteImage, mask: NDArray[np.bool_], smooth_bins: float = 0.0) -> FloatArray:
+    """Normalised histogram (BINS, BINS) of the masked pixels; hue wraps round when smoothed."""
+    pixels = hsv[mask]
+    hue = np.minimum((pixels[:, 0] / _HUE_WIDTH).astype(np.int64), BINS - 1)
+    saturation = pixels[:, 1].astype(np.int64) * BINS // 256
+    counts = np.bincount(hue * BINS + saturation, minlength=BINS * BINS).reshape(BINS, BINS).astype(np.float64)
+    if smooth_bins > 0.0:
+        wrapped = np.concatenate((counts[-4:], counts, counts[:4]))
+        blurred = cv2.GaussianBlur(wrapped, (0, 0), smooth_bins, borderType=cv2.BORDER_REPLICATE)
+        counts = np.asarray(blurred, dtype=np.float64)[4:-4]
+    total = counts.sum()
+    return np.asarray(counts / total if total > 0 else counts)
+
+
+def back_project(hsv: ByteImage, lookup: NDArray[np.float32]) -> ByteImage:
+    """Value 0-255 of the bin of every pixel; ``lookup`` (BINS, BINS) holds 0 to 255."""
+    return np.asarray(cv2.calcBackProject([hsv], [0, 1], lookup, _RANGES, 1.0), dtype=np.uint8)
+
+
+def bhattacharyya(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Bhattacharyya coefficient of normalised histograms (..., n), 0 for none in common, 1 for equal.
+
+    >>> float(bhattacharyya(np.array([0.5, 0.5]), np.array([0.5, 0.5])))
+    1.0
+    """
+    return np.asarray(np.sum(np.sqrt(a * b), axis=-1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +105,7 @@ def learn_appearance(
     First the colours right under the clicks, most of which are paper, against the ring around them, most of
     which is not; then again from the discs so found, until they settle.
     """
-    hsv = color_histogram.to_hsv(frame.color_rgb)
+    hsv = to_hsv(frame.color_rgb)
     shape = hsv.shape[:2]
     radius_px = np.array([expected_radius_px(frame, click, camera, settings) for click in click_px])
     on_paper = np.zeros(shape, dtype=bool)
@@ -131,11 +171,7 @@ def _measured_by_discs(
         return looks
     ratio = blobs.area_px[found] / (np.pi * np.median(radius_px) ** 2)
     reached = [
-        float(
-            color_histogram.bhattacharyya(
-                color_histogram.histogram(hsv, blobs.labels == label).ravel(), looks.paper_histogram.ravel()
-            )
-        )
+        float(bhattacharyya(histogram(hsv, blobs.labels == label).ravel(), looks.paper_histogram.ravel()))
         for label in blobs.label[found]
     ]
     # Half of what the least alike of the clicked discs reaches: a blob in other light still counts.
@@ -152,7 +188,7 @@ def paper_mask(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSetti
 
 def is_blue(hsv: ByteImage, looks: MarkerAppearance, settings: DetectionSettings) -> ByteImage:
     """255 where hue and saturation are the paper's, else 0."""
-    likely = color_histogram.back_project(hsv, looks.paper_lookup)
+    likely = back_project(hsv, looks.paper_lookup)
     return np.asarray(cv2.threshold(likely, 255.0 * settings.paper_share, 255.0, cv2.THRESH_BINARY)[1], dtype=np.uint8)
 
 
@@ -166,8 +202,8 @@ def _grown(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
 def _appearance(
     hsv: ByteImage, on_paper: NDArray[np.bool_], ring: NDArray[np.bool_], settings: DetectionSettings
 ) -> MarkerAppearance:
-    paper = color_histogram.histogram(hsv, on_paper, smooth_bins=1.2)
-    skin = color_histogram.histogram(hsv, ring, smooth_bins=1.2)
+    paper = histogram(hsv, on_paper, smooth_bins=1.2)
+    skin = histogram(hsv, ring, smooth_bins=1.2)
     floor = 0.02 / paper.size  # a colour never seen is neither
     paper_share = paper / (paper + skin + floor)
     skin_share = skin / (paper + skin + floor)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
-from carpus.core.detection import color_histogram
+from carpus.core.detection import appearance
 from carpus.core.detection.appearance import MarkerAppearance, is_blue, paper_mask
 from carpus.core.detection.blobs import Outline, blob_depths, outlines, refined_centres
 from carpus.core.detection.components import Components, components
@@ -67,7 +67,7 @@ class Detector:
         if (kernels := in_c()) is not None:
             return self._detected(kernels, frame, region)
         color = frame.color_rgb[region.top : region.bottom, region.left : region.right]
-        hsv = color_histogram.to_hsv(color)
+        hsv = appearance.to_hsv(color)
         mask = paper_mask(hsv, self._looks, self._settings)
         blobs = components(mask, lambda centre_px: self._radius_at(frame, region, centre_px), self._settings.touching)
         area = blobs.area_px
@@ -174,11 +174,11 @@ class Detector:
         """Rectangle about the skin and paper of the largest hand-like region, None when there is no paper."""
         coarse = self._settings.coarse
         small = cv2.resize(color_rgb, None, fx=1 / coarse, fy=1 / coarse, interpolation=cv2.INTER_AREA)
-        hsv = color_histogram.to_hsv(np.asarray(small, dtype=np.uint8))
-        paper = color_histogram.back_project(hsv, self._looks.paper_lookup) >= self._settings.paper_level
+        hsv = appearance.to_hsv(np.asarray(small, dtype=np.uint8))
+        paper = appearance.back_project(hsv, self._looks.paper_lookup) >= self._settings.paper_level
         if not paper.any():
             return None
-        skin = color_histogram.back_project(hsv, self._looks.skin_lookup) >= self._settings.skin_level
+        skin = appearance.back_project(hsv, self._looks.skin_lookup) >= self._settings.skin_level
         near_skin = cv2.dilate(skin.astype(np.uint8), np.ones((7, 7), np.uint8)) > 0
         row, column = np.nonzero(paper & near_skin)
         if row.size == 0:
@@ -197,7 +197,7 @@ def _by_hue_and_saturation(
 ) -> tuple[NDArray[np.uint8], NDArray[np.bool_], NDArray[np.uint8]]:
     """For each pair of hue and saturation, read as one number of two bytes: its cell of the coarse histogram, whether
     it is likelier on skin than on paper, and 1 where it is of the paper's colour."""
-    bins = color_histogram.BINS
+    bins = appearance.BINS
     number = np.arange(1 << 16)
     every = np.stack((number & 255, number >> 8, number & 0), axis=1).astype(np.uint8)[None]
     hue, saturation = np.minimum((number & 255) * bins // 180, bins - 1), (number >> 8) * bins // 256

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from carpus.core.detection.components import TouchingSettings
 from carpus.core.detection.stencil import StencilSettings
 from carpus.core.detection.surface_samples import SamplingSettings
-from carpus.core.detection.touching import TouchingSettings
 
 
 @dataclass(frozen=True, slots=True)

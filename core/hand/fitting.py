@@ -16,12 +16,16 @@ from carpus.core.hand.anatomy_prior import (
     DIGIT_DISCS,
     FLEXIONS,
     AnatomyPrior,
+    DigitModel,
+    Gaussian,
     average_hand,
     constants_prior,
+    finger_model,
+    fit_digit,
     neutral_prior,
+    thumb_model,
     with_constants,
 )
-from carpus.core.hand.digit_fitting import DigitModel, Gaussian, finger_model, fit_digit, thumb_model
 from carpus.core.hand.sites import PALM_SITES, SITES
 from carpus.core.types import FloatArray, Side
 

@@ -1,4 +1,4 @@
-"""The marker protocols: what one says of itself (nothing outside compares it with another), and those that there are."""
+"""The marker protocols that there are, and what one says of itself; nothing outside compares one with another."""
 
 from __future__ import annotations
 

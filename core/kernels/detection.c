@@ -202,7 +202,7 @@ static double elongation(
 }
 
 /* The parts of a blob that is longer than a disc: a part's number for every pixel of its box that is its own, in one of
-   two buffers; how many parts, one where it is none of a few discs. As core/detection/touching.py to the last bit: at
+   two buffers; how many parts, one where it is none of a few discs. As core/detection/components.py to the last bit: at
    what lies just between two parts a rounding would tell. */
 NOT_CONTRACTED
 static int parted(

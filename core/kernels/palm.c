@@ -714,7 +714,7 @@ int wrist_read(
     return 0;
 }
 
-/* Variance factors of u, v and depth after one more frame: core/tracking/adaptive_noise.py. */
+/* Variance factors of u, v and depth after one more frame: core/tracking/predicted_measurement.py. */
 int adapted_factors(
     int markers, const double *factor, const double *residual, const uint8_t *measured, double weight, double least,
     double most, double *out)

@@ -20,8 +20,7 @@ from carpus.core.hand.sites import joint_discs
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD, MotionRange, RangeFigure, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
 from carpus.core.measures.repetitions import Repetition
-from carpus.core.measures.signals import BoolArray, Signal, even_signal, low_pass
-from carpus.core.measures.validity import LARGEST_SD_RAD
+from carpus.core.measures.signals import LARGEST_SD_RAD, BoolArray, Signal, even_signal, low_pass
 from carpus.core.types import FloatArray, TrackStatus
 
 LEAST_SEEN_SHARE = 0.3

@@ -18,10 +18,9 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
-from carpus.core.hand.clinical_angles import side_sign
+from carpus.core.hand.clinical_angles import side_sign, wrist_axes
 from carpus.core.hand.kinematics import joint_centres
 from carpus.core.hand.sites import SITE_CHAINS, joint_angle_names
-from carpus.core.hand.wrist_frame import wrist_axes
 from carpus.core.types import FloatArray
 
 PalmModel = Literal["flat", "measured"]

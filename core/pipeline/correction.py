@@ -20,13 +20,12 @@ from carpus.core import errors
 from carpus.core.calibration.calibrate import StillNoise
 from carpus.core.errors import CarpusFault, NotCorrectable, NotCorrected, OutputExists
 from carpus.core.phrase import phrase
+from carpus.core.pipeline.frame_pipeline import answers_in, notes_in
 from carpus.core.pipeline.processes import track_again
-from carpus.core.pipeline.said_again import answers_in, notes_in
 from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import Progress, TrackSettings, from_neutral, learnt_from, learnt_in, parameters_json
 from carpus.core.results.repetition_rows import repetitions_of
-from carpus.core.session.corrected import CORRECTED, said_of
-from carpus.core.session.marker_doubts import SAME_SPOT_PX, Correction
+from carpus.core.session.marker_doubts import CORRECTED, SAME_SPOT_PX, Correction, said_of
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import DetectionTable, Session, header_again, motion_of
 from carpus.core.session.writer import SessionWriter

@@ -6,7 +6,8 @@ from typing import Generic, Protocol, TypeVar
 
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, part_read, surface_samples
-from carpus.core.types import Detections, FloatArray, Frame, Region, TrackedFrame
+from carpus.core.session.values import Event, Session
+from carpus.core.types import SPOT_SAID, Detections, FloatArray, Frame, Region, SpotAnswer, TrackedFrame
 
 
 class Expected(Protocol):
@@ -102,3 +103,24 @@ class FramePipeline(Generic[AnyTracker]):
                 finger_samples(frame, expected.finger_px, self.sampling),
             )
         return self.tracker.step(frame.index, frame.timestamp_s, blobs, frame.dropped_before)
+
+
+NOT_LOOKED_BACK = "not_looked_back"
+"""The event of a session that is stored as tracked, though looking back was asked for."""
+
+
+def notes_in(session: Session) -> list[Event]:
+    """Its events, but for what only that tracking of it met."""
+    return [event for event in session.events if event.kind != NOT_LOOKED_BACK]
+
+
+def answers_in(session: Session) -> dict[int, list[SpotAnswer]]:
+    """What was said of blue spots, by the row of the picture that took it up."""
+    out: dict[int, list[SpotAnswer]] = {}
+    for event in session.events:
+        if event.kind == SPOT_SAID and len(session):
+            row = int(abs(session.timestamp_s - event.time_s).argmin())
+            answer = SpotAnswer.of_text(event.text, row)
+            if answer is not None:
+                out.setdefault(row, []).append(answer)
+    return out

@@ -20,18 +20,15 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
 from carpus.core.capture.files.raw import RawWriter
-from carpus.core.capture.identity import recorded_at, recording_id
-from carpus.core.capture.source import SourceInfo, is_simulated
+from carpus.core.capture.source import SourceInfo, is_simulated, recorded_at, recording_id
 from carpus.core.dates import iso
 from carpus.core.errors import DiskFull, EndStalled, ExtraMissing, NotLookedBack, RecordingEmpty
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.around_hand import AroundHand, HandArea
 from carpus.core.pipeline.channels import ChannelFull, NeverDrop
-from carpus.core.pipeline.frame_pipeline import FramePipeline
+from carpus.core.pipeline.frame_pipeline import NOT_LOOKED_BACK, FramePipeline
 from carpus.core.pipeline.live import Listener, LiveSession
-from carpus.core.pipeline.looking_back import LookingBack
-from carpus.core.pipeline.pieces import TrackedHand
-from carpus.core.pipeline.said_again import NOT_LOOKED_BACK
+from carpus.core.pipeline.looking_back import LookingBack, TrackedHand
 from carpus.core.pipeline.track import Learnt, TrackSettings, build_pipeline, learnt_from, parameters_json, source_facts
 from carpus.core.records.set_up import MARKERS_SUFFIX, SetUp
 from carpus.core.results.repetition_rows import repetitions_of

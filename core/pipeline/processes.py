@@ -25,7 +25,7 @@ def look_back(link: Connection) -> None:
     cannot go on."""
     _settle()
     try:
-        from carpus.core.pipeline.pieces import PieceByPiece
+        from carpus.core.pipeline.looking_back import PieceByPiece
 
         pieces = PieceByPiece(*link.recv())
         while (frames := link.recv()) is not None:

@@ -17,28 +17,60 @@ from carpus.core.calibration.calibrate import CalibrationOutcome, StillNoise, ca
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
+from carpus.core.capture.files.pictures import decode_color, decode_depth
 from carpus.core.capture.files.raw import RawRecording
-from carpus.core.capture.identity import Recorded, recorded_at, recording_id
-from carpus.core.capture.source import FrameSource, SourceInfo
+from carpus.core.capture.source import FrameSource, Recorded, SourceInfo, recorded_at, recording_id
 from carpus.core.depth_sensor import ASSUMED
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.errors import DiskFull, OutputExists, RecordingEmpty
+from carpus.core.errors import DiskFull, OutputExists, PictureDamaged, RecordingEmpty
 from carpus.core.papers.chain import as_written, by_the_discs
 from carpus.core.papers.settings import PaperSettings
 from carpus.core.papers.tracker import PaperTracker
-from carpus.core.pipeline.frame_pipeline import FramePipeline, HandTracker, Seen
+from carpus.core.phrase import phrase
+from carpus.core.pipeline.frame_pipeline import FramePipeline, HandTracker, Seen, answers_in, notes_in
 from carpus.core.pipeline.live import Listener
-from carpus.core.pipeline.said_again import answers_in, notes_in
-from carpus.core.pipeline.session_source import SessionPictures
 from carpus.core.provenance import revision, sha256_of_file, sha256_of_recording, sha256_of_settings
 from carpus.core.session.plausible import check_calibration
-from carpus.core.session.reader import has_raw, read_detections, read_session
+from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session
 from carpus.core.session.values import SET_UP, Event, Session, header_again, motion_of, new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import SIMULATED, FloatArray, Frame, Moment, SpotAnswer, TrackedFrame, TrackStatus
+
+
+class SessionPictures:
+    """A :class:`core.capture.source.FrameSource` over the stored pictures of a session, times as in the session."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._unit_m = raw_depth_unit_m(session.path)
+        self.info = SourceInfo(
+            name=session.header.session_id,
+            camera=session.camera,
+            has_depth=True,
+            frame_count=len(session),
+            nominal_fps=30.0,
+            settings={"format": "session"} | ({SIMULATED: "yes"} if session.header.simulated else {}),
+            recording_id=session.header.recording_id,
+            recorded=session.header.recorded,
+        )
+
+    def frames(self) -> Iterator[Frame]:
+        """The frames in order; raises :class:`PictureDamaged` for one that cannot be decoded."""
+        session = self._session
+        for row, kept in enumerate(read_raw(session.path)):
+            color = decode_color(kept.color)
+            if color is None:
+                raise PictureDamaged(session.path, phrase("colour picture {row}", row=row))
+            depth = decode_depth(kept.depth) if kept.depth else None
+            time_s, dropped = float(session.timestamp_s[row]), int(session.quality.dropped_before[row])
+            yield Frame(row, time_s, color, depth, self._unit_m, max(dropped, 0))
+
+    def close(self) -> None:
+        """Nothing is held open between two walks."""
+
 
 T = TypeVar("T")
 

@@ -37,7 +37,7 @@ from carpus.core.phrase import phrase
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.staging import Staged, hold, remove_left_behind
 from carpus.core.records.store import SESSIONS_FOLDER
-from carpus.core.session import heartbeat
+from carpus.core.session import recovery
 from carpus.core.session.disk import is_being_written
 
 FORMAT, FORMAT_VERSION = "carpus-backup", 1
@@ -192,7 +192,7 @@ def gather(data_folder: Path, place: Path, settings_folder: Path | None, session
     if sessions is not None and sessions != data_folder / SESSIONS_FOLDER:
         there |= _walk(sessions, place, lacking, SESSIONS_PREFIX)
     parts = [path for name, path in there.items() if name.endswith(".part")]
-    beating = heartbeat.still_beating(parts)
+    beating = recovery.still_beating(parts)
     busy = {path for path in parts if path in beating or _is_written(path)}
     stems = {path.name.split(".")[0] for path in busy}
     files = [

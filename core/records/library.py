@@ -2,42 +2,91 @@
 
 from __future__ import annotations
 
+import threading
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from carpus.core.agreement.limits_file import read_limits
-from carpus.core.capture.files.picture_file import read_color
+from carpus.core.capture.files.pictures import decode_color, read_color
+from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
+from carpus.core.capture.files.raw import RawRecording
 from carpus.core.errors import (
     CarpusFault,
     SessionUnreadable,
 )
-from carpus.core.formats.export import Wanted, export_sessions
+from carpus.core.formats.formats import Wanted, export_sessions
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.measures.change import DEFAULT_LIMITS
 from carpus.core.phrase import phrase
-from carpus.core.records import of_patients, of_sessions
+from carpus.core.records import of_sessions, patients
 from carpus.core.records.changes import changed
 from carpus.core.records.erasure import finish_erasing
 from carpus.core.records.log import By, Log, Notes
 from carpus.core.records.of_sessions import MOST_CHARACTERS, MadeKind
 from carpus.core.records.patients import Patients
-from carpus.core.records.pictures import ShownPictures
 from carpus.core.records.schema import PATIENT
 from carpus.core.records.session_list import ListedSessions
 from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
 from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry, entry_of, newest_results
-from carpus.core.results.angle_order import in_order
 from carpus.core.results.camera_said import CameraSaid, camera_of
 from carpus.core.results.figures import SessionFigures, session_figures, with_trust
+from carpus.core.results.ranges import in_order
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.session.reader import read_outline, read_session
+from carpus.core.session.reader import has_raw, read_outline, read_raw_color, read_session
 from carpus.core.session.values import AngleOrder, Session
 from carpus.core.types import ByteImage, Side
+
+KEPT_PICTURES = 2
+"""Files of pictures that stay open: two sessions are looked at beside each other."""
+
+
+class ShownPictures:
+    """Pictures of the sessions looked at last. May be used from several threads."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._open: list[KeptPictures] = []
+
+    def picture(self, paths: Sequence[Path], row: int) -> ByteImage | None:
+        """The colour picture of a row of the first of these results of one recording that has pictures."""
+        with_pictures = (path for path in paths if path.with_suffix(RAW_SUFFIX).exists() or has_raw(path))
+        path = next(with_pictures, paths[0])
+        with self._lock:
+            kept = next((one for one in self._open if one.path == path), None)
+            if kept is None:
+                kept = KeptPictures(path)
+                self._open = [kept, *self._open][:KEPT_PICTURES]
+            return kept.color(row)
+
+    def forget(self) -> None:
+        """Let go of the files whose pictures were shown last."""
+        with self._lock:
+            self._open = []
+
+
+class KeptPictures:
+    """Pictures kept in a session file, or in a raw recording beside it."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        raw = path.with_suffix(RAW_SUFFIX)
+        self._beside = RawRecording(raw) if raw.exists() else None
+        self._inside = self._beside is None and has_raw(path)
+        self._times_s = read_session(path).timestamp_s if self._beside is not None else np.empty(0)
+
+    def color(self, row: int) -> ByteImage | None:
+        """The colour picture of a row, None when it was not kept."""
+        if self._beside is not None:
+            return self._beside.color_at(float(self._times_s[row]))
+        data = read_raw_color(self.path, row) if self._inside else b""
+        return decode_color(data) if data else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,11 +164,11 @@ class Library:
 
     def by_hand(self, patient_id: str) -> Sequence[HandValue]:
         """Everything that was ever measured by hand of a patient, in the order in which it was entered."""
-        return of_patients.by_hand(self.store, patient_id)
+        return patients.by_hand(self.store, patient_id)
 
     def enter_by_hand(self, patient_id: str, values: Sequence[HandValue]) -> None:
         """Keep what was measured by hand; what was entered before for the same stays readable."""
-        of_patients.enter_by_hand(self.store, patient_id, values)
+        patients.enter_by_hand(self.store, patient_id, values)
         self.notes.patient("entered_by_hand", patient_id, values=len(values))
 
     def sessions_alike(self, patient_id: str, set_up: SetUp) -> Sequence[SessionEntry]:

@@ -1,26 +1,152 @@
-"""Sessions that are measured now: where they go, how they come into the store, what the last one said of the hand."""
+"""How sessions come into the store: those measured now, with what the last one said of the hand; those that were cut
+short; those from elsewhere; and recordings that went on in another folder when theirs went away."""
 
 from __future__ import annotations
 
+import contextlib
+import hashlib
+import shutil
+from collections.abc import Callable, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 
 import numpy as np
+import platformdirs
 
 from carpus.core.calibration.result import ALL_STRAIGHT
-from carpus.core.durable import make_private
-from carpus.core.errors import CarpusFault, FolderMissing, OutputNotWritable, RecordingMoved, SessionUnreadable
+from carpus.core.capture.files.raw import SUFFIX as RAW_SUFFIX
+from carpus.core.durable import make_private, sync_folder
+from carpus.core.errors import (
+    CarpusFault,
+    FilesSetApart,
+    FolderMissing,
+    OutputNotWritable,
+    RecordingMoved,
+    RecordingReturned,
+    SessionUnreadable,
+    WaitingErased,
+)
 from carpus.core.phrase import phrase
-from carpus.core.records.coming_home import fallback_place
-from carpus.core.records.interrupted import recover
-from carpus.core.records.kept_sets import keep_set_up
+from carpus.core.records.changes import is_identity
+from carpus.core.records.exercise_sets import keep_set_up
 from carpus.core.records.library import Library
-from carpus.core.records.session_list import free_path
-from carpus.core.records.set_up import SetUp
+from carpus.core.records.log import was_erased
+from carpus.core.records.session_list import FilesOfSessions, free_path, look_for_share
+from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
 from carpus.core.records.values import entry_of
 from carpus.core.results.progress import NAMES_DOUBTED
+from carpus.core.session.disk import free_name
 from carpus.core.session.reader import read_outline, read_session
+from carpus.core.session.recovery import recover_folder
+
+
+def fallback_place(data_folder: Path) -> Path:
+    """On the disk of this computer, one folder for each data folder; nothing is made."""
+    name = hashlib.sha256(str(data_folder.absolute()).encode()).hexdigest()[:12]
+    return Path(platformdirs.user_state_dir("carpus", appauthor=False)) / "recorded-elsewhere" / name
+
+
+def bring_home(data_folder: Path, folder_of: Callable[[str, str], Path | None]) -> list[CarpusFault]:
+    """Finish what was recorded elsewhere and move it among the sessions, into the folder of each patient, by identity
+    and pseudonym; of whom there is none, it is erased. Tells of each, and of what could not be."""
+    place = fallback_place(data_folder)
+    if not place.is_dir():
+        return []
+    found = recover_folder(place)
+    told: list[CarpusFault] = []
+    erased = [one for one in sorted(place.iterdir()) if one.is_dir() and folder_of(one.name, "") is None]
+    for folder in erased if not found.busy else ():
+        try:
+            shutil.rmtree(folder)  # also what cannot be read, and pictures without a session
+            told.append(WaitingErased())
+        except OSError as cause:
+            told.append(OutputNotWritable(place, cause.strerror or ""))
+    told += [fault for fault in found.faults if not any(Path(fault.subject).is_relative_to(one) for one in erased)]
+    for path in sorted(place.rglob("*.h5")):
+        try:
+            home = folder_of(path.parent.name, read_outline(path).header.subject_id)
+            told.append(WaitingErased() if home is None else RecordingReturned(_home(path, home)))
+            for suffix in (".h5", RAW_SUFFIX, MARKERS_SUFFIX):
+                path.with_suffix(suffix).unlink(missing_ok=True)
+            if path.parent != place:
+                with contextlib.suppress(OSError):  # another recording waits in it
+                    path.parent.rmdir()
+        except CarpusFault as fault:
+            told.append(fault)
+        except OSError as cause:
+            told.append(OutputNotWritable(data_folder, cause.strerror or ""))
+    return told
+
+
+def _home(path: Path, folder: Path) -> Path:
+    make_private(folder)
+    target = free_name(folder / path.name)
+    for suffix in (RAW_SUFFIX, MARKERS_SUFFIX, ".h5"):  # the session last: what goes with it is there when it comes
+        source = path.with_suffix(suffix)
+        if source.is_file():
+            part = target.with_suffix(suffix + ".arriving")
+            shutil.copyfile(source, part)
+            part.chmod(0o600)
+            part.rename(target.with_suffix(suffix))
+    sync_folder(folder)
+    return target
+
+
+MOST_TOLD = 3
+"""Files that are told one by one when the program starts; more are told together."""
+
+
+@dataclass(frozen=True, slots=True)
+class Recovered:
+    """A session that had been cut short and has been finished; ``kept_s`` of it are there."""
+
+    patient_id: str
+    session_id: str
+    pseudonym: str
+    when: datetime
+    kept_s: float
+
+
+def recover(library: Library) -> tuple[Sequence[Recovered], Sequence[CarpusFault]]:
+    """Finish interrupted sessions; take these, and files that were copied in, into the store."""
+    faults = [*library.told, *library.store.told]
+    library.told, library.store.told = [], []
+    if not library.store.sessions_folder.is_dir():  # a share: it is neither made nor taken for empty
+        return [], [*faults, FolderMissing(library.store.sessions_folder)]
+    try:
+        look_for_share(library.store)
+    except FolderMissing as fault:
+        return [], [*faults, fault]
+    if library.store.knows_all():  # who was erased meanwhile is brought back by nothing
+        faults += bring_home(library.folder, partial(_folder_of, library))
+    files = FilesOfSessions(library.store)
+    recovery = recover_folder(library.store.sessions_folder, given_up=files.given_up())
+    apart = [*files.first_told(recovery.faults), *files.take_in().faults]
+    found: list[Recovered] = []
+    for path in recovery.recovered:
+        outline = read_outline(path)
+        header = outline.header
+        library.notes.session("recovered", header.session_id)
+        owner = library.owner(header.session_id)
+        pseudonym = library.patients.one(owner).entry.pseudonym if owner else header.subject_id
+        found.append(Recovered(owner, header.session_id, pseudonym, header.when, outline.duration_s))
+    if len(apart) > MOST_TOLD:
+        names = ", ".join(Path(fault.subject).name for fault in apart[:MOST_TOLD])
+        apart = [FilesSetApart(f"{names}, …", phrase("{count} files", count=len(apart)))]
+    return found, [*faults, *apart]
+
+
+def _folder_of(library: Library, patient_id: str, subject_id: str) -> Path | None:
+    """Where recordings of a patient lie, or of a pseudonym; None for a patient who was erased."""
+    owner = PRACTICE_PATIENT if subject_id == PRACTICE_PATIENT else library.patients.called(subject_id)
+    if is_identity(patient_id):
+        if was_erased(library.store, patient_id):
+            return None
+        owner = patient_id
+    return library.store.sessions_folder / (owner or "unknown")
 
 
 class NewSessions:

@@ -7,8 +7,7 @@ from contextlib import suppress
 from datetime import date
 
 from carpus.core.agreement.limits_file import store_limits
-from carpus.core.agreement.retest import StudyFigures
-from carpus.core.agreement.retest_plan import Restated, RetestPlan, as_if_complete, plan_of, restated
+from carpus.core.agreement.retest import Restated, RetestPlan, StudyFigures, as_if_complete, plan_of, restated
 from carpus.core.errors import CarpusFault
 from carpus.core.records.library import Library
 

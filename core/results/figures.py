@@ -1,8 +1,8 @@
 """What review, progress and report say of a session, as figures; the words and the page are the screen's.
 
-Here they are put together. Each is made in the file of its topic, on a session as :mod:`core.results.seen` has it, by
-the bare mathematics of :mod:`core.measures`, which knows no session: ``ranges``, ``repetition_rows``,
-``speed_figures``, ``quality``, ``further_measures``, ``norms``; what changed between sessions in ``progress`` and
+Here they are put together, with how sure they are and the strokes' speed. The rest is made in the file of its topic, on
+a session as :mod:`core.results.seen` has it, by the bare mathematics of :mod:`core.measures`, which knows no session:
+``ranges``, ``repetition_rows``, ``further_measures``, ``norms``; what changed between sessions in ``progress`` and
 ``side_by_side``. Degrees, degrees per second, millimetres and seconds, since people read them. NaN is unknown.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
@@ -18,13 +18,17 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.calibration.result import CalibrationFinding
-from carpus.core.hand.exercises import Exercise, Movement
+from carpus.core.hand.exercises import STILL_RADIUS_MM, Exercise, Movement
 from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits, RetestStudy
+from carpus.core.measures.fingers import JointTrack
+from carpus.core.measures.forearm import WristCentre, rotation_in_place, wrist_centre
+from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
 from carpus.core.measures.repetitions import Uncounted, what_was_not_counted
+from carpus.core.measures.signals import even_signal, low_pass
+from carpus.core.measures.speed import StrokeMeasures
 from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said, with_checks
 from carpus.core.results.further_measures import FurtherMeasure, further_measures
 from carpus.core.results.norms import GradedTotal, graded_totals
-from carpus.core.results.quality import Quality, quality_of
 from carpus.core.results.ranges import RangeRow, joint_rows, trick_deg, wrist_rows
 from carpus.core.results.repetition_rows import (
     ACTIVE,
@@ -39,10 +43,155 @@ from carpus.core.results.repetition_rows import (
     without_passive,
 )
 from carpus.core.results.seen import SeenSession, best_motion
-from carpus.core.results.speed_figures import SpeedFigures
-from carpus.core.session.corrected import CorrectedFrom, corrected_from
+from carpus.core.session.marker_doubts import CorrectedFrom, corrected_from
 from carpus.core.session.values import AngleOrder, Session
-from carpus.core.types import FloatArray, Side
+from carpus.core.types import FloatArray, Side, TrackStatus
+
+
+@dataclass(frozen=True, slots=True)
+class StrokeSpread:
+    """A quantity over strokes or repetitions; ``best`` the quickest or smoothest, NaN where neither way is better;
+    ``measurement_sd`` of one of them by the tracker's noise, NaN unknown."""
+
+    mean: float
+    sd: float
+    best: float
+    count: int
+    measurement_sd: float = math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedFigures:
+    """Strokes in figures: degrees per second, seconds, shares, dimensionless; ``smoothness`` is SPARC.
+
+    ``too_slow`` strokes of ``count`` whose speed is lost in the tracker's noise, ``too_slow_to_be_smooth`` those whose
+    smoothness is: of them nothing is said.
+    """
+
+    count: int
+    too_slow: int
+    too_slow_to_be_smooth: int
+    peak_speed: StrokeSpread
+    smoothness: StrokeSpread
+    mean_speed: StrokeSpread
+    movement_time: StrokeSpread
+    time_to_peak: StrokeSpread
+    peaks: StrokeSpread
+    ldlj: StrokeSpread
+    pauses: StrokeSpread
+    pause_time: StrokeSpread
+
+    @classmethod
+    def of(cls, strokes: Sequence[StrokeMeasures]) -> SpeedFigures:
+        """Of the strokes that count."""
+        return cls(
+            len(strokes),
+            sum(stroke.too_slow for stroke in strokes),
+            sum(stroke.too_slow_to_be_smooth for stroke in strokes),
+            _spread(
+                [math.degrees(stroke.peak_speed_rad_s) for stroke in strokes],
+                [math.degrees(stroke.peak_speed_sd_rad_s) for stroke in strokes],
+            ),
+            _spread([stroke.sparc for stroke in strokes]),
+            _spread([math.degrees(stroke.mean_speed_rad_s) for stroke in strokes]),
+            _spread([stroke.movement_time_s for stroke in strokes], best=min),
+            _spread([stroke.time_to_peak_share for stroke in strokes], best=None),
+            _spread([stroke.peaks for stroke in strokes], best=min),
+            _spread([stroke.ldlj for stroke in strokes]),
+            _spread([stroke.pauses for stroke in strokes], best=min),
+            _spread([stroke.pause_s for stroke in strokes], best=min),
+        )
+
+
+def _spread(
+    values: Sequence[float], sds: Sequence[float] = (), best: Callable[[Sequence[float]], float] | None = max
+) -> StrokeSpread:
+    known = np.array([value for value in values if math.isfinite(value)])
+    if not len(known):
+        return StrokeSpread(math.nan, math.nan, math.nan, 0)
+    stated = np.array([sd for value, sd in zip(values, sds, strict=False) if math.isfinite(value + sd)])
+    sd = float(known.std(ddof=1)) if len(known) >= FEWEST_FOR_SPREAD else math.nan
+    measurement_sd = float(np.sqrt(np.mean(stated**2))) if len(stated) else math.nan
+    the_best = math.nan if best is None else float(best(known.tolist()))
+    return StrokeSpread(float(known.mean()), sd, the_best, len(known), measurement_sd)
+
+
+STILLNESS_CUTOFF_HZ = 3.0
+"""A forearm does not move faster than this; noise does."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quality:
+    """How sure the figures are. Shares 0 to 1 of all frames; ``hidden_share`` of all looks at markers."""
+
+    frames: int
+    measured_share: float
+    hidden_share: float
+    dropped: int
+    forearm_mm: float
+    angle_sd_deg: float
+    tilt_deg: float
+    distance_m: float
+    residual_mm: float
+    centre_mm: tuple[float, float, float] = (math.nan,) * 3
+    centre_residual_mm: float = math.nan
+    """Where the wrist turns, from the WRIST disc in the hand's axes, and how well that fits."""
+
+    @property
+    def forearm_moved(self) -> bool:
+        """Whether the wrist's centre left the ball it must stay in."""
+        return self.forearm_mm > STILL_RADIUS_MM
+
+
+def quality_of(seen: SeenSession, repetitions: Sequence[ShownRepetition]) -> Quality:
+    """Of a session with these repetitions."""
+    session, motion, verdict = seen.session, best_motion(seen.session), seen.session.calibration.verdict
+    time_s = session.timestamp_s - session.timestamp_s[:1]
+    centre = wrist_centre(motion.position_m, rotation_in_place(motion.rotation_w2_w0, motion.w0_turn_rad), seen.view)
+    within = [one for one in repetitions if one.counts] if seen.tracks else ()
+    return Quality(
+        frames=len(session),
+        measured_share=float(np.mean(session.status == TrackStatus.TRACKED)) if len(session) else math.nan,
+        hidden_share=_hidden_share(session, time_s, within),
+        dropped=int(np.maximum(session.quality.dropped_before, 0).sum()),
+        forearm_mm=_forearm_mm(time_s, centre),
+        centre_mm=tuple((1e3 * centre.centre_w2_m).tolist()),
+        centre_residual_mm=1e3 * centre.residual_m,
+        angle_sd_deg=_typical_joint_sd(seen.tracks) if seen.tracks else _typical_sd(session, seen.exercise),
+        tilt_deg=verdict.tilt_deg,
+        distance_m=verdict.distance_m,
+        residual_mm=float(np.nanmax(verdict.residual_mm)) if np.isfinite(verdict.residual_mm).any() else math.nan,
+    )
+
+
+def _hidden_share(session: Session, time_s: FloatArray, within: Sequence[ShownRepetition]) -> float:
+    """Share of all looks at markers in which one was hidden, within repetitions if any: rest hides none."""
+    inside = np.ones(len(time_s), dtype=bool)
+    if within:
+        inside = np.any([(time_s >= rep.start_s) & (time_s <= rep.end_s) for rep in within], axis=0)
+    seen = np.isfinite(session.markers.measured_px[inside, :, 0])
+    return float(np.mean(~seen)) if seen.size else math.nan
+
+
+def _forearm_mm(time_s: FloatArray, centre: WristCentre) -> float:
+    """How far the forearm went: what the centre of the wrist's turning moved, without a frame's noise."""
+    known = np.isfinite(centre.moved_m)
+    if int(known.sum()) < 2:
+        return math.nan
+    moved = low_pass(even_signal(time_s, centre.moved_m, known), STILLNESS_CUTOFF_HZ).value
+    return 1000.0 * float(np.nanmax(moved)) if np.isfinite(moved).any() else math.nan
+
+
+def _typical_sd(session: Session, exercise: Exercise) -> float:
+    sds_deg = np.degrees(best_motion(session).angles_sd_rad)
+    columns = sds_deg if exercise.angle is None else sds_deg[:, [exercise.angle]]
+    known = columns[(np.asarray(session.status) == TrackStatus.TRACKED)[:, None] & np.isfinite(columns)]
+    return float(np.median(known)) if known.size else math.nan
+
+
+def _typical_joint_sd(tracks: Mapping[str, JointTrack]) -> float:
+    known = [track.seen_sd.value[track.seen_sd.finite] for track in tracks.values() if track.known]
+    return math.degrees(float(np.median(np.concatenate(known)))) if known else math.nan
 
 
 @dataclass(frozen=True, slots=True)

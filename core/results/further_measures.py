@@ -12,13 +12,11 @@ import numpy as np
 from carpus.core.hand.clinical_angles import side_sign
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.sites import DIGITS
-from carpus.core.measures.coherence import digit_coherence
 from carpus.core.measures.fingers import JointTrack
 from carpus.core.measures.forearm import rotation_in_place
-from carpus.core.measures.path import TIP_NOISE, WRIST_NOISE
-from carpus.core.measures.reach import Reach, distance_m, find_reaches
+from carpus.core.measures.reach import TIP_NOISE, WRIST_NOISE, Reach, distance_m, find_reaches
 from carpus.core.measures.signals import BoolArray, even_signal, stretches
-from carpus.core.measures.together import co_flexion, enslaving_share, synergy_share, tremor
+from carpus.core.measures.together import co_flexion, digit_coherence, enslaving_share, synergy_share, tremor
 from carpus.core.results.seen import SeenSession, best_motion
 from carpus.core.session.values import Motion, Session
 from carpus.core.types import FloatArray
@@ -209,7 +207,7 @@ def thumb_coherence(session: Session) -> list[FurtherMeasure]:
     """How much of the time the thumb was hidden, and whether what was said of it meanwhile holds together.
 
     ``thumb hidden``: share of the frames without a blob at one of its outer discs; ``coherent`` and ``known though
-    hidden``: shares of those, as :func:`core.measures.coherence.digit_coherence` has them; ``jump when seen again`` of
+    hidden``: shares of those, as :func:`core.measures.together.digit_coherence` has them; ``jump when seen again`` of
     its tip.
     """
     motion, names = session.motion, session.header.joint_names

@@ -8,8 +8,7 @@ import numpy as np
 
 from carpus.core.hand.exercises import Exercise, exercise_named
 from carpus.core.measures.fingers import JointTrack, joint_track, joints_seen, possible_joints, valid_joints
-from carpus.core.measures.signals import BoolArray, Signal, even_signal
-from carpus.core.measures.validity import settled, valid_view, valid_wrist_angles
+from carpus.core.measures.signals import BoolArray, Signal, even_signal, settled, valid_view, valid_wrist_angles
 from carpus.core.session.values import Motion, Session
 from carpus.core.types import FloatArray
 

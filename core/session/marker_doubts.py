@@ -1,5 +1,5 @@
-"""Where a person says that markers are in a stored picture, and names that are plainly wrong: two exchanged, or one
-where it cannot be.
+"""Where a person says that markers are in a stored picture (and what a session tracked again says of that), and names
+that are plainly wrong: two exchanged, or one where it cannot be.
 
 The palm is as calibrated and does not bend: its names are judged by laying it on them. A finger's discs lie no further
 from each other than on the straight finger, and fingers seen from above cross less with the right names than with two
@@ -8,9 +8,12 @@ exchanged. What is merely unusual is not spoken of.
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
+from datetime import datetime
 from functools import lru_cache
 from itertools import combinations, pairwise
 
@@ -256,3 +259,64 @@ def _pieces_of(protocol: MarkerProtocol) -> tuple[IndexArray, IndexArray]:
         if ends[i][2] != ends[j][2] and not set(ends[i][:2]) & set(ends[j][:2])
     ]
     return np.array([(a, b) for a, b, _ in ends]), np.array(pairs, dtype=np.int64).reshape(-1, 2)
+
+
+CORRECTED = "corrected"
+"""The event of a corrected session: when, which markers, and who."""
+
+
+@dataclass(frozen=True, slots=True)
+class CorrectedFrom:
+    """``when`` the session was tracked again, ``from_s`` seconds after its first frame the first picture that was put
+    right, ``markers`` their names, ``by`` the initials of who did, empty for unknown."""
+
+    when: datetime
+    from_s: float
+    markers: tuple[str, ...]
+    by: str = ""
+
+
+def said_of(correction: Correction, by: str) -> str:
+    """The text of the event."""
+    places = {
+        name: None if place is None else [round(place[0], 1), round(place[1], 1)]
+        for name, place in correction.places.items()
+    }
+    return json.dumps({"markers": places} | ({"by": by} if by else {}), sort_keys=True)
+
+
+def corrections_in(session: Session) -> tuple[tuple[Correction, str], ...]:
+    """All that was put right in a session, each with the initials of who did; a text that cannot be read says only
+    when."""
+    out = []
+    for event in session.events:
+        if event.kind != CORRECTED or not len(session):
+            continue
+        places: dict[str, tuple[float, float] | None] = {}
+        by = ""
+        with suppress(ValueError, TypeError, AttributeError, IndexError):
+            told = json.loads(event.text)
+            by = str(told.get("by", ""))
+            places = {
+                str(name): None if place is None else (float(place[0]), float(place[1]))
+                for name, place in told.get("markers", {}).items()
+            }
+        row = int(abs(session.timestamp_s - event.time_s).argmin())
+        out.append((Correction(row, places), by))
+    return tuple(sorted(out, key=lambda one: one[0].row))
+
+
+def corrected_from(session: Session) -> CorrectedFrom | None:
+    """Since when a session stands corrected; None for one as measured."""
+    said = corrections_in(session)
+    if not said:
+        return None
+    names = dict.fromkeys(name for correction, _ in said for name in correction.places)
+    people = dict.fromkeys(by for _, by in said if by)
+    start_s = float(session.timestamp_s[0])
+    return CorrectedFrom(
+        datetime.fromisoformat(session.header.created),
+        float(session.timestamp_s[said[0][0].row]) - start_s,
+        tuple(names),
+        ", ".join(people),
+    )

@@ -29,8 +29,7 @@ from carpus.core.errors import (
 from carpus.core.phrase import phrase
 from carpus.core.session import schema
 from carpus.core.session.disk import free_name, part_path, publish
-from carpus.core.session.held_rows import HeldRows
-from carpus.core.session.part_file import FileBeginning, PartFile
+from carpus.core.session.part_file import FileBeginning, HeldRows, PartFile
 from carpus.core.session.values import Event, Motion, RawPictures, Repetitions, Session, SessionHeader
 from carpus.core.types import TrackedFrame
 

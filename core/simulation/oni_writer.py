@@ -18,9 +18,8 @@ import numpy as np
 from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import CAMERA_FILE, sidecar_path, write_camera_info
 from carpus.core.capture.files import oni_format as oni
-from carpus.core.capture.files.oni_depth_codec import encode_depth
-from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType
-from carpus.core.capture.files.raw_pictures import encode_color
+from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType, encode_depth
+from carpus.core.capture.files.pictures import encode_color
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.video_mode import PixelFormat
 from carpus.core.durable import private

@@ -27,9 +27,8 @@ from carpus.core.calibration.card.card import (
 from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.capture.source import SERIAL, SourceInfo
 from carpus.core.simulation.appearance import appearance_of, linear
-from carpus.core.simulation.depth_kinds import depth_pictures
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.sensor import ColorSensor
+from carpus.core.simulation.sensor import ColorSensor, depth_pictures
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.trace import FloatImage
 from carpus.core.types import SIMULATED, FloatArray, Frame

@@ -25,10 +25,9 @@ from carpus.core.capture.files.tum import COLOR_LIST, DEPTH_LIST, DEPTH_UNIT_M, 
 from carpus.core.capture.source import SourceInfo
 from carpus.core.durable import write_fault
 from carpus.core.errors import OutputExists, OutputNotWritable
-from carpus.core.simulation.depth_kinds import depth_pictures
 from carpus.core.simulation.render import CleanPicture, Renderer
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.sensor import ColorSensor
+from carpus.core.simulation.sensor import ColorSensor, depth_pictures
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.trouble import FrameTimes, covered_discs, frame_times
 from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, read_visible_share, truth_of, write_truth

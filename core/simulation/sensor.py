@@ -1,15 +1,20 @@
-"""What the Xtion makes of a scene: its colour noise and chroma, its structured-light depth.
+"""What a camera makes of a scene: its colour noise and chroma, and the depth picture of each kind of sensor.
 
-Depth (clinical reference 7.2): disparity d = f b / z is found by matching a 9 x 9 window and given in steps of
-1/8 pixel; with f b = 43.1 px m a step is 2.85e-3 z^2 and the whole standard deviation half a step, 1.425e-3 z^2.
+The Xtion's structured light (clinical reference 7.2): disparity d = f b / z is found by matching a 9 x 9 window and
+given in steps of 1/8 pixel; with f b = 43.1 px m a step is 2.85e-3 z^2 and the whole standard deviation half a step,
+1.425e-3 z^2.
 """
 
 from __future__ import annotations
+
+from typing import Protocol
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from carpus.core.camera import Camera
+from carpus.core.depth_sensor import DepthSensor
 from carpus.core.simulation.appearance import READ_NOISE_ELECTRONS, Appearance
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.trace import FloatImage
@@ -164,3 +169,155 @@ def in_shadow(disparity: FloatImage, side: int) -> NDArray[np.bool_]:
 def counts(depth_m: FloatImage) -> DepthImage:
     """Metres (H, W) in counts of 1/5000 m."""
     return np.clip(np.round(depth_m * _DEPTH_COUNTS_PER_M), 0.0, 65535.0).astype(np.uint16)
+
+
+COLOR_BASELINE_M = 0.032
+"""Between the depth and the colour camera: what colour alone sees has no depth."""
+_MULTIPATH_M, _MULTIPATH_SD_M = 0.003, 0.0009
+_MULTIPATH_CELL_PX = 80
+_PIXEL_STAYS_M = 0.0004
+_EDGE_M = 0.012
+"""A pixel that holds surfaces further apart than this flies."""
+_FLIGHT_LOST_SHARE = 2e-4
+_BRIGHT = 0.5
+"""Share of light given back at which the noise is the law's; less than a tenth of it gives no better reading."""
+_DARKEST = 0.05
+
+
+class TimeOfFlight:
+    """Turns true depth into the depth picture laid on colour, of focal length ``color_focal_px``; one per recording.
+
+    A reading mixes the light of all that its pixel holds: between a finger and the table it lies between both. The
+    noise falls with the light that comes back, so dark skin is noisier (Tolgyessy et al. 2021); light that reached the
+    surface by way of the table or another finger makes the way longer (multipath), by some millimetres that change
+    slowly over the picture.
+    """
+
+    def __init__(self, spec: RecordingSpec, sensor: DepthSensor, shape: tuple[int, int], color_focal_px: float) -> None:
+        rng = np.random.default_rng([spec.seed, RandomStream.DEPTH_NOISE, 3, 0])
+        self._seed = spec.seed
+        self._noisy = spec.sensor_noise
+        self._scale = depth_scale(spec)
+        self._sensor, self._shape = sensor, shape
+        self._color_px_m = COLOR_BASELINE_M * color_focal_px
+        self._side = 1 if rng.random() < 0.5 else -1
+        self._patch_px = max(round(sensor.patch_px), 1)
+        height, width = shape
+        cells = rng.standard_normal((height // _MULTIPATH_CELL_PX + 2, width // _MULTIPATH_CELL_PX + 2))
+        slow = cv2.resize(cells.astype(np.float32), (width, height), interpolation=cv2.INTER_CUBIC)
+        slow = slow * np.float32(_MULTIPATH_SD_M / float(np.std(slow)))
+        own = np.float32(_PIXEL_STAYS_M) * self._noise(rng)
+        self._longer_m = np.float32(_MULTIPATH_M * rng.uniform()) + slow + own
+
+    def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
+        """(H, W) true metres to counts of 1/5000 m, 0 where there is no reading.
+
+        ``color`` (H, W, 3) linear light: how much of its light each thing gives back; without it all is bright. The
+        noise depends on seed, frame number and this alone."""
+        if not self._noisy:
+            return counts(depth_m)
+        rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, 3, 1 + frame])
+        around = np.ones((3, 3), np.uint8)
+        flying = cv2.dilate(depth_m, around) - cv2.erode(depth_m, around) > _EDGE_M
+        seen = np.where(flying, cv2.blur(depth_m, (3, 3)), depth_m)
+        sd_m = self._sensor.reading_sd_m(depth_m.astype(np.float64)).astype(np.float32) * self._dimness(color)
+        depth = np.float32(self._scale) * (seen + self._longer_m + sd_m * self._noise(rng))
+        lost = flying & (flecks(rng, self._shape) > 0.9)
+        lost |= in_shadow(np.float32(self._color_px_m) / depth_m, self._side)
+        lost |= (depth < self._sensor.nearest_m) | (depth > self._sensor.farthest_m)
+        lost |= rng.random(self._shape, dtype=np.float32) < _FLIGHT_LOST_SHARE
+        depth = np.round(depth * 1000.0) / 1000.0
+        return np.where(lost, np.uint16(0), counts(depth))
+
+    def _noise(self, rng: np.random.Generator) -> FloatImage:
+        """Noise (H, W) of standard deviation 1, shared by the few pixels of one reading."""
+        white = rng.standard_normal(self._shape, dtype=np.float32)
+        width = self._patch_px
+        return np.asarray(cv2.blur(white, (width, width)) * np.float32(width))
+
+    def _dimness(self, color: FloatImage | None) -> FloatImage:
+        """Factor (H, W) on the noise. The camera brings its own, infrared light, which dyes let through: what is bright
+        in any colour is bright in it, and how bright the room is does not count."""
+        if color is None:
+            return np.ones(self._shape, dtype=np.float32)
+        brightest = color.max(axis=-1)
+        given_back = brightest / max(float(np.percentile(brightest[::8, ::8], 95)), 1e-6)
+        return np.asarray(_BRIGHT / np.clip(given_back, _DARKEST, None), dtype=np.float32).clip(0.7, 4.0)
+
+
+_STEREO_STEP_PX = 1.0 / 32.0
+_STEREO_LOST_SHARE = 1e-3
+
+
+class ActiveStereo:
+    """Turns true depth into the depth picture laid on colour, of focal length ``color_focal_px``; one per recording.
+
+    A pair of eyes with a spot projector: bumps that stay, thick edges, a band that one eye misses. Disparity is f b / z
+    by matching a window, with a standard deviation of 0.08 pixel over a plane (Grunnet-Jepsen et al., "Tuning depth
+    cameras for best performance"). Most of it stays from picture to picture: the spots lie as they lie, and the
+    matching errs with the fraction of a pixel of the disparity (subpixel non-linearity).
+    """
+
+    def __init__(self, spec: RecordingSpec, sensor: DepthSensor, shape: tuple[int, int], color_focal_px: float) -> None:
+        rng = np.random.default_rng([spec.seed, RandomStream.DEPTH_NOISE, 2, 0])
+        self._seed = spec.seed
+        self._noisy = spec.sensor_noise
+        self._scale = depth_scale(spec)
+        self._sensor, self._shape = sensor, shape
+        self._product_px_m = sensor.focal_px * sensor.baseline_m
+        self._enlarged = color_focal_px / sensor.focal_px
+        self._window_px = round(sensor.patch_px) | 1
+        stays_px = sensor.stays.square_per_m * self._product_px_m
+        whole_px = sensor.reading.square_per_m * self._product_px_m
+        self._temporal_px = float(np.sqrt(max(whole_px**2 - stays_px**2, 0.0)))
+        # Two patterns that take turns as the disparity goes through a pixel: a surface that moves nearer finds another.
+        self._patterns = [np.float32(stays_px) * window_noise(rng, shape, self._window_px) for _ in range(2)]
+        self._second_eye = 1 if rng.random() < 0.5 else -1
+
+    def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
+        """(H, W) true metres to counts of 1/5000 m, 0 where there is no reading.
+
+        The noise depends on seed and frame number alone; the projector brings its own light."""
+        if not self._noisy:
+            return counts(depth_m)
+        rng = np.random.default_rng([self._seed, RandomStream.DEPTH_NOISE, 2, 1 + frame])
+        disparity = np.float32(self._product_px_m) / depth_m
+        width = self._window_px
+        # The window matches what is in front wherever it holds enough of it: the hand is half a window thicker.
+        reach = 2 * (width // 4) + 1
+        thick = cv2.dilate(disparity, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
+        spread = thick - cv2.erode(disparity, np.ones((reach, reach), np.uint8))
+        at_edge = spread > _EDGE_DISPARITY_PX
+        smooth = cv2.blur(disparity, (width, width))
+        inner = cv2.dilate(at_edge.astype(np.uint8), np.ones((width, width), np.uint8)).astype(bool)
+        seen = np.where(inner, disparity, smooth)
+        seen = np.where(at_edge & (flecks(rng, self._shape) > -0.5), thick, seen)
+        turn = np.float32(2.0 * np.pi) * disparity
+        seen = seen + self._patterns[0] * np.cos(turn) + self._patterns[1] * np.sin(turn)
+        seen = seen + np.float32(self._temporal_px) * window_noise(rng, self._shape, width)
+        seen = np.round(seen / np.float32(_STEREO_STEP_PX)) * np.float32(_STEREO_STEP_PX)
+        depth = np.float32(self._product_px_m * self._scale) / np.maximum(seen, np.float32(1.0))
+        lost = at_edge & (flecks(rng, self._shape) > 0.9)
+        lost |= in_shadow(disparity * np.float32(self._enlarged), self._second_eye)
+        lost |= (depth < self._sensor.nearest_m) | (depth > self._sensor.farthest_m)
+        lost |= rng.random(self._shape, dtype=np.float32) < _STEREO_LOST_SHARE
+        depth = np.round(depth * 1000.0) / 1000.0
+        return np.where(lost, np.uint16(0), counts(depth))
+
+
+class DepthPictures(Protocol):
+    """Turns true depth into the registered depth picture; one per recording."""
+
+    def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
+        """(H, W) true metres, and (H, W, 3) linear light, to counts of 1/5000 m, 0 where there is no reading."""
+        ...
+
+
+def depth_pictures(spec: RecordingSpec, camera: Camera) -> DepthPictures:
+    """What the sensor of ``camera`` makes of depth."""
+    shape, sensor = (camera.height_px, camera.width_px), camera.sensor
+    if sensor.kind == "active stereo":
+        return ActiveStereo(spec, sensor, shape, camera.fx_px)
+    if sensor.kind == "time of flight":
+        return TimeOfFlight(spec, sensor, shape, camera.fx_px)
+    return SimulatedDepth(spec, shape)

@@ -15,7 +15,7 @@ import numpy as np
 from carpus.core.depth_sensor import SENSORS
 from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.protocols import MarkerProtocol, protocol_named
-from carpus.core.limits import Limits, check_limits
+from carpus.core.names import Limits, check_limits
 from carpus.core.types import Side
 
 RENDERER_VERSION = 5
@@ -91,7 +91,7 @@ class RecordingSpec:
     other discs less; ``cupping`` share of the full flexion of metacarpals 4 and 5 in a power grip; both 0 for the
     rigid hand, None drawn per person. ``habit``: names of :data:`HABITS` joined by ``+``, or ``none``.
 
-    ``anatomy="wide"``: hands and discs that differ from the tables by more than these say (:mod:`.wide_anatomy`).
+    ``anatomy="wide"``: hands and discs that differ from the tables by more than these say (:mod:`.patient`).
     ``worn``: names of :data:`WORN` joined by ``+``, or ``none``; ``pen_marks`` small blue marks on the skin.
 
     Camera: ``distance_m`` to the hand, turned by ``yaw_deg``, off the vertical by ``tilt_deg`` about the axis in the

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from carpus.core.kernels.choice import in_c
 from carpus.core.tracking import association
+from carpus.core.tracking.association import is_jointly_compatible
 from carpus.core.tracking.digit_filter import ANATOMY, DIGIT_SIZE, SEEN, DigitsLinearisation, DigitView
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SHOWS, SLOTS, digit_frames, is_crowded
-from carpus.core.tracking.joint_association import is_jointly_compatible
 from carpus.core.tracking.joint_limits import outside_limits
 from carpus.core.tracking.kernel import ModeMixture, Update, corrected, partial_update
 from carpus.core.tracking.palm_association import Measurements

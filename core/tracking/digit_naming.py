@@ -9,8 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.kernels.choice import Kernels, in_c
-from carpus.core.tracking.adaptive_noise import adapted_factor
-from carpus.core.tracking.association import IMPOSSIBLE, AssociationSettings, log_densities
+from carpus.core.tracking.association import (
+    IMPOSSIBLE,
+    AssociationSettings,
+    is_jointly_compatible,
+    log_densities,
+    most_chi2_row,
+)
 from carpus.core.tracking.digit_association import (
     BENDS,
     DigitAssignment,
@@ -41,10 +46,9 @@ from carpus.core.tracking.finger_depth import FLEXION, KnuckleBends, knuckle_ben
 from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.hand_geometry import CHAINS, DISCS, SHOWS, SLOTS, PalmInBody
-from carpus.core.tracking.joint_association import is_jointly_compatible, most_chi2_row
 from carpus.core.tracking.kernel import ModeMixture, Update, like
 from carpus.core.tracking.palm_association import Measurements
-from carpus.core.tracking.predicted_measurement import PredictedDigits
+from carpus.core.tracking.predicted_measurement import PredictedDigits, adapted_factor
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray, SurfaceSamples
 

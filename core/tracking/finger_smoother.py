@@ -26,7 +26,7 @@ from carpus.core.tracking.finger_depth import KnuckleBends, with_bends
 from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.hand_geometry import CHAINS, SHOWS, SLOTS, JointMoment
 from carpus.core.tracking.kernel import ModeMixture, corrected, partial_update
-from carpus.core.tracking.smoother import Passage, Smoother
+from carpus.core.tracking.palm_smoother import Passage, Smoother
 from carpus.core.types import FloatArray
 
 _LOWER = np.tril_indices(DIGIT_SIZE)

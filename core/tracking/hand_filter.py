@@ -15,19 +15,22 @@ from numpy.typing import NDArray
 from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
-from carpus.core.tracking.adaptive_noise import adapted_factor
+from carpus.core.tracking.association import is_jointly_compatible
 from carpus.core.tracking.digit_naming import DigitPicture, FingerTrial
 from carpus.core.tracking.digit_readout import seat_of
-from carpus.core.tracking.disc_anew import disc_anew, with_discs_as_known
 from carpus.core.tracking.finger_smoother import FingerStart, FingerStep
 from carpus.core.tracking.fingers import Fingers
-from carpus.core.tracking.geometry import palm_of
-from carpus.core.tracking.hand_geometry import CHAINS, JointMoment
-from carpus.core.tracking.joint_association import is_jointly_compatible
+from carpus.core.tracking.hand_geometry import CHAINS, JointMoment, palm_of
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.motion import PalmMotion, slowing, slowing_unseen, unseen_turns
 from carpus.core.tracking.operator_hints import NamedSpot
-from carpus.core.tracking.palm_association import Measurements, UpdatedPalm, associate_and_update, measurements_of
+from carpus.core.tracking.palm_association import (
+    Measurements,
+    UpdatedPalm,
+    associate_and_update,
+    measurements_of,
+    update,
+)
 from carpus.core.tracking.palm_smoother import FilterStep
 from carpus.core.tracking.palm_state import (
     LEARNT,
@@ -41,15 +44,19 @@ from carpus.core.tracking.palm_state import (
     PalmEstimate,
     resting_estimate,
 )
-from carpus.core.tracking.palm_view import View
-from carpus.core.tracking.predicted_measurement import MarkerOrder, PredictedMeasurement, predicted_ahead
+from carpus.core.tracking.palm_view import View, error_reset
+from carpus.core.tracking.predicted_measurement import (
+    MarkerOrder,
+    PredictedMeasurement,
+    adapted_factor,
+    hidden_by_calibration,
+    predicted_ahead,
+    predicted_measurement,
+    shape_covariance,
+)
 from carpus.core.tracking.reacquire import Facing, FoundPalm, find_palm
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.shape_learning import (
-    hidden_by_calibration,
-    shape_covariance,
-)
 from carpus.core.tracking.soft_tissue import (
     NO_DIGITS,
     DigitSpeeds,
@@ -59,7 +66,63 @@ from carpus.core.tracking.soft_tissue import (
     stationary_covariance,
 )
 from carpus.core.tracking.surface_fit import calibrated_covariance, reset_and_levelled
-from carpus.core.types import Detections, FloatArray
+from carpus.core.types import BoolArray, Detections, FloatArray
+
+_TWICE = 2.0
+"""The picture is read once more right after: half of its weight now, half then."""
+
+
+def disc_anew(
+    ahead: PredictedMeasurement, view: View, disc: int, blob: int, blobs: Measurements, settings: TrackerSettings
+) -> tuple[PalmEstimate, ModeMixture, View]:
+    """Estimate and mixture with the palm's ``disc`` (its row of 6) at a blob, and the view to go on with."""
+    u_px, v_px, depth_m = blobs.value[blob]
+    depth_m = depth_m if np.isfinite(depth_m) else float(ahead.mean[disc, 2])
+    estimate = ahead.nominal
+    in_camera = view.camera.back_project(np.array([[u_px, v_px]]), np.array([depth_m]))[0]
+    in_w0 = view.rotation_w0_cam.T @ (in_camera - view.translation_w0_cam_m)
+    on_palm_m = estimate.rotation_w2_w0.T @ (in_w0 - estimate.position_m)
+
+    shape, skin = (np.arange(part.start + 3 * disc, part.start + 3 * disc + 3) for part in (SHAPE, SKIN))
+    own = np.concatenate((shape, skin))
+    fresh = np.zeros((6, 6))
+    fresh[:3, :3] = settings.said.anywhere_m**2 * np.eye(3)
+    fresh[3:, 3:] = stationary_covariance(settings.tissue)[skin[:, None], skin]
+    value = estimate.value.copy()
+    value[shape], value[skin] = on_palm_m - view.palm_m[disc], 0.0
+    estimate = PalmEstimate(estimate.rotation_w2_w0, value, _with_block(estimate.covariance, own, fresh))
+    mean = ahead.mixture.mean.copy()
+    mean[..., own] = 0.0
+    mixture = ModeMixture(mean, _with_block(ahead.mixture.covariance, own, fresh), ahead.mixture.probability)
+
+    # How wrong its depth was at the calibration says nothing of it any more.
+    hidden = view.hidden.copy()
+    hidden[disc, 3 * disc : 3 * disc + 3] = 0.0
+    view = replace(view, hidden=hidden)
+    assigned: NDArray[np.int64] = np.full(len(ahead.mean), -1, dtype=np.int64)
+    assigned[disc] = blob
+    with_depth: BoolArray = (assigned >= 0) & np.isfinite(blobs.value[blob, 2])
+    whole = predicted_measurement(estimate, mixture, view, settings.spread)
+    measured = update(whole, blobs, assigned, with_depth, np.full((assigned.size, 3), _TWICE))
+    return *error_reset(estimate, measured.mixture), view
+
+
+def with_discs_as_known(view: View, shape: FloatArray, named: BoolArray) -> View:
+    """The view in which to look for the hand anew: the discs that a person ``named`` (6,) where they are by now, by the
+    shape (18,)."""
+    if not named.any():
+        return view
+    return replace(view, palm_m=view.palm_m + np.where(named[:, None], shape.reshape(-1, 3), 0.0))
+
+
+def _with_block(covariance: FloatArray, rows: NDArray[np.int64], block: FloatArray) -> FloatArray:
+    """A covariance (..., n, n) in which those rows go with nothing else, and with each other as in ``block``."""
+    out = covariance.copy()
+    out[..., rows, :] = 0.0
+    out[..., :, rows] = 0.0
+    out[..., rows[:, None], rows] = block
+    return out
+
 
 _TURN_VARIANCES = tuple((SIZE + 1) * row for row in range(TURN.start, TURN.stop))
 """Where they stand in the covariance, counted row by row."""

@@ -3,22 +3,23 @@
 Every digit has five joint slots and eleven constants, so that all five are computed together. Slots of the thumb:
 its five angles; of a finger: MCP abduction, MCP flexion, PIP flexion, and by how much DIP flexion exceeds two
 thirds of PIP flexion (zero where the end joint is coupled, hand paper section 2); the fifth is not used.
-Constants as in :mod:`core.hand.digit_fitting`. Lengths in metres, axes of a right hand in W unless said otherwise.
+Constants as in :mod:`core.hand.anatomy_prior`. Lengths in metres, axes of a right hand in W unless said otherwise.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core import so3
+from carpus.core.calibration.result import Calibration
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.hand.sites import DIGITS, joint_discs
+from carpus.core.hand.sites import DIGITS, PALM_MARKERS, joint_discs
 from carpus.core.types import FloatArray, Side
 
 CHAINS, SLOTS, CONSTANTS = 5, 5, 11
@@ -289,3 +290,20 @@ def slots_of(angles_rad: FloatArray) -> FloatArray:
     if per_finger == 4:
         slots[..., 1:, 3] -= DIP_PER_PIP * slots[..., 1:, 2]
     return slots
+
+
+_PALM = MarkerProtocol("palm", PALM_MARKERS)
+
+
+def palm_of(calibration: Calibration) -> Calibration:
+    """The calibration of the discs that move with the palm, whatever else is on the hand."""
+    clicks = calibration.clicks
+    if not clicks.protocol.has_fingers:
+        return calibration
+    rows = np.array(clicks.protocol.palm)
+    return replace(
+        calibration,
+        clicks=replace(clicks, protocol=_PALM, pixel=clicks.pixel[rows]),
+        marker_position_w0_m=calibration.marker_position_w0_m[rows],
+        marker_covariance_w0_m2=calibration.marker_covariance_w0_m2[rows],
+    )

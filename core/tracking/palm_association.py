@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from carpus.core.depth_sensor import CORE_SHARE, DepthSensor
 from carpus.core.kernels.choice import NOTHING, in_c
 from carpus.core.tracking import association
-from carpus.core.tracking.joint_association import (
+from carpus.core.tracking.association import (
     JointAssociation,
     associate_jointly,
     is_jointly_compatible,

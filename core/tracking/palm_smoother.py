@@ -1,4 +1,6 @@
-"""Smoothing of the palm, on the tangent space of the filter's state.
+"""Smoothing: every frame's estimate in the light of all that came after (Rauch, Tung and Striebel); and that of the
+palm, on the tangent space of the filter's state. Where a track was lost and begun anew, each stretch is smoothed by
+itself.
 
 Which mode the hand was in at each step is told by what came after as well (Kim 1994); the step back is then one of all
 modes together. What the tissue has done stays in it: it is not taken to relax. Where tissue rests, its displacement and
@@ -8,16 +10,77 @@ surely than if they were new, though never less surely than live.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
+from carpus.core.tracking.kernel import rts_step
 from carpus.core.tracking.motion import PalmMotion, palm_transition
 from carpus.core.tracking.palm_state import MOVING, SIZE, SOFT, TURN, PalmEstimate
-from carpus.core.tracking.smoother import Passage, Smoother
 from carpus.core.tracking.soft_tissue import NO_DIGITS, DigitSpeeds
 from carpus.core.types import FloatArray
+
+Estimate = TypeVar("Estimate")
+
+
+@dataclass(frozen=True, slots=True)
+class Passage:
+    """From one frame of C chains to the next, about the earlier one's filtered mean: its ``covariance``, the step's
+    ``forward`` and ``noise`` (C, n, n), how far the later smoothed mean lies from the predicted one, ``apart`` (C, n),
+    and the ``later_covariance`` (C, n, n)."""
+
+    covariance: FloatArray
+    forward: FloatArray
+    noise: FloatArray
+    apart: FloatArray
+    later_covariance: FloatArray
+
+
+class Trajectory(Protocol[Estimate]):
+    """Frames as a filter has left them, in order of time."""
+
+    def __len__(self) -> int: ...
+
+    def filtered(self, frame: int) -> Estimate | None:
+        """What was believed after a frame; None where nothing was known."""
+
+    def seconds_on(self, frame: int) -> float | None:
+        """Time to the next frame; None where that one does not follow from this one."""
+
+    def passage(self, frame: int, now: Estimate, later: Estimate, dt_s: float) -> Passage:
+        """From the estimate of a frame to the smoothed one of the next."""
+
+    def moved(self, now: Estimate, correction: FloatArray, covariance: FloatArray) -> Estimate:
+        """An estimate moved by a ``correction`` (C, n), with another ``covariance`` (C, n, n)."""
+
+
+class Smoother(Generic[Estimate]):
+    """Smooths one trajectory."""
+
+    def __init__(self, trajectory: Trajectory[Estimate]) -> None:
+        self._trajectory = trajectory
+
+    def backwards(self) -> Iterator[tuple[int, Estimate | None]]:
+        """Every frame with its smoothed estimate, None where nothing was known; the last frame first."""
+        later: Estimate | None = None
+        for frame in reversed(range(len(self._trajectory))):
+            later = self._before(frame, later)
+            yield frame, later
+
+    def _before(self, frame: int, later: Estimate | None) -> Estimate | None:
+        """The smoothed estimate of a frame from that of the next."""
+        now, dt_s = self._trajectory.filtered(frame), self._trajectory.seconds_on(frame)
+        if now is None or later is None or dt_s is None:
+            return now
+        if dt_s <= 0.0:
+            return later  # the same moment: nothing lies between
+        passage = self._trajectory.passage(frame, now, later, dt_s)
+        correction, covariance = rts_step(
+            passage.covariance, passage.forward, passage.noise, passage.apart, passage.later_covariance
+        )
+        return self._trajectory.moved(now, correction, covariance)
 
 
 @dataclass(frozen=True, slots=True)

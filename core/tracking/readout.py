@@ -16,7 +16,7 @@ from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
-from carpus.core.hand.wrist_frame import wrist_axes_sensitivity
+from carpus.core.hand.clinical_angles import wrist_axes_sensitivity
 from carpus.core.kernels.choice import NOTHING, Kernels, in_c
 from carpus.core.tracking.hand_geometry import CHAINS, NO_CUP, JointMoment, PalmInBody
 from carpus.core.tracking.palm_state import PALM_DISCS, POSE, SHAPE, SIZE, SKIN, TURN, PalmEstimate

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-from carpus.core.limits import Limits, check_limits
+from carpus.core.names import Limits, check_limits
 from carpus.core.tracking.association import AssociationSettings
 from carpus.core.tracking.consistency import ConsistencySettings
 from carpus.core.tracking.finger_settings import FingerSettings

@@ -14,8 +14,8 @@ import numpy as np
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.tracking.frame_result import FrameResults
-from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan, as_ideal
+from carpus.core.tracking.hand_geometry import palm_of
 from carpus.core.tracking.operator_hints import Hinted, OperatorHints
 from carpus.core.tracking.palm_smoother import FilterStep
 from carpus.core.tracking.predicted_measurement import PredictedMeasurement

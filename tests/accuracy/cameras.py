@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.camera.board import BOARDS, Pattern, board_sheet
 from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera
-from carpus.core.calibration.camera.gather import Gathering
-from carpus.core.calibration.camera.views import ASKED_VIEWS
+from carpus.core.calibration.camera.views import ASKED_VIEWS, Gathering
 from carpus.core.calibration.card.card import CardReading
 from carpus.core.calibration.card.measure import measure_card
 from carpus.core.camera import DEFAULT_CAMERA, Camera

@@ -17,8 +17,7 @@ from scipy.optimize import linear_sum_assignment
 
 from carpus.core.camera import Camera
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.hand.clinical_angles import angles_from_rotation
-from carpus.core.hand.wrist_frame import wrist_axes
+from carpus.core.hand.clinical_angles import angles_from_rotation, wrist_axes
 from carpus.core.simulation.recording import clicks_of
 from carpus.core.so3 import nearest_rotation
 from carpus.core.types import FloatArray, Frame, TrackStatus

@@ -22,8 +22,7 @@ from carpus.app.__main__ import main
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core import so3
 from carpus.core.agreement.limits_file import LIMITS_FILE, read_limits, store_limits
-from carpus.core.agreement.retest import retest, studies
-from carpus.core.agreement.retest_plan import as_if_complete, plan_of, restated
+from carpus.core.agreement.retest import as_if_complete, plan_of, restated, retest, studies
 from carpus.core.errors import SettingsInvalid
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.records.library import Library

@@ -13,10 +13,10 @@ import h5py
 import pytest
 
 from carpus.core.errors import CarpusFault, FilesSetApart, RegisterMissing, RegisterSetAside, SessionUnreadable
-from carpus.core.records import interrupted, session_list
+from carpus.core.records import new_sessions, session_list
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.interrupted import recover
 from carpus.core.records.library import Library
+from carpus.core.records.new_sessions import recover
 from carpus.core.records.session_list import remembered
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.writer import SessionWriter
@@ -230,7 +230,7 @@ def test_a_name_that_is_removed_is_nowhere(tmp_path: Path) -> None:
 
 
 def test_nothing_told_is_lost_between_two_calls(tmp_path: Path) -> None:
-    assert interrupted.MOST_TOLD >= 1
+    assert new_sessions.MOST_TOLD >= 1
     for number in range(6):
         stored(tmp_path / "sessions" / f"{number}.h5").write_bytes(b"x" * 100)
     (fault,) = started(tmp_path)[1]

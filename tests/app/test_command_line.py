@@ -19,7 +19,7 @@ import cv2
 import pytest
 from tqdm import tqdm
 
-from carpus.app import standard_streams
+from carpus.app import command_line
 from carpus.app.__main__ import main
 from carpus.app.sources import open_recording
 from carpus.core.capture.camera_info import CAMERA_FILE
@@ -391,8 +391,8 @@ def test_long_work_without_a_terminal_says_one_line_at_its_end(
     step_s: float, said: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     clock_s = [0.0]
-    monkeypatch.setattr(standard_streams.time, "monotonic", lambda: clock_s[0])
-    with standard_streams.bar("tracking") as show:
+    monkeypatch.setattr(command_line.time, "monotonic", lambda: clock_s[0])
+    with command_line.bar("tracking") as show:
         for done in range(1, 31):
             clock_s[0] += step_s
             show(done, 40)
@@ -408,7 +408,7 @@ class ATerminal(io.StringIO):
 def test_a_terminal_sees_how_far_how_fast_and_how_long_yet(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("tqdm.tqdm", partial(tqdm, mininterval=0.0))
     monkeypatch.setattr(sys, "stderr", ATerminal())
-    with standard_streams.bar("tracking") as show:
+    with command_line.bar("tracking") as show:
         for done in (1, 2, 3):
             show(done, 4, "7 frames a second")
         drawn = sys.stderr.getvalue().rpartition("\r")[2]

@@ -16,9 +16,9 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.pipeline.correction import CorrectionTask, correct, task_of
 from carpus.core.records.corrections import Corrections, Waiting, difference
-from carpus.core.records.interrupted import recover
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
+from carpus.core.records.new_sessions import recover
 from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures

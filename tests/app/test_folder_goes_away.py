@@ -15,11 +15,9 @@ from carpus.core.capture.files.raw import LOOK_EVERY_S, RawRecording, RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import CarpusFault, FolderMissing, RecordingMoved, RecordingReturned, ShareEmpty, WaitingErased
 from carpus.core.pipeline.live import LiveSession
-from carpus.core.records.coming_home import bring_home, fallback_place
 from carpus.core.records.erasure import erase, plan_patient
-from carpus.core.records.interrupted import recover
 from carpus.core.records.library import Library
-from carpus.core.records.new_sessions import NewSessions
+from carpus.core.records.new_sessions import NewSessions, bring_home, fallback_place, recover
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.writer import Fallback, SessionWriter
 from carpus.core.types import Frame

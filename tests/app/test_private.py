@@ -117,7 +117,7 @@ from carpus.core.calibration.clicks import write_clicks
 from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import write_camera_info
 from carpus.core.simulation.oni_writer import _create
-from carpus.core.capture.files.raw_tum import TumWriter
+from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.durable import replace_file
 from carpus.core.formats.new_output import new_text

@@ -8,7 +8,7 @@ import time
 
 from carpus.app.batch.work import Outcome, Task, fault_of
 from carpus.core.session.disk import part_path
-from carpus.core.session.heartbeat import Heartbeat
+from carpus.core.session.recovery import Heartbeat
 
 
 def deadly(task: Task) -> Outcome:

@@ -20,10 +20,9 @@ from distributed import Client
 from pyarrow import parquet
 
 from carpus.app.__main__ import main
-from carpus.app.batch.cluster import outcomes_on
-from carpus.app.batch.places import places
-from carpus.app.batch.tables import OUTCOMES_FILE
-from carpus.app.batch.work import Outcome, Task
+from carpus.app.batch.processes import outcomes_on
+from carpus.app.batch.work import Outcome, Task, places
+from carpus.app.commands.track_many import OUTCOMES_FILE
 from carpus.core.errors import SchedulerUnreachable
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.reader import read_session
@@ -141,7 +140,7 @@ def test_a_cluster_made_in_python_tracks(recordings: Path, tmp_path: Path) -> No
 def test_a_scheduler_that_is_not_there_is_told(
     recordings: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("carpus.app.batch.cluster.PATIENCE_S", 1.0)
+    monkeypatch.setattr("carpus.app.batch.processes.PATIENCE_S", 1.0)
     with pytest.raises(SchedulerUnreachable):
         list(outcomes_on("tcp://127.0.0.1:9", []))
     words = ["track", str(recordings), "--output", str(tmp_path / "out"), "--scheduler", "nonsense://"]

@@ -14,7 +14,7 @@ import pytest
 from pyarrow import parquet
 
 from carpus.app.__main__ import main
-from carpus.app.batch.tables import MEASURES_FILE, OUTCOMES_FILE
+from carpus.app.commands.track_many import MEASURES_FILE, OUTCOMES_FILE
 from carpus.core.formats import measures_files
 from carpus.core.results.figures import session_figures
 from carpus.core.results.measures_table import SessionFigure

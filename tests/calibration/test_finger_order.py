@@ -7,8 +7,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from carpus.core.calibration.finger_order import FingerOrderSettings, misnamed
-from carpus.core.calibration.palm_names import plan_view
+from carpus.core.calibration.name_checks import FingerOrderSettings, misnamed, plan_view
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
 from carpus.core.hand.protocols import HAND21

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate
-from carpus.core.calibration.palm_names import OddDiscSettings, average_palm, odd_disc
+from carpus.core.calibration.name_checks import OddDiscSettings, average_palm, odd_disc
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.hand.sites import PALM_MARKERS

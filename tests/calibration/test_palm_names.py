@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from carpus.core.calibration.palm_names import PalmNameSettings, shifted_names
+from carpus.core.calibration.name_checks import PalmNameSettings, shifted_names
 from carpus.core.hand.protocols import HAND21
 from carpus.core.hand.sites import PALM_MARKERS
 from carpus.core.types import Side

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carpus.core.calibration.palm_names import SideSettings, looks_like_other_side, plan_view
+from carpus.core.calibration.name_checks import SideSettings, looks_like_other_side, plan_view
 from carpus.core.hand.protocols import HAND21, WRIST6
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec

@@ -18,7 +18,7 @@ from typing import Any
 import cv2
 import numpy as np
 
-from carpus.core.capture.devices.orbbec_opening import library
+from carpus.core.capture.devices.orbbec import library
 
 SERIAL, NAME = "CL8FX00000A", "Orbbec Femto Bolt"
 FRAMES, PERIOD_US, FIRST_US = 90, 33_333, 5_000_000

@@ -12,8 +12,7 @@ import pytest
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture import doctor
 from carpus.core.capture.devices import astra, openni2_camera, realsense, xtion
-from carpus.core.capture.devices.camera_kind import CameraKind
-from carpus.core.capture.devices.cameras import camera_kind
+from carpus.core.capture.devices.cameras import CameraKind, camera_kind
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.doctor import examine
 from carpus.core.capture.source import SourceInfo

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.capture.devices import capture_link
+from carpus.core.capture.devices import process_camera
 from carpus.core.capture.files import realsense_recording
 from carpus.core.capture.files.realsense_recording import FilePlayer
 from carpus.core.errors import DriverFailed
@@ -108,7 +108,7 @@ def memories(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         names.append(memory.name)
         return memory
 
-    monkeypatch.setattr(capture_link, "SharedMemory", noted)
+    monkeypatch.setattr(process_camera, "SharedMemory", noted)
     return names
 
 

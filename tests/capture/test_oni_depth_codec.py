@@ -10,8 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from carpus.core.capture.files.oni_depth_codec import decode_depth, encode_depth
-from carpus.core.capture.files.oni_format import Codec
+from carpus.core.capture.files.oni_format import Codec, decode_depth, encode_depth
 
 
 def decode(data: bytes, pixels: int) -> list[int]:

@@ -15,12 +15,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.capture.devices import maker_library, orbbec
+from carpus.core.capture.devices import cameras, orbbec
 from carpus.core.capture.devices.cameras import open_camera
 from carpus.core.capture.devices.capture_process import CameraPlan, GaveUp
 from carpus.core.capture.devices.color_lock import ColorLock
-from carpus.core.capture.devices.orbbec import _Controls, driver_finding, open_orbbec, sensor_named
-from carpus.core.capture.devices.orbbec_opening import choose_streams, find_camera, library
+from carpus.core.capture.devices.orbbec import (
+    _Controls,
+    choose_streams,
+    driver_finding,
+    find_camera,
+    library,
+    open_orbbec,
+    sensor_named,
+)
 from carpus.core.capture.devices.process_camera import ProcessCamera
 from carpus.core.capture.doctor import opened_findings, rules_finding
 from carpus.core.depth_sensor import AZURE_KINECT
@@ -139,7 +146,7 @@ def test_what_the_doctor_says_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     def missing(name: str) -> str:
         raise PackageNotFoundError(name)
 
-    monkeypatch.setattr(maker_library, "version", missing)
+    monkeypatch.setattr(cameras, "version", missing)
     assert driver_finding(wanted=False) is None
     assert found_driver().remedy == f"Run “{sys.executable} -m pip install --no-deps pyorbbecsdk2”."
     monkeypatch.setattr(orbbec, "find_spec", lambda _: None)

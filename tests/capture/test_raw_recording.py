@@ -16,8 +16,8 @@ import numpy as np
 import pytest
 
 from carpus.core.camera import Camera
+from carpus.core.capture.files.pictures import decode_color, decode_depth, encode_color, encode_depth
 from carpus.core.capture.files.raw import RawRecording, RawWriter, _record, is_raw_recording
-from carpus.core.capture.files.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
 from carpus.core.capture.source import SourceInfo
 from carpus.core.depth_sensor import D435
 from carpus.core.errors import (

@@ -11,8 +11,7 @@ import pytest
 
 from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import read_camera_info
-from carpus.core.capture.files.raw_tum import TumWriter, tum_depth
-from carpus.core.capture.files.tum import TumFolder
+from carpus.core.capture.files.tum import TumFolder, TumWriter, tum_depth
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.errors import OutputExists, OutputNotWritable
 from carpus.core.types import Frame

@@ -8,8 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.capture.files.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
-from carpus.core.capture.files.tiles import SIDE_PX, Tiled, packed
+from carpus.core.capture.files.pictures import (
+    SIDE_PX,
+    Tiled,
+    decode_color,
+    decode_depth,
+    encode_color,
+    encode_depth,
+    packed,
+)
 from carpus.core.errors import RecordingUnreadable
 from carpus.core.types import ByteImage, Region
 

@@ -10,9 +10,9 @@ import pytest
 
 from carpus.core.camera import Camera
 from carpus.core.detection.appearance import MarkerAppearance, learn_appearance
+from carpus.core.detection.components import TouchingSettings, split_touching
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.detection.touching import TouchingSettings, split_touching
 from carpus.core.types import Detections, FloatArray, Region
 from tests.detection.pictures import (
     CAMERA,

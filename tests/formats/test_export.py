@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 
 from carpus.core.errors import OutputExists, SessionUnreadable
-from carpus.core.formats import export
-from carpus.core.formats.export import Wanted
-from carpus.core.formats.formats import FORMATS
+from carpus.core.formats import formats
+from carpus.core.formats.formats import FORMATS, Wanted
 from carpus.core.hand.protocols import HAND21
 from carpus.core.results.figures import session_figures
 from carpus.core.session.reader import read_detections, read_session
@@ -21,7 +20,7 @@ from carpus.core.session.writer import SessionWriter
 from tests.formats.takes import stored
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
 
-export_sessions = partial(export.export_sessions, software_version="0.1.0")
+export_sessions = partial(formats.export_sessions, software_version="0.1.0")
 
 
 @pytest.mark.parametrize("deidentified", [False, True])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from carpus.core import so3
-from carpus.core.hand.wrist_frame import wrist_axes, wrist_axes_sensitivity
+from carpus.core.hand.clinical_angles import wrist_axes, wrist_axes_sensitivity
 from carpus.core.types import FloatArray, Side
 
 PALM_M = np.array(

@@ -22,8 +22,8 @@ from carpus.core.tracking.finger_depth import FingerDepthSettings, knuckle_bends
 from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.fingers import Fingers
 from carpus.core.tracking.frame_result import FrameResults
-from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_filter import HandFilter
+from carpus.core.tracking.hand_geometry import palm_of
 from carpus.core.tracking.joint_limits import LimitSettings, settled
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.palm_association import Measurements

@@ -13,17 +13,21 @@ from carpus.core import so3
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.hand.back_surface import BackSurface
 from carpus.core.tracking import palm_association
-from carpus.core.tracking.adaptive_noise import adapted_factor
 from carpus.core.tracking.association import AssociationSettings, log_odds
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.motion import MotionNoise, PalmMotion
 from carpus.core.tracking.palm_association import Measurements, associate_and_update, measurements_of
 from carpus.core.tracking.palm_state import BACK, RELIEF, SIZE, PalmEstimate
 from carpus.core.tracking.palm_view import View
-from carpus.core.tracking.predicted_measurement import PredictedMeasurement, predicted_ahead, predicted_measurement
+from carpus.core.tracking.predicted_measurement import (
+    PredictedMeasurement,
+    adapted_factor,
+    predicted_ahead,
+    predicted_measurement,
+    shape_partial_update,
+)
 from carpus.core.tracking.readout import Readout, ReadoutSettings
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
-from carpus.core.tracking.shape_learning import shape_partial_update
 from carpus.core.tracking.soft_tissue import (
     DigitSpeeds,
     SoftTissue,

@@ -25,7 +25,7 @@ from carpus.core.measures.by_hand import (
     on_day,
     replaced,
 )
-from carpus.core.records.of_patients import by_hand, enter_by_hand
+from carpus.core.records.patients import by_hand, enter_by_hand
 from carpus.core.records.schema import MEASURED
 from tests.records.samples import HERON, LINDEN, opened
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from carpus.core.measures.coherence import Coherence, digit_coherence
+from carpus.core.measures.together import Coherence, digit_coherence
 from carpus.core.types import FloatArray
 
 NAMES = ("CMC1_extension", "CMC1_abduction", "MCP1_flexion", "MCP1_abduction", "IP1_flexion")

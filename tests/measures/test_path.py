@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from carpus.core.measures.noise import Noise
-from carpus.core.measures.path import WRIST_NOISE, measure_path
-from carpus.core.measures.reach import find_reaches
+from carpus.core.measures.reach import WRIST_NOISE, find_reaches, measure_path
 from carpus.core.measures.signals import Signal, even_signal
-from carpus.core.measures.smoothness import speed_peaks
+from carpus.core.measures.speed import speed_peaks
 from carpus.core.types import FloatArray
 from tests.measures.tracked import tracked
 

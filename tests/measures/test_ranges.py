@@ -12,9 +12,16 @@ from carpus.core.hand.clinical_angles import rotation_from_angles
 from carpus.core.measures.motion_range import MotionRange, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
 from carpus.core.measures.repetitions import find_repetitions
-from carpus.core.measures.signals import even_signal, low_pass
+from carpus.core.measures.signals import (
+    even_signal,
+    low_pass,
+    settled,
+    valid_angle,
+    valid_view,
+    valid_wrist_angles,
+    view_tilt_rad,
+)
 from carpus.core.measures.speed import StrokeMeasures, measure_stroke
-from carpus.core.measures.validity import settled, valid_angle, valid_view, valid_wrist_angles, view_tilt_rad
 from carpus.core.types import FloatArray
 
 RATE = 30.0

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core.measures.signals import even_signal, low_pass
-from carpus.core.measures.smoothness import log_dimensionless_jerk, sparc, speed_peaks
+from carpus.core.measures.speed import log_dimensionless_jerk, sparc, speed_peaks
 from carpus.core.types import FloatArray
 
 

@@ -13,8 +13,7 @@ from carpus.core.measures.motion_range import motion_range
 from carpus.core.measures.noise import SMOOTHER_CORRELATION_S, Noise
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import even_signal, low_pass
-from carpus.core.measures.smoothness import log_dimensionless_jerk, sparc
-from carpus.core.measures.speed import StrokeMeasures, measure_stroke
+from carpus.core.measures.speed import StrokeMeasures, log_dimensionless_jerk, measure_stroke, sparc
 from carpus.core.types import FloatArray
 from tests.measures.test_noise import angle_of
 from tests.measures.tracked import tracked

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from carpus.core.capture.files.pictures import encode_color, encode_depth
 from carpus.core.capture.files.raw import BYTES_PER_PICTURE, RawRecording, RawWriter
-from carpus.core.capture.files.raw_pictures import encode_color, encode_depth
 from carpus.core.capture.source import SourceInfo
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.pipeline.around_hand import AroundHand, HandArea, area_of, only

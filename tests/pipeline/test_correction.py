@@ -15,8 +15,14 @@ from carpus.core.errors import CarpusFault, NotCorrectable, OutputExists
 from carpus.core.pipeline import correction
 from carpus.core.pipeline.correction import CorrectionTask, correct, correct_in_process, not_held, task_of, with_places
 from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json
-from carpus.core.session.corrected import CORRECTED, corrected_from, corrections_in
-from carpus.core.session.marker_doubts import Correction, expected_px, name_doubt
+from carpus.core.session.marker_doubts import (
+    CORRECTED,
+    Correction,
+    corrected_from,
+    corrections_in,
+    expected_px,
+    name_doubt,
+)
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter

@@ -18,8 +18,7 @@ import pytest
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.errors import NotLookedBack
 from carpus.core.pipeline import looking_back
-from carpus.core.pipeline.looking_back import LookingBack
-from carpus.core.pipeline.pieces import PieceByPiece, TrackedHand
+from carpus.core.pipeline.looking_back import LookingBack, PieceByPiece, TrackedHand
 from carpus.core.pipeline.processes import NICER, look_back
 from carpus.core.pipeline.track import from_neutral, learnt_from
 from carpus.core.session.values import Motion, motion_of
@@ -254,7 +253,7 @@ def test_the_process_loads_no_window_and_no_numpy_before_its_threads_are_settled
         "import sys\n"
         "import carpus.core.pipeline.processes\n"
         "assert 'numpy' not in sys.modules\n"
-        "import carpus.core.pipeline.pieces\n"
+        "import carpus.core.pipeline.looking_back\n"
         "loaded = {name.split('.')[0] for name in sys.modules}\n"
         "assert not loaded & {'PySide6', 'shiboken6', 'pyqtgraph', 'carpus.app', 'carpus.ui', 'h5py'}, sorted(loaded)\n"
     )

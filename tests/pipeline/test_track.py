@@ -16,8 +16,8 @@ import pytest
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.capture.files.pictures import encode_color, encode_depth
 from carpus.core.capture.files.raw import RawRecording, RawWriter
-from carpus.core.capture.files.raw_pictures import encode_color, encode_depth
 from carpus.core.capture.files.tum import DEPTH_UNIT_M, TumFolder
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import ClickOnNoMarker, OutputExists, PictureDamaged, RecordingEmpty, SessionUnreadable

@@ -17,11 +17,11 @@ from sqlalchemy import select, update
 from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished, FolderMissing, OutputNotWritable, SessionChanged
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.measures.by_hand import HandValue
-from carpus.core.records import database, erasure, of_clinic, of_patients, of_sessions
+from carpus.core.records import database, erasure, of_clinic, of_sessions, patients
 from carpus.core.records.changes import new
 from carpus.core.records.corrections import Corrections
+from carpus.core.records.exercise_sets import keep_set_up
 from carpus.core.records.keeping import due, kept_until
-from carpus.core.records.kept_sets import keep_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import PATIENT, SESSION
@@ -102,7 +102,7 @@ def fill(house: House, patient_id: str) -> list[str]:
         of_sessions.keep_choices(house.store, session_id, RepetitionChoices({0: entry.pseudonym}), 0)
         of_sessions.remember_made(house.store, [house.index.one(session_id).path], "export", [session_id])
     value = HandValue("WRIST_ROUND", "", "right", date(2026, 10, 9), (17.0,), entry.pseudonym)
-    of_patients.enter_by_hand(house.store, patient_id, [value])
+    patients.enter_by_hand(house.store, patient_id, [value])
     keep_set_up(house.store, SetUp(patient_id, entry.pseudonym, "right", exercise_named("WRIST_FE"), 8, 25.0, -20.0))
     house.patients.let_take_part([*house.patients.taking_part(), patient_id])
     of_clinic.keep_place(house.store, entry.pseudonym[:2], f"/papers/{entry.name}")

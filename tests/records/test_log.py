@@ -16,9 +16,9 @@ from sqlalchemy.exc import DatabaseError
 from carpus.app.__main__ import main
 from carpus.core.errors import LogUnguarded, OutputNotWritable, ServerGone
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.interrupted import recover
 from carpus.core.records.library import Library
 from carpus.core.records.log import Log, fingerprint, read_log
+from carpus.core.records.new_sessions import recover
 from carpus.core.records.schema import DEED
 from carpus.core.records.store import Store
 from tests.records.samples import opened, settled, traces

@@ -34,11 +34,11 @@ from carpus.core.errors import (
 )
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.names import name_of
-from carpus.core.records import of_clinic, of_patients, of_sessions, schema
+from carpus.core.records import of_clinic, of_sessions, patients, schema
 from carpus.core.records.changes import PRACTICE, new
 from carpus.core.records.database import STORE_FILE, set_aside
+from carpus.core.records.exercise_sets import read_sets
 from carpus.core.records.keeping import due
-from carpus.core.records.kept_sets import read_sets
 from carpus.core.records.log import read_log
 from carpus.core.records.of_clinic import diagnoses, list_diagnosis
 from carpus.core.records.patients import WORDS, columns, suggest_pseudonym
@@ -540,9 +540,9 @@ def test_what_is_done_at_home_is_kept_with_the_patient(tmp_path: Path, url: str)
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         first = HomePlan(("WRIST_FE", "FIST_HOOK"), 10, 3, T0.date(), None, "", "", "it")
         for plan in (first, replace(first, times=5, again=date(2026, 10, 16), at="11:30", note="Bring the splint")):
-            of_patients.keep_home_plan(house.store, linden, plan)
-            assert of_patients.home_plan(house.store, linden) == plan
-        assert of_patients.home_plan(house.store, heron) is None
+            patients.keep_home_plan(house.store, linden, plan)
+            assert patients.home_plan(house.store, linden) == plan
+        assert patients.home_plan(house.store, heron) is None
 
 
 def test_tracking_a_file_loads_no_database(tmp_path: Path) -> None:
@@ -578,14 +578,14 @@ def test_a_damaged_row_is_left_out_and_told_once(tmp_path: Path) -> None:
         of_sessions.keep_choices(house.store, session_id, RepetitionChoices({0: "pain"}), 0)
         for day in (9, 10, 11):
             value = HandValue("WRIST_ROUND", "", "right", date(2026, 10, day), (17.0,), "")
-            of_patients.enter_by_hand(house.store, linden, [value])
+            patients.enter_by_hand(house.store, linden, [value])
         measured = house.store.rows(select(schema.MEASURED.c.id).order_by(schema.MEASURED.c.entered_ns))
         for row, damage in zip(measured, ({"tries": "[1"}, {"day": "yesterday"}), strict=False):
             house.store.own(update(schema.MEASURED).where(schema.MEASURED.c.id == row.id).values(**damage))
         house.store.own(update(schema.CORRECTION).values(edges_s="no"))
         house.store.do([new(schema.EXERCISE_SET, "s", name="s", discs="wrist6", parts="[")])
         for _ in range(2):
-            assert [one.day.day for one in of_patients.by_hand(house.store, linden)] == [11]
+            assert [one.day.day for one in patients.by_hand(house.store, linden)] == [11]
             assert of_sessions.choices(house.store, session_id)[0] == RepetitionChoices()
             assert read_sets(house.store) == ()
     assert [type(one) for one in told] == [RegisterDamaged] * 4

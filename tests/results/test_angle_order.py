@@ -9,10 +9,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from carpus.core.hand.clinical_angles import isb_from_rotation, rotation_from_angles
-from carpus.core.results.angle_order import in_order, isb_sd_rad
 from carpus.core.results.figures import session_figures
 from carpus.core.results.motion_curves import motion_columns
 from carpus.core.results.progress import compare
+from carpus.core.results.ranges import in_order, isb_sd_rad
 from carpus.ui.report.words import method
 from tests.ui.fakes import NOW, session
 

@@ -12,7 +12,7 @@ import pytest
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.results.figures import SessionFigures, session_figures
-from carpus.core.results.goals import proposals
+from carpus.core.results.progress import proposals
 from tests.ui.fakes import NOW, session
 
 FLEXION = exercise_named("WRIST_FE")

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from carpus.core.measures.signals import LONGEST_GAP_S
 from carpus.core.results.figures import SessionFigures, session_figures
-from carpus.core.results.mean_repetition import mean_repetition, seen_angles
+from carpus.core.results.motion_curves import mean_repetition, seen_angles
 from carpus.core.results.ranges import finger_keys
 from carpus.core.results.repetition_rows import RepetitionChoices, ShownRepetition
 from carpus.core.results.side_by_side import Step, in_step, ordered, pair_reasons, partner_of, side_by_side

@@ -18,10 +18,9 @@ import numpy as np
 import pytest
 
 from carpus.core.errors import CarpusFault, DiskFull, FolderGone, OutputNotWritable, RecordingMoved
-from carpus.core.session import heartbeat, new_file, part_file, recovery, schema
-from carpus.core.session.heartbeat import alive_path, still_beating
+from carpus.core.session import new_file, part_file, recovery, schema
 from carpus.core.session.reader import read_raw, read_session, verify
-from carpus.core.session.recovery import recover_folder
+from carpus.core.session.recovery import alive_path, recover_folder, still_beating
 from carpus.core.session.schema import TableLayout
 from carpus.core.session.values import RawPictures, motion_of
 from carpus.core.session.writer import Fallback, SessionWriter
@@ -241,7 +240,7 @@ def test_what_cannot_be_read_any_more_stays_behind_and_is_named(
     assert result.timestamp_s.tolist() == [time_of(20), time_of(21)]
     assert [event.kind for event in result.events] == ["moved"]
     assert verify(other / "s.h5").sealed
-    heartbeat.remove(next((tmp_path / "unplugged").glob("*.part")))
+    recovery.remove(next((tmp_path / "unplugged").glob("*.part")))
     (target,) = recover_folder(tmp_path / "unplugged").recovered  # the disk comes back
     assert len(read_session(target)) == 20
     assert read_session(target).header.session_id != result.header.session_id

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from carpus.core.capture.camera_info import read_camera_info, sidecar_path
-from carpus.core.capture.files.oni_contents import read_contents
-from carpus.core.capture.files.oni_source import OniSource
+from carpus.core.capture.files.oni_source import OniSource, read_contents
 from carpus.core.capture.source import is_simulated
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable, RecordingDamaged
 from carpus.core.simulation.oni_writer import OniWriter, write_oni

@@ -10,10 +10,9 @@ import pytest
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.depth_sensor import D455
 from carpus.core.session.reader import read_session
-from carpus.core.simulation.depth_kinds import depth_pictures
 from carpus.core.simulation.recording import SimulatedPictures, simulate
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.sensor import SimulatedDepth
+from carpus.core.simulation.sensor import SimulatedDepth, depth_pictures
 from carpus.core.simulation.spec import RecordingSpec
 
 SHAPE = (480, 640)

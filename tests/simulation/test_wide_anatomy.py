@@ -6,16 +6,15 @@ import numpy as np
 import pytest
 
 from carpus.core.errors import SettingsInvalid
-from carpus.core.hand.clinical_angles import angles_from_rotation
+from carpus.core.hand.clinical_angles import angles_from_rotation, wrist_axes
 from carpus.core.hand.kinematics import disc_centres
 from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.wrist_frame import wrist_axes
+from carpus.core.simulation.patient import MOST_OFF_M
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.skin import skin_distance
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import truth_of
-from carpus.core.simulation.wide_anatomy import MOST_OFF_M
 from tests.simulation.measurements import measurement_sequence
 
 PALM = list(HAND21.palm)

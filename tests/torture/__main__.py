@@ -26,7 +26,7 @@ MOST_S, MOST_BYTES = 2.0, 1_000_000_000
 START = """
 import sys, time
 from pathlib import Path
-from carpus.core.records.interrupted import recover
+from carpus.core.records.new_sessions import recover
 from carpus.core.records.library import Library
 begin = time.monotonic()
 library = Library(Path(sys.argv[1]))

@@ -15,7 +15,7 @@ import numpy as np
 
 from carpus.core.calibration.clicks import Clicks, write_clicks
 from carpus.core.capture.files.raw import RawWriter
-from carpus.core.capture.files.raw_tum import TumWriter
+from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.records.database import STORE_FILE

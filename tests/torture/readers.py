@@ -141,8 +141,8 @@ def _read(kind: str, path: Path) -> None:
         if faults:
             raise faults[0]
     else:
-        from carpus.core.records.interrupted import recover
         from carpus.core.records.library import Library
+        from carpus.core.records.new_sessions import recover
 
         data = path.parent / f"{path.stem} data"
         data.mkdir(exist_ok=True)

@@ -26,9 +26,8 @@ from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.detection.surface_samples import SamplingSettings
 from carpus.core.pipeline.frame_pipeline import FramePipeline
 from carpus.core.pipeline.live import LiveSession
-from carpus.core.pipeline.looking_back import LookingBack
+from carpus.core.pipeline.looking_back import LookingBack, TrackedHand
 from carpus.core.pipeline.measuring import LivePipeline, SmoothedSession
-from carpus.core.pipeline.pieces import TrackedHand
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker

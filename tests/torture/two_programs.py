@@ -23,7 +23,7 @@ from sqlalchemy.pool import NullPool
 
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, ChangeRefused, PseudonymTaken
 from carpus.core.measures.by_hand import HandValue
-from carpus.core.records import of_patients, of_sessions
+from carpus.core.records import of_sessions, patients
 from carpus.core.records.changes import PRACTICE
 from carpus.core.records.schema import COMMENT, COPIED, CORRECTION, MEASURED, OUTBOX, PATIENT, SESSION
 from carpus.core.records.values import PatientEntry
@@ -89,7 +89,7 @@ def _do(house: House, kind: str, mark: str, number: int, chance: random.Random) 
         of_sessions.add_comment(store, session_id, mark, "AB")
     elif kind == "by hand":
         value = HandValue("WRIST_ROUND", "", "right", T0.date(), (16.0,), mark)
-        of_patients.enter_by_hand(store, patient_id, [value])
+        patients.enter_by_hand(store, patient_id, [value])
     elif kind == "entry":
         read = house.patients.one(patient_id)
         time.sleep(chance.uniform(0.0, 0.05))  # somebody types

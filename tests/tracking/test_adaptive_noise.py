@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
-from carpus.core.tracking.adaptive_noise import adapted_factor
 from carpus.core.tracking.digit_naming import learnt_sizes
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.palm_association import measurements_of
+from carpus.core.tracking.predicted_measurement import adapted_factor
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
 from carpus.core.types import Detections, FloatArray
 

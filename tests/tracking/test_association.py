@@ -11,8 +11,16 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.stats import chi2, multivariate_normal
 
-from carpus.core.tracking.association import IMPOSSIBLE, AssociationSettings, log_odds, posterior, resolve
-from carpus.core.tracking.joint_association import associate_jointly, is_jointly_compatible, most_chi2
+from carpus.core.tracking.association import (
+    IMPOSSIBLE,
+    AssociationSettings,
+    associate_jointly,
+    is_jointly_compatible,
+    log_odds,
+    most_chi2,
+    posterior,
+    resolve,
+)
 from carpus.core.types import FloatArray
 
 RES_PX2 = 640.0 * 480.0

@@ -15,8 +15,8 @@ from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.digit_filter import ANATOMY, RATES
 from carpus.core.tracking.finger_smoother import FingerTrajectory, _Filtered
 from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
+from carpus.core.tracking.palm_smoother import Smoother
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.smoother import Smoother
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import FloatArray
 from tests.accuracy.carpus import measured_hand

@@ -16,8 +16,8 @@ from carpus.core.tracking.digit_naming import DigitPicture, FingerTrial
 from carpus.core.tracking.digit_readout import seat_of
 from carpus.core.tracking.finger_settings import FingerSettings
 from carpus.core.tracking.fingers import Fingers
-from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_filter import HandFilter
+from carpus.core.tracking.hand_geometry import palm_of
 from carpus.core.tracking.palm_association import measurements_of
 from carpus.core.tracking.palm_state import InitialSd, resting_estimate
 from carpus.core.tracking.readout import Readout, ReadoutSettings

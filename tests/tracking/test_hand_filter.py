@@ -12,8 +12,8 @@ from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.back_surface import BackSurfaceSettings, back_surface_from
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import hand_filter
-from carpus.core.tracking.geometry import palm_of
 from carpus.core.tracking.hand_filter import HandFilter, Posterior, Scan
+from carpus.core.tracking.hand_geometry import palm_of
 from carpus.core.tracking.palm_state import RATE, SHAPE, SKIN
 from carpus.core.tracking.reacquire import Facing, FoundPalm
 from carpus.core.tracking.settings import TrackerSettings

@@ -17,7 +17,7 @@ from carpus.core.tracking.kernel import (
     switching,
     transitioned,
 )
-from carpus.core.tracking.smoother import Passage, Smoother
+from carpus.core.tracking.palm_smoother import Passage, Smoother
 from carpus.core.types import FloatArray
 
 CHAINS, MODES, STATES, SEEN = 3, 2, 5, 4

@@ -11,14 +11,14 @@ from carpus.core.depth_sensor import D435, PRIMESENSE
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.palm_state import LEARNT, SHAPE, SIZE, PalmEstimate
 from carpus.core.tracking.palm_view import palm_linearised
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.shape_learning import (
+from carpus.core.tracking.predicted_measurement import (
     along_rays,
     fresh_share,
     hidden_by_calibration,
     shape_covariance,
     shape_partial_update,
 )
+from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.tracking.unscented import Spread
 from tests.tracking.hands import CAMERA, DT_S, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, Pose, blobs, calibration

@@ -14,7 +14,7 @@ from carpus.core.hand.back_surface import BackSurface, BackSurfaceSettings, back
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate
 from carpus.core.tracking.palm_view import View, error_reset
-from carpus.core.tracking.shape_learning import shape_partial_update
+from carpus.core.tracking.predicted_measurement import shape_partial_update
 from carpus.core.tracking.surface_fit import (
     SurfaceMeasurement,
     SurfaceSettings,

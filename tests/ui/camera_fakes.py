@@ -9,12 +9,9 @@ from functools import cache
 import numpy as np
 
 from carpus.core.calibration.camera.board import CHESSBOARD, board_sheet
-from carpus.core.calibration.camera.calibrate import CameraCalibration
-from carpus.core.calibration.camera.depth import DepthCheck
+from carpus.core.calibration.camera.calibrate import CameraCalibration, DepthCheck, Intrinsics
 from carpus.core.calibration.camera.effect import CELLS, Effect
-from carpus.core.calibration.camera.gather import Gathering
-from carpus.core.calibration.camera.solve import Intrinsics
-from carpus.core.calibration.camera.views import FIELDS, Judgement, next_step, target_outline
+from carpus.core.calibration.camera.views import FIELDS, Gathering, Judgement, next_step, target_outline
 from carpus.core.calibration.card.card import FIGURES
 from carpus.core.calibration.card.chart import CardCheck, verdict_of
 from carpus.core.calibration.card.measure import CardWatch

@@ -14,8 +14,7 @@ import numpy as np
 
 from carpus.core.agreement.clocks import Shift
 from carpus.core.agreement.compare import Alignment, Compared, Pairs
-from carpus.core.agreement.retest import Retest, StudyFigures
-from carpus.core.agreement.retest_plan import Mounting, Person, Restated, RetestPlan
+from carpus.core.agreement.retest import Mounting, Person, Restated, Retest, RetestPlan, StudyFigures
 from carpus.core.agreement.statistics import agreement
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import Camera

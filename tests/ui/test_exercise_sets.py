@@ -13,10 +13,18 @@ from sqlalchemy import update
 
 from carpus.core.errors import ChangedMeanwhile
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.records import of_patients
+from carpus.core.records import patients
 from carpus.core.records.changes import dropped
-from carpus.core.records.exercise_sets import USUAL_SETS, ExerciseSet, begun, next_part
-from carpus.core.records.kept_sets import keep_set_up, keep_sets, last_set_up, read_sets
+from carpus.core.records.exercise_sets import (
+    USUAL_SETS,
+    ExerciseSet,
+    begun,
+    keep_set_up,
+    keep_sets,
+    last_set_up,
+    next_part,
+    read_sets,
+)
 from carpus.core.records.library import Library
 from carpus.core.records.schema import EXERCISE_SET, PATIENT
 from carpus.core.records.set_up import CoursePart
@@ -90,13 +98,13 @@ def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Pa
     keep_set_up(library.store, one)
     keep_set_up(library.store, replace(one, exercise=exercise_named("FREE"), side="left"))
     keep_set_up(library.store, replace(one, exercise=exercise_named("WRIST_RU"), target_negative_deg=-20.0))
-    goals = of_patients.goals(library.store, patient)
+    goals = patients.goals(library.store, patient)
     assert {key: value[0] for key, value in goals.items()} == {("WRIST_FE", "right"): 50.0, ("WRIST_RU", "right"): 50.0}
     assert goals["WRIST_RU", "right"][1] == -20.0
     assert begun(OWN, one, goals).target_positive_deg == 50.0
     assert math.isnan(begun(OWN, replace(one, side="left"), goals).target_positive_deg)
     library.store.do([dropped(PATIENT, patient)])
-    assert of_patients.goals(library.store, patient) == {}
+    assert patients.goals(library.store, patient) == {}
     library.close()
 
 

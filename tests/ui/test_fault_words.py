@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import DiskFull
-from carpus.core.records.interrupted import Recovered
+from carpus.core.records.new_sessions import Recovered
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.ui.fault_words import fault_words, shortened
 from carpus.ui.language import speaking

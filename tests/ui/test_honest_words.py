@@ -20,11 +20,10 @@ from carpus.core.calibration.card.chart import CardCheck, add_check, chart_path
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.repetitions import Uncounted
 from carpus.core.results.camera_said import camera_of
-from carpus.core.results.figures import SessionFigures, session_figures, with_trust
+from carpus.core.results.figures import SessionFigures, StrokeSpread, session_figures, with_trust
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.progress import progress
 from carpus.core.results.seen import joint_curves, session_curves
-from carpus.core.results.speed_figures import StrokeSpread
 from carpus.core.types import TrackedFrame
 from carpus.ui.background import Background
 from carpus.ui.check_card.standing_words import unsure_name

@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QWidget
 from carpus.core.agreement.limits_file import LIMITS_FILE, store_limits
 from carpus.core.errors import SettingsInvalid
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
-from carpus.core.records.interrupted import recover
 from carpus.core.records.library import Library
+from carpus.core.records.new_sessions import recover
 from carpus.core.results.figures import session_figures
 from carpus.ui.controls.text import Text
 from carpus.ui.ports import Preferences

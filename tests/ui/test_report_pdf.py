@@ -21,9 +21,8 @@ import carpus
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, OutputNotWritable
 from carpus.core.provenance import revision
-from carpus.core.results.figures import session_figures
+from carpus.core.results.figures import StrokeSpread, session_figures
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.results.speed_figures import StrokeSpread
 from carpus.ui.language import speaking
 from carpus.ui.report.page import Page
 from carpus.ui.report.pdf import progress_report, session_report, write_progress_report, write_session_report

@@ -8,7 +8,7 @@ from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QComboBox, QSizePolicy
 
-from carpus.core.results.mean_repetition import Quantity
+from carpus.core.results.motion_curves import Quantity
 from carpus.ui.beside.shown import Shown
 from carpus.ui.beside.words import quantity_name
 from carpus.ui.controls.card import Card

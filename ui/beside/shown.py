@@ -10,7 +10,7 @@ import numpy as np
 
 from carpus.core.hand.exercises import SIDES
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.mean_repetition import MeanRepetition, Quantity, SeenAngles, mean_repetition, seen_angles
+from carpus.core.results.motion_curves import MeanRepetition, Quantity, SeenAngles, mean_repetition, seen_angles
 from carpus.core.results.ranges import FREE_ORDER, RowKey
 from carpus.core.results.seen import best_motion
 from carpus.core.results.side_by_side import SideBySide, side_by_side

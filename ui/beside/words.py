@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from carpus.core.hand.exercises import SIDES
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.mean_repetition import Quantity
+from carpus.core.results.motion_curves import Quantity
 from carpus.core.results.progress import Progress, ProgressPoint
 from carpus.core.results.ranges import RangeRow, is_total
 from carpus.core.results.side_by_side import ComparedRange, SideBySide

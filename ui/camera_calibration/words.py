@@ -7,9 +7,8 @@ import math
 import numpy as np
 
 from carpus.core.calibration.camera.board import MOST_EDGE_PX
-from carpus.core.calibration.camera.depth import MOST_APART_PX, DepthCheck
+from carpus.core.calibration.camera.calibrate import FAIR_PX, GOOD_PX, MOST_APART_PX, DepthCheck
 from carpus.core.calibration.camera.effect import FLEXION_DEG, HAND_LENGTH_M
-from carpus.core.calibration.camera.solve import FAIR_PX, GOOD_PX
 from carpus.core.calibration.camera.views import (
     FEWEST_FIELDS,
     FEWEST_SIDES,

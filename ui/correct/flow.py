@@ -14,8 +14,7 @@ from carpus.core.pipeline.correction import correct_in_process, not_held, task_o
 from carpus.core.records.corrections import Corrections, Difference, Waiting, difference
 from carpus.core.results.figures import session_figures
 from carpus.core.results.seen import joint_curves, session_curves
-from carpus.core.session.corrected import corrections_in
-from carpus.core.session.marker_doubts import Correction
+from carpus.core.session.marker_doubts import Correction, corrections_in
 from carpus.core.session.values import Session, SessionHeader
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background

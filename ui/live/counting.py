@@ -12,8 +12,7 @@ from carpus.core.hand.exercises import FLEXION, Exercise
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.measures.fingers import FURTHER_RAD
 from carpus.core.measures.repetitions import find_repetitions
-from carpus.core.measures.signals import LONGEST_GAP_S, even_signal
-from carpus.core.measures.validity import LARGEST_SD_RAD, SETTLING_S
+from carpus.core.measures.signals import LARGEST_SD_RAD, LONGEST_GAP_S, SETTLING_S, even_signal
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.figures import FIGURES, figure_of
 from carpus.ui.joint_figures import figures_of

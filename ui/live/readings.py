@@ -6,7 +6,7 @@ import math
 import time
 from dataclasses import replace
 
-from carpus.core.measures.validity import LARGEST_SD_RAD
+from carpus.core.measures.signals import LARGEST_SD_RAD
 from carpus.core.types import TrackStatus
 from carpus.ui.figures import FIGURES, FINGERS, Figure, figure_of
 from carpus.ui.live.glance import Glance

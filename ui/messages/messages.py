@@ -12,7 +12,7 @@ from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.errors import CameraLost
-from carpus.core.records.interrupted import Recovered
+from carpus.core.records.new_sessions import Recovered
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.words import Words
 from carpus.ui import numbers

@@ -10,7 +10,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
 from carpus.core.hand.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, SIDES
-from carpus.core.results.mean_repetition import MeanRepetition, Quantity
+from carpus.core.results.motion_curves import MeanRepetition, Quantity
 from carpus.core.types import FloatArray
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of, with_side

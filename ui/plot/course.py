@@ -12,9 +12,8 @@ from PySide6.QtGui import QFontMetricsF, QPainter, QPen
 
 from carpus.core.hand.exercises import EXERCISES, Movement
 from carpus.core.measures.by_hand import HandValue, measure_named
-from carpus.core.results.goals import row_aimed_at
 from carpus.core.results.norms import total_norm, wrist_norm
-from carpus.core.results.progress import Progress
+from carpus.core.results.progress import Progress, row_aimed_at
 from carpus.core.results.ranges import RangeRow, RowKey, is_total
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of

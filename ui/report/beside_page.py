@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.mean_repetition import Quantity
+from carpus.core.results.motion_curves import Quantity
 from carpus.core.results.report_form import USUAL_FORM, ReportForm
 from carpus.ui import numbers, terms
 from carpus.ui.beside.shown import Shown

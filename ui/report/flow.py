@@ -11,7 +11,7 @@ from PySide6.QtCore import QLocale, QObject
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.errors import CarpusFault
-from carpus.core.records import of_clinic, of_patients
+from carpus.core.records import of_clinic, patients
 from carpus.core.records.of_clinic import keep_form, read_form
 from carpus.core.results.report_form import ReportForm, usual_paper
 from carpus.ui.flow import Flow, ScreenContext
@@ -142,7 +142,7 @@ class ReportFlow(Flow):
         row = self.context.now.patient
         if row is not None:
             last = (
-                self._tried(lambda: of_patients.home_plan(self.context.library.store, row.patient_id))
+                self._tried(lambda: patients.home_plan(self.context.library.store, row.patient_id))
                 if row.patient_id
                 else None
             )
@@ -155,10 +155,10 @@ class ReportFlow(Flow):
         if row is None:
             return
         if row.patient_id:
-            self._tried(lambda: of_patients.keep_home_plan(stored.store, row.patient_id, home.plan))
+            self._tried(lambda: patients.keep_home_plan(stored.store, row.patient_id, home.plan))
 
         def gather() -> HomeReport:
-            history, goals = stored.history(row.patient_id), of_patients.goals(stored.store, row.patient_id)
+            history, goals = stored.history(row.patient_id), patients.goals(stored.store, row.patient_id)
             return replace(home, way=own_way(home.report.figures, history, goals))
 
         self.run(gather, self._begin)

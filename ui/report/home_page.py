@@ -13,8 +13,7 @@ from PySide6.QtGui import QColor, QPainterPath, QPen, QPolygonF, QTransform
 from carpus.core.hand.exercises import EXERCISES, PRONOSUPINATION, Exercise
 from carpus.core.records.values import HomePlan
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.goals import Goals, row_aimed_at
-from carpus.core.results.progress import compare_rows, progress
+from carpus.core.results.progress import Goals, compare_rows, progress, row_aimed_at
 from carpus.core.types import Side
 from carpus.ui import language, numbers, terms
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD

@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QWidget
 
-from carpus.core.agreement.retest import StudyFigures, write_study
-from carpus.core.agreement.retest_plan import Restated, RetestPlan
+from carpus.core.agreement.retest import Restated, RetestPlan, StudyFigures, write_study
 from carpus.core.durable import replace_file
 from carpus.core.records.retest_people import RetestPeople
 from carpus.core.words import Words

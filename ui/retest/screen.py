@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QComboBox, QGridLayout, QWidget
 
-from carpus.core.agreement.retest_plan import Restated, RetestPlan, changed_first
+from carpus.core.agreement.retest import Restated, RetestPlan, changed_first
 from carpus.core.measures.change import DEFAULT_LIMITS, FEWEST_PEOPLE, ErrorLimits
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button

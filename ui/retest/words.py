@@ -6,8 +6,7 @@ import math
 from collections.abc import Sequence
 from datetime import date
 
-from carpus.core.agreement.retest import Retest
-from carpus.core.agreement.retest_plan import Mounting, Person, Restated, RetestPlan
+from carpus.core.agreement.retest import Mounting, Person, Restated, Retest, RetestPlan
 from carpus.core.hand.sites import WRIST_ANGLES
 from carpus.core.measures.change import ARC_LIMIT_FACTOR, FEWEST_PEOPLE, ErrorLimits, change_limit_rad
 from carpus.ui import numbers, terms

@@ -14,7 +14,7 @@ from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_named
 from carpus.core.records.exercise_sets import ExerciseSet, begun
 from carpus.core.records.set_up import SetUp
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.goals import GoalProposal, Goals, proposals
+from carpus.core.results.progress import GoalProposal, Goals, proposals
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import ENTER, Button, is_enter, press

@@ -1,15 +1,313 @@
-"""The whole calibration of a camera: intrinsics, depth, and what is said of both."""
+"""The whole calibration of a camera: intrinsics by Zhang's method, as OpenCV has it, with its standard deviations; how
+far depth is off the board's plane and whether it lies on the colour picture; what is said of both, and where it is
+kept.
+
+A reading at a pixel is compared with the distance of the board's plane there, as the colours have it: measured = scale
+* true + offset + slope_u * du + slope_v * dv, where the slopes are how much the plane's distance changes from a pixel
+to the next. Depth that lies du, dv pixels beside the colours shows on a tilted board alone.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from datetime import datetime
+from pathlib import Path
 
-from carpus.core.calibration.camera.depth import MOST_APART_PX, DepthCheck, check_depth
-from carpus.core.calibration.camera.solve import FAIR_PX, Intrinsics, solve_intrinsics
-from carpus.core.calibration.camera.views import BoardView, Judgement, board_of, judge
+import cv2
+import numpy as np
+
+from carpus.core.calibration.camera.views import NEAR_FAR_RATIO, BoardView, Judgement, board_of, judge
 from carpus.core.camera import Camera
+from carpus.core.capture.calibrated import new_calibration_path
+from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
+from carpus.core.dates import iso
+from carpus.core.depth_sensor import DepthSensor
+from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike, OutputNotWritable
+from carpus.core.phrase import phrase
+from carpus.core.types import FloatArray
+
+MOST_APART_PX = 2.0
+"""Colour and depth further apart than this: depths are read beside the markers."""
+FEWEST_VIEWS = 6
+SURE_SD = 2.0
+"""A shift smaller than this many standard deviations is none."""
+_STEP_PX = 4
+_EDGE_PX = 6
+"""Left out along the board's edge: a depth window there holds two surfaces."""
+_LEAST_READINGS = 200
+_ROUNDS, _TRIM_SD = 3, 3.5
+_FURTHEST = 0.2
+"""Share of the distance: readings further off are not of the board."""
+
+
+@dataclass(frozen=True, slots=True)
+class DepthCheck:
+    """``scale`` and ``offset_m`` of measured against true depth, with standard deviations; the offset is 0 and its
+    standard deviation NaN where no shift beside the scale is sure. ``apart_px`` (2,) how far depth lies
+    beside the colours, with ``apart_sd_px``; ``flat_m`` scatter of the board's readings about its plane."""
+
+    scale: float
+    scale_sd: float
+    offset_m: float
+    offset_sd_m: float
+    apart_px: FloatArray
+    apart_sd_px: float
+    flat_m: float
+    views: int
+
+    @property
+    def is_registered(self) -> bool:
+        """Whether depth lies on colour well enough to be read under a marker."""
+        return float(np.linalg.norm(self.apart_px)) <= MOST_APART_PX
+
+    def in_words(self) -> str:
+        """One sentence for people.
+
+        >>> DepthCheck(0.996, 0.001, 0.0, float("nan"), np.zeros(2), 0.1, 0.001, 20).in_words()
+        'Depth reads 0.4 % too short.'
+        """
+        share = 100.0 * (self.scale - 1.0)
+        if abs(share) < 0.05 and abs(self.offset_m) < 0.5e-3:
+            return "Depth reads right."
+        shift = f" and {abs(self.offset_m) * 1e3:.1f} mm too {'long' if self.offset_m > 0 else 'short'}"
+        shift = shift if math.isfinite(self.offset_sd_m) else ""
+        return f"Depth reads {abs(share):.1f} % too {'long' if share > 0 else 'short'}{shift}."
+
+
+def check_depth(views: Sequence[BoardView], intrinsics: Intrinsics, sensor: DepthSensor) -> DepthCheck | None:
+    """Depth against the board's plane over all views that count; None where too few have depth."""
+    blocks = [
+        _readings(views[k], intrinsics.camera, turn, shift)
+        for k, turn, shift in zip(intrinsics.used, intrinsics.board_turn, intrinsics.board_shift_m, strict=True)
+    ]
+    known = [block for block in blocks if block is not None]
+    if len(known) < FEWEST_VIEWS:
+        return None
+    middle = np.array([np.median(block[:, 1]) for block in known])
+    with_offset = bool(middle.max() >= NEAR_FAR_RATIO * middle.min())
+    values, sd = _with_sd(known, with_offset, sensor)
+    if with_offset and abs(values[3]) < SURE_SD * sd[3]:
+        # A shift that is not sure of itself only makes the scale less sure.
+        values, sd = _with_sd(known, False, sensor)
+        with_offset = False
+    scatter = np.concatenate([block[:, 0] - _design(block, with_offset) @ values for block in known])
+    flat_m = 1.4826 * float(np.median(np.abs(scatter)))
+    offset, offset_sd = (float(values[3]), float(sd[3])) if with_offset else (0.0, math.nan)
+    apart_sd = float(sd[1:3].max())
+    # A focal length that is off makes every true distance off by the same share.
+    scale_sd = math.hypot(float(sd[0]), intrinsics.focal_sd_px / intrinsics.camera.fx_px)
+    return DepthCheck(float(values[0]), scale_sd, offset, offset_sd, values[1:3], apart_sd, flat_m, len(known))
+
+
+def _with_sd(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSensor) -> tuple[FloatArray, FloatArray]:
+    """The fit and its standard deviations, of what leaving out each view changes: readings of one view agree in what
+    is off."""
+    count = len(blocks)
+    others = np.array([_robust([*blocks[:k], *blocks[k + 1 :]], with_offset, sensor) for k in range(count)])
+    spread = others - others.mean(axis=0)
+    sd = np.sqrt((count - 1) / count * np.sum(spread**2, axis=0))
+    return _robust(blocks, with_offset, sensor), np.asarray(sd)
+
+
+def _design(block: FloatArray, with_offset: bool) -> FloatArray:
+    """Columns of the fit: true depth, both slopes, and 1 for an offset."""
+    return np.column_stack((block[:, 1:4], np.ones(len(block)))) if with_offset else block[:, 1:4]
+
+
+def _robust(blocks: Sequence[FloatArray], with_offset: bool, sensor: DepthSensor) -> FloatArray:
+    """Weighted least squares, readings far off left out; each view counts the same."""
+    design = np.concatenate([_design(block, with_offset) for block in blocks])
+    measured = np.concatenate([block[:, 0] for block in blocks])
+    share = np.concatenate([np.full(len(block), 1.0 / math.sqrt(len(block))) for block in blocks])
+    sd = sensor.reading_sd_m(design[:, 0])
+    kept = np.ones(len(measured), dtype=bool)
+    values: FloatArray = np.zeros(design.shape[1])
+    for _ in range(_ROUNDS):
+        weight = (share / sd)[kept]
+        found = np.linalg.lstsq(design[kept] * weight[:, None], measured[kept] * weight, rcond=None)[0]
+        values = np.asarray(found, dtype=np.float64)
+        off = (measured - design @ values) / sd
+        spread = 1.4826 * float(np.median(np.abs(off[kept])))
+        kept = np.abs(off) <= _TRIM_SD * max(spread, 1e-9)
+    return values
+
+
+def _readings(view: BoardView, camera: Camera, turn: FloatArray, shift_m: FloatArray) -> FloatArray | None:
+    """Rows (R, 4) of measured and true depth and the true depth's slope along u and v, inside the board."""
+    if view.depth_raw is None:
+        return None
+    rotation = np.asarray(cv2.Rodrigues(turn)[0], dtype=np.float64)
+    outline = view.found.board.outline_m @ rotation.T + shift_m
+    inside = np.zeros((camera.height_px, camera.width_px), np.uint8)
+    corners = camera.distort(camera.project(outline))
+    cv2.fillConvexPoly(inside, np.round(corners).astype(np.int32), 1)
+    edge = 2 * _EDGE_PX + 1
+    inside = np.asarray(
+        cv2.erode(inside, np.ones((edge, edge), np.uint8), borderType=cv2.BORDER_CONSTANT, borderValue=0)
+    )
+    v, u = np.nonzero(inside[::_STEP_PX, ::_STEP_PX])
+    u, v = u * _STEP_PX, v * _STEP_PX
+    measured = view.depth_raw[v, u] * view.depth_unit_m
+    pixel = np.stack((u, v), axis=-1).astype(np.float64)
+    normal = rotation[:, 2]
+    height = float(normal @ shift_m)
+
+    def plane_m(at: FloatArray) -> FloatArray:
+        ideal = camera.undistort(at)
+        return np.asarray(height / (camera.back_project(ideal, np.ones(len(at))) @ normal))
+
+    true = plane_m(pixel)
+    slopes = [0.5 * (plane_m(pixel + step) - plane_m(pixel - step)) for step in np.eye(2)]
+    rows = np.column_stack((measured, true, *slopes))
+    kept = (measured > 0.0) & (np.abs(measured - true) < _FURTHEST * true)
+    return rows[kept] if np.count_nonzero(kept) >= _LEAST_READINGS else None
+
+
+def stored_of(
+    made: CameraCalibration, serial: str, when: datetime, settings: Mapping[str, str] | None = None
+) -> StoredCalibration:
+    """What is kept of a calibration. ``settings`` of the source: depth that was corrected already counts in."""
+    scale, offset_m = (1.0, 0.0) if made.depth is None else (made.depth.scale, made.depth.offset_m)
+    before = settings or {}
+    old_scale = float(before.get("depth_scale_corrected", 1.0))
+    old_offset_m = 1e-3 * float(before.get("depth_offset_corrected_mm", 0.0))
+    found = made.intrinsics
+    return StoredCalibration(
+        serial,
+        iso(when),
+        old_scale * scale,
+        old_scale * offset_m + old_offset_m,
+        found.error_px,
+        len(found.used),
+    )
+
+
+def write_calibration(path: Path, made: CameraCalibration, stored: StoredCalibration) -> Path:
+    """Write the camera file. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
+    try:
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
+    registered = None if made.depth is None else made.depth.is_registered
+    name = stored.serial or "carpus"
+    camera = replace(made.intrinsics.camera, sensor=made.before.sensor)
+    write_camera_info(path, camera, camera_name=name, registered=registered, calibration=stored)
+    return path
+
+
+def keep_calibration(data_folder: Path, made: CameraCalibration, stored: StoredCalibration) -> Path:
+    """Keep it for the camera of ``stored``; earlier ones stay."""
+    when = datetime.fromisoformat(stored.calibrated)
+    return write_calibration(new_calibration_path(data_folder, stored.serial, when), made, stored)
+
+
+GOOD_PX, FAIR_PX, MOST_PX = 0.3, 0.6, 1.2
+"""Root mean square distance of a corner from where the calibration has it."""
+MOST_FOCAL_SD = 0.002
+"""Of the focal length: with more the views were too alike, whatever else they were."""
+_OUTLIER = 3.0
+_FEWEST_AFTER = 10
+
+
+@dataclass(frozen=True, slots=True)
+class Intrinsics:
+    """``camera`` as found; standard deviations of focal lengths and of the middle of the picture; ``error_px`` root
+    mean square over all corners; the pose of the board in each view, as rotation vectors and shifts (V, 3);
+    ``used`` the numbers of the views that count."""
+
+    camera: Camera
+    focal_sd_px: float
+    middle_sd_px: float
+    error_px: float
+    board_turn: FloatArray
+    board_shift_m: FloatArray
+    used: tuple[int, ...]
+
+    @property
+    def error_in_words(self) -> str:
+        """How good the fit is."""
+        for limit, words in ((GOOD_PX, "good"), (FAIR_PX, "fair")):
+            if self.error_px <= limit:
+                return f"{words}: below {limit:g} px"
+        return f"poor: above {FAIR_PX:g} px"
+
+
+def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, subject: str) -> Intrinsics:
+    """Intrinsics and distortion (k1, k2, p1, p2) from the views.
+
+    Raises :class:`BoardMissing` where no board was seen, :class:`BoardViewsAlike` where the views are too few or too
+    alike, :class:`BoardUnfit` where the corners are not those of a flat board.
+    """
+    if not views:
+        raise BoardMissing(subject, phrase("in none of the pictures"))
+    used = list(range(len(views)))
+    _require(views, width_px, height_px, subject)
+    fit = _fitted([views[k] for k in used], width_px, height_px)
+    # A picture that was blurred or bent the board counts no more.
+    limit = _OUTLIER * float(np.median(fit.view_error_px))
+    kept = [k for k, error in zip(used, fit.view_error_px, strict=True) if error <= limit]
+    if _FEWEST_AFTER <= len(kept) < len(used):
+        used = kept
+        fit = _fitted([views[k] for k in used], width_px, height_px)
+    if fit.error_px > MOST_PX or not math.isfinite(fit.error_px):
+        raise BoardUnfit(
+            subject,
+            phrase(
+                "corners lie {error_px} px off, at most {most_px} are fair",
+                error_px=f"{fit.error_px:.1f}",
+                most_px=f"{MOST_PX:g}",
+            ),
+        )
+    if fit.focal_sd_px > MOST_FOCAL_SD * fit.camera.fx_px:
+        share = 100.0 * fit.focal_sd_px / fit.camera.fx_px
+        raise BoardViewsAlike(subject, phrase("the focal length is known to {share} % only", share=f"{share:.1f}"))
+    return Intrinsics(fit.camera, fit.focal_sd_px, fit.middle_sd_px, fit.error_px, fit.turn, fit.shift_m, tuple(used))
+
+
+def _require(views: Sequence[BoardView], width_px: int, height_px: int, subject: str) -> None:
+    missing = judge(views, width_px, height_px).missing
+    if missing:
+        raise BoardViewsAlike(subject, missing)
+
+
+@dataclass(frozen=True, slots=True)
+class _Fit:
+    camera: Camera
+    focal_sd_px: float
+    middle_sd_px: float
+    error_px: float
+    view_error_px: FloatArray
+    turn: FloatArray
+    shift_m: FloatArray
+
+
+def _fitted(views: Sequence[BoardView], width_px: int, height_px: int) -> _Fit:
+    points = [view.found.board.corners_m[view.found.corner].astype(np.float32) for view in views]
+    pixels = [view.found.pixel.astype(np.float32).reshape(-1, 1, 2) for view in views]
+    guess = np.array([[width_px * 0.82, 0.0, 0.5 * (width_px - 1)], [0.0, width_px * 0.82, 0.5 * (height_px - 1)],
+                      [0.0, 0.0, 1.0]])  # fmt: skip
+    # k3 cannot be told from k2 on a lens of 60 degrees, and bends the corners of the picture when it is let free.
+    flags = cv2.CALIB_FIX_K3 | cv2.CALIB_USE_INTRINSIC_GUESS
+    error, k, bend, turns, shifts, sd, _, view_error = cv2.calibrateCameraExtended(
+        points, pixels, (width_px, height_px), guess, np.zeros(5), flags=flags
+    )
+    sd = np.asarray(sd).ravel()
+    k1, k2, p1, p2, k3 = (float(value) for value in np.asarray(bend).ravel()[:5])
+    camera = Camera(
+        float(k[0, 0]), float(k[1, 1]), float(k[0, 2]), float(k[1, 2]), width_px, height_px, (k1, k2, p1, p2, k3),
+        origin="calibration",
+    )  # fmt: skip
+    return _Fit(
+        camera,
+        float(max(sd[0], sd[1])),
+        float(max(sd[2], sd[3])),
+        float(error),
+        np.asarray(view_error, dtype=np.float64).ravel(),
+        np.array([np.ravel(turn) for turn in turns]),
+        np.array([np.ravel(shift) for shift in shifts]),
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,7 @@ import cv2
 import numpy as np
 
 from carpus.core.calibration.camera.board import FoundBoard
-from carpus.core.calibration.camera.calibrate import CameraCalibration
-from carpus.core.calibration.camera.solve import Intrinsics
+from carpus.core.calibration.camera.calibrate import CameraCalibration, Intrinsics
 from carpus.core.calibration.camera.views import BoardView
 from carpus.core.camera import Camera
 from carpus.core.types import FloatArray

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from carpus.core.capture.devices import openni2_camera
-from carpus.core.capture.devices.camera_kind import CameraKind
+from carpus.core.capture.devices.cameras import CameraKind
 from carpus.core.capture.devices.openni2_camera import open_openni2
 from carpus.core.installing import Finding
 from carpus.core.phrase import phrase

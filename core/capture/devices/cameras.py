@@ -1,4 +1,5 @@
-"""The live cameras that there are: one line here and one module for each.
+"""The live cameras that there are (one line here and one module for each), and what is known of a kind before one is
+opened: for `carpus doctor` its library, and once it is open its firmware and port.
 
 A module has ``KIND``, a :class:`CameraKind`. Loading it loads no driver.
 """
@@ -16,8 +17,130 @@ from carpus.core.names import known_names
 
 if TYPE_CHECKING:
     from carpus.core.camera import Camera
-    from carpus.core.capture.devices.camera_kind import CameraKind, LiveCamera
     from carpus.core.capture.devices.usb_devices import UsbCamera
+
+import multiprocessing
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from typing import Protocol
+
+from carpus.core.camera import Camera
+from carpus.core.capture.devices.usb_devices import UsbCamera, usb_cameras
+from carpus.core.capture.source import FrameSource
+from carpus.core.errors import DriverMissing
+from carpus.core.installing import Finding, how_to_install
+from carpus.core.phrase import Phrase, phrase
+
+
+def library_finding(name: str, package: str, load: Callable[[], None], *, asks: bool, wanted: bool) -> Finding | None:
+    """The library by its package; loaded, in a process of its own, where ``asks`` and ``wanted``; None where it is
+    missing and nothing wants it."""
+    try:
+        found = f"{package} {version(package)}"
+    except PackageNotFoundError:
+        found = phrase("missing: {package}", package=package)
+        return Finding(name, "bad", found, how_to_install(package)) if wanted else None
+    trouble = _load_trouble(load) if asks and wanted else ""
+    if not trouble:
+        return Finding(name, "good", found)
+    return Finding(
+        name,
+        "bad",
+        phrase("{found}, cannot be loaded: {trouble}", found=found, trouble=trouble),
+        phrase("Install it, and what it names, again."),
+    )
+
+
+def _load_trouble(load: Callable[[], None]) -> str:
+    """Why the library cannot be loaded; empty when it can."""
+    try:
+        with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as other:
+            other.submit(load).result()
+    except DriverMissing as fault:
+        return fault.detail
+    except BrokenProcessPool:
+        return "it ends its process"
+    return ""
+
+
+USB_3 = phrase("Plug it into a USB 3 port, with a USB 3 cable and without a hub.")
+
+
+def further_findings(settings: Mapping[str, str]) -> Sequence[Finding]:
+    """Firmware and port of an opened camera."""
+    findings = []
+    firmware, wanted, usb = (settings.get(key, "") for key in ("firmware", "firmware_wanted", "usb"))
+    if firmware and wanted and _numbers(firmware) < _numbers(wanted):
+        found = phrase("{firmware}, the library asks for {wanted}", firmware=firmware, wanted=wanted)
+        remedy = phrase("Bring the firmware up to date with the maker's RealSense Viewer.")
+        findings.append(Finding(phrase("Firmware"), "warning", found, remedy))
+    elif firmware:
+        findings.append(Finding(phrase("Firmware"), "good", firmware))
+    if usb.startswith("2"):
+        findings.append(Finding("USB", "warning", f"USB {usb}", USB_3))
+    elif usb:
+        findings.append(Finding("USB", "good", f"USB {usb}"))
+    return findings
+
+
+def _numbers(version_text: str) -> list[int]:
+    return [int(part) if part.isdigit() else 0 for part in version_text.split(".")]
+
+
+class LiveCamera(FrameSource, Protocol):
+    """A source of frames that runs from construction on."""
+
+    def lock_exposure(self) -> None:
+        """From now on colours stay as they are."""
+        ...
+
+
+class Opening(Protocol):
+    """Opens a camera. ``uri`` None: the first; ``camera``: measured intrinsics; ``patience_s``: how long it may be
+    away before that is a fault. Its driver is loaded then and not before."""
+
+    def __call__(self, *, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> LiveCamera: ...
+
+
+def no_findings(_settings: Mapping[str, str]) -> Sequence[Finding]:
+    """Of a kind of which nothing more is known."""
+    return ()
+
+
+@dataclass(frozen=True, slots=True)
+class CameraKind:
+    """``models`` are names by USB vendor and product (four hexadecimal digits each).
+
+    ``driver`` says how its library is, None where nothing need be said: whether its version is asked (in a process
+    of its own, half a second), and whether a camera of the kind is wanted; ``further`` what its settings, once
+    opened, tell of firmware and port.
+    """
+
+    title: str
+    models: Mapping[tuple[str, str], str]
+    open: Opening
+    driver: Callable[[bool, bool], Finding | None]
+    needed_mbit: int
+    port: Phrase
+    further: Callable[[Mapping[str, str]], Sequence[Finding]] = no_findings
+
+    @property
+    def rules(self) -> str:
+        """For udev, a line for each vendor: whoever sits at the computer may open the camera."""
+        lines = []
+        for vendor in sorted({vendor for vendor, _ in self.models}):
+            products = "|".join(product for of, product in self.models if of == vendor)
+            which = f'ATTR{{idVendor}}=="{vendor}", ATTR{{idProduct}}=="{products}"'
+            lines.append(f'SUBSYSTEM=="usb", {which}, MODE="0660", TAG+="uaccess"')
+        return "\n".join(lines)
+
+    def seen(self) -> list[UsbCamera]:
+        """Those plugged in; empty where the system does not tell."""
+        return usb_cameras(self.models)
+
 
 CAMERAS = {
     "xtion": "xtion",

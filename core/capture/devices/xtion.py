@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from carpus.core.capture.devices.camera_kind import CameraKind
+from carpus.core.capture.devices.cameras import CameraKind
 from carpus.core.capture.devices.openni2_camera import driver_finding, open_openni2
 from carpus.core.phrase import phrase
 

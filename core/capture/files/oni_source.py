@@ -1,9 +1,14 @@
-"""An .oni recording as a source of frames, read without the OpenNI2 library, which dies of some damaged files."""
+"""An .oni recording as a source of frames, read without the OpenNI2 library, which dies of some damaged files: first
+what it holds and where in the file each picture lies, then picture by picture."""
 
 from __future__ import annotations
 
+import math
+import struct
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import dataclass, field
+from io import FileIO
 from pathlib import Path
 from typing import Any, BinaryIO, Literal
 
@@ -11,10 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.capture.camera_info import CameraInfo, read_camera_info, sidecar_path
-from carpus.core.capture.files.oni_contents import OniContents, OniStream, identity_of, read_contents
-from carpus.core.capture.files.oni_depth_codec import decode_depth
-from carpus.core.capture.files.oni_format import Codec
-from carpus.core.capture.files.raw_pictures import decode_color
+from carpus.core.capture.files import oni_format as oni
+from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType, decode_depth
+from carpus.core.capture.files.pictures import decode_color
 from carpus.core.capture.frame_assembly import (
     DEPTH_UNIT_M,
     WAITING_IN_FILE,
@@ -24,18 +28,280 @@ from carpus.core.capture.frame_assembly import (
     fitted_camera,
 )
 from carpus.core.capture.source import Notice, SourceInfo, ignore
-from carpus.core.capture.video_mode import Sensor
+from carpus.core.capture.video_mode import PixelFormat, Sensor
 from carpus.core.errors import (
     CameraFileUnreadable,
+    CarpusFault,
     DepthNotRegistered,
     PicturesEnlarged,
     PicturesLost,
     RecordingDamaged,
+    RecordingEmpty,
+    RecordingMissing,
+    RecordingUnreadable,
     RecordingUnsupported,
     RegistrationAssumed,
+    TimesUnordered,
 )
 from carpus.core.phrase import phrase
 from carpus.core.types import SIMULATED, Frame
+
+MAX_WIDTH_PX, MAX_HEIGHT_PX, MAX_FPS = 1600, 1200, 120
+MAX_TIME_US = 1 << 60
+FIRST_READ = 160
+"""Holds the header and fields of nearly every record."""
+
+_ADDED = (RecordType.NODE_ADDED, RecordType.NODE_ADDED_1_0_0_5, RecordType.NODE_ADDED_1_0_0_4)
+_PROPERTIES = (RecordType.INT_PROPERTY, RecordType.GENERAL_PROPERTY)
+_CODECS = {
+    NodeType.DEPTH: (Codec.RAW, Codec.DEPTH_TABLE, Codec.DEPTH_PLAIN),
+    NodeType.IMAGE: (Codec.RAW, Codec.JPEG),
+}
+_FORMATS = {
+    NodeType.DEPTH: (PixelFormat.DEPTH_1_MM, PixelFormat.DEPTH_100_UM),
+    NodeType.IMAGE: (PixelFormat.RGB888,),
+}
+_OLD_FORMATS = {1: PixelFormat.RGB888, 2: PixelFormat.YUV422, 3: PixelFormat.GRAY8, 4: PixelFormat.GRAY16}
+_FIXED = (oni.MAP_OUTPUT_MODE, oni.CROPPING, oni.PIXEL_FORMAT_1, oni.PIXEL_FORMAT_2, oni.MIRROR)
+"""Properties that must not change once pictures come."""
+
+
+@dataclass(frozen=True, slots=True)
+class OniStream:
+    """One stream of a recording.
+
+    ``number`` (N,) of each picture, rising; ``timestamp_us`` (N,); ``position`` (N,) in the file and ``size_bytes``
+    (N,) of the coded pictures.
+    """
+
+    width_px: int
+    height_px: int
+    fps: int
+    codec: str
+    pixel_format: int
+    mirrored: bool
+    field_of_view_rad: tuple[float, float] | None
+    number: NDArray[np.int64]
+    timestamp_us: NDArray[np.int64]
+    position: NDArray[np.int64]
+    size_bytes: NDArray[np.int64]
+
+    def __len__(self) -> int:
+        return int(self.number.shape[0])
+
+
+@dataclass(frozen=True, slots=True)
+class OniContents:
+    """What a sound recording holds. ``identity`` (size, time of change) tells whether the file is still the same."""
+
+    path: Path
+    identity: tuple[int, int]
+    version: str
+    color: OniStream
+    depth: OniStream | None
+
+
+@dataclass(slots=True)
+class _Node:
+    kind: NodeType
+    codec: bytes
+    properties: dict[str, bytes] = field(default_factory=dict)
+    pictures: list[tuple[int, int, int, int]] = field(default_factory=list)
+    """Number, time, position and size of each."""
+
+    def told(self, name: str) -> int:
+        return int.from_bytes(self.properties.get(name, b""), "little")
+
+    @property
+    def pixel_format(self) -> int:
+        told, old = self.told(oni.PIXEL_FORMAT_2), self.told(oni.PIXEL_FORMAT_1)
+        if told or self.kind == NodeType.DEPTH:
+            return told or PixelFormat.DEPTH_1_MM  # whatever the old number says
+        return _OLD_FORMATS.get(old, PixelFormat.JPEG) if old else PixelFormat.RGB888
+
+
+@dataclass(frozen=True, slots=True)
+class _Record:
+    position: int
+    kind: int
+    node: int
+    fields: bytes
+    payload_size: int
+
+
+def identity_of(path: Path) -> tuple[int, int]:
+    """Size and time of the last change."""
+    found = path.stat()
+    return found.st_size, found.st_mtime_ns
+
+
+def read_contents(path: Path) -> OniContents:
+    """The contents of an .oni file that was recorded to its end.
+
+    Raises :class:`RecordingMissing`, :class:`RecordingUnreadable`, :class:`RecordingDamaged`,
+    :class:`RecordingUnsupported`, :class:`RecordingEmpty` or :class:`TimesUnordered`.
+    """
+    if not path.is_file():
+        raise RecordingMissing(path)
+    try:
+        with FileIO(path) as file:
+            return _Walk(path, file).contents()
+    except OSError as cause:
+        raise RecordingUnreadable(path, cause.strerror or "") from cause
+
+
+class _Walk:
+    """One pass over the records of a file."""
+
+    def __init__(self, path: Path, file: FileIO) -> None:
+        self._path = path
+        self._file = file
+        self._identity = identity_of(path)
+        self._header = oni.RECORD_HEADER
+        self._nodes: dict[int, _Node | None] = {}
+
+    def contents(self) -> OniContents:
+        head = self._file.read(oni.FILE_HEADER.size)
+        if len(head) < oni.FILE_HEADER.size or head[:4] != oni.FILE_MAGIC:
+            raise RecordingUnreadable(self._path, phrase("not an .oni file"))
+        _, *version, _, _ = oni.FILE_HEADER.unpack(head)
+        if not oni.OLDEST_VERSION <= tuple(version) <= oni.FILE_VERSION:
+            raise RecordingUnsupported(self._path, "format version " + ".".join(map(str, version)))
+        if tuple(version) < oni.FILE_VERSION:
+            self._header = oni.OLD_RECORD_HEADER
+        for record in self._records():
+            try:
+                self._take(record)
+            except (struct.error, UnicodeDecodeError) as cause:
+                raise self._damaged("fields of the wrong size", record.position) from cause
+        return self._result(".".join(map(str, version)))
+
+    def _damaged(self, what: str, position: int) -> CarpusFault:
+        return RecordingDamaged(self._path, phrase("{what}, at byte {position}", what=what, position=position))
+
+    def _unsupported(self, what: str) -> CarpusFault:
+        return RecordingUnsupported(self._path, what)
+
+    def _records(self) -> Iterator[_Record]:
+        """All records up to END; raises when the chain breaks."""
+        position, header = oni.FILE_HEADER.size, self._header
+        while True:
+            self._file.seek(position)
+            read = self._file.read(FIRST_READ)
+            if len(read) < header.size:
+                raise self._damaged("the recording was not finished", position)
+            magic, kind, node, fields_size, payload_size, _ = header.unpack_from(read)
+            if magic != oni.RECORD_MAGIC:
+                raise self._damaged("the chain of records is broken", position)
+            if kind == RecordType.END:
+                return
+            if kind not in RecordType._value2member_map_:
+                raise self._damaged(f"unknown record {kind}", position)
+            if fields_size < header.size:
+                raise self._damaged(f"record fields of {fields_size} bytes", position)
+            if position + fields_size + payload_size > self._identity[0]:
+                raise self._damaged("the recording was not finished", position)
+            if payload_size and kind not in (RecordType.NEW_DATA, RecordType.SEEK_TABLE):
+                raise self._damaged("payload where none belongs", position)
+            if fields_size > len(read):
+                read += self._file.read(fields_size - len(read))
+            yield _Record(position, kind, node, read[header.size : fields_size], payload_size)
+            position += fields_size + payload_size
+
+    def _take(self, record: _Record) -> None:
+        if record.kind in _ADDED:
+            self._add(record)
+            return
+        if record.node not in self._nodes:
+            raise self._damaged("record of an unknown stream", record.position)
+        node = self._nodes[record.node]
+        if node is None:
+            return
+        if record.kind in _PROPERTIES:
+            self._property(node, record)
+        elif record.kind == RecordType.NEW_DATA:
+            self._picture(node, record)
+
+    def _text(self, record: _Record) -> tuple[str, int]:
+        """The string that fields begin with, and the offset behind it."""
+        (size,) = struct.unpack_from("<I", record.fields)
+        raw = record.fields[4 : 4 + size]
+        if len(raw) != size or raw[-1:] != b"\0":
+            raise self._damaged("bad name", record.position)
+        return raw[:-1].decode("ascii"), 4 + size
+
+    def _add(self, record: _Record) -> None:
+        _, offset = self._text(record)
+        kind, codec = struct.unpack_from("<I4s", record.fields, offset)
+        if record.node in self._nodes:
+            raise self._damaged("two streams of one name", record.position)
+        if kind in _CODECS and codec not in _CODECS[kind]:
+            shown = codec.decode("ascii", "replace")
+            raise self._unsupported(phrase("codec {codec} for {name}", codec=shown, name=NodeType(kind).name))
+        self._nodes[record.node] = _Node(NodeType(kind), codec) if kind in _CODECS else None
+
+    def _property(self, node: _Node, record: _Record) -> None:
+        name, offset = self._text(record)
+        (size,) = struct.unpack_from("<I", record.fields, offset)
+        data = record.fields[offset + 4 : offset + 4 + size]
+        if len(data) != size:
+            raise self._damaged(f"property {name} of the wrong size", record.position)
+        if node.pictures and name in _FIXED and node.properties.get(name) != data:
+            raise self._unsupported(phrase("{name} changes on the way", name=name))
+        node.properties[name] = data
+
+    def _picture(self, node: _Node, record: _Record) -> None:
+        time_us, number = oni.NEW_DATA_FIELDS.unpack(record.fields)
+        last_number, last_us = node.pictures[-1][:2] if node.pictures else (0, -1)
+        if number <= last_number:
+            raise self._damaged(f"picture number {number}", record.position)
+        if time_us > MAX_TIME_US:
+            raise self._damaged("a picture later than the recording's end", record.position)
+        if time_us <= last_us:
+            raise TimesUnordered(
+                self._path, phrase("{value} picture {number}", value=node.kind.name.lower(), number=number)
+            )
+        position = record.position + self._header.size + len(record.fields)
+        node.pictures.append((number, time_us, position, record.payload_size))
+
+    def _result(self, version: str) -> OniContents:
+        images, depths = (
+            [node for node in self._nodes.values() if node is not None and node.kind == kind]
+            for kind in (NodeType.IMAGE, NodeType.DEPTH)
+        )
+        if not images:
+            raise self._unsupported(phrase("no colour pictures"))
+        if len(images) > 1 or len(depths) > 1:
+            raise self._unsupported(phrase("more than one camera"))
+        if not images[0].pictures:
+            raise RecordingEmpty(self._path)
+        try:
+            color = self._stream(images[0])
+            depth = self._stream(depths[0]) if depths and depths[0].pictures else None
+        except struct.error as cause:
+            raise self._damaged("fields of the wrong size", oni.FILE_HEADER.size) from cause
+        return OniContents(self._path, self._identity, version, color, depth)
+
+    def _stream(self, node: _Node) -> OniStream:
+        told, pixel_format = node.properties, node.pixel_format
+        width, height, fps = struct.unpack("<III", told.get(oni.MAP_OUTPUT_MODE, bytes(12)))
+        if not (1 <= width <= MAX_WIDTH_PX and 1 <= height <= MAX_HEIGHT_PX and 1 <= fps <= MAX_FPS):
+            raise self._damaged(f"pictures of {width}x{height} at {fps} fps", oni.FILE_HEADER.size)
+        if any(told.get(oni.CROPPING, b"")[:4]):
+            raise self._unsupported(phrase("cropped pictures"))
+        if pixel_format not in _FORMATS[node.kind]:
+            name = next((each.name for each in PixelFormat if each == pixel_format), str(pixel_format))
+            is_depth = node.kind == NodeType.DEPTH
+            raise self._unsupported(
+                phrase("depth as {name}", name=name) if is_depth else phrase("colour as {name}", name=name)
+            )
+        view: tuple[float, float] | None = None
+        if oni.FIELD_OF_VIEW in told:
+            across, down = struct.unpack("<dd", told[oni.FIELD_OF_VIEW])
+            view = (across, down) if 0.0 < across < math.pi and 0.0 < down < math.pi else None
+        mirrored = any(told.get(oni.MIRROR, b""))
+        columns = np.array(node.pictures, np.int64).T
+        return OniStream(width, height, fps, node.codec.decode("ascii"), pixel_format, mirrored, view, *columns)
 
 
 class OniSource:

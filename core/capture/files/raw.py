@@ -3,7 +3,7 @@
 Nothing that was written is touched again, so a crash or a full disk costs at most the last frame, and writing needs
 no lock that others wait for. Layout, little-endian: ``CARPUSRW``, u32 version, then records. A record is a header of
 32 bytes (4 letters, u32 check sum of all that follows, f64 time in seconds, u32 frames missing before, u32 number,
-u32 size of colour, u32 size of depth) and the two pictures in tiles (:mod:`.tiles`), JPEG or PNG files each. ``HEAD``
+u32 size of colour, u32 size of depth) and the two pictures in tiles (:mod:`.pictures`), JPEG or PNG each. ``HEAD``
 comes first with JSON instead of colour, ``FRAM`` is a frame, ``DONE`` ends a recording that was closed.
 """
 
@@ -27,8 +27,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from carpus.core.camera import COEFFICIENTS, Camera
-from carpus.core.capture.files.raw_pictures import decode_color, decode_depth, encode_color, encode_depth
-from carpus.core.capture.files.tiles import Tiled, packed
+from carpus.core.capture.files.pictures import Tiled, decode_color, decode_depth, encode_color, encode_depth, packed
 from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.depth_sensor import ASSUMED_SENSOR, sensor_of
 from carpus.core.durable import copy_open_file, is_still_there, private

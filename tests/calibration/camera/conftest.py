@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from carpus.core.calibration.camera.board import CHESSBOARD, board_sheet
-from carpus.core.calibration.camera.gather import Gathering
+from carpus.core.calibration.camera.views import Gathering
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.simulation.practice_camera import Studio, poses, texture_of
 from carpus.core.types import Frame

@@ -21,13 +21,13 @@ from carpus.core.calibration.camera.board import (
 )
 from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera, calibration_lines
 from carpus.core.calibration.camera.effect import HAND_LENGTH_M, effect_of
-from carpus.core.calibration.camera.gather import Gathering
 from carpus.core.calibration.camera.sheet import PAPER_MM, Paper, SheetBox, SheetLine, SheetText
 from carpus.core.calibration.camera.views import (
     ASKED_VIEWS,
     FEWEST_VIEWS,
     SIDES,
     BoardView,
+    Gathering,
     GuidanceStep,
     is_new,
     judge,

@@ -13,9 +13,8 @@ import pytest
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
 from carpus.app.sources import open_recording
-from carpus.core.calibration.camera.calibrate import calibrate_camera
-from carpus.core.calibration.camera.gather import Gathering
-from carpus.core.calibration.camera.keep import stored_of
+from carpus.core.calibration.camera.calibrate import calibrate_camera, stored_of
+from carpus.core.calibration.camera.views import Gathering
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture.calibrated import (
     CalibratedSource,
@@ -27,7 +26,7 @@ from carpus.core.capture.calibrated import (
 )
 from carpus.core.capture.camera_info import CameraInfo, StoredCalibration, read_camera_info, write_camera_info
 from carpus.core.capture.files.raw import RawWriter
-from carpus.core.capture.files.raw_tum import TumWriter
+from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import CameraFileUnreadable
 from carpus.core.pipeline.track import source_facts
