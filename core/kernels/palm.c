@@ -204,7 +204,7 @@ static void in_camera(const double *value, const double *rotation, const double 
     }
 }
 
-/* How far the depths' errors are other ones than in the picture before: shape_learning.py. */
+/* How far the depths' errors are other ones than in the picture before: predicted_measurement.py. */
 static double fresh_share(const double *before, const double *after, const double *view)
 {
     double moved[3] = {0.0}, depth = 0.0;

@@ -81,7 +81,7 @@ PALM_MEASUREMENTS = (
     MeasurementPart(
         "discs", 18, "px, px, m: u, v and depth z of each disc that is associated",
         ("View.observe", "palm_view.palm_linearised"),
-        ("palm_association.measurements_of", "adaptive_noise.adapted_factor"),
+        ("palm_association.measurements_of", "predicted_measurement.adapted_factor"),
     ),
     MeasurementPart(
         "surface", 3, "rad, rad, m: turn about X and Y and height of the back of the hand",

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from carpus.core.detection import color_histogram as ch
+from carpus.core.detection import appearance as ch
 from carpus.core.types import ByteImage
 
 
