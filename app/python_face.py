@@ -108,7 +108,6 @@ class ProposedClicks:
 
     @property
     def complete(self) -> bool:
-        """Whether every marker of the protocol has a disc."""
         return len(self.markers) == len(protocol_named(self.protocol).markers)
 
     def clicks(self) -> Clicks:

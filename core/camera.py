@@ -46,12 +46,10 @@ class Camera:
 
     @property
     def matrix(self) -> FloatArray:
-        """Camera matrix K, shape (3, 3)."""
         return np.array([[self.fx_px, 0.0, self.cx_px], [0.0, self.fy_px, self.cy_px], [0.0, 0.0, 1.0]])
 
     @property
     def is_distorted(self) -> bool:
-        """Whether any distortion coefficient differs from zero."""
         return any(self.distortion)
 
     def project(self, point_cam_m: FloatArray) -> FloatArray:

@@ -35,12 +35,10 @@ class NoiseLaw:
     square_per_m: float = 0.0
 
     def sd_m(self, depth_m: FloatArray) -> FloatArray:
-        """Standard deviation (...) at depths (...), metres."""
         out = self.square_per_m * depth_m**2
         return np.asarray(out + self.fixed_m if self.fixed_m else out)
 
     def times(self, factor: float) -> NoiseLaw:
-        """This law, all of it so many times as large."""
         return NoiseLaw(self.fixed_m * factor, self.square_per_m * factor)
 
 

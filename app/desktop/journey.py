@@ -304,12 +304,10 @@ class Journey(QObject):
 
     @property
     def place(self) -> str:
-        """Where the person is."""
         return self.way.place
 
     # --- from one to the other ----------------------------------------------------------------------------
     def take_tab(self, number: int) -> None:
-        """A tab of the top bar."""
         place, patient = TABS[number], self.now.patient
         if patient is None or place == self.place or self.messages.busy:
             self.bar.show()

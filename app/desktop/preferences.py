@@ -58,7 +58,6 @@ class PreferenceKeeper(QObject):
 
     @property
     def screen(self) -> SettingsScreen:
-        """What they are chosen on."""
         return cast("SettingsFlow", self._journey.way.flow("settings")).screen
 
     def _make_flow(self) -> SettingsFlow:
@@ -82,11 +81,9 @@ class PreferenceKeeper(QObject):
         return SettingsFlow(context, chosen, context.library.error_limits, settings.updates.folder)
 
     def _tell_start(self) -> None:
-        """How a recording begins."""
         self._journey.live.screen.recording.start_mode = self._settings.recording.start
 
     def take(self, chosen: Preferences) -> None:
-        """Something was changed."""
         other_language = chosen.language != self._settings.screen.language
         if other_language and (why := self.keeps_language()):
             self.screen.keep_language(self._settings.screen.language, why)
@@ -124,7 +121,6 @@ class PreferenceKeeper(QObject):
 
     @property
     def settings(self) -> Settings:
-        """All that is chosen now."""
         return self._settings
 
     @property

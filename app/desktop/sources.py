@@ -87,17 +87,14 @@ class HandCalibrator:
 
     @property
     def side(self) -> Side:
-        """Hand that is measured."""
         return self._side
 
     @property
     def protocol(self) -> MarkerProtocol:
-        """Markers asked for."""
         return self._protocol
 
     @property
     def limits(self) -> VerdictLimits:
-        """What the verdict is judged by."""
         limits = self._settings.calibration
         return VerdictLimits(
             limits.least_distance_m, limits.most_tilt_deg, limits.most_residual_mm, limits.hand_length_mm
@@ -110,16 +107,13 @@ class HandCalibrator:
 
     @property
     def is_live(self) -> bool:
-        """Whether another picture can be taken."""
         return self._pictures.is_live
 
     @property
     def held(self) -> Frame | None:
-        """The picture clicked on."""
         return self._held[0] if self._held else None
 
     def newest_frame(self) -> Frame | None:
-        """The picture of the moment."""
         return self._pictures.newest()
 
     def hold(self) -> Frame:
@@ -136,7 +130,6 @@ class HandCalibrator:
         return len(self._candidates)
 
     def discs_px(self) -> FloatArray:
-        """Where they are (D, 2)."""
         return self._candidates.pixel
 
     def hand_area(self) -> FloatArray | None:
@@ -146,7 +139,6 @@ class HandCalibrator:
         return np.stack((self._candidates.pixel.min(axis=0), self._candidates.pixel.max(axis=0)))
 
     def marker_at(self, pixel: FloatArray) -> FoundMarker | None:
-        """The disc under or near a pixel."""
         if not self._held:
             return None
         frame, detection = self._held[0], self._settings.detection
@@ -407,7 +399,6 @@ class LivePictures:
         self._session = session
 
     def newest(self) -> Frame | None:
-        """The picture of the moment."""
         return self._session.newest_frame()
 
     def still(self) -> Sequence[Frame]:
@@ -424,7 +415,6 @@ class StoredPictures:
         self._opening = opening
 
     def newest(self) -> Frame | None:
-        """The first picture."""
         return self._opening[0]
 
     def still(self) -> Sequence[Frame]:

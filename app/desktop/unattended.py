@@ -72,7 +72,6 @@ class Walker:
             QTest.qWait(5)
 
     def at(self, place: str) -> None:
-        """Wait for a screen."""
         self.until(lambda: self.journey.place == place)
 
     def press(self, key: Qt.Key, widget: QWidget | None = None) -> None:

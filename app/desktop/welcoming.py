@@ -69,12 +69,10 @@ class Tour(QObject):
 
     @property
     def is_on(self) -> bool:
-        """Whether somebody is being led."""
         return self._clock.isActive()
 
     @property
     def bubble(self) -> Bubble | None:
-        """What is shown now."""
         return next((view.bubble for view in self._views.values() if view.bubble is not None), None)
 
     def begin(self, *, asked_for: bool) -> None:
@@ -86,7 +84,6 @@ class Tour(QObject):
         self.look()
 
     def leave(self) -> None:
-        """No more of it."""
         if self.is_on:
             self.end()
             self.ended.emit()
@@ -122,7 +119,6 @@ class Tour(QObject):
             view.show_bubble(bubble if place == moment.place else None)
 
     def moment(self) -> TourMoment:
-        """Where the person is."""
         journey = self._journey
         place, made = journey.place, journey.way.flows
         is_busy: dict[str, Callable[[], bool]] = {
@@ -203,7 +199,6 @@ class Welcome(QObject):
         self.look()
 
     def end(self) -> None:
-        """The window closes."""
         self._background.wait()
 
     def look(self) -> None:

@@ -275,7 +275,6 @@ class RetestPlan:
 
     @property
     def complete(self) -> int:
-        """People measured twice."""
         return len({one.patient_id for one in self.people if one.state == "complete"})
 
     @property

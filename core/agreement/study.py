@@ -75,7 +75,6 @@ class AgreementStudy:
         return len({line.person for line, _ in self.compared})
 
     def as_compared(self) -> Compared:
-        """All of it as one comparison, for the picture."""
         kinds = sorted({str(result.compared.kind) for _, result in self.compared})
         kind = phrase(
             "{people} people, {sessions} sessions, {kinds}",

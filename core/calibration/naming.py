@@ -64,7 +64,6 @@ class NameProposal:
 
     @property
     def is_complete(self) -> bool:
-        """Whether every marker has a blob."""
         return bool((self.blob >= 0).all())
 
 

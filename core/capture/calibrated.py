@@ -44,7 +44,6 @@ class CalibratedSource:
             yield self._corrected(frame)
 
     def close(self) -> None:
-        """Close the source."""
         self._source.close()
 
     def _corrected(self, frame: Frame) -> Frame:

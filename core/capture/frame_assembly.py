@@ -61,12 +61,10 @@ class NearestPairing(Generic[T]):
         self._depths: deque[Stamped[T]] = deque()
 
     def add_color(self, color: Stamped[T]) -> list[Pair[T]]:
-        """Take a colour picture; the pairs that are now certain, in order."""
         self._colors.append(color)
         return self._decide()
 
     def add_depth(self, depth: Stamped[T]) -> list[Pair[T]]:
-        """Take a depth picture; the pairs that are now certain, in order."""
         self._depths.append(depth)
         decided = self._decide()
         while len(self._depths) > self._limit:
@@ -185,17 +183,14 @@ class Assembler:
         return NearestPairing(self._period_us, has_depth=has_depth, limit=self._limit, start_limit=self._start_limit)
 
     def color(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
-        """Take a colour picture; the frames that are now complete."""
         stamped = Stamped(timestamp_us, number, self.layout.color(view))
         return self._frames(self._pairing.add_color(stamped))
 
     def depth(self, timestamp_us: int, number: int, view: AnyImage) -> list[Frame]:
-        """Take a depth picture; the frames that are now complete."""
         stamped = Stamped(timestamp_us, number, self.layout.depth(view))
         return self._frames(self._pairing.add_depth(stamped))
 
     def finish(self) -> list[Frame]:
-        """The frames that were still waiting for depth."""
         return self._frames(self._pairing.finish())
 
     def restart(self, layout: Layout, first_us: int, away_us: int) -> None:
@@ -312,7 +307,6 @@ class LensBending:
             self._maps = np.ascontiguousarray(ideal[..., 0]), np.ascontiguousarray(ideal[..., 1])
 
     def bend(self, depth: NDArray[Any]) -> NDArray[Any]:
-        """Depth (H, W) uint16 as the real lens shows it, (H / shrink, W / shrink)."""
         if self._maps is None:
             return depth
         return np.asarray(

@@ -26,11 +26,9 @@ class NamedSource:
         self.info: SourceInfo = replace(source.info, settings=settings)
 
     def frames(self) -> Iterator[Frame]:
-        """As the source's."""
         return self._source.frames()
 
     def close(self) -> None:
-        """Close the source."""
         self._source.close()
 
 

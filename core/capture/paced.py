@@ -110,7 +110,6 @@ class PracticeSource:
         self._can_move.set()
 
     def frames(self) -> Iterator[Frame]:
-        """Frames until :meth:`close`."""
         take = self._take.frames()
         still = [next(take)]
         period_s = 1.0 / self._take.info.nominal_fps

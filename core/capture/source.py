@@ -55,7 +55,6 @@ class SourceInfo:
 
     @property
     def serial(self) -> str:
-        """Which camera it is; empty where nobody knows."""
         return self.settings.get(SERIAL, "")
 
     @property

@@ -67,7 +67,6 @@ class Writer:
             check(self.folder)
 
     def write(self, take: Take, of: About) -> Sequence[Path]:
-        """Of one session; the files."""
         out: Sequence[Path] = self._module.write(take, self.folder)
         self._written.append(of)
         return out

@@ -136,7 +136,6 @@ class Take:
 
     @property
     def even(self) -> EvenTimes:
-        """Its times as a format of even sampling has them."""
         return even_times(self.session.timestamp_s, rate_of(self.session))
 
 

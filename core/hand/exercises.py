@@ -85,7 +85,6 @@ class Exercise:
 
     @property
     def counts(self) -> bool:
-        """Whether repetitions of one angle are counted."""
         return self.angle is not None or bool(self.joint)
 
 

@@ -57,7 +57,6 @@ class MarkerProtocol:
         return {digit: self.rows(_chain(digit)) for digit in self.digits}
 
     def rows(self, names: Sequence[str]) -> tuple[int, ...]:
-        """Rows of some markers."""
         return tuple(self.markers.index(name) for name in names)
 
     def joint_names(self, dip_free: bool = False) -> tuple[str, ...]:

@@ -48,7 +48,6 @@ class JointTrack:
 
     @property
     def known(self) -> bool:
-        """Whether anything was seen."""
         return len(self.seen.time_s) > 0 and bool(self.seen.finite.any())
 
 

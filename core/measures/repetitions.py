@@ -311,7 +311,6 @@ class _Home:
 
     @property
     def middle(self) -> float:
-        """Half way between the usual high and the usual low."""
         return 0.5 * (self.low + self.high)
 
     def place(self, turn: _Turn) -> _Place:

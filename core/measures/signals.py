@@ -39,12 +39,10 @@ class Signal:
 
     @property
     def finite(self) -> BoolArray:
-        """Samples (n,) that are no gap."""
         flat = self.value.reshape(len(self.value), math.prod(self.value.shape[1:]))
         return np.asarray(np.isfinite(flat).all(axis=1), dtype=np.bool_)
 
     def column(self, k: int) -> Signal:
-        """One of several values sampled together."""
         return replace(self, value=self.value[:, k])
 
     def beside_gap(self, time_s: float, reach_s: float = LONGEST_GAP_S) -> bool:

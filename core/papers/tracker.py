@@ -230,7 +230,6 @@ class PaperTracker:
         self.begin_at_neutral()
 
     def begin_at_neutral(self, at_s: float | None = None) -> None:
-        """Start (again) from the calibrated pose, the hand at rest."""
         self._state = self._motion.at_neutral()
         self._time_s: float | None = None
         self._seen_s = -np.inf

@@ -51,7 +51,6 @@ class HandArea:
         self._known: deque[tuple[float, Region | None]] = deque(maxlen=REMEMBERED)
 
     def take(self, tracked: TrackedFrame) -> None:
-        """The hand of a frame."""
         self._known.append((tracked.timestamp_s, area_of(tracked, self._camera, self._protocol)))
 
     def area(self, at_s: float) -> Region | None:
@@ -101,11 +100,9 @@ class AroundHand:
 
     @property
     def path(self) -> Path:
-        """Where the finished file will be."""
         return self._sink.path
 
     def append_frame(self, frame: Frame) -> None:
-        """One picture."""
         self._sink.append_frame(only(frame, self._area(frame.timestamp_s)))
 
     def go_on_elsewhere(self, frame: Frame | None) -> AroundHand:
@@ -114,13 +111,10 @@ class AroundHand:
         return AroundHand(self._sink.go_on_elsewhere(part), self._area)
 
     def close(self) -> None:
-        """The recording is whole."""
         self._sink.close()
 
     def abandon(self) -> None:
-        """Stop after a fault."""
         self._sink.abandon()
 
     def discard(self) -> None:
-        """Nobody wants it."""
         self._sink.discard()

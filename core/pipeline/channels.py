@@ -42,7 +42,6 @@ class _Bounded(Generic[T]):
         self._deepest = 0
 
     def __len__(self) -> int:
-        """Items waiting now."""
         with self._changed:
             return len(self._items)
 
@@ -94,7 +93,6 @@ class NeverDrop(_Bounded[T]):
     """Every item that was taken in comes out; without room :class:`ChannelFull` is raised and nothing is lost."""
 
     def put(self, item: T) -> None:
-        """Adds an item at once or raises."""
         with self._changed:
             if self._closed:
                 raise ChannelClosed
@@ -129,13 +127,10 @@ class Newest(Generic[T]):
         self._value: T | None = None  # one reference, replaced whole: no lock needed
 
     def put(self, value: T) -> None:
-        """Replaces the value."""
         self._value = value
 
     def look(self) -> T | None:
-        """The newest value, None before the first."""
         return self._value
 
     def clear(self) -> None:
-        """Forget the value."""
         self._value = None

@@ -147,7 +147,6 @@ class _Retracking:
         return Tracker(session.calibration, session.camera, own, keep_history=settings.smooth)
 
     def frames(self) -> Iterator[TrackedFrame]:
-        """Every frame anew."""
         session = self._session
         times_s = session.timestamp_s
         rows = from_neutral(range(len(session)), self._tracker, self._learnt.neutral_ends_s, lambda row: times_s[row])
@@ -166,7 +165,6 @@ class _Retracking:
             yield self._tracker.step(row, time_s, blobs, dropped)
 
     def looked_back(self) -> list[Moment]:
-        """All moments, looked back at."""
         self._take_moments()
         return self._moments
 
@@ -214,7 +212,6 @@ class _FalseSpot:
         self.is_gone = False
 
     def left_out_of(self, blobs: Detections, time_s: float) -> Detections:
-        """The blobs without it."""
         self.is_gone = time_s - self._seen_s > GONE_AFTER_S
         if not len(blobs) or self.is_gone:
             return blobs

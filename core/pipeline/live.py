@@ -103,7 +103,6 @@ class LiveSession:
 
     @property
     def info(self) -> SourceInfo:
-        """Facts of the source."""
         return self._source.info
 
     def start(self) -> None:
@@ -135,12 +134,10 @@ class LiveSession:
 
     @property
     def running(self) -> bool:
-        """Whether the source still delivers."""
         return self._capture_thread.is_alive()
 
     # --- pictures -----------------------------------------------------------------------------
     def newest_frame(self) -> Frame | None:
-        """The newest picture, before and during tracking."""
         return self._newest_frame.look()
 
     def recent_frames(self, count: int) -> list[Frame]:
@@ -172,7 +169,6 @@ class LiveSession:
 
     @property
     def tracking(self) -> bool:
-        """Whether frames are being tracked."""
         return self._pipeline is not None
 
     def newest(self) -> TrackedView | None:
@@ -222,7 +218,6 @@ class LiveSession:
             recording.paused = True
 
     def resume_recording(self) -> None:
-        """Goes on storing."""
         recording = self._recording
         if recording is not None and recording.paused:
             recording.paused = False
@@ -273,7 +268,6 @@ class LiveSession:
 
     @property
     def paused(self) -> bool:
-        """Whether the recording is paused."""
         recording = self._recording
         return recording is not None and recording.paused
 
@@ -290,7 +284,6 @@ class LiveSession:
             self.add_event(kind, str(getattr(fault, "detail", "")))
 
     def drain_events(self) -> list[LiveEvent]:
-        """Everything told since the last call, oldest first."""
         drained = []
         with suppress(IndexError):
             while True:
@@ -298,7 +291,6 @@ class LiveSession:
         return drained
 
     def counters(self) -> LiveCounters:
-        """Figures of the moment; cheap enough for a timer."""
         with self._lock:
             latencies = np.array(self._latencies)
             arrivals = [at_s for at_s in self._arrivals if at_s > time.monotonic() - 2.0]

@@ -168,7 +168,6 @@ class LookingBack:
         return bool(self._pieces)
 
     def cancel(self) -> None:
-        """Nobody wants the result; may be called twice and after :meth:`finish`."""
         self._ending.set()
         self._end("not wanted")
 

@@ -104,7 +104,6 @@ class LivePipeline:
             self._answers.put(answer)
 
     def __call__(self, frame: Frame) -> TrackedFrame:
-        """Track one frame; in the tracking thread."""
         tracker = self._pipeline.tracker
         if not self._begun and frame.timestamp_s > self._neutral_ends_s:
             # The still frames made the calibration; counted twice they would make it too sure of itself.
@@ -147,11 +146,9 @@ class SmoothedSession:
 
     @property
     def path(self) -> Path:
-        """Where the finished file will be."""
         return self._writer.path
 
     def append(self, tracked: TrackedFrame) -> None:
-        """One row."""
         self._times_s.append(tracked.timestamp_s)
         self._writer.append(tracked)
         self._take_smoothed()
@@ -167,7 +164,6 @@ class SmoothedSession:
             self._early.append((kind, text))
 
     def flush(self) -> None:
-        """Bring everything taken so far to the disk."""
         self._writer.flush()
 
     def close(self) -> None:
@@ -209,12 +205,10 @@ class SmoothedSession:
         return new
 
     def abandon(self) -> None:
-        """Stop after a fault; what is on the disk stays."""
         self._end_looking_back()
         self._writer.abandon()
 
     def discard(self) -> None:
-        """Remove the file again."""
         self._end_looking_back()
         self._writer.discard()
 
@@ -262,17 +256,14 @@ class SourceMeasuring:
 
     @property
     def feed(self) -> LiveSession:
-        """What the screen pulls."""
         return self._session
 
     @property
     def camera(self) -> Camera:
-        """Intrinsics of the pictures."""
         return self._info.camera
 
     @property
     def calibration(self) -> Calibration | None:
-        """The calibration tracked from, None before."""
         return self._calibration
 
     @property

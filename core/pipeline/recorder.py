@@ -100,12 +100,10 @@ class Recorder(Generic[SinkT, Item]):
 
     @property
     def waiting(self) -> int:
-        """Items not yet written."""
         return len(self._channel)
 
     @property
     def written(self) -> int:
-        """Items written."""
         return self._written
 
     @property

@@ -102,7 +102,6 @@ class BackupSources:
 
     @property
     def size_bytes(self) -> int:
-        """Of all together."""
         return len(self.snapshot) + sum(size for _, _, size in self.files)
 
 

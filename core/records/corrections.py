@@ -59,7 +59,6 @@ class Corrections:
 
     @property
     def are_there(self) -> bool:
-        """Whether there is a new result, or what is left of one."""
         return any(self._folder.glob("*"))
 
     def clear_unfinished(self) -> None:
@@ -88,12 +87,10 @@ class Corrections:
         return self._library.folder / TRIALS_FOLDER
 
     def trial_path(self, session_id: str) -> Path:
-        """Where the new result of a session is made."""
         make_private(self._folder)
         return free_name(self._folder / self._library.entry(session_id).path.name)
 
     def origin_of(self, session_id: str) -> Path:
-        """The file that is corrected."""
         return self._library.entry(session_id).path
 
     def moment(self, session_id: str, row: int) -> tuple[ByteImage | None, FloatArray]:
@@ -136,7 +133,6 @@ class Corrections:
         return new.session_id
 
     def drop(self, trial: Path) -> None:
-        """Nobody wants it."""
         trial.unlink(missing_ok=True)
 
 

@@ -64,7 +64,6 @@ class Database:
 
     @contextlib.contextmanager
     def reading(self) -> Iterator[Connection]:
-        """What is stored, as of one moment."""
         with self._complaints(), self._engine.begin() as connection:
             yield connection
 

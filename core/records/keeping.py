@@ -120,12 +120,10 @@ class Records:
         return erasure.erase(self._store, plan, self._library.log)
 
     def archive_session(self, session_id: str) -> None:
-        """Out of every list and count."""
         self._library.index.archive(session_id)
         self._library.notes.session("archived", session_id)
 
     def archive_patient(self, patient_id: str) -> None:
-        """Out of every list and count."""
         self._library.patients.archive(patient_id)
         self._library.notes.patient("archived", patient_id)
 

@@ -229,7 +229,6 @@ class Library:
         raise SessionUnreadable(session_id, phrase("not in the list of patients"))
 
     def choices(self, session_id: str) -> RepetitionChoices:
-        """What a person left out or moved."""
         found, self._shown[session_id] = of_sessions.choices(self.store, session_id)
         return found
 

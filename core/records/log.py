@@ -89,7 +89,6 @@ class Notes:
         self._log, self._owner, self._on_fault = log, owner, on_fault
 
     def session(self, did: Deed, session_id: str, **facts: Fact) -> None:
-        """What was done with a session."""
         with suppress(KeyError):  # of a folder that went away: noted when it comes home
             if self._owner(session_id) != PRACTICE:
                 self._note(did, "session", session_id, **facts)

@@ -125,16 +125,13 @@ class Patients:
         self._store.leave_no_trace()  # of a name that was taken away
 
     def archive(self, patient_id: str, now: datetime | None = None) -> None:
-        """Out of every list and count."""
         since = (now or datetime.now(UTC)).isoformat(timespec="seconds")
         self._store.do([changed(PATIENT, patient_id, archived=since)])
 
     def bring_back(self, patient_id: str) -> None:
-        """Undo :meth:`archive`."""
         self._store.do([changed(PATIENT, patient_id, archived="")])
 
     def archived(self) -> dict[str, datetime]:
-        """Patients in the archive, and since when."""
         rows = self._store.rows(select(PATIENT).where(PATIENT.c.archived != ""))
         return {str(row.id): moment(row.archived, row.added_s) for row in rows}
 

@@ -52,7 +52,6 @@ class Pin:
         self._write({"pin": str(argon2.PasswordHasher().hash(pin)), "refused": 0, "since": ""})
 
     def take_away(self) -> None:
-        """No PIN any more."""
         try:
             self._path.unlink(missing_ok=True)
         except OSError as cause:

@@ -26,7 +26,6 @@ class RetestPeople:
         ]
 
     def chosen(self) -> Sequence[str]:
-        """Identities of those who take part."""
         return self._library.patients.taking_part()
 
     def choose(self, patient_ids: Sequence[str]) -> None:

@@ -224,7 +224,6 @@ class ListedSessions:
         self._mark(session_id, archived=(now or datetime.now(UTC)).isoformat(timespec="seconds"))
 
     def bring_back(self, session_id: str) -> None:
-        """Undo :meth:`archive`."""
         self._mark(session_id, archived="")
 
     def _mark(self, session_id: str, **values: Any) -> None:

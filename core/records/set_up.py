@@ -40,7 +40,6 @@ class Course:
 
     @property
     def part(self) -> CoursePart:
-        """The exercise it has come to."""
         return self.parts[self.number]
 
 
@@ -75,7 +74,6 @@ class SetUp:
 
     @property
     def protocol(self) -> MarkerProtocol:
-        """The discs on the hand."""
         return protocol_named(self.discs) if self.discs in protocol_names() else self.exercise.protocol
 
 

@@ -75,7 +75,6 @@ class Staged:
         return aside
 
     def drop(self) -> None:
-        """Nobody wants it."""
         shutil.rmtree(self.folder, ignore_errors=True)
         self._let_go()
 

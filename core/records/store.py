@@ -113,12 +113,10 @@ class Store:
         self._database.close()
 
     def rows(self, query: Select[Any]) -> Sequence[Row[Any]]:
-        """What is stored."""
         with self._database.reading() as connection:
             return connection.execute(query).all()
 
     def row(self, query: Select[Any]) -> Row[Any] | None:
-        """The first row, None for none."""
         with self._database.reading() as connection:
             return connection.execute(query).first()
 

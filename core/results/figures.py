@@ -260,7 +260,6 @@ class SessionFigures:
 
     @property
     def counted(self) -> int:
-        """Repetitions that count."""
         return sum(repetition.counts for repetition in self.repetitions)
 
     def row(self, movement: Movement, angle: int, joint: str = "") -> RangeRow | None:

@@ -46,7 +46,6 @@ class FurtherMeasure:
 
     @property
     def count(self) -> int:
-        """How many of the values are known."""
         return sum(math.isfinite(value) for value in self.values)
 
     @property

@@ -130,7 +130,6 @@ class MeanRepetition:
 
     @property
     def known(self) -> bool:
-        """Whether there is anything to draw."""
         return bool(np.isfinite(self.mean_deg).any())
 
 

@@ -93,7 +93,6 @@ class RangeRow:
 
     @property
     def count(self) -> int:
-        """Repetitions in the mean."""
         return len(self.values_deg)
 
 

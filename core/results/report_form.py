@@ -44,7 +44,6 @@ class Letterhead:
 
     @property
     def is_set(self) -> bool:
-        """Whether there is anything to print."""
         return bool(self.name or self.address or self.logo_png)
 
 
@@ -59,7 +58,6 @@ class ReportForm:
     sentences: tuple[str, ...] = ()
 
     def has(self, section: str) -> bool:
-        """Whether a part is wanted."""
         return section not in self.left_out
 
 

@@ -247,16 +247,13 @@ class PartFile:
             self._growing.pop(field.path, None)
 
     def write_repetitions(self, repetitions: Repetitions) -> None:
-        """The table of what was counted."""
         with self._changing(len(repetitions.rows) * schema.REPETITION_DTYPE.itemsize):
             create_repetitions(self._file, self.layout, repetitions)
 
     def session(self) -> Session:
-        """What is in it so far."""
         return session_in(self.path, self._file)
 
     def seal(self) -> None:
-        """Mark it complete."""
         with self._changing(0):
             self._file.attrs.modify("complete", True)
             self._file.attrs[ATTRIBUTE] = seal_of(self._file, self._digests.known())

@@ -26,16 +26,13 @@ class Digests:
         self._rows: dict[str, int] = {}
 
     def rows(self, path: str) -> int:
-        """Rows of a dataset so far."""
         return self._rows.get(path, 0)
 
     def add(self, path: str, rows: Any) -> None:
-        """The rows that a dataset gets next."""
         self._rows[path] = self.rows(path) + len(rows)
         self._running.setdefault(path, hashlib.sha256()).update(_bytes_of(np.asarray(rows)))
 
     def known(self) -> dict[str, str]:
-        """Of each dataset so far."""
         return {path: running.hexdigest() for path, running in self._running.items()}
 
 

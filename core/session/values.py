@@ -255,7 +255,6 @@ class DetectionTable:
     fingers: tuple[NDArray[Any], NDArray[Any]] = (np.empty((0, 0)), np.empty((0, 0)))
 
     def of_frame(self, row: int) -> Detections:
-        """The blobs of one frame."""
         begin, end = np.searchsorted(self.frame, (row, row + 1))
         some = slice(int(begin), int(end))
         b = self.blobs

@@ -49,21 +49,17 @@ class StrokeWriter:
 
     @property
     def time_s(self) -> float:
-        """End of the last stroke."""
         return self._time_s[-1]
 
     @property
     def posture(self) -> FloatArray:
-        """Posture at the end of the last stroke."""
         return self._value[-1]
 
     def move(self, target: FloatArray, duration_s: float) -> None:
-        """One stroke to a posture (C,)."""
         self._time_s.append(self.time_s + max(duration_s, 1e-3))
         self._value.append(np.asarray(target, dtype=np.float64))
 
     def hold(self, duration_s: float) -> None:
-        """Stay."""
         if duration_s > 0.0:
             self.move(self.posture, duration_s)
 
@@ -111,7 +107,6 @@ class HandMotion:
         return np.asarray(own + self.habits.at(time_s, ramp)[:, :3])
 
     def joint_angles_rad(self, time_s: FloatArray) -> FloatArray:
-        """Finger joint angles, (N, J)."""
         ramp = _ramp(time_s)[:, None]
         tremor = 0.5 * self.tremor_rad * np.sin(2.0 * math.pi * self.tremor_hz * (time_s[:, None] - STILL_S) + 1.0)
         flexing = np.array([name.startswith(("MCP", "IP1")) and name.endswith("flexion") for name in self.joint_names])
@@ -123,7 +118,6 @@ class HandMotion:
         return np.asarray(own + unrest + self.habits.closing_rad(extension)[:, None] * _closing(self.joint_names))
 
     def carry_m(self, time_s: FloatArray) -> FloatArray:
-        """Displacement of the arm in W0, (N, 3)."""
         ramp = _ramp(time_s)
         own = self.carry.at(time_s) + self.sway.carry_m(time_s) * ramp[:, None]
         return np.asarray(own + self.habits.at(time_s, ramp)[:, 3:6])

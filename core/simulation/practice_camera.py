@@ -221,7 +221,6 @@ class PracticeCamera:
         self._closed = threading.Event()
 
     def frames(self) -> Iterator[Frame]:
-        """Frames until :meth:`close`."""
         for frame in self._pictures:
             if self._closed.wait(self._pause_s):
                 return

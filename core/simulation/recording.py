@@ -93,7 +93,6 @@ class SimulatedPictures:
         return self._color_sensor.expose(clean.color, i), self._depth_sensor.measure(clean.depth_m, i, clean.color)
 
     def frames(self) -> Iterator[Frame]:
-        """Frames in order, as a source would give them."""
         for i in range(len(self)):
             color, depth = self.sensed(i, self.clean(i))
             yield Frame(
@@ -314,7 +313,6 @@ class FirstPictures:
         self.info = SourceInfo(spec.cache_key, camera, True, self._count, spec.fps, {SIMULATED: "yes"})
 
     def frames(self) -> Iterator[Frame]:
-        """Drawn one after the other."""
         return islice(self._pictures.frames(), self._count)
 
     def close(self) -> None:

@@ -220,7 +220,6 @@ class HandFilter:
         self.begin_at_neutral()
 
     def begin_at_neutral(self) -> None:
-        """Start (again) from the calibrated pose, the hand at rest."""
         self._learnt, self._learnt_covariance = np.zeros(LEARNT.stop - LEARNT.start), self._calibrated
         start = resting_estimate(self._settings.initial, self._learnt_covariance)
         self.begin(start, self.motion.at_rest)

@@ -37,7 +37,6 @@ class Board:
 
     @property
     def corner_count(self) -> int:
-        """Inner corners."""
         return (self.columns - 1) * (self.rows - 1)
 
     @property
@@ -54,7 +53,6 @@ class Board:
         return np.array([[0.0, 0.0, 0.0], [w, 0.0, 0.0], [w, h, 0.0], [0.0, h, 0.0]])
 
     def name(self) -> str:
-        """As in a table."""
         facts = {"columns": self.columns, "rows": self.rows, "size": f"{self.square_m * 1e3:g}"}
         if self.pattern == "chessboard":
             return phrase("chessboard {columns} x {rows}, squares of {size} mm", **facts)

@@ -289,12 +289,10 @@ class Gathering:
 
     @property
     def views(self) -> Sequence[BoardView]:
-        """What was kept."""
         return self._views
 
     @property
     def judgement(self) -> Judgement:
-        """Whether it is enough."""
         return judge(self._views, self._camera.width_px, self._camera.height_px)
 
     def add(self, frame: Frame) -> bool:

@@ -179,22 +179,18 @@ class CardReading:
 
     @property
     def errors(self) -> FloatArray:
-        """Measured less true (6,)."""
         return np.asarray(self.measured - np.array([figure.true for figure in FIGURES]))
 
     @property
     def angle_error_deg(self) -> float:
-        """The largest of the three."""
         return float(np.abs(self.errors[:3]).max())
 
     @property
     def length_error_mm(self) -> float:
-        """The largest of the three."""
         return float(np.abs(self.errors[3:]).max())
 
     @property
     def angles_hold(self) -> bool:
-        """Whether angles are within their limit."""
         return within_angles(self.angle_error_deg, self.most_angle_deg)
 
     @property

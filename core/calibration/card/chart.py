@@ -69,12 +69,10 @@ class CardCheck:
 
     @property
     def angles_hold(self) -> bool:
-        """Whether angles are within the limit."""
         return within_angles(self.angle_error_deg, self.most_angle_deg)
 
     @property
     def lengths_hold(self) -> bool:
-        """Whether lengths are."""
         return within_lengths(self.length_error_mm, self.scale, self.most_length_mm)
 
 

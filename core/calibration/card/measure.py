@@ -109,7 +109,6 @@ class CardWatch:
 
     @property
     def done(self) -> bool:
-        """Whether it has been looked at for long enough."""
         return self._seen_s >= CHECK_S
 
     def look(self, frame: Frame) -> CardLook | None:

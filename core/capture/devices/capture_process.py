@@ -167,7 +167,6 @@ class Heard:
         self._last_s = dict.fromkeys(sensors, time.monotonic() + CAMERA_WARM_UP_S - CAMERA_SILENCE_S)
 
     def picture_of(self, sensor: Sensor) -> None:
-        """A picture came."""
         self._last_s[sensor] = time.monotonic()
 
     def check(self) -> None:
@@ -208,7 +207,6 @@ class Outlet:
         self._held += kept
 
     def send(self, report: Report) -> None:
-        """Tell the owner."""
         self._link.send(report)
         self._last_sent = time.monotonic()
 

@@ -238,22 +238,18 @@ class Context:
 
     @property
     def c(self) -> ctypes.CDLL:
-        """The raw library."""
         return self._c
 
     @property
     def version(self) -> str:
-        """Version of the library."""
         return _version_of(self._c)
 
     def check(self, call: str, status: int) -> None:
-        """Raise :class:`CallFailed` unless ``status`` is OK."""
         if status != Status.OK:
             text = self._c.oniGetExtendedError() or b""
             raise CallFailed(call, status, text.decode("utf-8", "replace").strip())
 
     def devices(self) -> list[DeviceInfo]:
-        """The devices plugged in at this moment."""
         first, count = POINTER(_DeviceInfo)(), c_int()
         self.check("oniGetDeviceList", self._c.oniGetDeviceList(byref(first), byref(count)))
         try:
@@ -311,7 +307,6 @@ class Device:
         self.streams: list[Stream] = []
 
     def info(self) -> DeviceInfo:
-        """Name, vendor and uri."""
         found = _DeviceInfo()
         self.context.check("oniDeviceGetInfo", self.context.c.oniDeviceGetInfo(self.handle, byref(found)))
         return _device_info(found)
@@ -345,11 +340,9 @@ class Device:
         return f"{found.major}.{found.minor}.{found.maintenance}.{found.build}" if status == Status.OK else ""
 
     def set_int(self, key: DeviceProperty, value: int) -> bool:
-        """Whether the device took the value."""
         return self._set(key, c_int(value))
 
     def set_float(self, key: DeviceProperty, value: float) -> bool:
-        """Whether the device took the value."""
         return self._set(key, c_float(value))
 
     def can_register(self) -> bool:
@@ -385,7 +378,6 @@ class Stream:
         self.sensor = sensor
 
     def start(self) -> None:
-        """Let pictures come."""
         self.context.check("oniStreamStart", self.context.c.oniStreamStart(self.handle))
 
     def stop(self) -> None:
@@ -393,11 +385,9 @@ class Stream:
         self.context.c.oniStreamStop(self.handle)
 
     def destroy(self) -> None:
-        """Give the stream back."""
         self.context.c.oniStreamDestroy(self.handle)
 
     def mode(self) -> VideoMode:
-        """The mode in force."""
         found = _VideoMode()
         size = c_int(ctypes.sizeof(found))
         status = self.context.c.oniStreamGetProperty(self.handle, StreamProperty.VIDEO_MODE, byref(found), byref(size))
@@ -405,7 +395,6 @@ class Stream:
         return _video_mode(found)
 
     def set_mode(self, mode: VideoMode) -> bool:
-        """Whether the stream took the mode."""
         return self._set(
             StreamProperty.VIDEO_MODE, _VideoMode(mode.pixel_format, mode.width_px, mode.height_px, mode.fps)
         )

@@ -97,7 +97,6 @@ class CaptureProcess:
 
     @property
     def pid(self) -> int | None:
-        """The process's number."""
         return self._process.pid
 
     def wait_open(self, closing: threading.Event, open_s: float) -> Opened | None:
@@ -136,7 +135,6 @@ class CaptureProcess:
         return np.ndarray((height, width), np.uint16, self._memory.buf, offset)
 
     def free(self, arrived: Arrived) -> None:
-        """The picture was copied."""
         self.tell(Free(arrived.slot))
 
     def tell(self, command: Command) -> None:
@@ -254,7 +252,6 @@ class ProcessCamera:
 
     @property
     def info(self) -> SourceInfo:
-        """Facts about the camera."""
         return self._info
 
     @property

@@ -208,11 +208,9 @@ class KinectRecording:
 
     @property
     def info(self) -> SourceInfo:
-        """Facts about the recording."""
         return self._info
 
     def frames(self) -> Iterator[Frame]:
-        """All frames from the first on."""
         if self._closing.is_set():
             return
         import av

@@ -330,7 +330,6 @@ class OniSource:
 
     @property
     def info(self) -> SourceInfo:
-        """Facts about the recording."""
         return self._info
 
     def frames(self) -> Iterator[Frame]:

@@ -126,7 +126,6 @@ class Tiled(Generic[AnyImage]):
 
     @property
     def size_px(self) -> tuple[int, int]:
-        """Width and height."""
         height, width = self._picture.shape[:2]
         return width, height
 

@@ -98,11 +98,9 @@ class RawWriter:
 
     @property
     def path(self) -> Path:
-        """The file."""
         return self._path
 
     def __len__(self) -> int:
-        """Frames written."""
         return self._count
 
     def append_frame(self, frame: Frame) -> None:
@@ -147,14 +145,12 @@ class RawWriter:
             self._file = None
 
     def abandon(self) -> None:
-        """Stop after a fault; what is on the disk stays readable."""
         if self._file is not None:
             with suppress(OSError):
                 self._file.close()
             self._file = None
 
     def discard(self) -> None:
-        """Remove the file again: nothing was recorded."""
         self.abandon()
         self._path.unlink(missing_ok=True)
 
@@ -292,7 +288,6 @@ class RawRecording:
 
     @property
     def info(self) -> SourceInfo:
-        """Facts about the recording and the camera it came from."""
         return self._info
 
     def frames(self) -> Iterator[Frame]:

@@ -118,7 +118,6 @@ class RealSenseRecording:
 
     @property
     def info(self) -> SourceInfo:
-        """Facts about the recording."""
         return self._info
 
     def frames(self) -> Iterator[Frame]:

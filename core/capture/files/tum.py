@@ -395,15 +395,12 @@ class TumWriter:
 
     @property
     def path(self) -> Path:
-        """The folder."""
         return self._path
 
     def __len__(self) -> int:
-        """Frames written."""
         return self._count
 
     def append_frame(self, frame: Frame) -> None:
-        """Store one frame; times rise strictly."""
         if frame.depth_raw is not None:
             self._store("depth", frame.timestamp_s, encode_depth(tum_depth(frame.depth_raw, frame.depth_unit_m)))
         self._store("rgb", frame.timestamp_s, encode_color(frame.color_rgb, lossless=True))
@@ -419,14 +416,12 @@ class TumWriter:
                 raise _write_fault(self._path, cause) from cause
 
     def abandon(self) -> None:
-        """Stop after a fault; what is on the disk stays readable."""
         for each in self._lists.values():
             with suppress(OSError):
                 each.close()
         self._lists = {}
 
     def discard(self) -> None:
-        """Remove the folder again: nothing was recorded."""
         self.abandon()
         shutil.rmtree(self._path, ignore_errors=True)
 
