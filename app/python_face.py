@@ -35,9 +35,8 @@ from carpus.core.formats.csv_tables import repetition_table, tables
 from carpus.core.formats.formats import FORMATS, Exported, Wanted, export_sessions
 from carpus.core.formats.provenance import provenance
 from carpus.core.hand.exercises import EXERCISES
-from carpus.core.hand.protocols import protocol_named
-from carpus.core.hand.sites import SITES
-from carpus.core.papers.settings import PaperSettings
+from carpus.core.hand.protocols import SITES, protocol_named
+from carpus.core.papers.chain import PaperSettings
 from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, pipeline_of, track_recording
 from carpus.core.results.camera_said import camera_of
 from carpus.core.results.figures import SessionFigures, session_figures

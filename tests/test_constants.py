@@ -22,7 +22,7 @@ NO_CHOICE = {
         "tracking/joint_limits._WIDE",
         "tracking/kernel._LEAST_PROBABILITY",
         "tracking/palm_state._HARDLY_M",
-        "tracking/palm_view.FLOOR",
+        "tracking/palm_state.FLOOR",
         "tracking/digit_filter.FLOOR",
         "tracking/reacquire._LOOSE_M2",
         "tracking/predicted_measurement._FLOOR_M",
@@ -99,7 +99,7 @@ NO_CHOICE = {
     },
     "a unit: noise is told per sample at 30 Hz": {"tracking/motion.REFERENCE_DT_S"},
     "where a number stands among others": {
-        "calibration/back._CORNERS",
+        "calibration/still_depth._CORNERS",
         "calibration/name_checks._THUMB",
         "tracking/finger_depth.FLEXION",
         "tracking/hand_geometry.DISCS",

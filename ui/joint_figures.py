@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.hand.sites import joint_discs
+from carpus.core.hand.protocols import MarkerProtocol, joint_discs
 from carpus.core.measures.fingers import possible_joints
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.ui.figures import FIGURES, Figure

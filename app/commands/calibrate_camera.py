@@ -80,7 +80,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
         write_calibration,
     )
     from carpus.core.calibration.camera.views import Gathering
-    from carpus.core.capture.given_name import keep_name
+    from carpus.core.capture.calibrated import keep_name
     from carpus.core.dates import is_moment
     from carpus.core.errors import OutputExists
 
@@ -127,8 +127,8 @@ def _source(recording: Path | None) -> FrameSource:
 
         return open_recording(recording, need_depth=False, leave_out_damaged=True, notice=tell)
     from carpus.app.settings import load_settings
+    from carpus.core.capture.calibrated import with_given_name
     from carpus.core.capture.devices.cameras import open_camera
-    from carpus.core.capture.given_name import with_given_name
 
     settings = load_settings()
     return with_given_name(open_camera(settings.camera.uri, notice=tell), settings.data_folder)

@@ -58,6 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _check(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
+    from carpus.core.calibration.card.card import measure_card
     from carpus.core.calibration.card.chart import (
         add_check,
         before,
@@ -67,8 +68,7 @@ def _check(arguments: argparse.Namespace) -> int:
         sentence_of,
         verdict_of,
     )
-    from carpus.core.calibration.card.measure import measure_card
-    from carpus.core.capture.given_name import keep_name
+    from carpus.core.capture.calibrated import keep_name
     from carpus.core.dates import is_moment, iso
 
     data_folder = load_settings().data_folder
@@ -135,9 +135,8 @@ def _source(recording: Path | None, data_folder: Path) -> FrameSource:
 
         return open_recording(recording, leave_out_damaged=True, data_folder=data_folder, notice=tell)
     from carpus.app.settings import load_settings
-    from carpus.core.capture.calibrated import with_stored_calibration
+    from carpus.core.capture.calibrated import with_given_name, with_stored_calibration
     from carpus.core.capture.devices.cameras import open_camera
-    from carpus.core.capture.given_name import with_given_name
 
     live = with_given_name(open_camera(load_settings().camera.uri, notice=tell), data_folder)
     return with_stored_calibration(live, data_folder)

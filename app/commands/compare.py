@@ -12,7 +12,7 @@ from pathlib import Path
 from carpus import __version__
 from carpus.app.command_line import number
 from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S
-from carpus.core.hand.sites import SITES
+from carpus.core.hand.protocols import SITES
 from carpus.core.names import known_names
 
 EXAMPLE = "carpus compare session.h5 reference.c3d --output out/agreement"

@@ -13,11 +13,10 @@ from pathlib import Path
 
 from carpus.app.command_line import CAMERA_HELP, bar, camera_address, number, tell
 from carpus.app.settings import load_settings
-from carpus.core.capture.calibrated import with_stored_calibration
+from carpus.core.capture.calibrated import with_given_name, with_stored_calibration
 from carpus.core.capture.devices.cameras import open_camera
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.files.tum import TumWriter
-from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.source import FrameSource, recorded_at
 from carpus.core.dates import iso
 from carpus.core.errors import OutputExists

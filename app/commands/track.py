@@ -25,7 +25,7 @@ from carpus.core.errors import IntrinsicsAssumed, NameUnsuited, RecordingMissing
 from carpus.core.hand.exercises import EXERCISES
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.names import name_of
-from carpus.core.papers.settings import PaperSettings
+from carpus.core.papers.chain import PaperSettings
 from carpus.core.pipeline.live import Listener
 from carpus.core.pipeline.told_settings import Told, differences, settings_told
 from carpus.core.pipeline.track import TrackReport, TrackSettings, retrack_session, track_recording

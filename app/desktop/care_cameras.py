@@ -9,10 +9,9 @@ from pathlib import Path
 from carpus.app.settings import Settings
 from carpus.core.calibration.camera.board import Board
 from carpus.core.calibration.card.chart import Standing, known_serials, standing_of
-from carpus.core.capture.calibrated import stored_calibration, with_stored_calibration
+from carpus.core.capture.calibrated import keep_name, stored_calibration, with_given_name, with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.devices.cameras import name_to_open, open_camera
-from carpus.core.capture.given_name import keep_name, with_given_name
 from carpus.core.capture.source import FrameSource, Notice
 from carpus.core.pipeline.live import LiveSession
 

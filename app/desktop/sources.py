@@ -22,10 +22,9 @@ from carpus.core.calibration.candidates import disc_at, marker_candidates, snapp
 from carpus.core.calibration.naming import propose_names
 from carpus.core.calibration.result import ALL_STRAIGHT, Calibration, Clicks
 from carpus.core.camera import Camera
-from carpus.core.capture.calibrated import with_stored_calibration
+from carpus.core.capture.calibrated import with_given_name, with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.devices.cameras import open_camera
-from carpus.core.capture.given_name import with_given_name
 from carpus.core.capture.paced import PacedSource, PracticeSource
 from carpus.core.capture.source import FrameSource, is_simulated
 from carpus.core.detection.appearance import expected_radius_px

@@ -24,7 +24,7 @@ from carpus.core.agreement.reference import Reference
 from carpus.core.agreement.statistics import FEWEST, Agreement, agreement
 from carpus.core.errors import ReferenceUnsuited
 from carpus.core.hand.clinical_angles import angles_from_rotation, rotation_from_angles
-from carpus.core.hand.sites import PALM_MARKERS, WRIST_ANGLES
+from carpus.core.hand.protocols import PALM_MARKERS, WRIST_ANGLES
 from carpus.core.measures.signals import Signal, low_pass
 from carpus.core.phrase import phrase
 from carpus.core.results.figures import SessionFigures

@@ -15,7 +15,7 @@ import numpy as np
 from carpus.core.errors import ReferenceUnreadable
 from carpus.core.formats.c3d_read import read_c3d
 from carpus.core.formats.opensim_read import Columns, read_mot, read_trc, text_of
-from carpus.core.hand.sites import SITES, WRIST_ANGLES, joint_angle_names
+from carpus.core.hand.protocols import SITES, WRIST_ANGLES, joint_angle_names
 from carpus.core.phrase import phrase
 from carpus.core.results.seen import best_motion
 from carpus.core.session.reader import read_session

@@ -20,7 +20,7 @@ import scipy
 
 from carpus.core.agreement.statistics import Interval, icc_2_1, icc_3_1
 from carpus.core.formats.new_output import new_table
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import FEWEST_PEOPLE, MDC95_FACTOR, ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Comparison, Verdict, newest_results, progress, unfair_reasons

@@ -10,13 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.assignment import linear_sum_assignment
-from carpus.core.calibration.back import surface_of
 from carpus.core.calibration.candidates import is_paper, marker_candidates
 from carpus.core.calibration.name_checks import looks_like_other_side, misnamed, odd_disc, plan_view, shifted_names
 from carpus.core.calibration.neutral_pose import pose_by_least_squares
-from carpus.core.calibration.registration import depth_offset_px
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, FindingKind, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.calibration.still_depth import depth_offset_px, surface_of
 from carpus.core.camera import Camera
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.detection.appearance import MarkerAppearance, expected_radius_px, learn_appearance, to_hsv

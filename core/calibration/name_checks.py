@@ -19,8 +19,7 @@ from numpy.typing import NDArray
 
 from carpus.core.hand.anatomy import REFERENCE_LENGTH_M, anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.hand.sites import PALM_MARKERS
+from carpus.core.hand.protocols import PALM_MARKERS, MarkerProtocol
 from carpus.core.types import FloatArray, Side
 
 _THUMB = 1

@@ -20,8 +20,7 @@ from carpus.core.calibration.name_checks import PalmNameSettings, average_palm, 
 from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.hand.sites import SITES, joint_angle_names
+from carpus.core.hand.protocols import SITES, MarkerProtocol, joint_angle_names
 from carpus.core.types import Detections, FloatArray, Side
 
 IntArray = NDArray[np.int64]

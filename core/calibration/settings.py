@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from carpus.core.calibration.back import BackSettings
 from carpus.core.calibration.candidates import CandidateSettings
 from carpus.core.calibration.name_checks import FingerOrderSettings, OddDiscSettings, PalmNameSettings, SideSettings
 from carpus.core.calibration.naming import NamingSettings
-from carpus.core.calibration.registration import RegistrationSettings
+from carpus.core.calibration.still_depth import BackSettings, RegistrationSettings
 
 
 @dataclass(frozen=True, slots=True)

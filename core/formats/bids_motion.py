@@ -18,10 +18,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from carpus.core.errors import OutputExists
-from carpus.core.formats.deidentify import DAY_NOUGHT
 from carpus.core.formats.new_output import new_json, new_table, new_text
+from carpus.core.formats.provenance import DAY_NOUGHT
 from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, About, Take, measured, number, rate_of
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from carpus.core.formats.new_output import new_json, new_table
 from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.by_hand import COLUMNS, rows_of
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.measures_table import MEASURE_COLUMNS, SessionFigure, measure_rows, positive_of

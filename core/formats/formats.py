@@ -21,9 +21,8 @@ from dataclasses import dataclass, field, replace
 from datetime import date
 
 from carpus.core.errors import CarpusFault, OutputNotWritable
-from carpus.core.formats.deidentify import Deidentification
 from carpus.core.formats.new_output import new_text
-from carpus.core.formats.provenance import LEGAL, provenance
+from carpus.core.formats.provenance import LEGAL, Deidentification, provenance
 from carpus.core.formats.take import Take, about
 from carpus.core.measures.by_hand import HandValue, of_session
 from carpus.core.results.camera_said import camera_of

@@ -13,7 +13,7 @@ import numpy as np
 
 from carpus.core.formats.new_output import new_bytes, new_json
 from carpus.core.formats.take import ANGLES_MEAN, Take
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.results.measures_table import positive_of
 from carpus.core.session.values import Motion, Session
 

@@ -1,15 +1,19 @@
-"""What every export says of itself: of which session, by which program, from which recording, camera and settings."""
+"""What every export says of itself (of which session, by which program, from which recording, camera and settings), and
+sessions that lead back to nobody (clinical reference 8.5): new random names, days counted, no texts."""
 
 from __future__ import annotations
 
 import json
+import secrets
+import uuid
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, field, replace
 from datetime import UTC, datetime
 from typing import Any
 
 from carpus.core import provenance as made_by
-from carpus.core.session.values import Session
+from carpus.core.hand.exercises import EXERCISES
+from carpus.core.session.values import SET_UP, Event, Session, SessionHeader, SessionOutline
 
 LEGAL = (
     "For research and education. Not a medical device, not CE-marked or FDA-cleared; values support, and do not "
@@ -67,3 +71,91 @@ def provenance(
 def _part(parameters: Mapping[str, Any], name: str) -> Mapping[str, Any]:
     part = parameters.get(name)
     return part if isinstance(part, Mapping) else {}
+
+
+DAY_NOUGHT = datetime(1900, 1, 1, tzinfo=UTC)
+"""Day of a patient's first session; BIDS marks a shifted date by a year before 1925."""
+_SET_UP_KEPT = ("targets_deg", "repetitions", "ends_free")
+_LEARNT_TIME = "neutral_ends_s"
+
+
+@dataclass(slots=True)
+class Deidentification:
+    """New names for one export; the same patient and recording get the same ones, and no list of them is kept."""
+
+    _subjects: dict[str, str] = field(default_factory=dict)
+    _ids: dict[str, str] = field(default_factory=dict)
+    _first_day: dict[str, datetime] = field(default_factory=dict)
+    _names: dict[str, int] = field(default_factory=dict)
+
+    def know(self, outline: SessionOutline) -> None:
+        """Told of every session before the first is written, so that days count from the earliest."""
+        header = outline.header
+        if header.recorded:
+            day = _day(header.recorded)
+            self._first_day[header.subject_id] = min(day, self._first_day.get(header.subject_id, day))
+
+    def session(self, session: Session) -> Session:
+        """The same movement of nobody: times from nought, no text that a person wrote, nothing of the device."""
+        start_s = float(session.timestamp_s[0]) if len(session) else 0.0
+        return replace(
+            session,
+            header=self._header(session.header, start_s),
+            timestamp_s=session.timestamp_s - start_s,
+            events=tuple(
+                Event(event.time_s - start_s, event.kind, event.text if event.text.isdigit() else "")
+                for event in session.events
+            ),
+            recovered="",
+            repetitions=None,  # counted again where they are asked for
+        )
+
+    def name(self, header: SessionHeader) -> str:
+        """A file name from a header that is de-identified already."""
+        day = f"day{(_day(header.recorded) - DAY_NOUGHT).days:04d}" if header.recorded else "day"
+        stem = f"{header.subject_id}_{day}"
+        self._names[stem] = self._names.get(stem, 0) + 1
+        return f"{stem}_{self._names[stem]}"
+
+    def _header(self, header: SessionHeader, start_s: float) -> SessionHeader:
+        recorded = ""
+        if header.recorded:
+            day = _day(header.recorded)
+            offset = day - self._first_day.setdefault(header.subject_id, day)
+            recorded = (DAY_NOUGHT + offset).isoformat(timespec="seconds")
+        known = {exercise.id for exercise in EXERCISES}
+        return replace(
+            header,
+            session_id=self._id(header.session_id),
+            recording_id=self._id(header.recording_id),
+            subject_id=self._subjects.setdefault(header.subject_id, f"S{secrets.token_hex(4)}"),
+            recorded=recorded,
+            created=recorded or DAY_NOUGHT.isoformat(timespec="seconds"),
+            exercise=header.exercise if header.exercise in known else "",
+            origin="",
+            parameters=_parameters(header.parameters, start_s),
+        )
+
+    def _id(self, old: str) -> str:
+        return self._ids.setdefault(old, str(uuid.uuid4()))
+
+
+def _day(moment: str) -> datetime:
+    """The day on the clinic's clock, whatever its zone."""
+    return datetime.fromisoformat(moment).replace(hour=0, minute=0, second=0, microsecond=0, tzinfo=UTC)
+
+
+def _parameters(text: str, start_s: float) -> str:
+    told: Any = json.loads(text)
+    told = told if isinstance(told, dict) else {}
+    kept: dict[str, Any] = {}
+    if isinstance(told.get("settings"), dict):
+        kept["settings"] = told["settings"]
+    if isinstance(learnt := told.get("learnt"), dict):
+        kept["learnt"] = dict(learnt)
+        if isinstance(learnt.get(_LEARNT_TIME), (int, float)):
+            kept["learnt"][_LEARNT_TIME] = learnt[_LEARNT_TIME] - start_s
+    for part, names in (("source", OF_NO_ONE), (SET_UP, _SET_UP_KEPT), ("provenance", ("revision",))):
+        if isinstance(told.get(part), dict):
+            kept[part] = {name: told[part][name] for name in names if name in told[part]}
+    return json.dumps(kept, sort_keys=True)

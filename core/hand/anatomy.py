@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.hand.clinical_angles import wrist_axes
-from carpus.core.hand.sites import PALM_SITES, SITES
+from carpus.core.hand.protocols import PALM_SITES, SITES
 from carpus.core.types import FloatArray, Side
 
 BREADTH_SHARE = 0.45

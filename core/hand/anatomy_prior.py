@@ -15,7 +15,7 @@ import numpy as np
 
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.kinematics import DIP_PER_PIP, finger_discs, thumb_discs
-from carpus.core.hand.sites import PALM_SITES
+from carpus.core.hand.protocols import PALM_SITES
 from carpus.core.types import FloatArray, Side
 
 DIGIT_CONSTANTS = (

@@ -7,8 +7,7 @@ from dataclasses import KW_ONLY, dataclass
 from typing import Literal
 
 from carpus.core.hand import protocols
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.hand.sites import DIGITS
+from carpus.core.hand.protocols import DIGITS, MarkerProtocol
 from carpus.core.phrase import Phrase, phrase
 
 DEVIATION, FLEXION, PRONOSUPINATION = 0, 1, 2

@@ -26,7 +26,7 @@ from carpus.core.hand.anatomy_prior import (
     thumb_model,
     with_constants,
 )
-from carpus.core.hand.sites import PALM_SITES, SITES
+from carpus.core.hand.protocols import PALM_SITES, SITES
 from carpus.core.types import FloatArray, Side
 
 

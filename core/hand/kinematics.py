@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.hand.anatomy import HandAnatomy
-from carpus.core.hand.sites import PALM_SITES, SITES
+from carpus.core.hand.protocols import PALM_SITES, SITES
 from carpus.core.types import FloatArray
 
 DIP_PER_PIP = 2.0 / 3.0

@@ -1,4 +1,4 @@
-/* What the camera should see of the palm, and the palm after an update: palm_view.py and association.py in C. */
+/* What the camera should see of the palm, and the palm after an update: palm_state.py and association.py in C. */
 #include "algebra.h"
 #include "filter.h"
 #include "kernels.h"

@@ -4,7 +4,7 @@
 
 enum { POSITION = 0, VELOCITY = 3, TURN = 6, RATE = 9, SHAPE = 12, BACK = 30, SKIN = 33, RELIEF = 51, SIZE = 54, DISCS = 6 };
 
-/* What is fixed about how a camera sees a palm, in one row: palm_view.py, View. */
+/* What is fixed about how a camera sees a palm, in one row: palm_state.py, View. */
 enum {
     FX, FY, CX, CY, IMAGE, SHIFT = IMAGE + 9, INTO_CAMERA = SHIFT + 3, CAMERA_AT = INTO_CAMERA + 9, PATCH = CAMERA_AT + 3,
     READING_FIXED, READING_SQUARE, STAYS_FIXED, STAYS_SQUARE, STAYS_PX, AVERAGES, PALM, HIDDEN = PALM + 3 * DISCS, VIEW = HIDDEN + 3 * DISCS * DISCS

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from carpus.core.hand.anatomy import HARD_LIMITS_RAD
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.sites import joint_discs
+from carpus.core.hand.protocols import joint_discs
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD, MotionRange, RangeFigure, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ
 from carpus.core.measures.repetitions import Repetition

@@ -26,9 +26,8 @@ from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
-from carpus.core.hand.sites import SITES, joint_angle_names, joint_discs
-from carpus.core.papers.chain import hand_measured
-from carpus.core.papers.settings import PaperSettings
+from carpus.core.hand.protocols import SITES, joint_angle_names, joint_discs
+from carpus.core.papers.chain import PaperSettings, hand_measured
 from carpus.core.tracking.unscented import Spread, deviations, weights_for
 from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 

@@ -14,8 +14,7 @@ import numpy as np
 
 from carpus.core.calibration.result import Clicks
 from carpus.core.errors import ExtraMissing
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES, MarkerProtocol
 from carpus.core.types import Side, TrackedFrame
 
 NAME, EVENTS_NAME = "Carpus", "CarpusEvents"

@@ -24,8 +24,7 @@ from carpus.core.depth_sensor import ASSUMED
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.errors import DiskFull, OutputExists, PictureDamaged, RecordingEmpty
-from carpus.core.papers.chain import as_written, by_the_discs
-from carpus.core.papers.settings import PaperSettings
+from carpus.core.papers.chain import PaperSettings, as_written, by_the_discs
 from carpus.core.papers.tracker import PaperTracker
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.frame_pipeline import FramePipeline, HandTracker, Seen, answers_in, notes_in

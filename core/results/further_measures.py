@@ -11,7 +11,7 @@ import numpy as np
 
 from carpus.core.hand.clinical_angles import side_sign
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.sites import DIGITS
+from carpus.core.hand.protocols import DIGITS
 from carpus.core.measures.fingers import JointTrack
 from carpus.core.measures.forearm import rotation_in_place
 from carpus.core.measures.reach import TIP_NOISE, WRIST_NOISE, Reach, distance_m, find_reaches

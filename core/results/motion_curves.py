@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.hand.clinical_angles import isb_from_rotation, zyz_with_sd
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.fingers import bending_weights
 from carpus.core.measures.forearm import rotation_in_place
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.hand.exercises import SIDES, Exercise, Movement
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.measures.change import (
     ARC_LIMIT_FACTOR,

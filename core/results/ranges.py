@@ -15,7 +15,7 @@ import numpy as np
 from carpus.core import so3
 from carpus.core.hand.clinical_angles import angle_rates_matrix, isb_from_rotation
 from carpus.core.hand.exercises import SIDES, Exercise, Movement
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import joint_angle_names
 from carpus.core.measures.fingers import FINGERS, JointTrack, TotalMotion, joint_range, total_active_motion
 from carpus.core.measures.motion_range import RangeFigure, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.fingers import joint_range
 from carpus.core.measures.motion_range import LEAST_VALID_SHARE, MotionRange, motion_range
 from carpus.core.measures.noise import HIGHEST_CUTOFF_HZ

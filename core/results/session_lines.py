@@ -17,7 +17,7 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.depth_sensor import ASSUMED, DepthSensor
 from carpus.core.hand.exercises import SIDES
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.results.camera_said import camera_of
 from carpus.core.results.figures import session_figures
 from carpus.core.results.ranges import is_total

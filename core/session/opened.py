@@ -21,9 +21,8 @@ from carpus.core.hand.back_surface import BackSurface
 from carpus.core.hand.protocols import protocol_named
 from carpus.core.phrase import phrase
 from carpus.core.session import schema
-from carpus.core.session.plain_file import check_plain
 from carpus.core.session.plausible import LONGEST_S, check_blobs, check_header, check_values
-from carpus.core.session.rows import Rows, rows_of, whole_rows
+from carpus.core.session.rows import Rows, check_plain, rows_of, whole_rows
 from carpus.core.session.schema import Field, TableLayout
 from carpus.core.session.seal import ATTRIBUTE, seal_of
 from carpus.core.session.values import (

@@ -12,8 +12,7 @@ import h5py
 import numpy as np
 
 from carpus.core.hand.back_surface import TABLE_ROWS
-from carpus.core.hand.protocols import MarkerProtocol, protocol_names
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES, MarkerProtocol, protocol_names
 from carpus.core.types import FINGER_READINGS, SURFACE_READINGS
 
 FORMAT = "carpus-session"

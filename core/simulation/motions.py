@@ -13,7 +13,7 @@ from collections.abc import Callable
 import numpy as np
 
 from carpus.core.errors import SettingsInvalid
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import joint_angle_names
 from carpus.core.simulation.hand_motion import STILL_S, HandMotion, StrokeWriter, drawn_habits, drawn_sway
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.types import FloatArray

@@ -12,8 +12,7 @@ import numpy as np
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.clinical_angles import wrist_axes
 from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.hand.sites import PALM_SITES, SITES
+from carpus.core.hand.protocols import PALM_SITES, SITES, MarkerProtocol
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.types import FloatArray
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
 from carpus.core.hand.kinematics import SEGMENTS
-from carpus.core.hand.sites import PALM_SITES
+from carpus.core.hand.protocols import PALM_SITES
 from carpus.core.simulation.appearance import Appearance, appearance_of
 from carpus.core.simulation.scene import HandPose, Scene
 from carpus.core.simulation.skin import Cones, Part

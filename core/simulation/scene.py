@@ -12,12 +12,11 @@ from carpus.core.camera import Camera
 from carpus.core.depth_sensor import SENSORS
 from carpus.core.hand.clinical_angles import rotation_from_angles, side_sign, wrist_axes
 from carpus.core.hand.kinematics import SegmentFrames, disc_centres, joint_centres, segment_frames
-from carpus.core.hand.sites import PALM_SITES
-from carpus.core.simulation.hand_motion import HandMotion
+from carpus.core.hand.protocols import PALM_SITES
+from carpus.core.simulation.hand_motion import HandMotion, TissueMovement, TissueState, tissue_of
 from carpus.core.simulation.motions import motion_of
 from carpus.core.simulation.patient import Patient, patient_of, widened
 from carpus.core.simulation.skin import Cones, HandSkin, joined, on_surface
-from carpus.core.simulation.soft_tissue import TissueMovement, TissueState, tissue_of
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.types import FloatArray
 

@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from carpus.core import so3
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import SEGMENTS, disc_centres, segment_frames
-from carpus.core.hand.sites import PALM_SITES
+from carpus.core.hand.protocols import PALM_SITES
+from carpus.core.simulation.hand_motion import TissueState
 from carpus.core.simulation.patient import WRIST_JOINT_DEPTH_M, Patient
-from carpus.core.simulation.soft_tissue import TissueState
 from carpus.core.types import FloatArray
 
 

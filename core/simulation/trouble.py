@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.hand.sites import PALM_MARKERS
+from carpus.core.hand.protocols import PALM_MARKERS
 from carpus.core.simulation.hand_motion import STILL_S
 from carpus.core.simulation.patient import DISC_RADIUS_M
 from carpus.core.simulation.scene import Scene

@@ -28,8 +28,7 @@ from carpus.core.tracking.hand_geometry import (
     digit_joints_m,
     direct_markers,
 )
-from carpus.core.tracking.palm_state import PalmEstimate
-from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.palm_state import PalmEstimate, View
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray

@@ -14,8 +14,7 @@ from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
 from carpus.core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.hand.sites import DIGITS, SITES
+from carpus.core.hand.protocols import DIGITS, SITES, MarkerProtocol
 from carpus.core.kernels.choice import NOTHING, Kernels, in_c
 from carpus.core.tracking.digit_filter import (
     DIGIT_SIZE,

@@ -42,9 +42,10 @@ from carpus.core.tracking.palm_state import (
     TURN,
     InitialSd,
     PalmEstimate,
+    View,
+    error_reset,
     resting_estimate,
 )
-from carpus.core.tracking.palm_view import View, error_reset
 from carpus.core.tracking.predicted_measurement import (
     MarkerOrder,
     PredictedMeasurement,

@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 from carpus.core import so3
 from carpus.core.calibration.result import Calibration
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.hand.sites import DIGITS, PALM_MARKERS, joint_discs
+from carpus.core.hand.protocols import DIGITS, PALM_MARKERS, MarkerProtocol, joint_discs
 from carpus.core.types import FloatArray, Side
 
 CHAINS, SLOTS, CONSTANTS = 5, 5, 11

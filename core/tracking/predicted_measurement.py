@@ -18,8 +18,18 @@ from carpus.core.tracking.digit_filter import DigitPoints, DigitView
 from carpus.core.tracking.hand_geometry import CHAINS, DISCS, PalmInBody
 from carpus.core.tracking.kernel import Linearisation, ModeMixture, like, partial_update
 from carpus.core.tracking.motion import PalmMotion, palm_ahead
-from carpus.core.tracking.palm_state import LEARNT, PALM_DISCS, POSE, SIZE, PalmEstimate
-from carpus.core.tracking.palm_view import ABOUT, COMPONENTS, FLOOR, View, palm_linearised
+from carpus.core.tracking.palm_state import (
+    ABOUT,
+    COMPONENTS,
+    FLOOR,
+    LEARNT,
+    PALM_DISCS,
+    POSE,
+    SIZE,
+    PalmEstimate,
+    View,
+    palm_linearised,
+)
 from carpus.core.tracking.settings import MeasurementNoise, TrackerSettings
 from carpus.core.tracking.soft_tissue import DigitSpeeds
 from carpus.core.tracking.unscented import Spread, weights_for

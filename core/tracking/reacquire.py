@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from carpus.core import so3
 from carpus.core.tracking.association import most_chi2
-from carpus.core.tracking.palm_state import POSE
-from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.palm_state import POSE, View
 from carpus.core.types import Detections, FloatArray
 
 

@@ -19,8 +19,7 @@ from carpus.core.hand import clinical_angles
 from carpus.core.hand.clinical_angles import wrist_axes_sensitivity
 from carpus.core.kernels.choice import NOTHING, Kernels, in_c
 from carpus.core.tracking.hand_geometry import CHAINS, NO_CUP, JointMoment, PalmInBody
-from carpus.core.tracking.palm_state import PALM_DISCS, POSE, SHAPE, SIZE, SKIN, TURN, PalmEstimate
-from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.palm_state import PALM_DISCS, POSE, SHAPE, SIZE, SKIN, TURN, PalmEstimate, View
 from carpus.core.tracking.soft_tissue import LOOSE
 from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 

@@ -10,7 +10,7 @@ from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.finger_smoother import FingerStart, FingerStep, SmoothedFingers, smoothed_fingers
 from carpus.core.tracking.motion import PalmMotion
 from carpus.core.tracking.palm_smoother import FilterStep, smoothed_palm
-from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.palm_state import View
 from carpus.core.tracking.readout import Readout
 from carpus.core.types import Moment
 

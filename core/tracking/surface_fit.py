@@ -15,8 +15,7 @@ from carpus.core import so3
 from carpus.core.hand.back_surface import BackSurface
 from carpus.core.kernels.choice import NOTHING, in_c
 from carpus.core.tracking.kernel import Linearisation, ModeMixture, corrected, like
-from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate
-from carpus.core.tracking.palm_view import View, error_reset
+from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate, View, error_reset
 from carpus.core.types import FloatArray, SurfaceSamples
 
 _KEPT = np.array([0, 1, 5])

@@ -15,8 +15,7 @@ from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Motion, motion_of

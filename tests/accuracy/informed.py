@@ -17,8 +17,7 @@ from carpus.core.tracking.kernel import ModeMixture, mixed, transitioned
 from carpus.core.tracking.motion import PalmMotion, palm_transition, slowing
 from carpus.core.tracking.palm_association import Measurements, update
 from carpus.core.tracking.palm_smoother import FilterStep, smoothed_palm
-from carpus.core.tracking.palm_state import SIZE, TURN, PalmEstimate, resting_estimate
-from carpus.core.tracking.palm_view import View, error_reset
+from carpus.core.tracking.palm_state import SIZE, TURN, PalmEstimate, View, error_reset, resting_estimate
 from carpus.core.tracking.predicted_measurement import predicted_measurement
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import always_pushed

@@ -18,8 +18,7 @@ from threadpoolctl import threadpool_limits
 from tqdm import tqdm
 
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.papers.chain import PalmModel, as_written
-from carpus.core.papers.settings import PaperSettings
+from carpus.core.papers.chain import PalmModel, PaperSettings, as_written
 from carpus.core.papers.tracker import PaperTracker
 from carpus.core.pipeline.track import from_neutral
 from carpus.core.simulation.spec import RecordingSpec

@@ -20,7 +20,7 @@ from carpus.core.agreement.reference import GoniometerReading, Reference, read_r
 from carpus.core.errors import ReferenceUnreadable, ReferenceUnsuited
 from carpus.core.formats import c3d_write, mot, trc
 from carpus.core.formats.c3d_read import read_c3d
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.results.figures import session_figures
 from carpus.core.session.values import Session
 from tests.formats.takes import take_of

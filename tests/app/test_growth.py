@@ -19,8 +19,7 @@ from carpus.app.desktop.journey import PLACES
 from carpus.core.capture.devices.cameras import CAMERAS, camera_kind, kind_of
 from carpus.core.formats.formats import FORMATS
 from carpus.core.hand.exercises import EXERCISES, exercise_named, exercises_of
-from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_names
-from carpus.core.hand.sites import PALM_MARKERS
+from carpus.core.hand.protocols import PALM_MARKERS, PROTOCOLS, MarkerProtocol, protocol_names
 from carpus.core.simulation.motions import MOTIONS
 from carpus.ui.export.sheet import NAMES
 from tests.sources import ROOT, nodes

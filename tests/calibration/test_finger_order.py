@@ -10,8 +10,7 @@ import pytest
 from carpus.core.calibration.name_checks import FingerOrderSettings, misnamed, plan_view
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import truth_of

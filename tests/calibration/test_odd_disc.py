@@ -11,7 +11,7 @@ from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate
 from carpus.core.calibration.name_checks import OddDiscSettings, average_palm, odd_disc
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.hand.sites import PALM_MARKERS
+from carpus.core.hand.protocols import PALM_MARKERS
 from carpus.core.types import FloatArray, Side
 from tests.calibration.still_hands import Scene, clicks_on, frames_of
 from tests.detection.pictures import CAMERA, PAPERS, SKIN, Extra

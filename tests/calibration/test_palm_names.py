@@ -9,8 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from carpus.core.calibration.name_checks import PalmNameSettings, shifted_names
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import PALM_MARKERS
+from carpus.core.hand.protocols import HAND21, PALM_MARKERS
 from carpus.core.types import Side
 from tests.calibration.test_plausibility import seen_plan
 

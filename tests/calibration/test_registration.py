@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.calibrate import calibrate
-from carpus.core.calibration.registration import RegistrationSettings, depth_offset_px
 from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.calibration.still_depth import RegistrationSettings, depth_offset_px
 from carpus.core.detection.appearance import learn_appearance
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.simulation.recording import SimulatedPictures, clicks_of

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.capture.given_name import keep_name, with_given_name
+from carpus.core.capture.calibrated import keep_name, with_given_name
 from carpus.core.capture.source import SERIAL, SourceInfo
 from carpus.core.errors import OutputNotWritable
 from carpus.core.types import Frame

@@ -14,8 +14,7 @@ import pytest
 from carpus.core.errors import OutputExists
 from carpus.core.formats import bids_motion, csv_tables, json_measures, mot, trc
 from carpus.core.formats.formats import Wanted, export_sessions
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import HAND21, WRIST_ANGLES
 from carpus.core.session.reader import read_session
 from carpus.core.types import TrackStatus
 from tests.formats.takes import hand_take, stopping, stored, take_of, wrist_take

@@ -9,8 +9,7 @@ import pytest
 
 from carpus.core.hand.anatomy import anatomy_from_size, palm_axes
 from carpus.core.hand.clinical_angles import wrist_axes
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import PALM_MARKERS
+from carpus.core.hand.protocols import HAND21, PALM_MARKERS
 
 
 def test_flat_hand_without_offsets_is_the_chain_of_the_papers() -> None:

@@ -14,8 +14,7 @@ from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.anatomy_prior import AnatomyPrior, constants_of, with_constants
 from carpus.core.hand.fitting import AnatomyFit, SeenDiscs, fit_anatomy
 from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.types import FloatArray, Side
 
 NAMES = joint_angle_names()

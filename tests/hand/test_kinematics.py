@@ -9,8 +9,7 @@ import pytest
 
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.kinematics import DIP_PER_PIP, SEGMENTS, disc_centres, joint_centres, segment_frames
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.types import FloatArray, Side
 
 # Reference 3.4: HL 180, HB 80, no offsets, millimetres, right hand.

@@ -16,8 +16,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.compose import Desktop, application, compose
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.pipeline.frame_pipeline import NOT_LOOKED_BACK
 from carpus.core.pipeline.track import retrack_session
 from carpus.core.records.set_up import PRACTICE_PATIENT

@@ -27,8 +27,7 @@ from carpus.core.tracking.hand_geometry import palm_of
 from carpus.core.tracking.joint_limits import LimitSettings, settled
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.palm_association import Measurements
-from carpus.core.tracking.palm_state import SHAPE, SIZE, PalmEstimate
-from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.palm_state import SHAPE, SIZE, PalmEstimate, View
 from carpus.core.tracking.predicted_measurement import PredictedDigits
 from carpus.core.tracking.readout import Readout, ReadoutSettings
 from carpus.core.tracking.settings import TrackerSettings

@@ -17,8 +17,7 @@ from carpus.core.tracking.association import AssociationSettings, log_odds
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.tracking.motion import MotionNoise, PalmMotion
 from carpus.core.tracking.palm_association import Measurements, associate_and_update, measurements_of
-from carpus.core.tracking.palm_state import BACK, RELIEF, SIZE, PalmEstimate
-from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.palm_state import BACK, RELIEF, SIZE, PalmEstimate, View
 from carpus.core.tracking.predicted_measurement import (
     PredictedMeasurement,
     adapted_factor,

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from carpus.core.hand.sites import WRIST_ANGLES, joint_angle_names
+from carpus.core.hand.protocols import WRIST_ANGLES, joint_angle_names
 from carpus.core.measures.change import MeasuredLimit, MeasuredMean, RetestStudy, change_between, change_limit_rad
 
 BEFORE = MeasuredMean(math.radians(40.0), 5, "right", "wrist6", "WRIST_FE")

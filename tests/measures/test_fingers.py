@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.measures.fingers import (
     JointTrack,
     joint_range,

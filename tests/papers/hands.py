@@ -12,7 +12,7 @@ from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.kinematics import joint_centres
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from carpus.core.papers.settings import PaperSettings
+from carpus.core.papers.chain import PaperSettings
 from carpus.core.papers.tracker import PaperTracker
 from carpus.core.types import Detections, FloatArray, Side, TrackedFrame
 

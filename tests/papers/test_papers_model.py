@@ -8,10 +8,8 @@ from scipy.spatial.transform import Rotation
 
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import joint_centres
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import SITE_CHAINS, SITES
-from carpus.core.papers.chain import as_written, by_the_discs, hand_measured, palm_modelled
-from carpus.core.papers.settings import PaperSettings
+from carpus.core.hand.protocols import HAND21, SITE_CHAINS, SITES
+from carpus.core.papers.chain import PaperSettings, as_written, by_the_discs, hand_measured, palm_modelled
 from carpus.core.papers.tracker import PaperMotion, body_turn_by_euler, euler_near, rotation_of
 from tests.papers.hands import ARCHED_M, CAMERA, FROM_ABOVE, MIDDLE_M, calibration, hand_calibration, straight_hand
 

@@ -12,8 +12,7 @@ import numpy as np
 import pylsl
 import pytest
 
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.pipeline.stream import SampleStream, channels, sample_of
 from tests.session.samples import make_frame, time_of
 

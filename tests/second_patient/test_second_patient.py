@@ -14,8 +14,7 @@ import pytest
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.hand.clinical_angles import wrist_axes
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import PALM_MARKERS
+from carpus.core.hand.protocols import HAND21, PALM_MARKERS
 from carpus.core.pipeline.track import TrackSettings, track_recording
 from carpus.core.session.reader import read_session
 from tests.second_patient import recording

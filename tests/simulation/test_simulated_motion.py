@@ -9,8 +9,7 @@ import pytest
 
 from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.clinical_angles import angles_from_rotation
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import PALM_MARKERS
+from carpus.core.hand.protocols import HAND21, PALM_MARKERS
 from carpus.core.simulation.hand_motion import STILL_S, StrokePath
 from carpus.core.simulation.motions import MOTIONS, motion_of
 from carpus.core.simulation.scene import Scene

@@ -11,10 +11,10 @@ import pytest
 
 from carpus.core.errors import SettingsInvalid
 from carpus.core.hand.protocols import HAND21
+from carpus.core.simulation.hand_motion import FULL_CUP_RAD, TissueState, lagged, tissue_of, with_play
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.skin import skin_distance
-from carpus.core.simulation.soft_tissue import FULL_CUP_RAD, TissueState, lagged, tissue_of, with_play
 from carpus.core.simulation.spec import HABITS, RecordingSpec
 from carpus.core.simulation.truth import truth_of
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from carpus.core.hand.kinematics import SEGMENTS
-from carpus.core.hand.sites import SITES
+from carpus.core.hand.protocols import SITES
 from carpus.core.simulation.scene import HandPose, Scene
 from carpus.core.simulation.trouble import PassingThing
 from carpus.core.types import FloatArray

@@ -9,8 +9,7 @@ from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.anatomy_prior import constants_of
 from carpus.core.hand.kinematics import disc_centres, joint_centres, segment_frames
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import SITE_CHAINS, joint_angle_names
+from carpus.core.hand.protocols import HAND21, SITE_CHAINS, joint_angle_names
 from carpus.core.tracking.digit_filter import DIGIT_SIZE, RATES, SEEN, DigitView, digits_linearised, spread_points
 from carpus.core.tracking.hand_geometry import (
     CHAINS,

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import joint_angle_names
 from carpus.core.pipeline.track import from_neutral, learnt_from
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.digit_filter import ANATOMY, RATES

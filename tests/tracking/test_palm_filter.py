@@ -26,9 +26,11 @@ from carpus.core.tracking.palm_state import (
     VELOCITY,
     InitialSd,
     PalmEstimate,
+    View,
+    error_reset,
+    palm_linearised,
     resting_estimate,
 )
-from carpus.core.tracking.palm_view import View, error_reset, palm_linearised
 from carpus.core.tracking.soft_tissue import (
     CUP,
     HOME,

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from carpus.core import so3
-from carpus.core.tracking.palm_state import SKIN
-from carpus.core.tracking.palm_view import View
+from carpus.core.tracking.palm_state import SKIN, View
 from carpus.core.tracking.reacquire import Facing, FindingSettings, find_palm
 from carpus.core.tracking.soft_tissue import SoftTissue, stationary_covariance
 from carpus.core.types import Detections, Side

@@ -9,8 +9,7 @@ import pytest
 
 from carpus.core.depth_sensor import D435, PRIMESENSE
 from carpus.core.tracking.hand_filter import HandFilter
-from carpus.core.tracking.palm_state import LEARNT, SHAPE, SIZE, PalmEstimate
-from carpus.core.tracking.palm_view import palm_linearised
+from carpus.core.tracking.palm_state import LEARNT, SHAPE, SIZE, PalmEstimate, palm_linearised
 from carpus.core.tracking.predicted_measurement import (
     along_rays,
     fresh_share,

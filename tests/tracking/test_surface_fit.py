@@ -12,8 +12,7 @@ from carpus.core import so3
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.hand.back_surface import BackSurface, BackSurfaceSettings, back_surface_from
 from carpus.core.tracking.kernel import ModeMixture
-from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate
-from carpus.core.tracking.palm_view import View, error_reset
+from carpus.core.tracking.palm_state import BACK, POSITION, RELIEF, SIZE, TURN, PalmEstimate, View, error_reset
 from carpus.core.tracking.predicted_measurement import shape_partial_update
 from carpus.core.tracking.surface_fit import (
     SurfaceMeasurement,

@@ -19,7 +19,7 @@ from carpus.core.agreement.statistics import agreement
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.exercises import Movement, exercise_named
-from carpus.core.hand.sites import WRIST_ANGLES, joint_angle_names
+from carpus.core.hand.protocols import WRIST_ANGLES, joint_angle_names
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.records.corrections import Corrections

@@ -20,7 +20,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from carpus.core.agreement.reference import ReferenceOutline
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import DiskFull
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import DEFAULT_LIMITS
 from carpus.core.records.exercise_sets import USUAL_SETS
 from carpus.core.results.figures import session_figures

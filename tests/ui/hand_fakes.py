@@ -11,8 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader
 from carpus.core.simulation.recording import SimulatedPictures

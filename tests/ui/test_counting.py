@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from carpus.core.hand.exercises import FLEXION, exercise_named
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import even_signal
 from carpus.core.types import TrackedFrame, TrackStatus

@@ -10,8 +10,7 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QImage, QPainter
 from PySide6.QtWidgets import QApplication
 
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.seen import joint_curves

@@ -12,8 +12,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.hand.protocols import HAND21
-from carpus.core.hand.sites import joint_angle_names
+from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Session

@@ -14,7 +14,7 @@ from PySide6.QtGui import QImage, QPainter, QWheelEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.hand.sites import SITE_CHAINS, SITES, joint_angle_names
+from carpus.core.hand.protocols import SITE_CHAINS, SITES, joint_angle_names
 from carpus.core.results.figures import session_figures
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session

@@ -20,7 +20,7 @@ from carpus.core.agreement.reference import (
     outline_of,
 )
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.hand.sites import PALM_MARKERS, WRIST_ANGLES
+from carpus.core.hand.protocols import PALM_MARKERS, WRIST_ANGLES
 from carpus.core.records.values import SessionEntry
 from carpus.ui import numbers, terms
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet, missing

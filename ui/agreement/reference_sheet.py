@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QGridLayout, QSizePolicy, QWidget
 
-from carpus.core.hand.sites import PALM_MARKERS
+from carpus.core.hand.protocols import PALM_MARKERS
 from carpus.ui.agreement.words import angle_name
 from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.field import Choices, Labelled

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from carpus.core.hand.exercises import SIDES
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.motion_curves import Quantity
 from carpus.core.results.progress import Progress, ProgressPoint

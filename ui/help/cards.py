@@ -8,7 +8,7 @@ from PySide6.QtCore import QMarginsF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
 
 from carpus.core.errors import OutputNotWritable
-from carpus.core.hand.sites import PALM_MARKERS, SITES
+from carpus.core.hand.protocols import PALM_MARKERS, SITES
 from carpus.core.types import Side
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.hand_drawing import PLACES, SIZE, outline, placement

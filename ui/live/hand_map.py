@@ -6,7 +6,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from carpus.core.hand.sites import SITES
+from carpus.core.hand.protocols import SITES
 from carpus.core.types import Side
 from carpus.ui.controls.card import paint_card
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font

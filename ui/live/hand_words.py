@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from carpus.core.hand.sites import PALM_MARKERS
+from carpus.core.hand.protocols import PALM_MARKERS
 from carpus.core.types import TrackedFrame, TrackStatus
 from carpus.ui.live.light import Lamp
 from carpus.ui.marker_words import finger_name, hidden_remedy, marker_name

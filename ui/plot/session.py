@@ -12,7 +12,7 @@ from PySide6.QtGui import QPainter
 
 from carpus.core.hand.exercises import AXIS_LIMIT_DEG, AXIS_TICK_DEG, FLEXION, PRONOSUPINATION, SIDES, Exercise
 from carpus.core.hand.kinematics import DIP_PER_PIP
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.core.types import FloatArray, TrackStatus

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from datetime import date
 
 from carpus.core.agreement.retest import Mounting, Person, Restated, Retest, RetestPlan
-from carpus.core.hand.sites import WRIST_ANGLES
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import ARC_LIMIT_FACTOR, FEWEST_PEOPLE, ErrorLimits, change_limit_rad
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
