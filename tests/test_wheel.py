@@ -198,7 +198,8 @@ def test_install_lines_work_as_written(empty: Path) -> None:
     assert any("venv" in line for line in lines)
     assert any("[realsense]" in line for line in lines)
     path = os.pathsep.join([f"{empty}/.venv/bin", str(Path(sys.executable).parent), os.environ["PATH"]])
-    pip = {"PIP_NO_DEPS": "1", "PIP_NO_INDEX": "1", "PIP_NO_BUILD_ISOLATION": "0", "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
+    pip = {"PIP_NO_DEPS": "1", "PIP_NO_INDEX": "1", "PIP_NO_BUILD_ISOLATION": "0", "PIP_DISABLE_PIP_VERSION_CHECK": "1",
+           "PIP_NO_COMPILE": "1"}  # fmt: skip
     environment = os.environ | pip | {"PYTHONPATH": sysconfig.get_path("purelib"), "PATH": path}
     for line in sorted(lines, key=lambda line: "venv" not in line):
         if "pyorbbecsdk2" in line:

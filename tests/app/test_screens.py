@@ -25,7 +25,7 @@ from carpus.core.formats.film import UNFINISHED
 from carpus.ui import language
 from carpus.ui.flow import ASIDE, STEPS, TABS
 from carpus.ui.help import guide
-from tests.ui.test_layout import STATES
+from tests.ui.gallery import STATES
 
 ROOT = Path(__file__).parents[2]
 NAMED = re.compile(r"""way\.(?:show|go|aside)\("(\w+)"|\bplace (?:==|!=) "(\w+)\"""")

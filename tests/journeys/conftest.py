@@ -18,7 +18,8 @@ from carpus.app.compose import Desktop, application, compose
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.pipeline import looking_back
 from carpus.ui.live import recording as live_recording
-from tests.journeys.takes import render, take_of
+from tests.journeys.takes import SPEC, take_of
+from tests.rendered import Rendered
 
 SPEED = 1.5
 """How much faster than recorded everything plays."""
@@ -39,9 +40,9 @@ def patience(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(scope="session")
-def take(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def take(rendered: Rendered) -> Path:
     """Folder of the short take."""
-    return render(tmp_path_factory.mktemp("take") / "flexion")
+    return rendered(SPEC)
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource
 from carpus.core.records.set_up import SetUp
 from carpus.core.simulation.motions import STILL_S
-from carpus.core.simulation.recording import CLICKS_FILE, simulate
+from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import FloatArray
 
@@ -33,12 +33,6 @@ SPEC = RecordingSpec(
 )
 RANGE_DEG = 0.6 * 50.0
 """Reached to both sides, less up to 6 % by which the patient stops short of each target."""
-
-
-def render(folder: Path) -> Path:
-    """Render the take into a new folder."""
-    simulate(SPEC, folder, workers=2)
-    return folder
 
 
 def take_of(folder: Path, fps: float = SPEC.fps) -> Take:

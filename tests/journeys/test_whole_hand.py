@@ -21,10 +21,11 @@ from carpus.core.pipeline.frame_pipeline import NOT_LOOKED_BACK
 from carpus.core.pipeline.track import retrack_session
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.session.reader import read_session
-from carpus.core.simulation.recording import TRUTH_FILE, simulate
+from carpus.core.simulation.recording import TRUTH_FILE
 from carpus.core.simulation.spec import RecordingSpec
 from tests.journeys.takes import clicks_of, take_of
 from tests.journeys.test_journey import at, click, reviewed, still_hand, wait
+from tests.rendered import Rendered
 
 SPEC = RecordingSpec(
     seed=5, protocol="hand21", motion="fist", seconds=5.0, fps=15.0, speed_hz=0.6, repetitions=2, range_share=0.5,
@@ -33,10 +34,8 @@ SPEC = RecordingSpec(
 
 
 @pytest.fixture(scope="module")
-def hand_take(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("hand") / "fist"
-    simulate(SPEC, folder, workers=2)
-    return folder
+def hand_take(rendered: Rendered) -> Path:
+    return rendered(SPEC)
 
 
 @pytest.fixture

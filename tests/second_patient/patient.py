@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -89,6 +90,18 @@ class Patient:
 
 def made_patient(seed: int, side: Side, neutral: Posture, *, rigid: bool = False) -> Patient:
     """The patient of a seed; ``neutral`` is the posture that is clicked; ``rigid``: skin and palm stand still."""
+    person, skin, stuck = _grown(seed, rigid)
+    axes = np.eye(3)
+    for _ in range(3):
+        disc = disc_points(person, skin, stuck, neutral, axes)[0]
+        hand = placed_bones(person, neutral, axes).turn[0, Bone.FIXED]
+        axes = hand.T @ frame_of_discs(disc, hand[:, 2])
+    return Patient(side, person, skin, stuck, axes)
+
+
+@lru_cache(maxsize=8)
+def _grown(seed: int, rigid: bool) -> tuple[Person, Skin, StuckDiscs]:
+    """What is the same in every take of a patient: to net the skin takes longer than all the rest."""
     rng = np.random.default_rng([seed, 1301])
     person = drawn_person(rng, rigid=rigid)
     skin = skin_of(person)
@@ -96,12 +109,7 @@ def made_patient(seed: int, side: Side, neutral: Posture, *, rigid: bool = False
     if rigid:
         skin = _held(skin, stuck)
         stuck = StuckDiscs(stuck.path, np.zeros(len(NAMES)), stuck.size_m, stuck.cut)
-    axes = np.eye(3)
-    for _ in range(3):
-        disc = disc_points(person, skin, stuck, neutral, axes)[0]
-        hand = placed_bones(person, neutral, axes).turn[0, Bone.FIXED]
-        axes = hand.T @ frame_of_discs(disc, hand[:, 2])
-    return Patient(side, person, skin, stuck, axes)
+    return person, skin, stuck
 
 
 def frame_of_discs(disc_m: FloatArray, out: FloatArray) -> FloatArray:

@@ -218,7 +218,7 @@ class FakeFeed:
         speed_hz: float = 0.16,
     ) -> None:
         self.pictures = simulated(motion, seconds, speed_hz, protocol=protocol)
-        self.frames = tracked_frames(self.pictures, tuple(hidden), tuple(lost))
+        self.frames = list(tracked_frames(self.pictures, tuple(hidden), tuple(lost)))
         self.place = -1
         self.recording = False
         self.paused = False

@@ -107,7 +107,7 @@ SIZES = ((1280, 800), (1920, 1080))
 STEPS = ("Exercise", "Camera", "Markers", "Measure")
 TABS = ("Sessions", "Review", "Progress", "Report")
 TODAY = date(2026, 11, 20)
-TICK_FRAMES = 6
+TICK_FRAMES = 30
 LOST = Words(
     "The camera sends no more pictures.",
     "Everything recorded so far is stored on this computer.",
@@ -143,6 +143,39 @@ CHECKS = (
 )  # fmt: skip
 SheetT = TypeVar("SheetT", bound=Sheet)
 ScreenT = TypeVar("ScreenT", bound=QWidget)
+STATES = (
+    "patients", "patients_empty", "patients_not_found", "patients_recovered", "patient_form", "exercise",
+    "exercise_hand",
+    "camera", "markers_clicking", "markers_ready", "markers_swapped", "markers_doubtful",
+    "markers_start_angle", "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete",
+    "markers_straight", "markers_other_spot", "sessions_list", "sessions_erase",
+    "patient_erase",
+    "live", "live_large", "live_catching_up",
+    "live_speeds", "live_marker_hidden", "live_which_spot", "live_hand_lost", "live_hand",
+    "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved",
+    "live_disk_full", "live_note", "patient_view", "patient_view_goal", "patient_view_child",
+    "patient_view_lost", "patient_view_rest", "exercise_sets", "exercise_goals",
+    "live_pain", "live_camera_lost", "review", "review_hand", "review_passive",
+    "review_passive_hand", "review_reason",
+    "review_angle", "review_film",
+    "review_path", "review_speeds", "review_zyz", "review_hand_finger",
+    "review_reach", "review_opposition", "review_finger_ways",
+    "correct", "correct_spots", "agreement", "agreement_curves", "agreement_goniometer", "agreement_hand",
+    "agreement_running", "agreement_reference", "agreement_columns",
+    "beside", "beside_dates", "beside_unfair", "beside_hand", "beside_reading", "report_beside",
+    "retest", "retest_empty", "retest_people",
+    "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
+    "progress", "progress_by_hand", "progress_hand", "by_hand", "report", "report_hand",
+    "report_progress", "report_own", "report_letter", "letter_sheet", "report_home",
+    "home_sheet", "clinic",
+    "settings", "settings_safe", "settings_research", "locked", "pin_change", "records_due", "records_log",
+    "help",
+    "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",
+    "markers_guided", "markers_ready_guided", "live_guided", "live_hand_guided", "review_guided",
+    "report_guided", "board", "board_showing", "board_result", "board_poor", "card", "card_out", "card_none",
+    "card_measuring",
+)  # fmt: skip
+"""Every state, by the method that shows it, in the order of the journey."""
 
 
 class Gallery:
@@ -1097,42 +1130,6 @@ class Gallery:
         self.place(where="")
         self.show(HelpScreen(self.theme, self.keys))
 
-    def states(self) -> dict[str, Callable[[], object]]:
-        """Every state by its file name, in the order of the journey."""
-        names = (
-            "patients", "patients_empty", "patients_not_found", "patients_recovered", "patient_form", "exercise",
-            "exercise_hand",
-            "camera", "markers_clicking", "markers_ready", "markers_swapped", "markers_doubtful",
-            "markers_start_angle", "markers_proposed", "markers_proposed_doubtful", "markers_proposed_incomplete",
-            "markers_straight", "markers_other_spot", "sessions_list", "sessions_erase",
-            "patient_erase",
-            "live", "live_large", "live_catching_up",
-            "live_speeds", "live_marker_hidden", "live_which_spot", "live_hand_lost", "live_hand",
-            "live_hand_thumb_hidden", "live_hand_fist", "live_hand_not_found", "live_arm_moved",
-            "live_disk_full", "live_note", "patient_view", "patient_view_goal", "patient_view_child",
-            "patient_view_lost", "patient_view_rest", "exercise_sets", "exercise_goals",
-            "live_pain", "live_camera_lost", "review", "review_hand", "review_passive",
-            "review_passive_hand", "review_reason",
-            "review_angle", "review_film",
-            "review_path", "review_speeds", "review_zyz", "review_hand_finger",
-            "review_reach", "review_opposition", "review_finger_ways",
-            "correct", "correct_spots", "agreement", "agreement_curves", "agreement_goniometer", "agreement_hand",
-            "agreement_running", "agreement_reference", "agreement_columns",
-            "beside", "beside_dates", "beside_unfair", "beside_hand", "beside_reading", "report_beside",
-            "retest", "retest_empty", "retest_people",
-            "correct_exchanged", "correct_results", "correct_results_hand", "correct_running",
-            "progress", "progress_by_hand", "progress_hand", "by_hand", "report", "report_hand",
-            "report_progress", "report_own", "report_letter", "letter_sheet", "report_home",
-            "home_sheet", "clinic",
-            "settings", "settings_safe", "settings_research", "locked", "pin_change", "records_due", "records_log",
-            "help",
-            "patients_welcome", "patients_welcome_good", "patients_guided", "camera_guided",
-            "markers_guided", "markers_ready_guided", "live_guided", "live_hand_guided", "review_guided",
-            "report_guided", "board", "board_showing", "board_result", "board_poor", "card", "card_out", "card_none",
-            "card_measuring",
-        )  # fmt: skip
-        return {name: getattr(self, name) for name in names}
-
     def close(self) -> None:
         """Take the window away."""
         self.shell.close()
@@ -1156,10 +1153,10 @@ def render_all_screens(
         for theme in themes:
             for scale in scales:
                 gallery = Gallery(application, theme, size, scale)
-                for number, (name, show) in enumerate(gallery.states().items(), 1):
+                for number, name in enumerate(STATES, 1):
                     if (only and not name.startswith(only)) or (states and name not in states):
                         continue
-                    show()
+                    getattr(gallery, name)()
                     suffix = f"-{100 * scale:.0f}" if scale != 1.0 else ""
                     path = folder / f"{number:02d}-{name}-{theme}-{size[0]}x{size[1]}{suffix}.png"
                     gallery.shell.grab().save(str(path))

@@ -57,7 +57,7 @@ def main() -> None:
     from PySide6.QtWidgets import QApplication
 
     from carpus.ui.fonts import load_fonts
-    from tests.ui.gallery import Gallery
+    from tests.ui.gallery import STATES, Gallery
     from tests.ui.geometry import complaints, shown_texts
 
     application = QApplication.instance() or QApplication(["carpus"])
@@ -69,10 +69,10 @@ def main() -> None:
     width, height = map(int, size_text.split("x"))
     with spoken(code):
         gallery = Gallery(application, "light", (width, height), float(scale_text))
-        for name, show in gallery.states().items():
+        for name in STATES:
             if len(sys.argv) > 3 and name not in sys.argv[3:]:
                 continue
-            show()
+            getattr(gallery, name)()
             gallery.settle()
             for line in complaints(gallery.shell, may_elide=True):
                 print(f"{name}: {line}")
