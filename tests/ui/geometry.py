@@ -182,14 +182,17 @@ def _elided(texts: list[Painted]) -> list[str]:
 
 def _overlapping(texts: list[Painted]) -> list[str]:
     out = []
-    shown = [one for one in texts if not one.box.intersected(one.seen).isEmpty()]
-    for number, one in enumerate(shown):
-        for other in shown[number + 1 :]:
+    seen = [(one, one.box.intersected(one.seen)) for one in texts]
+    shown = [(one, box) for one, box in seen if not box.isEmpty()]
+    for number, (one, box) in enumerate(shown):
+        for other, other_box in shown[number + 1 :]:
+            if not box.intersects(other_box):
+                continue
             if one.owner is other.owner and one.text == other.text:
                 continue  # a halo, or a repeated painting of the same widget
             if _hidden_from(one.owner, other.owner):
                 continue
-            common = one.box.intersected(one.seen).intersected(other.box.intersected(other.seen))
+            common = box.intersected(other_box)
             least = 0.35 * min(one.box.height(), other.box.height())
             if common.width() > ROOM_PX and common.height() > max(least, ROOM_PX):
                 where = f"{_name(one.owner)}, {_name(other.owner)}"
