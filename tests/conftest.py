@@ -58,6 +58,11 @@ def pytest_configure() -> None:
     QtBot.waitSignal.__kwdefaults__["timeout"] = _PATIENCE_MS
 
 
+def pytest_xdist_auto_num_workers() -> int:
+    """One more than there are cores: what plays in real time or waits for another process leaves its core to others."""
+    return len(os.sched_getaffinity(0)) + 1
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """What is made once for a file or folder is made in one process: else each process makes it again."""
     for item in items:

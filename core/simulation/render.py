@@ -316,8 +316,10 @@ class Renderer:
         if bodies.skin is None:
             return np.asarray(looks.table * (facing * looks.lamp + looks.ambient).astype(np.float32))
         lit = shadow_on_table(self.scene.camera, bodies.skin, looks.light_cam, self._up, self._table_point_m)
-        light = (facing * lit)[..., None] * looks.lamp.astype(np.float32) + looks.ambient.astype(np.float32)
-        return np.asarray(looks.table * light)
+        out, lamp, ambient = np.empty_like(looks.table), looks.lamp.astype(np.float32), looks.ambient.astype(np.float32)
+        for channel in range(3):  # one at a time: NumPy is slow over rows of three
+            out[..., channel] = looks.table[..., channel] * (facing * lit * lamp[channel] + ambient[channel])
+        return out
 
     def _draw_skin(self, color: FloatImage, bodies: _Bodies, skin: TracedSurface) -> None:
         scene, looks, pose = self.scene, self.looks, bodies.pose

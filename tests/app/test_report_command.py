@@ -101,7 +101,9 @@ def test_the_comment_is_on_it_and_paper_and_language_are_chosen(sessions: list[P
     assert "612 x 792" in subprocess.run([tool, str(out)], capture_output=True, text=True, check=True).stdout
 
 
-def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path) -> None:
+def test_what_was_left_out_in_the_review_is_left_out_everywhere(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     path = tmp_path / "data" / "sessions" / "day.h5"
     path.parent.mkdir(parents=True)
     calibration = replace(make_calibration(), rotation_w0_cam=np.diag([1.0, -1.0, -1.0]))
@@ -122,16 +124,18 @@ def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path) 
     left = whole["arc"] - 2
     assert f"mean of {left} repetitions; number 1 left out: pain" in words(tmp_path / "day.pdf")
     assert {row.measure: row.count for row in python_face.open_session(path).measures()}["arc"] == left
-    assert carpus("export", path, "--format", "json", "--output", tmp_path / "out").returncode == 0
+    export = ["export", str(path), "--format", "json"]
+    assert main([*export, "--output", str(tmp_path / "out")]) == 0
     (made,) = (tmp_path / "out").rglob("*.measures.json")
     content = json.loads(made.read_text(encoding="utf-8"))
     assert next(row["count"] for row in content["measures"] if row["measure"] == "arc") == left
     assert [one["reason"] for one in content["repetitions"] if not one["counted"]] == ["pain", "pain"]
-    nobody = carpus("export", path, "--format", "json", "--deidentified", "--output", tmp_path / "nobody")
-    assert nobody.returncode == 0
+    assert main([*export, "--deidentified", "--output", str(tmp_path / "nobody")]) == 0
     (made,) = (tmp_path / "nobody").rglob("*.measures.json")
     assert "pain" not in made.read_text(encoding="utf-8").replace('"pain": []', "")
-    assert f"mean of {left} repetitions" in carpus("info", path).stdout
+    capsys.readouterr()
+    assert main(["info", str(path)]) == 0
+    assert f"mean of {left} repetitions" in capsys.readouterr().out
 
 
 def test_several_sessions_make_a_progress_report(sessions: list[Path], tmp_path: Path) -> None:

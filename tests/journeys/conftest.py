@@ -18,11 +18,14 @@ from carpus.app.compose import Desktop, application, compose
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.pipeline import looking_back
 from carpus.ui.live import recording as live_recording
+from carpus.ui.live import screen as live_screen
+from carpus.ui.markers import screen as markers_screen
 from tests.journeys.takes import SPEC, take_of
 from tests.rendered import Rendered
 
 SPEED = 1.5
 """How much faster than recorded everything plays."""
+DRAWN_EVERY_MS = 200
 Open = Callable[[], Desktop]
 
 
@@ -35,8 +38,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.fixture(autouse=True)
 def patience(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A loaded computer may take long to start a process; whether it is done in time is not what is tested."""
+    """A loaded computer may take long to start a process; whether it is done in time is not what is tested. Nor is how
+    smoothly it is drawn: a core that draws thirty times a second is one less for all that is waited for."""
     monkeypatch.setattr(looking_back, "END_S", 150.0)
+    monkeypatch.setattr(live_screen, "DRAW_AFTER_MS", DRAWN_EVERY_MS)
+    monkeypatch.setattr(live_screen, "TICK_EVERY_MS", DRAWN_EVERY_MS)
+    monkeypatch.setattr(markers_screen, "PREVIEW_EVERY_MS", DRAWN_EVERY_MS)
 
 
 @pytest.fixture(scope="session")

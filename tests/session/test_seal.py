@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
+from carpus.app.__main__ import main
 from carpus.core.errors import SessionChanged, SessionUnfinished, SessionUnreadable
 from carpus.core.session.opened import verify as verify_here
 from carpus.core.session.reader import verify
@@ -20,7 +19,6 @@ from carpus.core.session.writer import SessionWriter
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
 
 ROWS = 30
-ROOT = Path(__file__).parents[2]
 
 
 def stored(path: Path, *, finished: bool = True) -> Path:
@@ -137,15 +135,16 @@ def test_a_hundred_flipped_bits(tmp_path: Path) -> None:
     assert len(used) == 100
 
 
-def test_the_command(tmp_path: Path) -> None:
+def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = stored(tmp_path / "s.h5")
-    said = [sys.executable, "-m", "carpus", "verify", str(path)]
-    good = subprocess.run(said, cwd=ROOT, capture_output=True, text=True, check=False)
-    assert (good.returncode, good.stderr) == (0, "")
-    assert "Whole and unchanged" in good.stdout
+    assert main(["verify", str(path)]) == 0
+    good = capsys.readouterr()
+    assert good.err == ""
+    assert "Whole and unchanged" in good.out
     with h5py.File(path, "r+") as file:
         nudge(file)
-    bad = subprocess.run(said, cwd=ROOT, capture_output=True, text=True, check=False)
-    assert (bad.returncode, bad.stdout) == (1, "")
-    assert bad.stderr.startswith("carpus: This session was changed after it was finished")
-    assert bad.stderr.count("\n") == 1
+    assert main(["verify", str(path)]) == 1
+    bad = capsys.readouterr()
+    assert bad.out == ""
+    assert bad.err.startswith("carpus: This session was changed after it was finished")
+    assert bad.err.count("\n") == 1
