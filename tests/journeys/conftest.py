@@ -41,6 +41,7 @@ def patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """A loaded computer may take long to start a process; whether it is done in time is not what is tested. Nor is how
     smoothly it is drawn: a core that draws thirty times a second is one less for all that is waited for."""
     monkeypatch.setattr(looking_back, "END_S", 150.0)
+    monkeypatch.setattr(live_recording, "HASTY_S", 0.0)  # a take is over in a few seconds
     monkeypatch.setattr(live_screen, "DRAW_AFTER_MS", DRAWN_EVERY_MS)
     monkeypatch.setattr(live_screen, "TICK_EVERY_MS", DRAWN_EVERY_MS)
     monkeypatch.setattr(markers_screen, "PREVIEW_EVERY_MS", DRAWN_EVERY_MS)
@@ -59,12 +60,9 @@ def data(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def open_desktop(
-    qapp: QApplication, take: Path, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[Open]:
+def open_desktop(qapp: QApplication, take: Path, data: Path, tmp_path: Path) -> Iterator[Open]:
     """Puts the application together; may be called again after closing. Whatever is open is closed at the end."""
     QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
-    monkeypatch.setattr(live_recording, "HASTY_S", 0.0)  # a take is over in a few seconds
     settings = replace(
         Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(data), keep_pictures=False)
     )
