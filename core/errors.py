@@ -1,4 +1,5 @@
-"""What can go wrong: each kind of fault, and what is said of it; :mod:`core.words` puts the facts in.
+"""What can go wrong: each kind of fault, and what is said of it; :mod:`core.words` puts the facts in. What ``happened``
+is the class's own description; beside it stands only what it does not say.
 
 Short main clauses in the present tense; the program is Carpus, the person is not blamed.
 """
@@ -37,110 +38,80 @@ class CarpusFault(Exception):
 
 
 class RecordingMissing(CarpusFault):
-    """There is nothing at the recording's path."""
-
     happened = phrase("There is no recording at {subject} ({detail}).")
     do = phrase("Check the name and the folder.")
 
 
 class RecordingUnreadable(CarpusFault):
-    """A recording is there but its lists or headers cannot be read."""
-
     happened = phrase("The recording cannot be read: {subject} ({detail}).")
     do = phrase("Copy the recording again from where it was made, or correct the list.")
 
 
 class RecordingEmpty(CarpusFault):
-    """A recording holds no picture."""
-
     happened = phrase("The recording holds no picture: {subject} ({detail}).")
     do = phrase("Choose another recording, or record again.")
 
 
 class PictureDamaged(CarpusFault):
-    """One picture of a recording is missing or cannot be decoded."""
-
     happened = phrase("A picture of the recording cannot be used: {subject} ({detail}).")
     do = phrase("Copy the recording again from where it was made; carpus track --leave-out-damaged goes on without it.")
 
 
 class PictureSizeChanged(CarpusFault):
-    """Pictures of one recording differ in size, or colour and depth do."""
-
     happened = phrase("The pictures of the recording differ in size: {subject} ({detail}).")
     do = phrase("Use a recording whose pictures all have one size.")
 
 
 class TimesUnordered(CarpusFault):
-    """The times of a recording do not rise strictly."""
-
     happened = phrase("The times of the recording do not rise: {subject} ({detail}).")
     do = phrase("Put the list in the order of time with each time once, or record again.")
 
 
 class DepthMissing(CarpusFault):
-    """A recording has no depth pictures although depth was asked for."""
-
     happened = phrase("The recording has no usable depth: {subject} ({detail}).")
     do = phrase("Use a recording of colour and depth.")
 
 
 class CameraFileUnreadable(CarpusFault):
-    """The camera's intrinsics file cannot be used."""
-
     happened = phrase("The file of the camera cannot be used: {subject} ({detail}).")
     do = phrase("Calibrate the camera again, or take the file away to use the usual values.")
 
 
 class ClicksUnreadable(CarpusFault):
-    """The file of clicks is missing, not JSON, or not of the agreed form."""
-
     happened = phrase("The clicks cannot be read: {subject} ({detail}).")
     do = phrase("Correct the file, or click the markers again.")
 
 
 class ProtocolUnknown(CarpusFault):
-    """No marker protocol has this name."""
-
     happened = phrase("There is no set of markers with the name {subject} ({detail}).")
     do = phrase("Use wrist6 or hand21.")
 
 
 class ClickOutsidePicture(CarpusFault):
-    """A click lies outside the first picture."""
-
     happened = phrase("A click lies outside the picture: {subject} ({detail}).")
     safe = _NOTHING_YET
     do = phrase("Click the marker in the first picture of this recording.")
 
 
 class ClickOnNoMarker(CarpusFault):
-    """There is no blob under a click."""
-
     happened = phrase("A click has no blue marker of its own: {subject}.")
     safe = _NOTHING_YET
     do = phrase("Click nearer to the marker, or check the light.")
 
 
 class MarkerWithoutDepth(CarpusFault):
-    """A clicked marker has no usable depth."""
-
     happened = phrase("The camera measures no depth at a marker: {subject}.")
     safe = _NOTHING_YET
     do = phrase("Move the hand a little, and keep sunlight and shine off the markers.")
 
 
 class CalibrationImpossible(CarpusFault):
-    """The clicked markers do not fix a palm (too few, in one line, or not a hand)."""
-
     happened = phrase("The clicked markers do not make a hand ({subject}).")
     safe = _NOTHING_YET
     do = phrase("Click every marker again under its own name.")
 
 
 class OutputExists(CarpusFault):
-    """The output file is there already and is never overwritten."""
-
     happened = phrase("There is a file already at {subject}.")
     safe = phrase("That file is untouched; Carpus never overwrites.")
     do = phrase("Choose another name.")
@@ -154,23 +125,17 @@ class ExtraMissing(CarpusFault):
 
 
 class SchedulerUnreachable(CarpusFault):
-    """The scheduler of a cluster does not answer."""
-
     happened = phrase("The scheduler at {subject} does not answer ({detail}).")
     do = phrase("Check the address, or leave out --scheduler to use this machine.")
 
 
 class OutputBusy(CarpusFault):
-    """Another process is writing the output at this moment."""
-
     happened = phrase("Another program is making {subject} at this moment.")
     safe = phrase("It is left to that program.")
     do = phrase("Wait until it has ended, or choose another folder.")
 
 
 class OutputNotWritable(CarpusFault):
-    """The output's folder cannot be written to."""
-
     happened = phrase("Carpus cannot write to {subject} ({detail}).")
     safe = phrase("What was stored before is safe.")
     do = phrase("Check that the folder exists and that you may write there, or choose another one.")
@@ -187,16 +152,12 @@ class DiskFull(CarpusFault):
 
 
 class SessionUnreadable(CarpusFault):
-    """A file is not a session that this version reads."""
-
     happened = phrase("This session cannot be read: {subject} ({detail}).")
     safe = phrase("The file is untouched, and all other sessions are safe.")
     do = phrase("Check that it is a session of this or an older Carpus, or take it from a backup.")
 
 
 class SessionChanged(CarpusFault):
-    """A session can be read, but its seal does not fit: something in it was changed after it was finished."""
-
     happened = phrase("This session was changed after it was finished: {subject}.")
     safe = phrase("It can still be read; its seal does not fit what it holds now.")
     do = phrase("Take it from a backup, or do not rely on its figures.")
@@ -211,30 +172,22 @@ class SessionUnfinished(CarpusFault):
 
 
 class ReferenceUnreadable(CarpusFault):
-    """A file of another measurement, to be compared with, cannot be read."""
-
     happened = phrase("The reference cannot be read: {subject} ({detail}).")
     do = phrase("Use C3D, TRC, MOT, a CSV table with its column map, or a session.")
 
 
 class ReferenceUnsuited(CarpusFault):
-    """A reference can be read, but nothing in it can be compared with the session."""
-
     happened = phrase("Nothing in the reference can be compared: {subject} ({detail}).")
     do = phrase("Check that it is the same movement, and say which column or marker is which.")
 
 
 class StudyUnsuited(CarpusFault):
-    """Sessions of test and retest do not make a study, or one that may be put into force."""
-
     happened = phrase("These sessions make no test and retest: {subject} ({detail}).")
     safe = phrase("What counts as a change stays as it is.")
     do = phrase("Measure each person twice, discs put on anew, within 14 days; 10 people are the least.")
 
 
 class SettingsInvalid(CarpusFault):
-    """A settings file has an unknown key or a value out of range."""
-
     happened = phrase("A setting cannot be used: {subject} ({detail}).")
     do = phrase("Correct the setting, or take it out to use the usual value.")
 
@@ -274,15 +227,11 @@ class ServerGone(CarpusFault):
 
 
 class NameUnsuited(CarpusFault):
-    """A text cannot be a pseudonym or a name: it holds a sign that cannot be seen, or is too long."""
-
     happened = phrase("This cannot be a name: {detail} ({subject}).")
     do = phrase("Type the name by hand instead of pasting it.")
 
 
 class DriverMissing(CarpusFault):
-    """The library of a camera (OpenNI2, or its maker's) is not on this computer or cannot be loaded."""
-
     happened = phrase("The driver of the camera is not on this computer, or cannot be loaded ({detail}).")
     do = _INSTALL
 
@@ -296,40 +245,30 @@ class DriverFailed(CarpusFault):
 
 
 class CameraUnknown(CarpusFault):
-    """No kind of camera has this name."""
-
     happened = phrase("No kind of camera is called {subject} ({detail}).")
     safe = _NOTHING_YET
     do = phrase("Choose the camera by one of these names, in the settings or with --camera.")
 
 
 class CameraMissing(CarpusFault):
-    """The driver sees no camera."""
-
     happened = phrase("Carpus sees no camera ({detail}).")
     safe = _NOTHING_YET
     do = phrase("Plug the camera straight into the computer.")
 
 
 class CameraBusy(CarpusFault):
-    """Another program holds the camera."""
-
     happened = phrase("Another program uses the camera ({detail}).")
     safe = _NOTHING_YET
     do = phrase("Close the other program, then try again.")
 
 
 class CameraPermission(CarpusFault):
-    """A camera is plugged in, but this user may not open it."""
-
     happened = phrase("The camera is there, but you may not open it ({detail}).")
     safe = _NOTHING_YET
     do = phrase("Give yourself access to it; “carpus doctor” says how.")
 
 
 class CameraUnsuited(CarpusFault):
-    """The camera does not offer the pictures that Carpus needs."""
-
     happened = phrase("This camera does not give the pictures that Carpus needs: {subject} ({detail}).")
     safe = _STORED
     do = phrase("Use a camera with colour and depth, such as the Xtion.")
@@ -360,15 +299,11 @@ class CameraReturned(CarpusFault):
 
 
 class RecordingDamaged(CarpusFault):
-    """A recording whose structure is broken."""
-
     happened = phrase("The recording is damaged: {subject} ({detail}).")
     do = phrase("Copy the recording again from where it was made.")
 
 
 class RecordingUnsupported(CarpusFault):
-    """A sound recording, but of a kind of pictures that Carpus does not use."""
-
     happened = phrase("Carpus cannot use the pictures of this recording: {subject} ({detail}).")
     do = phrase("Record again with colour and depth of one size.")
 
@@ -428,8 +363,6 @@ class NotLookedBack(CarpusFault):
 
 
 class NotCorrectable(CarpusFault):
-    """A session does not hold what correcting its markers needs."""
-
     happened = phrase("The markers of this session cannot be corrected: {subject} ({detail}).")
     safe = phrase("The session is unchanged, and its repetitions can be left out.")
     do = phrase("Leave out the repetitions that should not count, or track the recording again with “carpus track”.")
@@ -444,16 +377,12 @@ class NotCorrected(CarpusFault):
 
 
 class RegisterUnreadable(CarpusFault):
-    """The register of patients cannot be opened, is damaged, or was written by a newer Carpus."""
-
     happened = phrase("The list of patients cannot be opened: {subject} ({detail}).")
     safe = phrase("The session files are safe; the list can be made again from them, without the names.")
     do = phrase("Start Carpus again, or move the file away and let Carpus make a new list.")
 
 
 class RegisterBusy(RegisterUnreadable):
-    """Another program, mostly the window of Carpus, holds the list of patients."""
-
     happened = phrase("The window of Carpus, or another program, has the list of patients open: {subject} ({detail}).")
     safe = _UNTOUCHED
     do = phrase("Close Carpus first, then try again.")
@@ -506,8 +435,6 @@ class FilesSetApart(CarpusFault):
 
 
 class FolderGone(OutputNotWritable):
-    """The folder of a running recording is no longer there."""
-
     happened = phrase("The folder of the recording is gone: {subject} ({detail}).")
     safe = phrase("What was stored before it went is there when it comes back.")
     do = phrase("Connect the disk or the network again, or choose another folder.")
@@ -522,8 +449,6 @@ class DiskStalled(CarpusFault):
 
 
 class EndStalled(CarpusFault):
-    """All of a recording is stored, but its disk stopped answering before the file was ended."""
-
     happened = phrase("The recording could not be ended: the disk of {subject} does not answer.")
     safe = phrase("Everything that was recorded is stored there.")
     do = phrase("Once the disk answers, start Carpus again: it finishes the recording.")
@@ -558,16 +483,12 @@ class RecordingReturned(CarpusFault):
 
 
 class FolderMissing(CarpusFault):
-    """There is no folder at the path where sessions were looked for."""
-
     happened = phrase("There is no folder {subject}.")
     safe = phrase("Nothing has been changed.")
     do = phrase("Name the folder that holds the sessions.")
 
 
 class ShareEmpty(FolderMissing):
-    """The folder of the sessions holds nothing of Carpus though there are sessions: the empty place of a share."""
-
     happened = phrase("There is nothing that Carpus made in the folder of the sessions: {subject}.")
     safe = phrase(
         "Nothing has been changed. What is recorded meanwhile stays on this computer until the share is there."
@@ -576,32 +497,24 @@ class ShareEmpty(FolderMissing):
 
 
 class FolderInUse(CarpusFault):
-    """Another Carpus has the data folder open and does not answer."""
-
     happened = phrase("Another Carpus is using the patients of {subject}.")
     safe = phrase("Nothing has been changed.")
     do = phrase("Go to the window that is open already, or choose another folder.")
 
 
 class SessionsMissing(CarpusFault):
-    """A folder holds no session."""
-
     happened = phrase("There is no session in {subject}.")
     safe = phrase("Nothing has been changed.")
     do = phrase("Measure one, or name the folder that holds the sessions.")
 
 
 class PatientUnknown(CarpusFault):
-    """No patient has this pseudonym."""
-
     happened = phrase("There is no patient {subject} ({detail}).")
     safe = phrase("Nothing has been changed.")
     do = phrase("Choose one of the patients that there are.")
 
 
 class PseudonymTaken(CarpusFault):
-    """Another patient of the register has this pseudonym."""
-
     happened = phrase("The name {subject} belongs to another patient.")
     do = phrase("Choose another name.")
 
@@ -625,8 +538,6 @@ class ErasureLeadsOut(CarpusFault):
 
 
 class BackupPlaceUnsuited(CarpusFault):
-    """The folder for back-ups cannot be one."""
-
     happened = phrase("Back-ups cannot lie there: {subject} ({detail}).")
     do = phrase("Choose a folder on another disk.")
 
@@ -647,8 +558,6 @@ class PassphraseUnfit(CarpusFault):
 
 
 class SealRefused(CarpusFault):
-    """A sealed file does not open: another passphrase, or damaged."""
-
     happened = phrase("{subject} does not open: the passphrase is another one, or the file is damaged.")
     do = phrase("Type the passphrase again, capitals and blanks as they were.")
 
@@ -669,29 +578,21 @@ class BackupUnequal(CarpusFault):
 
 
 class BackupUnreadable(CarpusFault):
-    """The list of a back-up is damaged, or of a newer Carpus."""
-
     happened = phrase("The back-up cannot be read: {subject} ({detail}).")
     do = phrase("Choose another back-up, or bring Carpus up to date.")
 
 
 class BackupMissing(CarpusFault):
-    """There is no back-up in the folder."""
-
     happened = phrase("There is no back-up in {subject}.")
     do = phrase("Choose the folder that holds the back-ups.")
 
 
 class BoardMissing(CarpusFault):
-    """The printed board was seen in no picture."""
-
     happened = phrase("The printed board is not to be seen: {subject} ({detail}).")
     do = phrase("Print it with carpus calibrate-camera --board, and hold all of it in the picture, in good light.")
 
 
 class BoardViewsAlike(CarpusFault):
-    """The pictures of the board are too few, or too alike, to calibrate a camera."""
-
     happened = phrase("The pictures of the board are too few or too alike: {subject} ({detail}).")
     do = phrase(
         "Show the board in every part of the picture, tilted to all four sides, near and far, and hold it still."
@@ -699,22 +600,16 @@ class BoardViewsAlike(CarpusFault):
 
 
 class BoardUnfit(CarpusFault):
-    """The corners found are not those of a flat board: bent, blurred, or another board."""
-
     happened = phrase("The corners do not fit a flat board: {subject} ({detail}).")
     do = phrase("Glue the board onto something stiff and flat, give it light, and hold it still.")
 
 
 class CardMissing(CarpusFault):
-    """The check card, all six discs of it, was seen in too few pictures."""
-
     happened = phrase("The check card is not to be seen well enough: {subject} ({detail}).")
     do = phrase("Lay it flat under the camera, all of it in the picture, about 60 cm away, in good light.")
 
 
 class PinUncheckable(CarpusFault):
-    """The part that compares a PIN with what is kept of it (argon2) is not installed or cannot be loaded."""
-
     happened = phrase("The PIN cannot be checked: {subject} is missing on this computer ({detail}).")
     safe = phrase("Nothing is lost; everything stays hidden.")
     do = phrase("Whoever looks after this computer installs Carpus again, with all its parts.")

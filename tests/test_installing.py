@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from carpus.core.capture import doctor
-from carpus.core.capture.devices import cameras, orbbec, realsense
+from carpus.core.capture.devices import orbbec, realsense
 from carpus.core.capture.devices.cameras import CAMERAS, camera_kind, udev_rules
 from carpus.core.errors import ExtraMissing
 from carpus.core.installing import CAMERAS_EXTRA, how_to_install
@@ -31,8 +31,8 @@ def test_from_source_the_line_can_be_pasted() -> None:
 
 def test_the_packed_program_never_says_pip(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "frozen", True, raising=False)
-    for module in (cameras, doctor):
-        monkeypatch.setattr(module, "version", missing)
+    monkeypatch.setattr("importlib.metadata.version", missing)
+    monkeypatch.setattr(doctor, "version", missing)
     said = [one_sentence(ExtraMissing(name)) for name in ("av", "pyarrow", "pylsl", "distributed")]
     findings = [kind.driver(False, True) for kind in (realsense.KIND, orbbec.KIND)]
     findings += [doctor.packages_finding(), doctor.window_finding()]

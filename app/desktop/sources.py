@@ -31,8 +31,9 @@ from carpus.core.detection.appearance import expected_radius_px
 from carpus.core.errors import CarpusFault, RecordingEmpty, RegistrationAssumed
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.pipeline.live import Listener, LiveSession
-from carpus.core.pipeline.measuring import SessionPlaces, SourceMeasuring
+from carpus.core.pipeline.measuring import SourceMeasuring
 from carpus.core.pipeline.track import TrackSettings
+from carpus.core.records.new_sessions import NewSessions
 from carpus.core.records.set_up import SetUp
 from carpus.core.types import Detections, FloatArray, Frame, Side
 from carpus.ui.now_open import OpenSource
@@ -193,7 +194,7 @@ class Sources:
     def __init__(
         self,
         settings: Settings,
-        places: SessionPlaces,
+        places: NewSessions,
         practice_take: Callable[[SetUp, Progress], tuple[FrameSource, float]],
         speed: float = 1.0,
         practice_beginning: Callable[[SetUp], tuple[FrameSource, float] | None] = lambda _: None,

@@ -2,77 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Generic, Protocol, TypeVar
+from typing import Generic, TypeVar
 
+from carpus.core.capture.files.raw import PackedFrame
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, part_read, surface_samples
+from carpus.core.papers.tracker import PaperTracker
 from carpus.core.session.values import Event, Session
-from carpus.core.types import SPOT_SAID, Detections, FloatArray, Frame, Region, SpotAnswer, TrackedFrame
+from carpus.core.tracking.tracker import Tracker
+from carpus.core.types import SPOT_SAID, Frame, SpotAnswer, TrackedFrame
 
-
-class Expected(Protocol):
-    """Where to look: pixels (M, 2) with covariance (M, 2, 2), depths (M,); ``back_px`` (C, 2) of the discs that
-    span the surface of the back of the hand, ``finger_px`` (F, 2) of those about the fingers."""
-
-    @property
-    def pixel(self) -> FloatArray: ...
-
-    @property
-    def covariance_px2(self) -> FloatArray: ...
-
-    @property
-    def depth_m(self) -> FloatArray: ...
-
-    @property
-    def back_px(self) -> FloatArray: ...
-
-    @property
-    def finger_px(self) -> FloatArray: ...
-
-
-class Seen(Protocol):
-    """A frame, or one whose pictures are unpacked where they are looked at."""
-
-    @property
-    def index(self) -> int: ...
-
-    @property
-    def timestamp_s(self) -> float: ...
-
-    @property
-    def dropped_before(self) -> int: ...
-
-    def seen(self, part: Region | None) -> Frame:
-        """The frame for who looks at a part of its pictures alone, None for all of them."""
-        ...
-
-
-class HandTracker(Protocol):
-    """Follows one calibrated hand through frames in order of time."""
-
-    def begin_at_neutral(self, at_s: float | None = None) -> None:
-        """Start (again) from the calibrated pose."""
-        ...
-
-    def expect(self, timestamp_s: float) -> Expected | None:
-        """Where to look at that time; None for the whole picture."""
-        ...
-
-    def would_miss(self, blobs: Detections) -> bool:
-        """Whether blobs of a narrowed search are too few, so that the rest is worth a look."""
-        ...
-
-    def step(
-        self,
-        index: int,
-        timestamp_s: float,
-        detections: Detections,
-        dropped_before: int = 0,
-    ) -> TrackedFrame:
-        """The frame's result from its blobs."""
-        ...
-
-
+Seen = Frame | PackedFrame
+"""A frame, or one whose pictures are unpacked where they are looked at."""
+HandTracker = Tracker | PaperTracker
+"""Follows one calibrated hand through frames in order of time."""
 AnyTracker = TypeVar("AnyTracker", bound=HandTracker)
 
 

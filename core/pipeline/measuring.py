@@ -10,7 +10,6 @@ from contextlib import suppress
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
-from typing import Protocol
 
 import cv2
 import numpy as np
@@ -30,6 +29,7 @@ from carpus.core.pipeline.frame_pipeline import NOT_LOOKED_BACK, FramePipeline
 from carpus.core.pipeline.live import Listener, LiveSession
 from carpus.core.pipeline.looking_back import LookingBack, TrackedHand
 from carpus.core.pipeline.track import Learnt, TrackSettings, build_pipeline, learnt_from, parameters_json, source_facts
+from carpus.core.records.new_sessions import NewSessions
 from carpus.core.records.set_up import MARKERS_SUFFIX, SetUp
 from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session.values import new_header
@@ -46,33 +46,6 @@ _AROUND_HAND = 0.6
 LEAST_FREE_BYTES = 100_000_000
 """A recording does not begin with less: ten minutes of rows, or ten seconds of pictures."""
 _ANSWERS_WAITING = 16
-
-
-class SessionPlaces(Protocol):
-    """Where sessions go, and who hears of a finished one."""
-
-    def new_path(self, set_up: SetUp) -> Path: ...
-
-    def entered(self, set_up: SetUp, path: Path) -> str:
-        """Take a finished file into the register; the session's identity."""
-        ...
-
-    def last_hand_length_mm(self, set_up: SetUp, *, simulated: bool) -> float:
-        """Length of this hand of the patient as the last session of the kind (``simulated`` or real) measured it; NaN
-        before the first."""
-        ...
-
-    def fallback_folder(self, patient_id: str) -> Path:
-        """Where a patient's recording goes on when the data folder goes away."""
-        ...
-
-    def last_straight_fingers(self, set_up: SetUp) -> tuple[bool, ...]:
-        """What the last session with these discs said of the hand's fingers."""
-        ...
-
-    def cut_short(self) -> None:
-        """Finish what a fault left behind, as far as possible."""
-        ...
 
 
 class LivePipeline:
@@ -233,7 +206,7 @@ class SourceMeasuring:
         info: SourceInfo,
         set_up: SetUp,
         settings: TrackSettings,
-        places: SessionPlaces,
+        places: NewSessions,
         *,
         software_version: str,
         recording: Path | None = None,

@@ -150,8 +150,7 @@ def _folder_of(library: Library, patient_id: str, subject_id: str) -> Path | Non
 
 
 class NewSessions:
-    """The places of a data folder for sessions that are measured; see
-    :class:`core.pipeline.measuring.SessionPlaces`."""
+    """Where sessions that are measured go in a data folder, and who hears of a finished one."""
 
     def __init__(self, library: Library) -> None:
         self._library = library

@@ -7,8 +7,6 @@ given in steps of 1/8 pixel; with f b = 43.1 px m a step is 2.85e-3 z^2 and the 
 
 from __future__ import annotations
 
-from typing import Protocol
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -305,12 +303,7 @@ class ActiveStereo:
         return np.where(lost, np.uint16(0), counts(depth))
 
 
-class DepthPictures(Protocol):
-    """Turns true depth into the registered depth picture; one per recording."""
-
-    def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
-        """(H, W) true metres, and (H, W, 3) linear light, to counts of 1/5000 m, 0 where there is no reading."""
-        ...
+DepthPictures = SimulatedDepth | ActiveStereo | TimeOfFlight
 
 
 def depth_pictures(spec: RecordingSpec, camera: Camera) -> DepthPictures:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.capture.devices import cameras, orbbec
+from carpus.core.capture.devices import orbbec
 from carpus.core.capture.devices.cameras import open_camera
 from carpus.core.capture.devices.capture_process import CameraPlan, GaveUp
 from carpus.core.capture.devices.color_lock import ColorLock
@@ -146,7 +146,7 @@ def test_what_the_doctor_says_of_it(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     def missing(name: str) -> str:
         raise PackageNotFoundError(name)
 
-    monkeypatch.setattr(cameras, "version", missing)
+    monkeypatch.setattr("importlib.metadata.version", missing)
     assert driver_finding(wanted=False) is None
     assert found_driver().remedy == f"Run “{sys.executable} -m pip install --no-deps pyorbbecsdk2”."
     monkeypatch.setattr(orbbec, "find_spec", lambda _: None)

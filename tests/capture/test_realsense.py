@@ -17,7 +17,7 @@ import pytest
 
 import carpus
 from carpus.app.sources import open_recording
-from carpus.core.capture.devices import cameras, realsense
+from carpus.core.capture.devices import realsense
 from carpus.core.capture.devices.cameras import further_findings, open_camera
 from carpus.core.capture.devices.capture_process import why_not_opened, why_unlisted
 from carpus.core.capture.devices.color_lock import MOST_ROUNDS, ColorHold, SeenColors
@@ -264,7 +264,7 @@ def test_what_the_doctor_says_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
     def missing(name: str) -> str:
         raise PackageNotFoundError(name)
 
-    monkeypatch.setattr(cameras, "version", missing)
+    monkeypatch.setattr("importlib.metadata.version", missing)
     assert driver_finding(wanted=False) is None, "no obstacle, and nothing to tick"
     told = driver_finding(wanted=True)
     assert told is not None

@@ -8,36 +8,28 @@ from __future__ import annotations
 
 import math
 import sys
-from importlib import import_module
-from typing import TYPE_CHECKING
-
-from carpus.core.capture.source import Notice, ignore
-from carpus.core.errors import CameraUnknown
-from carpus.core.names import known_names
-
-if TYPE_CHECKING:
-    from carpus.core.camera import Camera
-    from carpus.core.capture.devices.usb_devices import UsbCamera
-
-import multiprocessing
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
-from typing import Protocol
+from importlib import import_module
+from typing import TYPE_CHECKING, Protocol
 
 from carpus.core.camera import Camera
 from carpus.core.capture.devices.usb_devices import UsbCamera, usb_cameras
-from carpus.core.capture.source import FrameSource
-from carpus.core.errors import DriverMissing
+from carpus.core.capture.source import Notice, ignore
+from carpus.core.errors import CameraUnknown, DriverMissing
 from carpus.core.installing import Finding, how_to_install
+from carpus.core.names import known_names
 from carpus.core.phrase import Phrase, phrase
+
+if TYPE_CHECKING:
+    from carpus.core.capture.devices.process_camera import ProcessCamera
 
 
 def library_finding(name: str, package: str, load: Callable[[], None], *, asks: bool, wanted: bool) -> Finding | None:
     """The library by its package; loaded, in a process of its own, where ``asks`` and ``wanted``; None where it is
     missing and nothing wants it."""
+    from importlib.metadata import PackageNotFoundError, version  # which every command would load here
+
     try:
         found = f"{package} {version(package)}"
     except PackageNotFoundError:
@@ -55,7 +47,11 @@ def library_finding(name: str, package: str, load: Callable[[], None], *, asks: 
 
 
 def _load_trouble(load: Callable[[], None]) -> str:
-    """Why the library cannot be loaded; empty when it can."""
+    """Why the library cannot be loaded; empty when it can. Only who asks loads what starts processes."""
+    import multiprocessing
+    from concurrent.futures import ProcessPoolExecutor
+    from concurrent.futures.process import BrokenProcessPool
+
     try:
         with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as other:
             other.submit(load).result()
@@ -90,19 +86,13 @@ def _numbers(version_text: str) -> list[int]:
     return [int(part) if part.isdigit() else 0 for part in version_text.split(".")]
 
 
-class LiveCamera(FrameSource, Protocol):
-    """A source of frames that runs from construction on."""
-
-    def lock_exposure(self) -> None:
-        """From now on colours stay as they are."""
-        ...
-
-
 class Opening(Protocol):
     """Opens a camera. ``uri`` None: the first; ``camera``: measured intrinsics; ``patience_s``: how long it may be
     away before that is a fault. Its driver is loaded then and not before."""
 
-    def __call__(self, *, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice) -> LiveCamera: ...
+    def __call__(
+        self, *, uri: str | None, camera: Camera | None, patience_s: float, notice: Notice
+    ) -> ProcessCamera: ...
 
 
 def no_findings(_settings: Mapping[str, str]) -> Sequence[Finding]:
@@ -198,7 +188,7 @@ def kind_to_open(uri: str = "") -> str:
 
 def open_camera(
     uri: str = "", *, camera: Camera | None = None, patience_s: float = math.inf, notice: Notice = ignore
-) -> LiveCamera:
+) -> ProcessCamera:
     """Open a camera by its address (``KIND``, or ``KIND:`` and what the kind calls it); empty: the first plugged in.
 
     Raises :class:`CameraUnknown`, the faults of its module, and :class:`CameraLost` when it is away for more than
