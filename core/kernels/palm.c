@@ -612,7 +612,7 @@ int palm_seat(
     return 0;
 }
 
-/* What a frame's row says of every marker: frame_result.py. Of marker m the row `source` of the palm's and, after them,
+/* What a frame's row says of every marker: tracker.py. Of marker m the row `source` of the palm's and, after them,
    the digits' discs. */
 int markers_told(
     int markers, int blobs, const int64_t *source, const int64_t *palm_blob, const double *palm_expected,

@@ -21,7 +21,6 @@ from carpus.core.tracking.digit_search import DigitSearchSettings, _best_posture
 from carpus.core.tracking.finger_depth import FingerDepthSettings, knuckle_bends
 from carpus.core.tracking.finger_model import FingerModel
 from carpus.core.tracking.fingers import Fingers
-from carpus.core.tracking.frame_result import FrameResults
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.hand_geometry import palm_of
 from carpus.core.tracking.joint_limits import LimitSettings, settled
@@ -31,6 +30,7 @@ from carpus.core.tracking.palm_state import SHAPE, SIZE, PalmEstimate, View
 from carpus.core.tracking.predicted_measurement import PredictedDigits
 from carpus.core.tracking.readout import Readout, ReadoutSettings
 from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.tracker import FrameResults
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray, SurfaceSamples
 from tests.accuracy.carpus import measured_hand

@@ -9,10 +9,9 @@ import numpy as np
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.tracking.frame_result import FrameResults
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.tracker import Tracker
+from carpus.core.tracking.tracker import FrameResults, Tracker
 from carpus.core.types import Detections, TrackedFrame, TrackStatus
 from tests.accuracy.carpus import measured_hand
 from tests.simulation.measurements import measurement_sequence
