@@ -26,11 +26,10 @@ _TRIMMED = 2.5
 
 @dataclass(frozen=True, slots=True)
 class WristCentre:
-    """``centre_w2_m`` (3,) of rotation from the WRIST disc, in the hand's axes; ``place_w0_m`` (3,) where it lies;
-    ``residual_m`` root mean square of what it moves all the same; ``moved_m`` (N,) how far from its place."""
+    """``centre_w2_m`` (3,) of rotation from the WRIST disc, in the hand's axes; ``residual_m`` root mean square of what
+    it moves all the same; ``moved_m`` (N,) how far from its place."""
 
     centre_w2_m: FloatArray
-    place_w0_m: FloatArray
     residual_m: float
     moved_m: FloatArray
 
@@ -46,10 +45,9 @@ def wrist_centre(position_m: FloatArray, rotation_w2_w0: FloatArray, valid: Bool
     Least squares over the ``valid`` samples (N,), of which those far off are left out: a forearm that was moved shall
     not bend the centre. All NaN below two samples.
     """
-    nothing = np.full(3, math.nan)
     good = np.asarray(valid, dtype=bool) & np.isfinite(position_m).all(axis=1) & np.isfinite(rotation_w2_w0).all((1, 2))
     if int(good.sum()) < 2:
-        return WristCentre(nothing, nothing, math.nan, np.full(len(position_m), math.nan))
+        return WristCentre(np.full(3, math.nan), math.nan, np.full(len(position_m), math.nan))
     turned, at = rotation_w2_w0[good], position_m[good]
     used = np.ones(len(at), dtype=bool)
     centre, place = USUAL_CENTRE_M, np.median(at + turned @ USUAL_CENTRE_M, axis=0)
@@ -63,7 +61,7 @@ def wrist_centre(position_m: FloatArray, rotation_w2_w0: FloatArray, valid: Bool
     off = np.linalg.norm(at + turned @ centre - place, axis=1)
     moved = np.full(len(position_m), math.nan)
     moved[good] = off
-    return WristCentre(centre, place, float(np.sqrt(np.mean(off[used] ** 2))), moved)
+    return WristCentre(centre, float(np.sqrt(np.mean(off[used] ** 2))), moved)
 
 
 def _fitted(at: FloatArray, turned: FloatArray) -> tuple[FloatArray, FloatArray]:

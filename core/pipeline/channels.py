@@ -39,17 +39,10 @@ class _Bounded(Generic[T]):
         self._items: deque[T] = deque()
         self._changed = threading.Condition()
         self._closed = False
-        self._deepest = 0
 
     def __len__(self) -> int:
         with self._changed:
             return len(self._items)
-
-    @property
-    def deepest(self) -> int:
-        """Most items that ever waited."""
-        with self._changed:
-            return self._deepest
 
     def taken(self) -> list[T]:
         """Everything that waits now, oldest first, for who does not wait for more."""
@@ -77,7 +70,6 @@ class _Bounded(Generic[T]):
 
     def _append(self, item: T) -> None:
         self._items.append(item)
-        self._deepest = max(self._deepest, len(self._items))
         self._changed.notify_all()
 
     def _wait_for_item(self) -> bool:

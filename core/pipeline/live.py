@@ -312,13 +312,10 @@ class LiveSession:
             latency_p95_ms=1e3 * float(p95),
             waiting_tracking=len(self._backlog),
             catching_up_s=self._backlog.behind_s,
-            waiting_writing=rows.waiting if rows else 0,
-            waiting_pictures=pictures.waiting if pictures else 0,
             rows_written=rows.written if rows else 0,
             pictures_written=pictures.written if pictures else 0,
             recording=recording is not None,
             paused=recording is not None and recording.paused,
-            recording_path=rows.path if rows else None,
             disk_free_bytes=free,
             disk_minutes_left=math.nan if free is None else free / (frame_bytes * (fps or 30.0)) / 60.0,
         )

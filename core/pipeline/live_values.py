@@ -90,8 +90,8 @@ class LiveCounters:
 
     ``captured``, ``tracked`` frames since the start; ``dropped`` frames for which there was no room before the tracker,
     and ``missing`` those that never came from the source; ``fps`` over the last two seconds; ``latency_*_ms`` from the
-    frame's arrival until it was tracked, over the last frames; ``waiting_*`` channel depths; ``catching_up_s`` how long
-    the tracker takes for those that wait, as fast as it has been lately; ``rows_written`` and
+    frame's arrival until it was tracked, over the last frames; ``waiting_tracking`` how many wait for that;
+    ``catching_up_s`` how long it takes for these, as fast as it has been lately; ``rows_written`` and
     ``pictures_written`` of the running recording; ``disk_free_bytes`` and ``disk_minutes_left`` at its rate.
     """
 
@@ -104,12 +104,9 @@ class LiveCounters:
     latency_p95_ms: float
     waiting_tracking: int
     catching_up_s: float
-    waiting_writing: int
-    waiting_pictures: int
     rows_written: int
     pictures_written: int
     recording: bool
     paused: bool
-    recording_path: Path | None
     disk_free_bytes: int | None
     disk_minutes_left: float

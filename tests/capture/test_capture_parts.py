@@ -290,7 +290,7 @@ def test_the_modes_of_an_xtion() -> None:
 
 
 def test_slots_of_pictures_before_the_opening_are_given_back(monkeypatch: pytest.MonkeyPatch) -> None:
-    early, opened = Arrived(Sensor.DEPTH, 3, 1, 0, 0), Opened({}, {}, None, {})
+    early, opened = Arrived(Sensor.DEPTH, 3, 1, 0), Opened({}, {}, None, {})
     reports, freed = deque([Alive(), early, opened]), list[Arrived]()
     monkeypatch.setattr(CaptureProcess, "report", lambda *_: reports.popleft())
     monkeypatch.setattr(CaptureProcess, "free", lambda _, arrived: freed.append(arrived))

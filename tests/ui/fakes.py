@@ -265,13 +265,10 @@ class FakeFeed:
             latency_p95_ms=11.0,
             waiting_tracking=0,
             catching_up_s=0.0,
-            waiting_writing=0,
-            waiting_pictures=0,
             rows_written=self.place,
             pictures_written=0,
             recording=self.recording,
             paused=self.paused,
-            recording_path=None,
             disk_free_bytes=2 * 10**10,
             disk_minutes_left=212.0,
         )

@@ -5,7 +5,7 @@ the process at once, even from within a call. Pictures are copied once into a sh
 pipe, by which process and owner tell each other everything else. This module loads no NumPy: the process starts fast.
 
 Ring: bounded. A recording waits for a free slot, so nothing is lost. A camera does not wait: with no slot free the
-picture is dropped and counted with the next one.
+picture is dropped, and its number is missing.
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ import queue
 import signal
 import threading
 import time
-from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
@@ -86,13 +85,12 @@ class Opened:
 
 @dataclass(frozen=True, slots=True)
 class Arrived:
-    """A picture lies in ``slot`` until :class:`Free` gives it back. ``overrun`` were dropped for want of a slot."""
+    """A picture lies in ``slot`` until :class:`Free` gives it back; a ``number`` that is missing was dropped."""
 
     sensor: Sensor
     slot: int
     number: int
     timestamp_us: int
-    overrun: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,7 +189,6 @@ class Outlet:
         assert self._memory.buf is not None
         self._pixels = self._memory.buf
         self._free = list(reversed(range(ring.slots)))
-        self._overrun: Counter[Sensor] = Counter()
         self._last_sent = time.monotonic()
         self._held: list[object] = []
         self.stopping = False
@@ -228,16 +225,14 @@ class Outlet:
             self.stay_alive()
 
     def put(self, sensor: Sensor, number: int, timestamp_us: int, picture: memoryview) -> None:
-        """Copy one picture (contiguous bytes) and announce it; dropped and counted when no slot is free."""
+        """Copy one picture (contiguous bytes) and announce it; dropped when no slot is free."""
         if picture.nbytes > self._ring.slot_bytes:
             self.send(Broken(sensor, number))
-        elif not self._free:
-            self._overrun[sensor] += 1
-        else:
+        elif self._free:
             slot = self._free.pop()  # the one freed last: what is never needed takes no memory
             start = slot * self._ring.slot_bytes
             self._pixels[start : start + picture.nbytes] = picture
-            self.send(Arrived(sensor, slot, number, timestamp_us, self._overrun.pop(sensor, 0)))
+            self.send(Arrived(sensor, slot, number, timestamp_us))
 
     def obey(self, *, block: bool) -> None:
         """Carry out what the owner asked for; with ``block`` wait a moment for it."""
