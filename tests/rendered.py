@@ -3,9 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
+import h5py
+import numpy as np
+
+from carpus.core.simulation.recording import TRUTH_FILE
+from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.truth import VISIBLE_SHARE_PATH, Truth, truth_of
 
 Rendered = Callable[[RecordingSpec], Path]
 """Gives the folder with the recording of a spec; nobody writes into it."""
@@ -14,3 +21,10 @@ FLEXION = RecordingSpec(seed=2, seconds=0.8)
 REPEATED_FLEXION = RecordingSpec(seed=4, motion="flexion", seconds=2.5, speed_hz=1.2, range_share=0.6)
 DEVIATION = RecordingSpec(seed=1, motion="deviation", seconds=1.0, speed_hz=1.2)
 LEFT_DEVIATION = RecordingSpec(seed=5, motion="deviation", seconds=1.3, speed_hz=0.9, hand="left", distance_m=0.68)
+
+
+def truth_in(spec: RecordingSpec, folder: Path) -> Truth:
+    """The true values of a recording made earlier from the same spec."""
+    with h5py.File(folder / TRUTH_FILE, "r") as file:
+        seen = np.asarray(file[VISIBLE_SHARE_PATH][()], dtype=np.float64)
+    return replace(truth_of(Scene(spec)), visible_share=seen)

@@ -79,7 +79,6 @@ class Recorder(Generic[SinkT, Item]):
         self._write = write
         self._on_fault = on_fault
         self._channel: NeverDrop[Item] = NeverDrop(capacity)
-        self._waits = waits
         self._patience = patience
         self._sink: SinkT | None = None
         self._turn = 0

@@ -69,8 +69,6 @@ NAMED_AXES = {"M": "markers", "J": "joint angles", "A": "wrist angles", "Z": "ZY
 """Axes whose entries have names."""
 GROWING_AXES = {"N": "frames", "D": "blobs of all frames", "E": "events", "C": "bytes of colour", "B": "bytes of depth"}
 """Axes that grow while a session runs; always the first of a dataset."""
-LATER_AXES = {"P": "repetitions"}
-"""Axes of what is counted when a session is finished."""
 
 
 TEXT_BYTES = 2048

@@ -30,7 +30,7 @@ from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import ColorSensor, depth_pictures
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
 from carpus.core.simulation.trouble import FrameTimes, covered_discs, frame_times
-from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, read_visible_share, truth_of, write_truth
+from carpus.core.simulation.truth import RECORDING_EPOCH_S, Truth, truth_of, write_truth
 from carpus.core.types import SIMULATED, ByteImage, DepthImage, FloatArray, Frame
 
 CLICKS_FILE, TRUTH_FILE = "calibration.json", "truth.h5"
@@ -182,11 +182,6 @@ def _filled(pictures: SimulatedPictures, folder: Path, progress: Progress | None
     except OSError as cause:
         raise write_fault(folder, cause) from cause
     return truth
-
-
-def truth_in(spec: RecordingSpec, folder: Path) -> Truth:
-    """The true values of a recording made earlier from the same spec."""
-    return dataclasses.replace(truth_of(Scene(spec)), visible_share=read_visible_share(folder / TRUTH_FILE))
 
 
 def _cache() -> Path:

@@ -5,10 +5,9 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -186,16 +185,6 @@ class RecordingSpec:
         if self.sensor == "primesense":  # as before there were others, so that what was rendered is found again
             del told["sensor"]
         return json.dumps(told, sort_keys=True)
-
-    @staticmethod
-    def from_json(text: str) -> RecordingSpec:
-        """Inverse of :meth:`to_json`; raises :class:`SettingsInvalid` for an unknown key."""
-        values: Mapping[str, Any] = json.loads(text)
-        known = {field.name for field in dataclasses.fields(RecordingSpec)}
-        unknown = sorted(set(values) - known)
-        if unknown:
-            raise SettingsInvalid("simulation", ", ".join(unknown))
-        return RecordingSpec(**values)
 
     @property
     def cache_key(self) -> str:

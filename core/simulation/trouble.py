@@ -20,8 +20,6 @@ from carpus.core.types import FloatArray
 BLOB_MEAN_S = 0.8
 _BLOB_GAP_TO_DISC_M = 0.015
 _PEN_AWAY_M, _PEN_RADIUS_M = (0.009, 0.016), (0.0008, 0.002)
-LEAST_FOUND_M = 0.0021
-"""Radius of the smallest spot that the detector takes for a disc at all."""
 
 BlobPlace = Literal["table", "air", "skin"]
 

@@ -156,12 +156,6 @@ def write_truth(path: Path, truth: Truth, clicks: Clicks, software_version: str)
         dataset.attrs["names"] = list(spec.marker_protocol.markers)
 
 
-def read_visible_share(path: Path) -> FloatArray:
-    """(N, M) as stored by :func:`write_truth`."""
-    with h5py.File(path, "r") as file:
-        return np.asarray(file[VISIBLE_SHARE_PATH][()], dtype=np.float64)
-
-
 def _calibration(truth: Truth, clicks: Clicks) -> Calibration:
     normal = truth.rotation_w0_cam[:, 2]
     verdict = Verdict(

@@ -280,17 +280,6 @@ def direct_markers(protocol: MarkerProtocol, dip_free: bool) -> np.ndarray:
     return np.array([protocol.rows(joint_discs(name)) for name in protocol.joint_names(dip_free)])
 
 
-def slots_of(angles_rad: FloatArray) -> FloatArray:
-    """Slots (..., 5, 5) of 17 or 21 joint angles (..., J)."""
-    lead, per_finger = angles_rad.shape[:-1], (angles_rad.shape[-1] - 5) // 4
-    slots = np.zeros((*lead, CHAINS, SLOTS))
-    slots[..., 0, :] = angles_rad[..., :5]
-    slots[..., 1:, :per_finger] = angles_rad[..., 5:].reshape(*lead, 4, per_finger)
-    if per_finger == 4:
-        slots[..., 1:, 3] -= DIP_PER_PIP * slots[..., 1:, 2]
-    return slots
-
-
 _PALM = MarkerProtocol("palm", PALM_MARKERS)
 
 

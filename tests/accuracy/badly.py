@@ -16,12 +16,13 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CarpusFault
 from carpus.core.pipeline.track import TrackSettings, learnt_in, track_recording
 from carpus.core.session.reader import read_session
-from carpus.core.simulation.recording import CLICKS_FILE, cached_recording, truth_in
+from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
 from carpus.core.types import FloatArray, TrackStatus
 from tests.accuracy.jobs import PICTURE_SECONDS
 from tests.accuracy.runs import degrees_between
 from tests.accuracy.scenarios import WRIST
 from tests.accuracy.sequences import scored_frames
+from tests.rendered import truth_in
 
 ROWS = (
     "as it should be",

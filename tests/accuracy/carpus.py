@@ -17,7 +17,7 @@ from carpus.core.errors import CalibrationImpossible
 from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Motion, motion_of
-from carpus.core.simulation.recording import CLICKS_FILE, cached_recording, clicks_of, truth_in
+from carpus.core.simulation.recording import CLICKS_FILE, cached_recording, clicks_of
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
@@ -26,6 +26,7 @@ from tests.accuracy.runs import CARPUS, Estimate, Run, degrees_between, longest_
 from tests.accuracy.scenarios import Scenario
 from tests.accuracy.sequences import detected_sequence, longest_untracked_s, scored_frames, true_names, wrongly_taken
 from tests.accuracy.speeds import stroke_speeds
+from tests.rendered import truth_in
 from tests.simulation.measurements import MeasurementSequence
 
 

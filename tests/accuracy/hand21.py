@@ -19,7 +19,7 @@ from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Motion, motion_of
-from carpus.core.simulation.recording import CLICKS_FILE, cached_recording, truth_in
+from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import Truth
@@ -30,6 +30,7 @@ from tests.accuracy.carpus import measured_hand
 from tests.accuracy.readings import Reading, reading_of
 from tests.accuracy.runs import Mode, degrees_between, longest_s
 from tests.accuracy.sequences import detected_sequence, scored_frames, true_names, wrongly_taken
+from tests.rendered import truth_in
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 
 REPORT_SEEDS = 2_000_000

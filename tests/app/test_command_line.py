@@ -268,7 +268,7 @@ def test_a_simulation_beyond_all_limits_is_refused(
 def test_a_simulated_person_is_drawn_or_given(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ("simulate", "--output", str(tmp_path / "r"), "--seconds=0.05", "--skin-glide-mm=drawn", "--cupping=0.5")
     assert main([*words, "--habit=grip+rolling_forearm"]) == 0
-    spec = RecordingSpec.from_json(str(read_session(tmp_path / "r" / TRUTH_FILE).header.parameters))
+    spec = RecordingSpec(**json.loads(str(read_session(tmp_path / "r" / TRUTH_FILE).header.parameters)))
     assert (spec.skin_glide_mm, spec.cupping, spec.habits) == (None, 0.5, ("grip", "rolling_forearm"))
     with pytest.raises(SystemExit):
         main([*words, "--skin-glide-mm=much"])

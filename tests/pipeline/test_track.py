@@ -25,11 +25,11 @@ from carpus.core.pipeline.track import TrackReport, TrackSettings, from_neutral,
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import RawPictures
 from carpus.core.session.writer import SessionWriter
-from carpus.core.simulation.recording import CLICKS_FILE, truth_in
+from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.types import FloatArray, Frame
-from tests.rendered import LEFT_DEVIATION, Rendered
+from tests.rendered import LEFT_DEVIATION, Rendered, truth_in
 from tests.session.samples import make_frame
 
 VERSION = "1.2.3-test"

@@ -29,7 +29,7 @@ are read, unpacked.
 
 def format_page() -> str:
     """Markdown text; kept in ``resources/session-format.md``."""
-    letters = schema.GROWING_AXES | schema.LATER_AXES | schema.NAMED_AXES
+    letters = schema.GROWING_AXES | {"P": "repetitions"} | schema.NAMED_AXES
     axes = ", ".join(f"{letter} {what}" for letter, what in letters.items())
     parts = [_HEAD.format(axes=axes)]
     for title, attributes in (

@@ -18,10 +18,13 @@ from carpus.core.simulation.appearance import light_of
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.simulation.spec import RandomStream, RecordingSpec
-from carpus.core.simulation.trouble import LEAST_FOUND_M, covered_discs, false_blobs, frame_times, passing_thing
+from carpus.core.simulation.trouble import covered_discs, false_blobs, frame_times, passing_thing
 from carpus.core.simulation.truth import Truth, protocol_rows, truth_of
 from carpus.core.types import Detections, FloatArray
 from tests.simulation.visibility import coarse_visibility
+
+LEAST_FOUND_M = 0.0021
+"""Radius of the smallest spot that the detector takes for a disc at all."""
 
 CENTER_SD_PX = {"bright": 0.018, "normal": 0.04, "dim": 0.1}
 """Of a blob's centre, per axis, independent from frame to frame."""

@@ -21,12 +21,12 @@ from carpus.core.simulation.recording import (
     cached_recording,
     clicks_of,
     simulate,
-    truth_in,
 )
 from carpus.core.simulation.scene import Scene
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.trouble import covered_discs, false_blobs, frame_times
 from carpus.core.simulation.truth import truth_of
+from tests.rendered import truth_in
 from tests.simulation.measurements import measurement_sequence
 
 SPEC = RecordingSpec(
@@ -103,7 +103,7 @@ def test_truth_file_is_a_session_of_true_values(recording: Path) -> None:
     with h5py.File(recording / TRUTH_FILE) as file:
         assert file.attrs["format"] == "carpus-session"
         assert bool(file.attrs["complete"])
-        assert RecordingSpec.from_json(file.attrs["parameters"]) == SPEC
+        assert RecordingSpec(**json.loads(file.attrs["parameters"])) == SPEC
         np.testing.assert_array_equal(file["/frames/timestamp"][()], truth.timestamp_s)
         np.testing.assert_allclose(file["/wrist/rotation"][()], truth.rotation_w2_w0)
         np.testing.assert_allclose(file["/wrist/angles"][()], truth.angles_rad)

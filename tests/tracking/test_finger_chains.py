@@ -8,7 +8,7 @@ import pytest
 from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.anatomy_prior import constants_of
-from carpus.core.hand.kinematics import disc_centres, joint_centres, segment_frames
+from carpus.core.hand.kinematics import DIP_PER_PIP, disc_centres, joint_centres, segment_frames
 from carpus.core.hand.protocols import HAND21, SITE_CHAINS, joint_angle_names
 from carpus.core.tracking.digit_filter import DIGIT_SIZE, RATES, SEEN, DigitView, digits_linearised, spread_points
 from carpus.core.tracking.hand_geometry import (
@@ -21,12 +21,22 @@ from carpus.core.tracking.hand_geometry import (
     digit_joints_m,
     direct_markers,
     slope_by_constants,
-    slots_of,
 )
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray
 
 DIGIT_MARKERS = np.array(SITE_CHAINS)[:, 2:]
+
+
+def slots_of(angles_rad: FloatArray) -> FloatArray:
+    """Slots (..., 5, 5) of 17 or 21 joint angles (..., J)."""
+    lead, per_finger = angles_rad.shape[:-1], (angles_rad.shape[-1] - 5) // 4
+    slots = np.zeros((*lead, CHAINS, SLOTS))
+    slots[..., 0, :] = angles_rad[..., :5]
+    slots[..., 1:, :per_finger] = angles_rad[..., 5:].reshape(*lead, 4, per_finger)
+    if per_finger == 4:
+        slots[..., 1:, 3] -= DIP_PER_PIP * slots[..., 1:, 2]
+    return slots
 
 
 def hand(seed: int) -> HandAnatomy:
