@@ -33,8 +33,8 @@ def test_the_variable_chooses(asked: str, levels: set[str], state: str) -> None:
 
 
 def test_what_is_built_is_called_by_its_source(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for path in build.sources():
-        shutil.copy(path, tmp_path)
+    for name in ("about.c", "kernels.h"):  # the digest is of whatever is there, and these are compiled at once
+        shutil.copy(build.HERE / name, tmp_path)
     monkeypatch.setattr(build, "HERE", tmp_path)
     first = build.digest()
     stale = tmp_path / f"kernels-0123456789ab-plain{build.SUFFIX}"

@@ -305,7 +305,7 @@ def test_every_row_begins_still_and_stays_in_the_picture(row) -> None:  # type: 
 
 def test_a_recording_tracks_and_its_truth_compares(tmp_path: Path) -> None:
     folder = tmp_path / "take"
-    truth = recorded(take_of(row_named("rest, fingers open and close"), 8, seconds=1.9), folder)
+    truth = recorded(take_of(row_named("rest, fingers open and close"), 8, seconds=1.2), folder)
     assert json.loads((folder / CLICKS_FILE).read_text())["protocol"] == "wrist6"
     stored = read_session(folder / TRUTH_FILE)
     assert np.allclose(stored.motion.angles_rad, truth.angles_rad)
