@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QApplication
 from carpus.ui.fonts import load_fonts
 from carpus.ui.style import apply_style
 from carpus.ui.theme import Theme
+from tests.ui.fakes import figures_once
 
 
 @pytest.fixture(autouse=True)
@@ -20,6 +21,14 @@ def _bundled_fonts(qapp: QApplication) -> None:
     qapp.setStyle("Fusion")
     QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
     load_fonts()
+
+
+@pytest.fixture(autouse=True)
+def _figures_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every screen and page of a session works out its figures anew, as each is shown once; here the same few are shown
+    hundreds of times."""
+    for place in ("report.pdf", "review.reviewed", "correct.screen", "correct.flow"):
+        monkeypatch.setattr(f"carpus.ui.{place}.session_figures", figures_once)
 
 
 @pytest.fixture

@@ -21,6 +21,7 @@ from carpus.core.camera import Camera
 from carpus.core.hand.exercises import Movement, exercise_named
 from carpus.core.hand.protocols import WRIST_ANGLES, joint_angle_names
 from carpus.core.measures.by_hand import HandValue
+from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.records.corrections import Corrections
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
@@ -433,15 +434,21 @@ def session(
     )
 
 
-_FIGURES: dict[tuple[int, str], tuple[Session, SessionFigures]] = {}
+_FIGURES: dict[tuple[int, str, str], tuple[Session, SessionFigures]] = {}
+_MOST_FIGURES = 128
 
 
-def figures_once(made: Session, choices: RepetitionChoices) -> SessionFigures:
-    """Its figures, computed once."""
-    key = id(made), repr(choices)
-    if key not in _FIGURES:
-        _FIGURES[key] = made, session_figures(made, choices)
-    return _FIGURES[key][1]
+def figures_once(
+    made: Session, choices: RepetitionChoices | None = None, limits: ErrorLimits = DEFAULT_LIMITS
+) -> SessionFigures:
+    """What :func:`session_figures` makes of a session, computed once: nobody changes a session."""
+    key = id(made), repr(choices), repr(limits)
+    known = _FIGURES.get(key)
+    if known is None:
+        known = _FIGURES[key] = made, session_figures(made, choices, limits)
+        if len(_FIGURES) > _MOST_FIGURES:
+            _FIGURES.pop(next(iter(_FIGURES)), None)
+    return known[1]
 
 
 WHY = {

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.figures import SessionFigures
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.progress import previous_of, progress, unfair_reasons
 from carpus.core.results.repetition_rows import ACTIVE, PASSIVE, RepetitionChoices
@@ -18,7 +18,7 @@ from carpus.ui.progress.words import unfair_words
 from carpus.ui.report.active_passive import BY_HAND, active_passive
 from carpus.ui.report.pdf import write_session_report
 from carpus.ui.report.tables import repetition_words
-from tests.ui.fakes import hand_values_today, session
+from tests.ui.fakes import figures_once, hand_values_today, session
 from tests.ui.hand_fakes import FakeHandSessions
 from tests.ui.test_report_pdf import words_of
 
@@ -43,7 +43,7 @@ def mean_of(figures: SessionFigures | None) -> float:
 
 
 def test_what_was_said_to_be_passive_counts_apart_and_never_as_active() -> None:
-    figures = session_figures(helped_session((HELPED_S, PASSIVE)))
+    figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     helped = [number for number, one in enumerate(figures.repetitions) if one.helped]
     assert figures.passive is not None
     assert figures.counted >= 3
@@ -51,7 +51,7 @@ def test_what_was_said_to_be_passive_counts_apart_and_never_as_active() -> None:
     assert figures.counted + len(helped) == len([one for one in figures.repetitions if not one.unmeasured])
     assert mean_of(figures) < 0.75 * mean_of(figures.passive)
     left_out = RepetitionChoices(dict.fromkeys(helped, "pain"))
-    assert mean_of(figures) == mean_of(session_figures(helped_session(), left_out)), "as if it had been left out"
+    assert mean_of(figures) == mean_of(figures_once(helped_session(), left_out)), "as if it had been left out"
     rows = {row.of for row in measure_rows(figures, "s")}
     assert {"flexion", "flexion, passive"} <= rows
 
@@ -60,7 +60,7 @@ def test_what_was_said_to_be_passive_counts_apart_and_never_as_active() -> None:
 def test_where_no_repetitions_are_counted_what_was_helped_is_not_measured(exercise: str) -> None:
     def free(*events: tuple[float, str]) -> SessionFigures:
         made = helped_session(*events)
-        return session_figures(replace(made, header=replace(made.header, exercise=exercise)))
+        return figures_once(replace(made, header=replace(made.header, exercise=exercise)))
 
     row, whole = free((HELPED_S, PASSIVE)).row("flexion", 1), free().row("flexion", 1)
     assert row is not None
@@ -72,9 +72,9 @@ def test_where_no_repetitions_are_counted_what_was_helped_is_not_measured(exerci
 
 
 def test_a_session_that_is_passive_only_is_named_so_and_has_no_empty_column() -> None:
-    helped = session_figures(helped_session((0.0, PASSIVE)))
+    helped = figures_once(helped_session((0.0, PASSIVE)))
     later = replace(
-        session_figures(session()), when=helped.when + timedelta(days=7), session_id="later", recording_id="later"
+        figures_once(session()), when=helped.when + timedelta(days=7), session_id="later", recording_id="later"
     )
     assert unfair_reasons(helped, helped) == ("only_passive",)
     found = progress([helped, later])
@@ -85,7 +85,7 @@ def test_a_session_that_is_passive_only_is_named_so_and_has_no_empty_column() ->
 
 
 def test_a_passive_repetition_that_was_hidden_says_that() -> None:
-    figures = session_figures(helped_session((HELPED_S, PASSIVE)))
+    figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     number = next(number for number, one in enumerate(figures.repetitions) if one.helped)
     shown = list(figures.repetitions)
     shown[number] = replace(shown[number], unmeasured="hidden")
@@ -97,21 +97,21 @@ def test_a_passive_repetition_that_was_hidden_says_that() -> None:
 def test_what_is_measured_over_all_of_a_fist_leaves_out_what_was_helped() -> None:
     made = FakeHandSessions().session("hand-7")
     start_s = float(made.timestamp_s[0])
-    assert session_figures(made).further
-    everything = session_figures(replace(made, events=(Event(start_s, PASSIVE, ""),)))
+    assert figures_once(made).further
+    everything = figures_once(replace(made, events=(Event(start_s, PASSIVE, ""),)))
     assert everything.passive is not None
     assert not everything.further, "nothing was active"
     counted = RepetitionChoices(dict.fromkeys(range(len(everything.repetitions)), ""))
-    assert session_figures(replace(made, events=(Event(start_s, PASSIVE, ""),)), counted).further
+    assert figures_once(replace(made, events=(Event(start_s, PASSIVE, ""),)), counted).further
 
 
 def test_a_person_has_the_last_word_and_active_again_ends_a_stretch() -> None:
     made = helped_session((HELPED_S, PASSIVE))
-    helped = [number for number, one in enumerate(session_figures(made).repetitions) if one.helped]
-    taken_back = session_figures(made, RepetitionChoices({helped[0]: ""}))
+    helped = [number for number, one in enumerate(figures_once(made).repetitions) if one.helped]
+    taken_back = figures_once(made, RepetitionChoices({helped[0]: ""}))
     assert taken_back.repetitions[helped[0]].counts
-    assert session_figures(helped_session((0.0, PASSIVE), (0.5, ACTIVE))).passive is None
-    everything = session_figures(helped_session((0.0, PASSIVE)))
+    assert figures_once(helped_session((0.0, PASSIVE), (0.5, ACTIVE))).passive is None
+    everything = figures_once(helped_session((0.0, PASSIVE)))
     assert everything.counted == 0
     assert not everything.rows, "nothing was active"
     assert everything.passive is not None
@@ -119,7 +119,7 @@ def test_a_person_has_the_last_word_and_active_again_ends_a_stretch() -> None:
 
 
 def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
-    figures = session_figures(helped_session((HELPED_S, PASSIVE)))
+    figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     found = active_passive(figures, hand_values_today())
     assert found is not None
     flexion = next(row for row in found.rows if row[0] == "Flexion")
@@ -128,11 +128,11 @@ def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
     assert f"{mean_of(figures.passive):.0f}°" in flexion[2]
     assert "error" in flexion[3]
     assert "when helped" in found.said
-    assert active_passive(session_figures(session()), ()) is None, "one way alone has no table"
+    assert active_passive(figures_once(session()), ()) is None, "one way alone has no table"
 
 
 def test_where_passive_went_less_far_the_table_says_so() -> None:
-    found = active_passive(session_figures(helped_session((0.0, PASSIVE), (HELPED_S, ACTIVE))), ())
+    found = active_passive(figures_once(helped_session((0.0, PASSIVE), (HELPED_S, ACTIVE))), ())
     assert found is not None
     arc = next(row for row in found.rows if row[0] == "Whole arc")
     assert arc[3].startswith("\N{MINUS SIGN}")
@@ -140,7 +140,7 @@ def test_where_passive_went_less_far_the_table_says_so() -> None:
 
 
 def test_the_sentence_keeps_the_sign_of_what_does_not_reach_neutral() -> None:
-    figures = session_figures(helped_session((HELPED_S, PASSIVE)))
+    figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     row = figures.row("flexion", 1)
     assert row is not None
     made = replace(figures, rows=tuple(replace(one, mean_deg=-12.0) if one is row else one for one in figures.rows))
@@ -150,7 +150,7 @@ def test_the_sentence_keeps_the_sign_of_what_does_not_reach_neutral() -> None:
 
 
 def test_beside_at_least_stands_what_the_goniometer_said() -> None:
-    figures = session_figures(FakeHandSessions().session("hand-7"))
+    figures = figures_once(FakeHandSessions().session("hand-7"))
     found = active_passive(figures, hand_values_today())
     assert found is not None
     ring = next(row for row in found.rows if row[0] == "Ring")

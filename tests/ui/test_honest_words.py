@@ -20,7 +20,7 @@ from carpus.core.calibration.card.chart import CardCheck, add_check, chart_path
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.repetitions import Uncounted
 from carpus.core.results.camera_said import camera_of
-from carpus.core.results.figures import SessionFigures, StrokeSpread, session_figures, with_trust
+from carpus.core.results.figures import SessionFigures, StrokeSpread, with_trust
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.progress import progress
 from carpus.core.results.seen import joint_curves, session_curves
@@ -48,7 +48,7 @@ from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import limit_words
 from tests.moments import with_moment
-from tests.ui.fakes import NOW, FakeFeed, FakeSessions, FakeStore, session
+from tests.ui.fakes import NOW, FakeFeed, FakeSessions, FakeStore, figures_once, session
 from tests.ui.hand_fakes import hand_session
 
 BOX = QRectF(0.0, 0.0, 800.0, 500.0)
@@ -74,7 +74,7 @@ def not_reaching(figures_deg: tuple[float, float] = (20.0, 60.0), **header: obje
     low, high = np.nanpercentile(angles[:, 1], (2, 98))
     span = figures_deg[1] - figures_deg[0]
     angles[:, 1] = np.radians(figures_deg[0] + (angles[:, 1] - low) / (high - low) * span)
-    return session_figures(replace(made, motion=replace(made.motion, angles_rad=angles)))
+    return figures_once(replace(made, motion=replace(made.motion, angles_rad=angles)))
 
 
 # --- a camera that was out --------------------------------------------------------------------------------
@@ -91,7 +91,7 @@ def test_a_session_of_a_camera_that_was_out_says_so_everywhere(
     made = replace(made, header=replace(made.header, parameters=json.dumps(source)), path=tmp_path / "p" / "s.h5")
     camera = camera_of(made)
     assert camera.not_sure == not_sure
-    figures = session_figures(made)
+    figures = figures_once(made)
     assert repr(with_trust(figures, tmp_path).camera) == repr(camera)  # an unknown age is equal to nothing
     assert with_trust(replace(figures, simulated=True), tmp_path).camera.not_sure == ""
     figures = with_trust(figures, tmp_path)
@@ -140,7 +140,7 @@ def test_progress_and_report_say_it_too(
 
 
 def test_earlier_results_that_were_read_are_counted_as_replaced() -> None:
-    newest = session_figures(session())
+    newest = figures_once(session())
     older = replace(newest, session_id="older", created=(newest.created or NOW) - timedelta(days=1))
     assert progress([newest, older]).earlier_results == 1
 
@@ -187,7 +187,7 @@ def test_a_side_that_was_not_reached_lacks_something_wherever_it_is_shown(theme:
 
 # --- whose figures ----------------------------------------------------------------------------------------
 def test_the_footnote_names_the_sd_that_is_printed() -> None:
-    many = session_figures(session())
+    many = figures_once(session())
     assert "spread between repetitions" in method(many, 6, compared=False)
     assert "tracker’s own" not in method(many, 6, compared=False)
     single = replace(
@@ -206,7 +206,7 @@ def test_error_limits_are_nobody_s_published_figures_and_those_of_arcs_are_large
     assert "experts’ choice" in words
     assert "not published" in words
     assert "√2" in words
-    assert words in method(session_figures(session()), 6, compared=True)
+    assert words in method(figures_once(session()), 6, compared=True)
     screen = ProgressScreen(theme, Keys(), background, FakeSessions())
     screen.begin("linden")
     qtbot.waitUntil(lambda: not background.busy, timeout=120_000)
@@ -222,14 +222,14 @@ def test_the_middle_finger_spreads_radially_and_ulnarly() -> None:
     assert [words for _, words in spread_labels(20.0, 3)] == ["Radial 20°", "0°", "Ulnar 20°"]
     assert spread_labels(20.0, 2)[0][1] == "Out 20°"
     made = hand_session()
-    figures = session_figures(made)
+    figures = figures_once(made)
     plot = HandPlot(session_curves(made), figures.exercise, (), joints=joint_curves(made), finger=3)
     assert "Radial 20°" in [text for _, text in plot.panels(BOX, 8.0)[1][0].scale.labels]
 
 
 @pytest.mark.parametrize("exercise", ["REACH_GRASP", "FINGER_ABAD", "THUMB_OPP", "FIST_HOOK"])
 def test_no_page_speaks_of_tam_where_no_fist_is_asked_for(exercise: str) -> None:
-    figures = session_figures(hand_session(exercise=exercise))
+    figures = figures_once(hand_session(exercise=exercise))
     assert "TAM" not in " ".join(column_heads(figures, None)) + limits_words(figures) + method(
         figures, 21, compared=True
     )
@@ -244,20 +244,20 @@ def test_no_page_speaks_of_tam_where_no_fist_is_asked_for(exercise: str) -> None
     ],
 )  # fmt: skip
 def test_why_no_repetition_was_counted_is_said(uncounted: Uncounted, words: str) -> None:
-    made = replace(session_figures(session()), repetitions=(), uncounted=uncounted)
+    made = replace(figures_once(session()), repetitions=(), uncounted=uncounted)
     assert repetition_words(made) == f"one range over the whole recording; no repetitions: {words}"
-    free = replace(session_figures(session(exercise="FREE")), uncounted=None)
+    free = replace(figures_once(session(exercise="FREE")), uncounted=None)
     assert repetition_words(free) == "one range over the whole recording; no repetitions"
 
 
 def test_what_was_not_seen_is_said_beside_the_count() -> None:
-    made = replace(session_figures(session()), unseen_s=6.2)
+    made = replace(figures_once(session()), unseen_s=6.2)
     assert repetition_words(made).endswith("6 s not seen and not counted")
     assert "not seen" not in repetition_words(replace(made, unseen_s=0.0))
 
 
 def test_a_speed_lost_in_noise_is_too_slow_to_judge() -> None:
-    made = session_figures(session())
+    made = figures_once(session())
     unknown = StrokeSpread(math.nan, math.nan, math.nan, 0)
     slow = replace(made, speed=replace(made.speed, peak_speed=unknown, too_slow=made.speed.count))
     assert next(row for row in table_rows(slow, None, None) if row.movement == "Peak speed").today == (

@@ -14,7 +14,6 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter
 from pytestqt.qtbot import QtBot
 
-from carpus.core.results.figures import session_figures
 from carpus.core.results.motion_curves import motion_curves
 from carpus.core.results.seen import session_curves
 from carpus.ui.background import Background
@@ -32,7 +31,7 @@ from carpus.ui.report.pdf import write_session_report
 from carpus.ui.review.charts import WRIST
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
-from tests.ui.fakes import NOW, FakeSessions, FakeStore, session
+from tests.ui.fakes import NOW, FakeSessions, FakeStore, figures_once, session
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 
 BOX = QRectF(0.0, 0.0, 720.0, 300.0)
@@ -108,7 +107,7 @@ def test_a_way_and_the_hand_s_axes_are_really_drawn(theme: Theme) -> None:
 # --- curves -----------------------------------------------------------------------------------------------
 def test_speeds_and_zyz_are_read_at_the_cursor() -> None:
     made = session()
-    figures, curves, motion = session_figures(made), session_curves(made), motion_curves(made)
+    figures, curves, motion = figures_once(made), session_curves(made), motion_curves(made)
     row = 600
     time_s = float(motion.time_s[row])
     plot = MotionPlot(curves, figures.exercise, figures.repetitions, motion=motion, kind="place")
@@ -180,8 +179,8 @@ def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(
 
 # --- words ------------------------------------------------------------------------------------------------
 def test_ways_out_stand_beside_those_back_with_last_time() -> None:
-    before = session_figures(hand_session(NOW - timedelta(days=7), 0.9, "REACH_GRASP", "hand-6", "reach_grasp"))
-    figures = session_figures(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
+    before = figures_once(hand_session(NOW - timedelta(days=7), 0.9, "REACH_GRASP", "hand-6", "reach_grasp"))
+    figures = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
     rows = further_rows(figures, before)
     assert [row.name for row in rows[:4]] == [
         "Movement time, out", "Movement time, back", "Peak speed, out", "Peak speed, back",
@@ -189,29 +188,29 @@ def test_ways_out_stand_beside_those_back_with_last_time() -> None:
     assert all(row.last for row in rows[:4])
     assert rows[0].today.endswith("s")
     assert main_words(figures).startswith("Out in 1.")
-    touched = session_figures(hand_session(exercise="THUMB_OPP", motion="opposition"))
+    touched = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
     assert main_words(touched) == "The thumb touched 4 of 4 finger tips"
-    assert main_words(session_figures(hand_session())) == ""
+    assert main_words(figures_once(hand_session())) == ""
 
 
 def test_the_list_of_sessions_says_of_a_reach_what_it_is_about() -> None:
-    reach = session_figures(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
+    reach = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
     assert main_figure(reach).startswith("Out in 1.")
-    touched = session_figures(hand_session(exercise="THUMB_OPP", motion="opposition"))
+    touched = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
     assert main_figure(touched) == "Touched 4 of 4"
-    assert "°" in main_figure(session_figures(hand_session()))
+    assert "°" in main_figure(figures_once(hand_session()))
 
 
 def test_the_card_says_of_a_reach_what_it_is_about(theme: Theme) -> None:
     card = PatientCardView(theme, NOW.date)
     row = FakeStore().rows[0]
-    said = main_words(session_figures(hand_session(exercise="REACH_GRASP", motion="reach_grasp")))
+    said = main_words(figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp")))
     card.show_card(PatientCard(row, about=said), camera_ready=True)
     assert said in [text.text() for text in card.findChildren(Text) if text.isVisibleTo(card)]
 
 
 def test_totals_are_graded_beside_their_share() -> None:
-    whole = session_figures(hand_session(hides_beyond_deg=999.0))
+    whole = figures_once(hand_session(hides_beyond_deg=999.0))
     assert column_heads(whole, None)[5] == "Of usual"
     rows = finger_rows(whole, None)
     assert all(row.share.main.endswith("%") for row in rows)
@@ -219,10 +218,10 @@ def test_totals_are_graded_beside_their_share() -> None:
     assert index is not None
     assert rows[1].share.main.split("\N{NO-BREAK SPACE}")[0] == f"{100.0 * index.mean_deg / 260.0:.0f}"
     assert rows[1].share.small in ("good", "fair")
-    hidden = finger_rows(session_figures(hand_session()), None)
+    hidden = finger_rows(figures_once(hand_session()), None)
     assert hidden[1].share.main.startswith("≥")
     assert hidden[1].share.small == "not graded"
-    other = session_figures(hand_session(side="left", hides_beyond_deg=999.0))
+    other = figures_once(hand_session(side="left", hides_beyond_deg=999.0))
     assert column_heads(whole, None, other)[5] == "Of other hand"
     assert finger_rows(whole, None, other)[1].share.small in ("excellent", "good")
 

@@ -13,14 +13,13 @@ from carpus.core.errors import SettingsInvalid
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import recover
-from carpus.core.results.figures import session_figures
 from carpus.ui.controls.text import Text
 from carpus.ui.ports import Preferences
 from carpus.ui.report.words import method
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import limit_words
-from tests.ui.fakes import session
+from tests.ui.fakes import figures_once, session
 
 ARC = MeasuredLimit("flexion", "arc", 12, 2.4, (1.7, 3.9), 6.6, (4.7, 10.8))
 STUDY = RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-27", 12, 24, 2, (ARC, replace(ARC, movement="extension")))
@@ -33,9 +32,9 @@ def said(widget: QWidget) -> str:
 def test_they_are_named_with_their_date_and_people(theme: Theme) -> None:
     words = limit_words(STUDY)
     assert "measured by this clinic on 27 Nov 2026 with 12 people" in words
-    assert words in method(session_figures(session(), None, ErrorLimits((STUDY,))), 6, compared=True)
+    assert words in method(figures_once(session(), None, ErrorLimits((STUDY,))), 6, compared=True)
     few = replace(STUDY, limits=(replace(ARC, people=9),))
-    assert limit_words() in method(session_figures(session(), None, ErrorLimits((few,))), 6, compared=True)
+    assert limit_words() in method(figures_once(session(), None, ErrorLimits((few,))), 6, compared=True)
     shown = said(SettingsScreen(theme, Preferences(), "1", ErrorLimits((STUDY,))))
     for piece in (
         "On 27 Nov 2026 with 12 people in 24 sessions",

@@ -12,7 +12,6 @@ import pytest
 from PySide6.QtGui import QPainter, QPicture
 from PySide6.QtWidgets import QApplication
 
-from carpus.core.results.figures import session_figures
 from carpus.core.results.progress import compare_rows, progress
 from carpus.core.results.ranges import finger_keys
 from carpus.ui import numbers
@@ -35,6 +34,7 @@ from carpus.ui.report.page import Page, painted_on_nothing
 from carpus.ui.report.pdf import progress_report, write_progress_report, write_session_report
 from carpus.ui.report.words import quality_lines
 from carpus.ui.terms import LEGAL_SENTENCE
+from tests.ui.fakes import figures_once
 from tests.ui.hand_fakes import FakeHandSessions, hand_session, without_hidden
 from tests.ui.test_report_pdf import tool, words_of
 
@@ -54,7 +54,7 @@ def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
     path = write_session_report(store.session("hand-7"), tmp_path / "h.pdf", history=store.history("x"))
     assert re.search(r"Pages:\s+2\n", tool("pdfinfo", str(path)))
     words = plain(words_of(path))
-    figures = session_figures(store.session("hand-7"))
+    figures = figures_once(store.session("hand-7"))
     for row in finger_rows(figures, None):
         assert row.name in words
         for cell in row.cells:
@@ -69,7 +69,7 @@ def test_one_page_with_every_finger_its_total_and_the_limits_of_view_in_words(
 def test_no_cell_of_a_finger_runs_into_the_one_beside_it(
     qapp: QApplication, store: FakeHandSessions, code: str
 ) -> None:
-    first, last = (session_figures(store.session(key)) for key in ("hand-3", "hand-7"))
+    first, last = (figures_once(store.session(key)) for key in ("hand-3", "hand-7"))
     too_wide: list[str] = []
 
     def look(page: Page) -> float:
@@ -94,7 +94,7 @@ def test_no_cell_of_a_finger_runs_into_the_one_beside_it(
 )
 def test_every_exercise_of_the_hand_fits_one_page(tmp_path: Path, exercise: str, motion: str) -> None:
     made = hand_session(exercise=exercise, motion=motion, hidden=[(0.0, 99.0, "TIP1")])
-    path = write_session_report(made, tmp_path / "h.pdf", history=[session_figures(made)])
+    path = write_session_report(made, tmp_path / "h.pdf", history=[figures_once(made)])
     assert re.search(r"Pages:\s+2\n", tool("pdfinfo", str(path)))
     words = plain(words_of(path))
     assert LEGAL_SENTENCE in words
@@ -110,7 +110,7 @@ def test_a_hand_never_tracked_gives_an_honest_page(tmp_path: Path) -> None:
 
 
 def test_a_lower_bound_is_a_gain_when_it_is_beyond_the_error_and_else_not_judged(store: FakeHandSessions) -> None:
-    first, last = (session_figures(store.session(key)) for key in ("hand-3", "hand-7"))
+    first, last = (figures_once(store.session(key)) for key in ("hand-3", "hand-7"))
     row = last.row("arc", -1, "TAM3")
     before = first.row("arc", -1, "TAM3")
     assert row is not None
@@ -125,7 +125,7 @@ def test_a_lower_bound_is_a_gain_when_it_is_beyond_the_error_and_else_not_judged
 
 
 def test_a_hand_that_was_seen_all_the_time_is_judged_joint_by_joint() -> None:
-    first, last = (session_figures(without_hidden(hand_session(share=share))) for share in (0.6, 1.0))
+    first, last = (figures_once(without_hidden(hand_session(share=share))) for share in (0.6, 1.0))
     compared = compare_rows(first, last, [row for row in last.joint_rows if row.joint == "MCP3_flexion"])
     arc = next(item for item in compared if item.movement == "arc")
     assert arc.verdict == "improved"
@@ -161,7 +161,7 @@ def test_the_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHand
     with (tmp_path / "t.csv").open(encoding="utf-8", newline="") as file:
         lines = list(csv.DictReader(file))
     last = {(line["joint"], line["movement"]): line for line in lines if line["session"] == "hand-7"}
-    figures = session_figures(store.session("hand-7"))
+    figures = figures_once(store.session("hand-7"))
     assert len(last) >= 3 * (17 + 5)
     for row in figures.joint_rows:
         line = last[row.joint, row.movement]
@@ -170,20 +170,20 @@ def test_the_table_of_sessions_has_every_joint_and_says_at_least(store: FakeHand
 
 
 def test_how_sure_is_amber_as_soon_as_a_joint_is_a_lower_bound() -> None:
-    limited = session_figures(hand_session())
+    limited = figures_once(hand_session())
     lines = {name: (value, fine) for name, value, fine in quality_lines(limited)}
     value, fine = lines["At least (≥) or not seen"]
     bounds = sum(row.limited for row in limited.joint_rows if row.movement == "arc")
     assert value.startswith(f"{bounds} of ")
     assert bounds
     assert not fine
-    seen = session_figures(hand_session(hides_beyond_deg=999.0))
+    seen = figures_once(hand_session(hides_beyond_deg=999.0))
     assert all(fine for _, _, fine in quality_lines(seen))
 
 
 def test_what_was_hidden_is_measured_within_the_repetitions() -> None:
     made = hand_session(hidden=[(0.0, 99.0, "TIP5")])
-    figures = session_figures(made)
+    figures = figures_once(made)
     time_s = made.timestamp_s - made.timestamp_s[0]
     inside = np.zeros(len(time_s), dtype=bool)
     for rep in figures.repetitions:
@@ -195,30 +195,30 @@ def test_what_was_hidden_is_measured_within_the_repetitions() -> None:
 
 
 def test_a_lower_bound_has_no_spread_and_the_headline_says_what_was_not_seen() -> None:
-    figures = session_figures(hand_session())
+    figures = figures_once(hand_session())
     for row in finger_rows(figures, None):
         for cell in row.cells:
             assert not (cell.main.startswith("≥") and "±" in cell.main)
     assert "the camera did not see" in hand_summary(figures, None, None)
-    assert "did not see" not in hand_summary(session_figures(hand_session(hides_beyond_deg=999.0)), None, None)
+    assert "did not see" not in hand_summary(figures_once(hand_session(hides_beyond_deg=999.0)), None, None)
 
 
 def test_total_active_motion_is_explained_once_and_only_after_a_fist() -> None:
-    assert limits_words(session_figures(hand_session())).count("Total active motion (TAM)") == 1
-    hook = session_figures(hand_session(exercise="FIST_HOOK", motion="hook"))
+    assert limits_words(figures_once(hand_session())).count("Total active motion (TAM)") == 1
+    hook = figures_once(hand_session(exercise="FIST_HOOK", motion="hook"))
     assert "TAM" not in limits_words(hook)
-    unseen = session_figures(hand_session(hidden=[(0.0, 99.0, f"PIP{k}") for k in (2, 3, 4, 5)]))
+    unseen = figures_once(hand_session(hidden=[(0.0, 99.0, f"PIP{k}") for k in (2, 3, 4, 5)]))
     assert "never all seen at once" in limits_words(unseen)
 
 
 def test_no_figure_of_the_thumb_can_be_read_as_a_fingers_joint() -> None:
-    thumb, *fingers = finger_rows(session_figures(hand_session()), None)
+    thumb, *fingers = finger_rows(figures_once(hand_session()), None)
     assert [cell.shown.split()[0] for cell in thumb.cells[:3]] == ["MCP", "Lift", "IP"]
     assert all(not cell.joint for row in fingers for cell in row.cells)
 
 
 def test_an_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
-    figures = session_figures(hand_session())
+    figures = figures_once(hand_session())
     low = figures.row("extension", -1, "PIP3_flexion")
     assert low is not None
     rows = tuple(replace(row, mean_deg=-3.2) if row == low else row for row in figures.joint_rows)
@@ -231,7 +231,7 @@ def test_an_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
 
 
 def test_progress_of_the_thumbs_exercise_draws_lift_and_spread_first() -> None:
-    figures = session_figures(hand_session(exercise="THUMB_OPP", motion="thumb"))
+    figures = figures_once(hand_session(exercise="THUMB_OPP", motion="thumb"))
     kind = followed_kinds(figures)[0][0]
     shown = [key[0] for key in panels_of(progress([figures], None, followed_keys(kind)))]
     assert shown == ["CMC1_abduction", "CMC1_extension", "MCP1_flexion", "IP1_flexion"]
@@ -239,7 +239,7 @@ def test_progress_of_the_thumbs_exercise_draws_lift_and_spread_first() -> None:
 
 def test_the_thumbs_exercise_is_told_of_the_thumb(tmp_path: Path) -> None:
     made = hand_session(exercise="THUMB_OPP", motion="thumb")
-    figures = session_figures(made)
+    figures = figures_once(made)
     assert len(figures.repetitions) >= 3
     said = hand_summary(figures, None, None)
     assert said.startswith("The thumb touched ")

@@ -21,7 +21,7 @@ import carpus
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, OutputNotWritable
 from carpus.core.provenance import revision
-from carpus.core.results.figures import StrokeSpread, session_figures
+from carpus.core.results.figures import StrokeSpread
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.ui.language import speaking
 from carpus.ui.report.page import Page
@@ -30,7 +30,7 @@ from carpus.ui.report.progress_page import made_of
 from carpus.ui.report.session_page import paint_boxes
 from carpus.ui.report.words import other_lines
 from carpus.ui.terms import LEGAL_SENTENCE
-from tests.ui.fakes import FakeSessions, session
+from tests.ui.fakes import FakeSessions, figures_once, session
 
 ROOT = Path(__file__).parents[2]
 
@@ -72,7 +72,7 @@ def test_every_font_is_embedded_and_gives_its_text_back(report: Path) -> None:
 
 def test_the_figures_on_the_page_are_those_of_the_session(report: Path) -> None:
     words = words_of(report)
-    figures = session_figures(FakeSessions().session("session-7"), RepetitionChoices({6: "pain"}))
+    figures = figures_once(FakeSessions().session("session-7"), RepetitionChoices({6: "pain"}))
     for row in figures.rows:
         assert f"{row.mean_deg:.0f}° ± {max(1, round(row.sd_deg))}°" in words
     assert "mean of 8 repetitions; number 7 left out: pain" in words
@@ -135,7 +135,7 @@ def test_error_is_explained_only_where_a_change_is_judged(report: Path, tmp_path
 
 
 def test_a_single_pain_is_said_with_its_time_and_two_as_first_and_last() -> None:
-    figures = session_figures(session())
+    figures = figures_once(session())
     once = dict(other_lines(replace(figures, pain=(3,), pain_s=(74.2,))))
     assert once["Pain (0–10)"] == "3 at 01:14"
     assert dict(other_lines(replace(figures, pain=(2, 3), pain_s=(1.0, 9.0))))["Pain first / last (0–10)"] == "2 / 3"

@@ -10,7 +10,6 @@ from datetime import datetime, timedelta
 import pytest
 
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.results.figures import session_figures
 from carpus.ui import numbers
 from carpus.ui.figures import figure_of
 from carpus.ui.live.number_card import speed_words
@@ -20,6 +19,7 @@ from carpus.ui.report.pdf import session_report
 from carpus.ui.report.screen import suggested_name
 from carpus.ui.verdicts import change_since_first, difference, no_change_words, verdict_word
 from tests.sources import SOURCES, modules, nodes
+from tests.ui.fakes import figures_once
 from tests.ui.hand_fakes import hand_session
 
 
@@ -43,7 +43,7 @@ def test_a_still_hand_has_no_speed(speed: float, words: str) -> None:
 
 
 def test_the_list_s_figure_is_of_the_joint_that_is_trained_and_says_at_least() -> None:
-    figures = session_figures(hand_session())
+    figures = figures_once(hand_session())
     trained = figure_of(figures.exercise.joint).finger
     rows = {figure.finger: figures.row("arc", -1, figure.joint) for figure in compared_figures(figures)}
     row = rows[trained]
