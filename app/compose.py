@@ -47,7 +47,7 @@ from carpus.ui.fault_words import fault_words
 from carpus.ui.fonts import load_fonts
 from carpus.ui.icons import program_icon
 from carpus.ui.keys import Keys
-from carpus.ui.last_places import LastPlaces
+from carpus.ui.last_places import LastPlaces, place_of, put_in_place
 from carpus.ui.records.backing_up import BackingUp
 from carpus.ui.records.erasing import Erasing
 from carpus.ui.records.lists import RecordLists
@@ -56,7 +56,6 @@ from carpus.ui.shell import Shell
 from carpus.ui.style import apply_style
 from carpus.ui.theme import Theme, ThemeName
 from carpus.ui.translate import tr
-from carpus.ui.window_place import place_of, put_in_place
 
 if TYPE_CHECKING:
     from carpus.app.desktop.sources import Sources

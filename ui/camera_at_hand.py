@@ -48,13 +48,11 @@ class CameraAtHand(QObject):
         self._ending = threading.Event()
         self._fault: Exception | None = None
         self._number, self._shown = 0, -1
-        self._timer = QTimer(self)
-        self._timer.setInterval(PULL_EVERY_MS)
+        self._timer = QTimer(self, interval=PULL_EVERY_MS)
         self._timer.timeout.connect(self._pull)
 
     @property
     def is_open(self) -> bool:
-        """Whether a camera is open, or being opened."""
         return self._session is not None or self._number > 0
 
     def open(self, source: Callable[[], LiveSession], looker: Callable[[LiveSession], Look]) -> None:
@@ -212,7 +210,6 @@ class AtCameraFlow(Flow):
         self.run(lambda: cameras.keep_name(kind, name, practice=practice), kept, self._failed)
 
     def save_page(self, name: str, title: str, write: Callable[[Path], Path]) -> None:
-        """Ask where a PDF is to lie, and write it."""
         path = self.ask_where_to_save("reports", name, title, "PDF (*.pdf)")
         if path is not None:
             self.run(lambda: replace_file(path, write))

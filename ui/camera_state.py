@@ -72,8 +72,7 @@ class CameraState(QObject):
         self._cameras, self._background, self._now, self._is_demo = cameras, background, now, is_demo
         self.there, self.name = False, ""
         self.standing = Standing("")
-        self._timer = QTimer(self)
-        self._timer.setInterval(LOOK_EVERY_MS)
+        self._timer = QTimer(self, interval=LOOK_EVERY_MS)
         self._timer.timeout.connect(self.look)
 
     def start(self) -> None:
@@ -82,7 +81,6 @@ class CameraState(QObject):
         self.read()
 
     def when_looked(self, show: Callable[[], object]) -> None:
-        """Show whether one is there, now and whenever it was looked."""
         self.looked.connect(show)
         show()
 

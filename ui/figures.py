@@ -80,7 +80,6 @@ class Figure:
 
     @property
     def end_names(self) -> tuple[str, str]:
-        """What the two ends of the gauge are called."""
         return _end_names(self)
 
 

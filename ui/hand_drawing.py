@@ -34,7 +34,7 @@ PLACES: dict[str, tuple[float, float]] = {"WRIST": (114, 254), "CMC1": (93, 236)
 PLACES |= {f"{joint}{k}": FINGERS[k][n] for k in (2, 3, 4, 5) for n, joint in enumerate(("MCP", "PIP", "DIP", "TIP"))}
 PLACES |= {"MCP1": FINGERS[1][1], "IP1": FINGERS[1][2], "TIP1": FINGERS[1][3]}
 
-MarkerState = Literal["done", "next", "later", "proposed", "doubtful", "wrong", "seen", "partly", "hidden"]
+MarkerState = Literal["done", "next", "later", "proposed", "doubtful", "wrong"]
 
 
 @lru_cache(maxsize=1)
@@ -85,7 +85,6 @@ class HandDrawing(QWidget):
         theme.changed.connect(self.update)
 
     def show_markers(self, side: Side, states: Mapping[str, MarkerState]) -> None:
-        """The markers in the order of clicking, each with its state."""
         self._side, self._states, self._order = side, dict(states), tuple(states)
         self.setAccessibleName(self.tr("Hand from above"))
         self.update()
@@ -150,15 +149,6 @@ class HandDrawing(QWidget):
             painter.setPen(QPen(color("bad"), 1.6))
             painter.drawPolygon(octagon(at, 15))
             paint_state(painter, "bad", QRectF(at.x() - 10, at.y() - 10, 20, 20), color("bad"), color("surface"))
-        elif state in ("seen", "partly", "hidden"):
-            shape = {"seen": "seen", "partly": "partly", "hidden": "predicted"}[state]
-            if shape == "seen":
-                painter.setPen(Qt.PenStyle.NoPen)
-                painter.setBrush(color("accent"))
-                painter.drawEllipse(at, 7, 7)
-            else:
-                token = "warn" if shape == "partly" else "border"
-                paint_state(painter, shape, QRectF(at.x() - 8, at.y() - 8, 16, 16), color(token), color("surface"))  # type: ignore[arg-type]
 
     def _number(self, painter: QPainter, at: QPointF, number: int, token: str, size: int) -> None:
         painter.setFont(font(size, SEMIBOLD))

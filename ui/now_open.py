@@ -4,15 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.ui.ports import Calibrator, PatientRow
-from carpus.ui.setup.choice import SourceChoice, SourceKind
 from carpus.ui.translate import tr
 
-if TYPE_CHECKING:  # it reads and writes files
+if TYPE_CHECKING:
     from carpus.core.pipeline.measuring import SourceMeasuring
+
+SourceKind = Literal["camera", "file", "practice"]
+
+
+@dataclass(frozen=True, slots=True)
+class SourceChoice:
+    """Where the pictures come from; of a stored recording only its ``path``, and whether its depth lies on its
+    colours where the recording does not say and the person was asked."""
+
+    kind: SourceKind
+    path: str = ""
+    registered: bool | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +51,6 @@ class NowOpen:
     choice: SourceChoice = field(default_factory=lambda: SourceChoice("camera"))
 
     def close(self) -> None:
-        """Nobody and nothing is looked at any more."""
         self.patient = self.set_up = None
         self.session_id = ""
 

@@ -71,6 +71,11 @@ def fixed(value: float, decimals: int) -> str:
     return _in_the_language(f"{round(value, decimals) + 0.0:.{decimals}f}")
 
 
+def signed(value: float, decimals: int) -> str:
+    """``+1.3``, ``−0.4``: with its sign, also above zero."""
+    return f"{'−' if value < 0 else '+'}{fixed(abs(value), decimals)}"
+
+
 def figures(value: float, count: int) -> str:
     """``0.65`` with that many figures that mean something, none but them.
 

@@ -9,8 +9,7 @@ from PySide6.QtCore import QObject, Signal
 
 from carpus.core.records.set_up import SetUp
 from carpus.ui.background import Background
-from carpus.ui.now_open import NowOpen, OpenSource
-from carpus.ui.setup.choice import SourceChoice
+from carpus.ui.now_open import NowOpen, OpenSource, SourceChoice
 
 Progress = Callable[[int, int], None]
 """Called with pictures done and pictures in all."""

@@ -1,7 +1,4 @@
-"""What the windows need from the rest of Carpus: values and protocols. ``app`` supplies the implementations.
-
-No screen knows a device, a filter or a file; each takes the port it needs in its constructor.
-"""
+"""Values that the windows share, and the port to what none of them may know: ``app`` implements it."""
 
 from __future__ import annotations
 
@@ -11,17 +8,11 @@ from datetime import date, datetime
 from typing import Literal, Protocol
 
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
-from carpus.core.camera import Camera
 from carpus.core.hand.protocols import MarkerProtocol
-from carpus.core.measures.by_hand import HandValue
-from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, StartMode, TrackedView
-from carpus.core.records.set_up import SetUp
-from carpus.core.records.values import AffectedSide, Dominance, Onset, PatientEntry, PatientRecord
-from carpus.core.results.camera_said import CameraSaid
-from carpus.core.results.figures import SessionFigures
-from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.session.values import AngleOrder, Session
-from carpus.core.types import ByteImage, FloatArray, Frame, Side, SpotAnswer, TrackedFrame
+from carpus.core.pipeline.live_values import StartMode
+from carpus.core.records.values import AffectedSide, Dominance, Onset, PatientRecord
+from carpus.core.session.values import AngleOrder
+from carpus.core.types import ByteImage, FloatArray, Frame, Side
 
 
 # --- patients ---------------------------------------------------------------------------------------------
@@ -90,109 +81,6 @@ class PatientCard:
 
 MOST_ROWS = 500
 """Of patients that are shown at once; of more, searching finds the others."""
-
-
-class PatientStore(Protocol):
-    """The register of patients. Names beyond the pseudonym live only behind this port."""
-
-    def patients(self, search: str = "") -> Sequence[PatientRow]:
-        """Rows of everybody in whom all words are found, newest session first, :data:`MOST_ROWS` at most; without the
-        practice patient."""
-        ...
-
-    def archived(self) -> Sequence[str]:
-        """Names in Carpus of the patients in the archive, last archived first."""
-        ...
-
-    def card(self, patient_id: str) -> PatientCard: ...
-
-    def suggest_pseudonym(self) -> str:
-        """A speakable random name that is not taken yet."""
-        ...
-
-    def add(self, entry: PatientEntry) -> str:
-        """Store a new patient; the identity given."""
-        ...
-
-    def change(self, patient_id: str, entry: PatientEntry) -> None: ...
-
-    def diagnoses(self) -> Sequence[str]:
-        """The clinic's own list, those of most patients first."""
-        ...
-
-    def list_diagnosis(self, words: str, *, listed: bool) -> None:
-        """Take one into the list, or out of it."""
-        ...
-
-
-# --- measuring --------------------------------------------------------------------------------------------
-class LiveFeed(Protocol):
-    """The running source, as :class:`core.pipeline.live.LiveSession` offers it to a screen."""
-
-    def newest_frame(self) -> Frame | None: ...
-
-    def newest(self) -> TrackedView | None: ...
-
-    def tracked_since(self, index: int) -> Sequence[TrackedFrame]: ...
-
-    def drain_events(self) -> Sequence[LiveEvent]: ...
-
-    def counters(self) -> LiveCounters: ...
-
-    def add_event(self, kind: str, text: str = "") -> bool: ...
-
-    def tell(self, kind: str, at_s: float) -> None:
-        """To who listens on the network, not to the file."""
-        ...
-
-    def pause_recording(self) -> None: ...
-
-    def resume_recording(self) -> None: ...
-
-    @property
-    def recording(self) -> bool: ...
-
-    @property
-    def recorded_from(self) -> int | None: ...
-
-    @property
-    def paused(self) -> bool: ...
-
-
-class Measuring(Protocol):
-    """An open source with a patient before it: from the first picture to the stored session.
-
-    ``start_recording`` and ``stop_recording`` may wait for the disk and are called in the background;
-    ``stop_recording`` returns the identity of the stored session.
-    """
-
-    @property
-    def feed(self) -> LiveFeed: ...
-
-    @property
-    def camera(self) -> Camera: ...
-
-    @property
-    def calibration(self) -> Calibration | None: ...
-
-    @property
-    def starts_with_recording(self) -> bool:
-        """Whether this is a stored recording, which plays from its first picture when recording starts."""
-        ...
-
-    def answer_spot(self, answer: SpotAnswer) -> None:
-        """What the person says of blue spots; holds from the next picture on, and the recording notes it."""
-        ...
-
-    def choose(self, set_up: SetUp) -> None:
-        """What is recorded next: another exercise with the same discs."""
-        ...
-
-    def start_recording(self) -> None: ...
-
-    def stop_recording(self) -> str: ...
-
-    def close(self) -> None: ...
 
 
 # --- calibration ------------------------------------------------------------------------------------------
@@ -284,49 +172,6 @@ class Calibrator(Protocol):
 
     def begin(self, calibration: Calibration) -> None:
         """Start tracking from here."""
-        ...
-
-
-# --- stored sessions --------------------------------------------------------------------------------------
-class StoredResult(Protocol):
-    """One result of a recording, which may have been tracked more than once."""
-
-    @property
-    def session_id(self) -> str: ...
-
-    @property
-    def created(self) -> datetime: ...
-
-
-class SessionStore(Protocol):
-    """Stored sessions and what is said of them. All but ``choices`` may read the disk: called in the background."""
-
-    def session(self, session_id: str) -> Session: ...
-
-    def picture(self, session_id: str, row: int) -> ByteImage | None:
-        """The stored colour picture of a row, None when pictures were not kept."""
-        ...
-
-    def results_of(self, session_id: str) -> Sequence[StoredResult]:
-        """Every result of the recording of a session, the first one first; the last one counts."""
-        ...
-
-    def camera(self, session: Session) -> CameraSaid:
-        """What the session and the checks since say of its camera."""
-        ...
-
-    def choices(self, session_id: str) -> RepetitionChoices:
-        """What a person left out or moved; empty when nothing."""
-        ...
-
-    def keep_choices(self, session_id: str, choices: RepetitionChoices) -> None: ...
-
-    def history(self, patient_id: str) -> Sequence[SessionFigures]:
-        """Figures of all of a patient's sessions, choices applied, in no particular order."""
-        ...
-
-    def by_hand(self, patient_id: str) -> Sequence[HandValue]:
-        """Everything that was ever measured by hand of a patient, in the order in which it was entered."""
         ...
 
 

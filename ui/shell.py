@@ -1,4 +1,4 @@
-"""The window: top bar, one screen at a time, and what may lie over it."""
+"""The window: top bar, one screen at a time, what may lie over it, and the ring about what has the keyboard."""
 
 from __future__ import annotations
 
@@ -13,13 +13,12 @@ from PySide6.QtWidgets import (
     QLineEdit,
     QPlainTextEdit,
     QStackedWidget,
-    QVBoxLayout,
     QWidget,
 )
 from shiboken6 import isValid
 
 from carpus.ui.controls.card import Surface
-from carpus.ui.controls.layouts import host_of, in_line
+from carpus.ui.controls.layouts import host_of, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, Sign, Text
 from carpus.ui.style import apply_style
 from carpus.ui.theme import FOCUS_OUTSIDE_PX, MARGIN_PX, Theme
@@ -41,12 +40,7 @@ class Shell(QWidget):
         self.bar = TopBar(theme)
         self.sign = AmberLine(theme)
         self.stage = QStackedWidget()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addWidget(self.bar)
-        column.addWidget(self.sign)
-        column.addWidget(self.stage, 1)
+        in_column(self.bar, self.sign, (self.stage, 1), gap=0, margins=(0, 0, 0, 0), within=self)
         self.ring = FocusRing(self)
         self.setWindowTitle("Carpus")
         self.resize(*FIRST_SIZE_PX)
@@ -69,7 +63,6 @@ class Shell(QWidget):
             shortcut.setKey(QKeySequence(sequence))
 
     def show_screen(self, screen: QWidget, first: QWidget | None = None) -> None:
-        """Bring a screen to the front and give the keyboard to its first control."""
         if self.stage.indexOf(screen) < 0:
             self.stage.addWidget(screen)
         self.stage.setCurrentWidget(screen)

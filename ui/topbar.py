@@ -7,11 +7,12 @@ from typing import Literal
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent, QPen, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button, icon_button
 from carpus.ui.controls.card import Line, Surface
+from carpus.ui.controls.layouts import in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, StateText, Text, plain_tooltip
 from carpus.ui.fonts import font
 from carpus.ui.icons import paint_state
@@ -50,8 +51,7 @@ class TopBar(Surface):
         self.settings_button = icon_button(theme, "settings", self.tr("Settings (Ctrl+,)"))
         self.help_button.clicked.connect(self.help)
         self.settings_button.clicked.connect(self.settings)
-        self._middle = QHBoxLayout()
-        self._middle.setSpacing(4)
+        self._middle = in_line(gap=4)
         self._way: list[WayButton] = []
         self._left, self._right = QWidget(), QWidget()
         left = _row(self._left, 8, self.brand, self._bar_line, self.back_button, self.where)
@@ -62,18 +62,12 @@ class TopBar(Surface):
         right.addWidget(self.help_button)
         right.addSpacing(-12)
         right.addWidget(self.settings_button)
-        row = QHBoxLayout()
-        row.setContentsMargins(MARGIN_PX - 4, 0, MARGIN_PX - 10, 0)
-        row.setSpacing(8)
-        row.addWidget(self._left, 1)
-        row.addLayout(self._middle)
-        row.addWidget(self._right, 1)
+        row = in_line(
+            (self._left, 1), self._middle, (self._right, 1), gap=8, margins=(MARGIN_PX - 4, 0, MARGIN_PX - 10, 0)
+        )
         for said in (self.camera, self.disk, self.again, self.pill):
             said.resized.connect(self._fit)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addLayout(row, 1)
+        whole = in_column((row, 1), gap=0, margins=(0, 0, 0, 0), within=self)
         self._under = Surface(theme, under="line")
         self._under.setFixedHeight(RECORDING_LINE_PX)
         whole.addSpacing(1 - RECORDING_LINE_PX)  # the red line lies over the bar's last pixels and moves nothing
@@ -112,7 +106,6 @@ class TopBar(Surface):
         self.again.shorten(not shown["again"])
 
     def _needed_px(self, shown: dict[str, bool]) -> float:
-        """What a choice of parts asks for, side by side."""
         named = [self._bar_line, self.back_button] if self.back_button.text() else []
         left = [self.brand.width_px(shown["name"]), *(one.sizeHint().width() for one in named)]
         left += [self.where.sizeHint().width()] if shown["where"] else []
@@ -140,7 +133,6 @@ class TopBar(Surface):
         return QFontMetricsF(face).elidedText(pseudonym, Qt.TextElideMode.ElideRight, self._theme.px(MOST_NAME_PX))
 
     def show_steps(self, names: Sequence[str], current: int) -> None:
-        """The way through the set-up: done, here, to come."""
         self._show_way([WayButton(self._theme, name, number, current, True) for number, name in enumerate(names)])
         for number, button in enumerate(self._way):
             button.setEnabled(number < current)
@@ -287,18 +279,14 @@ class _Brand(QWidget):
         self.setAccessibleName("Carpus")
 
     def width_px(self, named: bool) -> int:
-        """Room for the mark, with or without the word."""
         return self._mark.width() + 12 + (self._word.sizeHint().width() if named else 0)
 
     def show_name(self, named: bool) -> None:
-        """The mark with or without the word beside it."""
         self._word.setVisible(named)
 
 
 def _row(host: QWidget, spacing_px: int, *widgets: QWidget) -> QHBoxLayout:
-    row = QHBoxLayout(host)
-    row.setContentsMargins(0, 0, 0, 0)
-    row.setSpacing(spacing_px)
+    row = in_line(gap=spacing_px, margins=(0, 0, 0, 0), within=host)
     for widget in widgets:
         row.addWidget(widget)
     return row
@@ -319,12 +307,7 @@ class RecordingPill(Surface):
         self._dot.setObjectName("dot")
         self._dot.setFixedSize(13, 13)
         self._words = Text(theme, "", 20, SEMIBOLD)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(14, 0, 16, 0)
-        row.setSpacing(8)
-        row.addWidget(self._dot)
-        row.addWidget(self._bars)
-        row.addWidget(self._words)
+        in_line(self._dot, self._bars, self._words, gap=8, margins=(14, 0, 16, 0), within=self)
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.hide()
 

@@ -29,10 +29,9 @@ from carpus.ui.flow import STEPS, TABS, Navigator, Place, ScreenContext
 from carpus.ui.keys import Keys
 from carpus.ui.last_places import LastPlaces
 from carpus.ui.messages.messages import Messages
-from carpus.ui.now_open import NowOpen
+from carpus.ui.now_open import NowOpen, SourceChoice
 from carpus.ui.opening import Opener, OpenIt
 from carpus.ui.ports import PatientRow
-from carpus.ui.setup.choice import SourceChoice
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 

@@ -8,7 +8,7 @@ from PySide6.QtCore import QEventLoop
 from PySide6.QtWidgets import QFileDialog
 
 from carpus.core.words import Words
-from carpus.ui.messages.stop_card import Answer, StopCard
+from carpus.ui.messages.messages import Answer, StopCard
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr

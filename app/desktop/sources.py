@@ -36,10 +36,9 @@ from carpus.core.pipeline.track import TrackSettings
 from carpus.core.records.new_sessions import NewSessions
 from carpus.core.records.set_up import SetUp
 from carpus.core.types import Detections, FloatArray, Frame, Side
-from carpus.ui.now_open import OpenSource
+from carpus.ui.now_open import OpenSource, SourceChoice
 from carpus.ui.opening import NobodyWaitsError, Progress
 from carpus.ui.ports import FoundMarker, Judged, ProposedMarker, VerdictLimits
-from carpus.ui.setup.choice import SourceChoice
 
 SAME_DISC_PX = 3.0
 """Nearer than this two places are the same disc."""

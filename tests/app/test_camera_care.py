@@ -26,7 +26,7 @@ from carpus.core.capture.source import FrameSource, Notice
 from carpus.core.errors import CameraLost
 from carpus.core.simulation import practice_camera
 from carpus.ui.camera_calibration import flow
-from carpus.ui.messages.stop_card import StopCard
+from carpus.ui.messages.messages import StopCard
 from carpus.ui.settings.camera_card import CameraCard
 from tests.ui.camera_fakes import board_result, camera_checks
 

@@ -34,7 +34,7 @@ from carpus.core.session.reader import read_session
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.oni_writer import in_millimetres, write_oni
 from carpus.ui.messages.messages import NoticeStrip
-from carpus.ui.setup.choice import SourceChoice
+from carpus.ui.now_open import SourceChoice
 from tests.journeys.conftest import SPEED, Open
 from tests.journeys.takes import RANGE_DEG, SPEC, clicks_of
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header

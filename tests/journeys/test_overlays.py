@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from carpus.app.compose import Desktop
 from carpus.core.errors import DiskFull
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.messages.stop_card import StopCard
+from carpus.ui.messages.messages import StopCard
 from tests.journeys.conftest import Open
 
 

@@ -17,8 +17,8 @@ from carpus.core.calibration.card.chart import CardCheck, verdict_of
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.simulation.practice_camera import LENS, Studio, card_scene, poses, texture_of
 from carpus.core.types import Frame
-from carpus.ui.camera_calibration.values import BoardProgress, BoardResult
-from carpus.ui.check_card.values import CameraChecks, CardProgress
+from carpus.ui.camera_calibration.words import BoardProgress, BoardResult
+from carpus.ui.check_card.words import CameraChecks, CardProgress
 from tests.ui.fakes import NOW
 
 

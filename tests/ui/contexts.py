@@ -11,8 +11,7 @@ from carpus.core.results.report_form import ReportSettings
 from carpus.ui.background import Background
 from carpus.ui.flow import ScreenContext
 from carpus.ui.keys import Keys
-from carpus.ui.now_open import NowOpen
-from carpus.ui.setup.choice import SourceChoice
+from carpus.ui.now_open import NowOpen, SourceChoice
 from carpus.ui.theme import Theme
 from tests.ui.fakes import NOW
 

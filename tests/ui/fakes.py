@@ -25,7 +25,7 @@ from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.records.corrections import Corrections
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
-from carpus.core.records.values import ClinicWeek, Counted, DueTest, PatientEntry
+from carpus.core.records.values import ClinicWeek, Counted, DueTest, PatientEntry, SessionEntry
 from carpus.core.results.camera_said import CameraSaid, camera_said
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.progress import Comparison
@@ -52,7 +52,6 @@ from carpus.ui.ports import (
     PatientRow,
     ProposedMarker,
     ResultLine,
-    StoredResult,
     VerdictLimits,
 )
 from carpus.ui.report.home_page import HomeReport, HomeTask, OwnWay
@@ -634,7 +633,7 @@ class FakeSessions:
         verdict = replace(far.calibration.verdict, distance_m=0.84)
         self.sessions["session-4"] = replace(far, calibration=replace(far.calibration, verdict=verdict))
         self.kept: dict[str, RepetitionChoices] = {}
-        self.results: list[StoredResult] = []
+        self.results: list[SessionEntry] = []
         self.pictures = pictures
 
     def session(self, session_id: str) -> Session:
@@ -650,7 +649,7 @@ class FakeSessions:
         pictures = simulated(seconds=62.0, speed_hz=0.165, side=side)
         return pictures.sensed(row, pictures.clean(row))[0]
 
-    def results_of(self, session_id: str) -> list[StoredResult]:
+    def results_of(self, session_id: str) -> list[SessionEntry]:
         return list(self.results)
 
     def choices(self, session_id: str) -> RepetitionChoices:

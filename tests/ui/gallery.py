@@ -37,7 +37,7 @@ from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.camera_calibration.screen import BoardScreen
 from carpus.ui.check_card.screen import CardScreen
-from carpus.ui.check_card.values import CameraChecks
+from carpus.ui.check_card.words import CameraChecks
 from carpus.ui.clinic.screen import ClinicScreen
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
@@ -48,8 +48,7 @@ from carpus.ui.help.screen import HelpScreen
 from carpus.ui.keys import Keys
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.markers.screen import MarkersScreen
-from carpus.ui.messages.messages import NoticeStrip
-from carpus.ui.messages.stop_card import Answer, StopCard
+from carpus.ui.messages.messages import Answer, NoticeStrip, StopCard
 from carpus.ui.patient.guide import GuideScene
 from carpus.ui.patient.view import PatientView
 from carpus.ui.patients.screen import PatientsScreen
@@ -58,14 +57,12 @@ from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.records.cards import BackupCard, BackupFacts, LockCard, RecordsCard
 from carpus.ui.records.erasing import EraseSheet, ErasureFacts
 from carpus.ui.records.lists import DeedLine, ListedRecord, LogSheet, RecordsSheet
-from carpus.ui.records.lock_sheet import LockSheet
-from carpus.ui.records.locking import PinSheet
+from carpus.ui.records.locking import LockSheet, PinSheet
 from carpus.ui.report.beside_page import BesideReport
-from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_page import LetterReport
-from carpus.ui.report.letter_sheet import LetterSheet
 from carpus.ui.report.pdf import progress_report, session_report
 from carpus.ui.report.screen import ReportScreen
+from carpus.ui.report.sheets import HomeSheet, LetterSheet
 from carpus.ui.retest.flow import PeopleSheet
 from carpus.ui.retest.screen import RetestScreen
 from carpus.ui.review.screen import ReviewScreen

@@ -12,12 +12,12 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.hand.protocols import HAND21, joint_angle_names
+from carpus.core.records.values import SessionEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import ByteImage
-from carpus.ui.ports import StoredResult
 from tests.ui.fakes import FPS, NOW, FakeSessions, calibration, made_once
 
 SECONDS = 40.0
@@ -139,7 +139,7 @@ class FakeHandSessions(FakeSessions):
                 lost=[(31.0, 32.0)] if day == 0 else [],
             )  # fmt: skip
         self.kept: dict[str, RepetitionChoices] = {}
-        self.results: list[StoredResult] = []
+        self.results: list[SessionEntry] = []
         self.pictures = pictures
 
     def picture(self, session_id: str, row: int) -> ByteImage | None:

@@ -42,20 +42,18 @@ from carpus.ui.controls.text import Text
 from carpus.ui.correct.results_sheet import ResultsSheet
 from carpus.ui.export.sheet import ExportSheet
 from carpus.ui.live.notes import NoteSheet, PainSheet
-from carpus.ui.markers.start_angle import StartAngleSheet
-from carpus.ui.messages.stop_card import Answer, StopCard
+from carpus.ui.markers.guidance import StartAngleSheet
+from carpus.ui.messages.messages import Answer, StopCard
 from carpus.ui.patients.entry import PatientForm
 from carpus.ui.ports import ReferenceChoice
 from carpus.ui.records.backing_up import PassphraseSheet
 from carpus.ui.records.erasing import EraseSheet
 from carpus.ui.records.lists import ListedRecord, LogSheet, RecordsSheet
-from carpus.ui.records.lock_sheet import LockSheet
-from carpus.ui.records.locking import PinSheet
-from carpus.ui.report.home_sheet import HomeSheet
-from carpus.ui.report.letter_sheet import LetterSheet
+from carpus.ui.records.locking import LockSheet, PinSheet
+from carpus.ui.report.sheets import HomeSheet, LetterSheet
 from carpus.ui.retest.flow import PeopleSheet
 from carpus.ui.review.film import FilmSheet
-from carpus.ui.review.reason import ReasonSheet
+from carpus.ui.review.screen import ReasonSheet
 from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
 from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.theme import Theme

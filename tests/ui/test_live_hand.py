@@ -23,7 +23,7 @@ from carpus.ui.help import guide
 from carpus.ui.joint_figures import figures_of
 from carpus.ui.keys import Keys
 from carpus.ui.live.counting import RunningCount
-from carpus.ui.live.hand_words import hand_lamp, map_words
+from carpus.ui.live.light import hand_lamp, map_words
 from carpus.ui.live.number_card import NumberCard, Reading
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.picture.skeleton import side_points_m

@@ -23,12 +23,12 @@ from carpus.ui.keys import Keys
 from carpus.ui.language import LANGUAGES, speaking
 from carpus.ui.patient.words import task_words
 from carpus.ui.report.home_page import own_way
-from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.panel import filled
 from carpus.ui.report.pdf import session_report, write_report, write_session_report
 from carpus.ui.report.screen import SIZES, ReportScreen, print_on, printer_for, suggested_name
 from carpus.ui.report.session_page import SessionReport
+from carpus.ui.report.sheets import HomeSheet
 from carpus.ui.settings.report_card import LogoRefused, logo_png
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.theme import Theme

@@ -11,7 +11,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.hand.exercises import EXERCISES, exercise_named
-from carpus.ui.live.glance import Glance
+from carpus.ui.live.recording import Glance
 from carpus.ui.patient.figure import arc_of, figure_at
 from carpus.ui.patient.guide import LOST_AFTER_S, Guide, GuideScene
 from carpus.ui.patient.view import PatientView

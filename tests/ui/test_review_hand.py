@@ -21,7 +21,7 @@ from carpus.core.session.values import Session
 from carpus.ui.background import Background
 from carpus.ui.figures import Figure
 from carpus.ui.keys import Keys
-from carpus.ui.playback.skeleton import modelled_px
+from carpus.ui.playback.pictures import modelled_px
 from carpus.ui.plot.session import HandPlot, joint_at
 from carpus.ui.plot.session_view import paint_readings
 from carpus.ui.plot.style import screen_style

@@ -20,7 +20,7 @@ from carpus.ui.controls.text import Text, heading
 from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
 from carpus.ui.icons import octagon
 from carpus.ui.keys import DEFAULT_KEYS, Keys, action_words
-from carpus.ui.messages.stop_card import Answer, StopCard
+from carpus.ui.messages.messages import Answer, StopCard
 from carpus.ui.ports import Preferences
 from carpus.ui.report.pdf import session_report
 from carpus.ui.report.screen import ReportScreen

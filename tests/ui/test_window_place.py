@@ -7,7 +7,7 @@ from PySide6.QtCore import QRect
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.window_place import TITLE_PX, fitted, place_of, put_in_place
+from carpus.ui.last_places import TITLE_PX, fitted, place_of, put_in_place
 
 ROOM = QRect(0, 0, 1280, 800)
 

@@ -16,7 +16,7 @@ from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.field import Choices, Labelled
 from carpus.ui.controls.layouts import RING_PX, STRETCH, fill, host_of, in_line, scroll_area
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
+from carpus.ui.controls.text import MEDIUM, SEMIBOLD, Text
 from carpus.ui.marker_words import marker_name
 from carpus.ui.ports import ReferenceChoice
 from carpus.ui.theme import Theme
@@ -37,12 +37,11 @@ class ReferenceSheet(Sheet):
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 600)
         body = self.card.body
-        body.addWidget(Text(theme, self.tr("Compare this session with what?"), 20, SEMIBOLD, wrap=True))
         words = self.tr(
             "The same movement, measured by something else at the same time: markers (C3D, TRC), angles (MOT, STO, or "
             "a CSV table), a list of goniometer readings (CSV), or another result."
         )
-        body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.head(self.tr("Compare this session with what?"), words, gap=8)
         body.addSpacing(8)
         self.file_button = Button(theme, self.tr("Choose a &file…"), "primary", icon="folder-open")
         self.box = QComboBox()
@@ -81,8 +80,7 @@ class ColumnsSheet(Sheet):
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 640)
-        self.title = Text(theme, "", 20, SEMIBOLD, wrap=True)
-        self.words = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.head(gap=8)
         self.problem = Text(theme, "", 14, SEMIBOLD, "warn", wrap=True)
         self.unit = Choices(
             theme, [(None, self.tr("As the file says")), (False, self.tr("Degrees")), (True, self.tr("Radians"))]
@@ -95,15 +93,10 @@ class ColumnsSheet(Sheet):
         self.signs: dict[str, Tick] = {}
         self._outline: ReferenceOutline | None = None
         self._choice = ReferenceChoice("")
-        close = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
         self.take = Button(theme, self.tr("Compare"), "primary", height_px=44)
-        body = self.card.body
-        for widget in (self.title, self.words, self._scroll, self.unit, self.problem):
-            body.addWidget(widget)
-        body.addLayout(in_line(STRETCH, close, self.take, gap=10))
-        close.clicked.connect(self.close_sheet)
+        fill(self.card.body, self._scroll, self.unit, self.problem)
+        self.answer_row(self.take)
         self.take.clicked.connect(self._take)
-        self.set_default(self.take)
 
     def begin(self, outline: ReferenceOutline, ours: Sequence[str], choice: ReferenceChoice) -> None:
         """Ask for every one of ``ours``; what its names tell, or was said before, is chosen already."""

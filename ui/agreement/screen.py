@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QComboBox, QGridLayout, QVBoxLayout, QWidget
 
 from carpus.ui.agreement.words import (
@@ -27,7 +26,17 @@ from carpus.ui.agreement.words import (
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line, named_by_color
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, fill, in_column, in_line, scroll_area
+from carpus.ui.controls.layouts import (
+    STRETCH,
+    Fitted,
+    ScrolledColumn,
+    empty,
+    fill,
+    in_column,
+    in_grid,
+    in_line,
+    scroll_area,
+)
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, heading
 from carpus.ui.icons import State
@@ -41,7 +50,7 @@ if TYPE_CHECKING:
     from carpus.core.agreement.compare import Compared, Pairs
 
 
-class AgreementScreen(QWidget):
+class AgreementScreen(Fitted):
     """``other`` asks for another reference, ``columns`` for what in it is what; ``stop`` ends a comparison on the way;
     ``save`` asks for tables and plots; ``told`` a fault."""
 
@@ -54,8 +63,9 @@ class AgreementScreen(QWidget):
     def __init__(self, theme: Theme, keys: Keys) -> None:
         super().__init__()
         self._theme = theme
-        self._compared: Compared | None = None
-        self._limit_deg = 0.0
+        self.compared: Compared | None = None
+        self.limit_deg = 0.0
+        """What it is judged against; 0 for none."""
         self.other_button = Button(theme, self.tr("Other &reference…"))
         self.columns_button = Button(theme, self.tr("&Columns…"))
         self.facts = ElidedText(theme, "", 14, REGULAR, "text2")
@@ -99,23 +109,20 @@ class AgreementScreen(QWidget):
         in_column(over, STRETCH, margins=(0, 0, 0, 0), within=self.chart)
         self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         self._columns.setSpacing(GAP_PX)
-        self._columns.addWidget(self.chart, 1)
-        self._columns.addWidget(self._joined)
+        fill(self._columns, (self.chart, 1), self._joined)
         figures = Card(self._theme, 20)
         figures.body.setContentsMargins(24, 12, 16, 12)
         title = in_line(Text(self._theme, self.tr("Per angle"), 16, SEMIBOLD), gap=12)
         words = self.tr("Carpus less the reference; in brackets 95 % intervals, repeated values allowed for")
         title.addWidget(caption(self._theme, words, wrap=True), 1)
-        figures.body.addLayout(title)
-        figures.body.addWidget(self.table)
+        fill(figures.body, title, self.table)
         words = self.tr("The limit is a choice, not a proof: change it in Settings, before comparing.")
         figures.body.addWidget(caption(self._theme, words, wrap=True))
         host = ScrolledColumn()
         in_column((self._columns, 1), figures, gap=GAP_PX, margins=(0, 0, 0, 0), within=host)
         self._body = scroll_area(host)
         self._work = Card(self._theme, 24)
-        self._work.body.addWidget(Text(self._theme, self.tr("Bringing the two together…"), 16, SEMIBOLD))
-        self._work.body.addWidget(self.bar)
+        fill(self._work.body, Text(self._theme, self.tr("Bringing the two together…"), 16, SEMIBOLD), self.bar)
         self._work.body.addLayout(in_line(STRETCH, self.stop_button))
         whole = in_column(
             head,
@@ -134,9 +141,6 @@ class AgreementScreen(QWidget):
         self._theme.changed.connect(self._fit)
         self.begin()
 
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._fit()
-
     def _fit(self) -> None:
         """With large text what stood at the right goes below."""
         tight = is_tight(self, self._theme)
@@ -149,7 +153,7 @@ class AgreementScreen(QWidget):
     # --- states -------------------------------------------------------------------------------------------
     def begin(self, *, may_map: bool = False) -> None:
         """Nothing is compared yet; ``may_map`` whether columns or markers of what was tried can be told."""
-        self._compared = None
+        self.compared = None
         self.facts.setText("")
         self.answer.setText(self.tr("Compare this session with another measurement."))
         words = self.tr("Of the same movement: markers, angles, goniometer readings, or another session.")
@@ -159,7 +163,7 @@ class AgreementScreen(QWidget):
         self.columns_button.setVisible(may_map)
 
     def running(self, name: str) -> None:
-        self._compared = None
+        self.compared = None
         self.facts.setText(name)
         self.answer.setText(self.tr("Comparing with {name}…").format(name=name))
         self.basis.setText(self.tr("The session itself is never changed."))
@@ -169,7 +173,7 @@ class AgreementScreen(QWidget):
     def show_compared(self, compared: Compared, name: str, limit_deg: float, *, may_map: bool) -> None:
         """Show a result; ``limit_deg`` as it was set before, ``may_map`` whether columns or markers can be told."""
         compared = in_order(compared)
-        self._compared, self._limit_deg = compared, limit_deg
+        self.compared, self.limit_deg = compared, limit_deg
         self.facts.setText(f"{name} · {say(compared.kind)}")
         self.facts.setToolTip(self.facts.text())
         sentence, basis = headline(compared, limit_deg)
@@ -191,18 +195,9 @@ class AgreementScreen(QWidget):
         self._show_plot()
 
     def first(self) -> QWidget:
-        if self._compared is not None:
+        if self.compared is not None:
             return self.angle
         return self.stop_button if self._work.isVisibleTo(self) else self.other_button
-
-    @property
-    def compared(self) -> Compared | None:
-        return self._compared
-
-    @property
-    def limit_deg(self) -> float:
-        """What it is judged against; 0 for none."""
-        return self._limit_deg
 
     def next_view(self) -> None:
         """Differences and curves in turn."""
@@ -211,7 +206,7 @@ class AgreementScreen(QWidget):
         self._show_plot()
 
     def _show_parts(self, *, working: bool) -> None:
-        shown = self._compared is not None
+        shown = self.compared is not None
         self._work.setVisible(working)
         self._body.setVisible(shown)
         self.save_button.setEnabled(shown)
@@ -223,13 +218,13 @@ class AgreementScreen(QWidget):
 
     def _show_plot(self) -> None:
         name = self.angle.currentData()
-        found = self._compared.pairs if self._compared is not None else ()
+        found = self.compared.pairs if self.compared is not None else ()
         pairs = next((one for one in found if one.name == name), None)
-        if pairs is None or self._compared is None:
+        if pairs is None or self.compared is None:
             self.chart.show_plot(None)
             return
         view: View = "curves" if self.view.value() == "curves" else "differences"
-        self.chart.show_plot(AgreementPlot(pairs, self._limit_deg, self._compared.shift is not None, view))
+        self.chart.show_plot(AgreementPlot(pairs, self.limit_deg, self.compared.shift is not None, view))
 
     def _fill_joined(self, compared: Compared) -> None:
         body, theme = self._joined.body, self._theme
@@ -244,10 +239,7 @@ class AgreementScreen(QWidget):
         for state, thing, value, small in joined_rows(compared):
             body.addWidget(Line(theme))
             row = QWidget()
-            grid = QGridLayout(row)
-            grid.setContentsMargins(0, 0, 0, 0)
-            grid.setHorizontalSpacing(8)
-            grid.setVerticalSpacing(0)
+            grid = in_grid(8, 0, margins=(0, 0, 0, 0), within=row)
             grid.addWidget(Sign(theme, state), 0, 0)
             grid.addWidget(Text(theme, thing, 14, REGULAR, "text2"), 0, 1)
             grid.addWidget(Text(theme, value, 14, SEMIBOLD), 0, 2, Qt.AlignmentFlag.AlignRight)
@@ -274,12 +266,7 @@ class AgreementTable(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self._grid = QGridLayout(self)
-        self._grid.setContentsMargins(0, 0, 0, 0)
-        self._grid.setHorizontalSpacing(12)
-        self._grid.setVerticalSpacing(3)
-        for column, stretch in enumerate(COLUMN_SHARES):
-            self._grid.setColumnStretch(column, stretch)
+        self._grid = in_grid(12, 3, shares=COLUMN_SHARES, margins=(0, 0, 0, 0), within=self)
 
     def show_compared(self, compared: Compared, limit_deg: float) -> None:
         empty(self._grid)

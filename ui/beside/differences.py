@@ -1,19 +1,25 @@
-"""The card of differences: what was compared, what of the whole hand is looked at, and the table."""
+"""Two sessions: the card of their differences with its table, and the card of their mean repetitions."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QComboBox, QGridLayout, QWidget
+from PySide6.QtCore import QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
 
+from carpus.core.results.motion_curves import Quantity
 from carpus.ui.beside.shown import Shown, Watched, kinds
-from carpus.ui.beside.words import BesideRow, other_hand_words
+from carpus.ui.beside.words import BesideRow, facts_words, heads, other_hand_words, quantity_name, table_rows
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line, named_by_color
-from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, in_column, in_line, scroll_area
+from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, fill, in_column, in_grid, in_line, scroll_area
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, plain_tooltip
 from carpus.ui.keys import Keys
+from carpus.ui.plot.beside import BesidePlot
+from carpus.ui.plot.card import StillPlot
+from carpus.ui.plot.style import screen_style
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import limit_words
 
@@ -85,9 +91,10 @@ class DifferencesCard(Card):
         self.followed.setVisible(bool(found))
 
     def show_differences(self, now: Shown) -> None:
-        self._facts.setText(now.facts)
-        self._facts.setToolTip(plain_tooltip(now.facts))
-        self.table.show_rows(now.heads, now.rows)
+        facts = facts_words(now.both)
+        self._facts.setText(facts)
+        self._facts.setToolTip(plain_tooltip(facts))
+        self.table.show_rows(heads(now.both), table_rows(now.both, whole_hand=bool(now.followed)))
         words = [limit_words(now.both.first.study)]
         if now.both.relation == "hands":
             words.append(other_hand_words())
@@ -106,12 +113,7 @@ class BesideTable(QWidget):
         super().__init__()
         self._theme = theme
         self.rows: tuple[BesideRow, ...] = ()
-        self._grid = QGridLayout(self)
-        self._grid.setContentsMargins(0, 0, 0, 0)
-        self._grid.setHorizontalSpacing(16)
-        self._grid.setVerticalSpacing(5)
-        for column, stretch in enumerate(COLUMN_SHARES):
-            self._grid.setColumnStretch(column, stretch)
+        self._grid = in_grid(16, 5, shares=COLUMN_SHARES, margins=(0, 0, 0, 0), within=self)
 
     def show_rows(self, heads: Sequence[str], rows: Sequence[BesideRow]) -> None:
         empty(self._grid)
@@ -152,3 +154,84 @@ class _Said(QWidget):
         )
         strong = SEMIBOLD if row.strong else REGULAR
         line.addWidget(Text(theme, row.words, 14, strong, "text" if row.strong else "text2", wrap=True), 1)
+
+
+class MeanCard(Card):
+    """``chosen``: another angle; ``sought`` carries a share of the repetition that was pointed at."""
+
+    chosen = Signal()
+    sought = Signal(float)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme, 0)
+        self._shown: Shown | None = None
+        self.title = Text(theme, self.tr("Mean repetition, ± sd"), 14, SEMIBOLD)
+        self._quantities = QComboBox()
+        self._quantities.setAccessibleName(self.tr("Angle"))
+        self._quantities.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self._quantities.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
+        self._quantities.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
+        self.curves = MeanCurves(theme)
+        head = in_line(self.title, STRETCH, self._quantities, gap=12)
+        self.body.setContentsMargins(20, 8, 16, 10)
+        self.body.setSpacing(4)
+        fill(self.body, head, (self.curves, 1))
+        self.curves.sought.connect(self.sought)
+        self._quantities.currentIndexChanged.connect(lambda _: self._choose())
+
+    @property
+    def quantity(self) -> Quantity:
+        assert self._shown is not None
+        return self._shown.quantities[max(self._quantities.currentIndex(), 0)]
+
+    def show_means(self, now: Shown | None) -> None:
+        """What can be chosen of two sessions, and the curves of their main angle; nothing while they are read."""
+        self._shown = now
+        self._quantities.setEnabled(now is not None)
+        self._quantities.blockSignals(True)
+        self._quantities.clear()
+        if now is not None:
+            for quantity in now.quantities:
+                self._quantities.addItem(quantity_name(quantity), quantity)
+            self._quantities.setCurrentIndex(now.quantities.index(now.main_quantity))
+        self._quantities.blockSignals(False)
+        self.curves.show_plot(None if now is None else now.plot(self.quantity))
+
+    def _choose(self) -> None:
+        if self._shown is not None:
+            self.curves.show_plot(self._shown.plot(self.quantity))
+            self.chosen.emit()
+
+
+class MeanCurves(StillPlot):
+    """Paints one plot, or nothing."""
+
+    sought = Signal(float)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__(theme)
+        self.plot: BesidePlot | None = None
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setAccessibleName(self.tr("Mean repetition of both sessions"))
+        theme.changed.connect(self.update)
+
+    def show_plot(self, plot: BesidePlot | None) -> None:
+        self.plot = plot
+        self.show_painted(None if plot is None else plot.paint)
+
+    def show_shares(self, shares: tuple[float, float]) -> None:
+        if self.plot is not None and shares != self.plot.shares:
+            self.show_plot(replace(self.plot, shares=shares))
+
+    def sizeHint(self) -> QSize:
+        return QSize(540, 200)
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(self._theme.px(300), self._theme.px(104))
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        if self.plot is not None and event.button() == Qt.MouseButton.LeftButton:
+            panel = self.plot.panel(screen_style(self._theme), QRectF(self.rect()))
+            share = (event.position().x() - panel.box.left()) / max(panel.box.width(), 1.0)
+            if -0.02 <= share <= 1.02:
+                self.sought.emit(min(max(share, 0.0), 1.0))

@@ -95,7 +95,6 @@ class BesideFlow(Flow):
 
     # --- tables -------------------------------------------------------------------------------------------
     def _export(self, now: Shown) -> None:
-        """Ask for a name and write the differences and the curves as CSV."""
         title, kinds = self.tr("Save tables"), "CSV (*.csv)"
         path = self.ask_where_to_save("exports", "side-by-side.csv", title, kinds)
         if path is not None:

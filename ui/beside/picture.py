@@ -26,13 +26,9 @@ class BesidePicture(SessionPicture):
     def __init__(self, theme: Theme, background: Background, read: Callable[[str, int], ByteImage | None]) -> None:
         super().__init__(theme, (324, 243), background, read)
         self._picture_rgb: ByteImage | None = None
-        self._mirrored = False
+        self.mirrored = False
         self.name = self.repetition = self.value = ""
         self.overlay = self._paint_over
-
-    @property
-    def mirrored(self) -> bool:
-        return self._mirrored
 
     def open(self, session: Session | None, words: str = "") -> None:
         self._picture_rgb = None
@@ -41,8 +37,8 @@ class BesidePicture(SessionPicture):
         self._look_at_hand()
 
     def set_mirrored(self, mirrored: bool) -> None:
-        if mirrored != self._mirrored:
-            self._mirrored = mirrored
+        if mirrored != self.mirrored:
+            self.mirrored = mirrored
             self._look_at_hand()
             self._show()
 
@@ -61,7 +57,7 @@ class BesidePicture(SessionPicture):
 
     def _show(self) -> None:
         if self._picture_rgb is not None:
-            turned = self._picture_rgb[:, ::-1] if self._mirrored else self._picture_rgb
+            turned = self._picture_rgb[:, ::-1] if self.mirrored else self._picture_rgb
             self.show_frame(np.ascontiguousarray(turned))
 
     def _look_at_hand(self) -> None:
@@ -72,7 +68,7 @@ class BesidePicture(SessionPicture):
         self.set_hand_area(self._turned(self.session.calibration.clicks.pixel, self.session), room)
 
     def _turned(self, pixel: FloatArray, session: Session) -> FloatArray:
-        if not self._mirrored:
+        if not self.mirrored:
             return pixel
         out = pixel.copy()
         out[..., 0] = session.camera.width_px - 1.0 - out[..., 0]

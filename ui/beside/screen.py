@@ -2,35 +2,37 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, QTimer, Signal, SignalInstance
-from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from collections.abc import Callable
+from typing import TYPE_CHECKING, TypeVar
+
+from PySide6.QtCore import QObject, Qt, QTimer, Signal, SignalInstance
+from PySide6.QtWidgets import QVBoxLayout
 
 from carpus.core.results.side_by_side import Step, ordered
 from carpus.core.session.values import Session
 from carpus.ui.background import Background
-from carpus.ui.beside.differences import DifferencesCard
-from carpus.ui.beside.mean_card import MeanCard
+from carpus.ui.beside.differences import DifferencesCard, MeanCard
 from carpus.ui.beside.picture import BesidePicture
-from carpus.ui.beside.player import BesidePlayer
-from carpus.ui.beside.reading import TASKS, PairReader, PairStore
+from carpus.ui.beside.player import BesidePlayer, Together, ends_s
 from carpus.ui.beside.shown import Shown, Watched, shown, value_words
-from carpus.ui.beside.together import Together, ends_s
-from carpus.ui.beside.words import doubts, picture_words, unfair_words
+from carpus.ui.beside.words import doubts, headline, picture_words, unfair_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import in_column, in_line
+from carpus.ui.controls.layouts import Fitted, in_column, in_line
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text, heading
 from carpus.ui.keys import Keys, bind
-from carpus.ui.playback.playing import Playing
+from carpus.ui.playback.transport import Playing
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+
+if TYPE_CHECKING:
+    from carpus.core.records.library import Library
 
 NARROW_PX = 1180
 """Below it the pictures are smaller, and the curves have no room for their title."""
 
 
-class BesideScreen(QWidget):
+class BesideScreen(Fitted):
     """``report`` and ``export`` ask for what is shown on paper and as tables, ``other`` for another session in place of
     the second; ``told`` a fault; ``arrived`` when both sessions are on the screen."""
 
@@ -40,7 +42,7 @@ class BesideScreen(QWidget):
     told = Signal(object)
     arrived = Signal()
 
-    def __init__(self, theme: Theme, keys: Keys, background: Background, store: PairStore) -> None:
+    def __init__(self, theme: Theme, keys: Keys, background: Background, store: Library) -> None:
         super().__init__()
         self._theme = theme
         self.ids: tuple[str, str] = ("", "")
@@ -95,9 +97,6 @@ class BesideScreen(QWidget):
             within=self,
         )
         whole.addStretch(0)
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._fit()
 
     def _fit_soon(self) -> None:
         """Again when every part has taken its new size."""
@@ -227,7 +226,7 @@ class BesideScreen(QWidget):
             return
         what = self.differences.followed.currentData()
         now = self.shown = shown(*self._watched, what if isinstance(what, str) else "")
-        answer, basis = now.head
+        answer, basis = headline(now.both)
         self.answer.setText(answer)
         self._basis.setText(basis)
         self._unfair.setText(unfair_words(now.both) or " ".join(doubts(now.both)))
@@ -274,7 +273,6 @@ class BesideScreen(QWidget):
             self.playing.seek(self.playing.time_s + pictures * self.together.period_s())
 
     def go_to_repetition(self, by: int) -> None:
-        """The start of the next repetition, or of this one or the one before."""
         if self.together is not None:
             self.playing.seek(self.together.next_start(self.playing.time_s, by))
 
@@ -292,3 +290,63 @@ class BesideScreen(QWidget):
             picture.show_words(name, repetition, value_words(watched, self.mean.quantity, picture.row))
         self.mean.curves.show_shares((together.share(0, time_s), together.share(1, time_s)))
         self.player.show_places(together.step.at(time_s), currents, ends_s(together.watched), together.repetitions)
+
+
+TASKS = 4
+"""Both are read, and of both the figures are worked out."""
+Found = TypeVar("Found")
+
+
+class PairReader(QObject):
+    """``went_on`` carries how many of :data:`TASKS` are done, ``read`` both sessions, ``ready`` both watched,
+    ``failed`` the fault that ended it."""
+
+    went_on = Signal(int)
+    read = Signal(object)
+    ready = Signal(object)
+    failed = Signal(object)
+
+    def __init__(self, owner: QObject, background: Background, store: Library) -> None:
+        super().__init__(owner)
+        self._background, self._store = background, store
+        self._round = 0
+        self._sessions: list[Session] = []
+        self._watched: list[Watched] = []
+
+    def begin(self, session_ids: tuple[str, str]) -> None:
+        """Read these; what still comes of others is for nobody."""
+        self._round += 1
+        self._sessions, self._watched = [], []
+        for session_id in session_ids:
+            self._run(lambda one=session_id: self._store.session(one), self._take_session)  # type: ignore[misc]
+
+    def _run(self, work: Callable[[], Found], done: Callable[[Found], None]) -> None:
+        number = self._round
+
+        def came(found: Found) -> None:
+            if number == self._round:
+                done(found)
+
+        def failed(fault: Exception) -> None:
+            if number == self._round:
+                self._round += 1  # what else is under way is for nobody any more
+                self.failed.emit(fault)
+
+        self._background.run(work, came, failed, self)
+
+    def _take_session(self, session: Session) -> None:
+        self._sessions.append(session)
+        self.went_on.emit(len(self._sessions))
+        if len(self._sessions) == 2:
+            self.read.emit(tuple(self._sessions))
+            for one in self._sessions:
+                self._run(lambda one=one: self._watch(one), self._take_watched)  # type: ignore[misc]
+
+    def _watch(self, session: Session) -> Watched:
+        return Watched.of(session, self._store.figures_of(session.header.session_id))
+
+    def _take_watched(self, one: Watched) -> None:
+        self._watched.append(one)
+        self.went_on.emit(len(self._sessions) + len(self._watched))
+        if len(self._watched) == 2:
+            self.ready.emit(tuple(self._watched))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +15,7 @@ from carpus.core.results.seen import best_motion
 from carpus.core.results.side_by_side import SideBySide, side_by_side
 from carpus.core.session.values import Session
 from carpus.ui import numbers, terms
-from carpus.ui.beside.words import BesideRow, facts_words, headline, heads, middle_words, name_of, table_rows
+from carpus.ui.beside.words import middle_words, name_of
 from carpus.ui.figures import FINGERS, Figure, figure_of, with_side
 from carpus.ui.plot.beside import BesidePlot
 from carpus.ui.report.hand_rows import compared_row, followed_keys, followed_kinds, trains_thumb
@@ -53,22 +52,6 @@ class Shown:
     def names(self) -> tuple[str, str]:
         first, second = self.both.first, self.both.second
         return name_of(first, second), name_of(second, first)
-
-    @property
-    def head(self) -> tuple[str, str]:
-        return headline(self.both)
-
-    @property
-    def facts(self) -> str:
-        return facts_words(self.both)
-
-    @property
-    def heads(self) -> tuple[str, ...]:
-        return heads(self.both)
-
-    @property
-    def rows(self) -> list[BesideRow]:
-        return table_rows(self.both, whole_hand=bool(self.followed))
 
     def plot(self, quantity: Quantity) -> BesidePlot:
         return BesidePlot(quantity, *self.means[self.quantities.index(quantity)], self.names)
@@ -120,11 +103,6 @@ def _angles(figures: SessionFigures) -> tuple[Quantity, ...]:
 
 def _mean(watched: Watched, quantity: Quantity) -> MeanRepetition:
     return mean_repetition(watched.seen.time_s, watched.seen.of(quantity), watched.figures.repetitions)
-
-
-def columns(rows: Sequence[BesideRow]) -> list[tuple[str, ...]]:
-    """The table's cells."""
-    return [(row.movement, row.first, row.second, row.difference, row.error, row.words) for row in rows]
 
 
 def value_words(watched: Watched, quantity: Quantity, row: int) -> str:

@@ -13,7 +13,7 @@ from carpus.core.types import Side
 from carpus.core.words import Words
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.flow import Flow, ScreenContext
-from carpus.ui.messages.stop_card import Answer
+from carpus.ui.messages.messages import Answer
 
 
 class ByHandFlow(Flow):

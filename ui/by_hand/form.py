@@ -30,6 +30,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.by_hand.names import direction_words, group_names, measure_name, unit_name, value_words, way_name
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.field import lay_inside
+from carpus.ui.controls.layouts import in_grid
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text, caption
 from carpus.ui.theme import Theme
 
@@ -55,9 +56,7 @@ class MeasureRow(QObject):
             field = ValueField(theme, measure, f"{name} {which}".strip(), FIELD_PX[measure.kind])
             field.textChanged.connect(lambda _: self._changed())
             self.fields.append((way, field))
-        self.where = QLineEdit()
-        self.where.setMaxLength(MOST_WHERE)
-        self.where.setPlaceholderText(self.tr("where"))
+        self.where = QLineEdit(maxLength=MOST_WHERE, placeholderText=self.tr("where"))
         self.where.setAccessibleName(self.tr("{name}: where it was taken").format(name=name))
         self.where.textChanged.connect(lambda _: self._changed())
         self.beside = Text(theme, "", 14, SEMIBOLD)
@@ -81,7 +80,6 @@ class MeasureRow(QObject):
         return [(self.measure.id, way, side if self.measure.of_hand else "") for way in self.measure.ways]
 
     def show(self, values: Sequence[HandValue], side: Side, day: date, of_carpus: RangeRow | None) -> None:
-        """What is stored of a day, what was measured before, and of the other hand."""
         self._of_carpus = of_carpus
         fields = [field for _, field in self.fields]
         for field in (*fields, self.where):
@@ -159,11 +157,7 @@ class HandForm(QWidget):
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         self._theme = theme
-        self._grid = QGridLayout(self)
-        self._grid.setContentsMargins(0, 0, 0, 0)
-        self._grid.setHorizontalSpacing(12)
-        self._grid.setVerticalSpacing(6)
-        self._grid.setColumnStretch(0, 1)
+        self._grid = in_grid(12, 6, shares=(1,), margins=(0, 0, 0, 0), within=self)
         self.rows: dict[str, MeasureRow] = {}
 
     def set_measures(self, wanted: set[str]) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from datetime import date, datetime
 
 from PySide6.QtCore import QDate, QSize, Qt, Signal
-from PySide6.QtGui import QKeySequence, QResizeEvent, QShortcut
+from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QBoxLayout, QComboBox, QDateEdit, QSizePolicy, QWidget
 
 from carpus.core.measures.by_hand import MEASURES, HandMeasure, HandValue, Key, counted, measure_named
@@ -21,7 +21,7 @@ from carpus.ui.by_hand.names import changes, measure_name
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, in_column, in_line, scroll_area
+from carpus.ui.controls.layouts import STRETCH, Fitted, ScrolledColumn, empty, fill, in_column, in_line, scroll_area
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.plot.by_hand import paint_course
 from carpus.ui.plot.card import StillPlot
@@ -39,7 +39,7 @@ class HandRecord:
     initials: str
 
 
-class ByHandScreen(QWidget):
+class ByHandScreen(Fitted):
     """``save`` carries what is to be entered and words of what is unusual in it; ``done`` leaves."""
 
     save = Signal(object, object)
@@ -97,8 +97,7 @@ class ByHandScreen(QWidget):
         self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight, host)
         self._columns.setContentsMargins(0, 0, 0, 0)
         self._columns.setSpacing(GAP_PX)
-        self._columns.addWidget(entries, 5, Qt.AlignmentFlag.AlignTop)
-        self._columns.addLayout(right, 4)
+        fill(self._columns, (entries, 5, Qt.AlignmentFlag.AlignTop), (right, 4))
         foot = in_line(self.more, (self.state, 1), self.cancel, self.save_button, gap=12)
         in_column(
             head,
@@ -113,9 +112,6 @@ class ByHandScreen(QWidget):
             within=self,
         )
         self._theme.changed.connect(self._fit)
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._fit()
 
     def _fit(self) -> None:
         """With large text what stood at the right goes below."""
@@ -134,7 +130,6 @@ class ByHandScreen(QWidget):
 
     @property
     def has_unsaved(self) -> bool:
-        """Whether something is written that is not stored."""
         try:
             return bool(self.unsaved())
         except ValueError:

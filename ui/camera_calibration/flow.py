@@ -15,7 +15,7 @@ from carpus.core.types import Frame
 from carpus.ui import numbers
 from carpus.ui.camera_at_hand import AtCameraFlow, Look
 from carpus.ui.camera_calibration.screen import BoardScreen
-from carpus.ui.camera_calibration.values import BoardChoice, BoardProgress, BoardResult
+from carpus.ui.camera_calibration.words import BoardChoice, BoardProgress, BoardResult
 from carpus.ui.check_card.standing_words import card_words
 from carpus.ui.flow import ScreenContext
 from carpus.ui.report.calibration_page import write_calibration_page
@@ -88,7 +88,7 @@ class BoardFlow(AtCameraFlow):
         self.save_page(name, title, lambda part: write_sheets(part, [sheet], "Carpus camera board"))
 
     def _write_page(self) -> None:
-        result, when = self.screen.result.result, _now()
+        result, when = self.screen.result.result, datetime.now().astimezone()
         if result is not None:
             name, title = "carpus-camera-calibration.pdf", self.tr("Save one page")
             self.save_page(name, title, lambda part: write_calibration_page(part, result, when))
@@ -176,7 +176,7 @@ class BoardFlow(AtCameraFlow):
         if result is None or session is None:
             return
         folder = self.context.cameras.folder(practice=result.simulated)
-        stored = stored_of(result.made, result.serial, _now(), session.info.settings)
+        stored = stored_of(result.made, result.serial, datetime.now().astimezone(), session.info.settings)
 
         def kept(_: object) -> None:
             self.context.camera.read()
@@ -184,7 +184,3 @@ class BoardFlow(AtCameraFlow):
                 self.context.way.show("card", result.simulated)  # it shows at once whether the camera is right now
 
         self.run(lambda: keep_calibration(folder, result.made, stored), kept)
-
-
-def _now() -> datetime:
-    return datetime.now().astimezone()

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.theme import Theme
 
 MOST_LETTERS = 40
@@ -22,28 +21,15 @@ class CameraNameSheet(Sheet):
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 600)
         self._silent = False
-        self.title = Text(theme, "", 20, SEMIBOLD, wrap=True)
-        self.words = Text(theme, "", 14, token="text2", wrap=True)
-        self.line = QLineEdit()
-        self.line.setMaxLength(MOST_LETTERS)
-        self.line.setPlaceholderText(self.tr("Name of the camera"))
+        self.head()
+        self.line = QLineEdit(maxLength=MOST_LETTERS, placeholderText=self.tr("Name of the camera"))
         self.line.setAccessibleName(self.tr("Name of the camera"))
         self.line.setMinimumHeight(theme.px(44))
         self.take = Button(theme, self.tr("Go on"), "primary", height_px=44)
-        self.stop = Button(theme, self.tr("Stop"), "plain", height_px=44, hint=self.tr("Esc"))
-        body = self.card.body
-        body.setSpacing(12)
-        for widget in (self.title, self.words, self.line):
-            body.addWidget(widget)
-        row = QHBoxLayout()
-        row.addStretch(1)
-        row.addWidget(self.stop)
-        row.addWidget(self.take)
-        body.addLayout(row)
+        self.card.body.addWidget(self.line)
+        self.stop = self.answer_row(self.take, words=self.tr("Stop"), gap=None)
         self.line.textChanged.connect(lambda text: self.take.setEnabled(bool(text.strip())))
         self.take.clicked.connect(self._take)
-        self.set_default(self.take)
-        self.stop.clicked.connect(self.close_sheet)
         self.closed.connect(self._closed)
 
     def begin(self, known: str) -> None:

@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QPainter, QResizeEvent
+from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QGridLayout, QWidget
 
 from carpus.core.types import Frame
 from carpus.ui.camera_calibration.maps import FieldMap
 from carpus.ui.camera_calibration.overlay import paint_corners, paint_target
-from carpus.ui.camera_calibration.values import BoardProgress
-from carpus.ui.camera_calibration.words import Row, check_rows, lack_words, side_name, step_words, to_go_words
+from carpus.ui.camera_calibration.words import (
+    BoardProgress,
+    Row,
+    check_rows,
+    lack_words,
+    side_name,
+    step_words,
+    to_go_words,
+)
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, KeyCaps, Line
-from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line, scrolled
+from carpus.ui.controls.layouts import STRETCH, Fitted, fill, in_column, in_line, scrolled
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.keys import Keys, bind
@@ -30,7 +37,7 @@ CHECKS = 5
 """Rows of what is there and what is missing."""
 
 
-class BoardShowing(QWidget):
+class BoardShowing(Fitted):
     """``take`` a picture by hand, ``undo`` the last one, ``work_out`` the calibration, ``leave`` it."""
 
     take = Signal()
@@ -104,9 +111,6 @@ class BoardShowing(QWidget):
             for place, cell in enumerate(cells):
                 self._grid.addWidget(cell, 2 * number + 1, place)
             self._cells.append(cells)
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._fit()
 
     def _fit(self) -> None:
         """Large text must leave the picture its half."""

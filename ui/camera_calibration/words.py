@@ -1,14 +1,16 @@
-"""What the screen of the board says: what to do next, what a picture lacks, and the result line by line."""
+"""What the screen of the board is told, as values, and what it says: what to do next, the result line by line."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carpus.core.calibration.camera.board import MOST_EDGE_PX
-from carpus.core.calibration.camera.calibrate import FAIR_PX, GOOD_PX, MOST_APART_PX, DepthCheck
-from carpus.core.calibration.camera.effect import FLEXION_DEG, HAND_LENGTH_M
+from carpus.core.calibration.camera.board import BOARDS, MOST_EDGE_PX, Board, Pattern
+from carpus.core.calibration.camera.calibrate import FAIR_PX, GOOD_PX, MOST_APART_PX, CameraCalibration, DepthCheck
+from carpus.core.calibration.camera.effect import FLEXION_DEG, HAND_LENGTH_M, Effect
+from carpus.core.calibration.camera.sheet import RULER_MM, Paper
 from carpus.core.calibration.camera.views import (
     FEWEST_FIELDS,
     FEWEST_SIDES,
@@ -17,11 +19,13 @@ from carpus.core.calibration.camera.views import (
     MOST_MOTION_PX,
     SIDES,
     GuidanceStep,
+    Judgement,
     Lack,
+    Look,
     Side,
 )
+from carpus.core.types import FloatArray, Frame
 from carpus.ui import numbers
-from carpus.ui.camera_calibration.values import BoardProgress, BoardResult
 from carpus.ui.icons import State
 from carpus.ui.translate import tr
 
@@ -113,7 +117,7 @@ def check_rows(now: BoardProgress) -> list[Row]:
         ("good" if judged.is_near_and_far else "partly", tr("Distance"), away, tr("near and far")),
         (
             "good" if sharp else "open" if math.isnan(look.edge_px) else "warn", tr("Sharpness"),
-            _or_unknown(look.edge_px, tr("sharp") if sharp else tr("not sharp")),
+            numbers.UNKNOWN if math.isnan(look.edge_px) else tr("sharp") if sharp else tr("not sharp"),
             tr("edges below {most} px").format(most=f"{MOST_EDGE_PX:.0f}"),
         ),
         (
@@ -122,10 +126,6 @@ def check_rows(now: BoardProgress) -> list[Row]:
             tr("below {most} px/picture").format(most=f"{MOST_MOTION_PX:.0f}"),
         ),
     ]  # fmt: skip
-
-
-def _or_unknown(value: float, words: str) -> str:
-    return words if math.isfinite(value) else numbers.UNKNOWN
 
 
 def to_go_words(now: BoardProgress | None) -> str:
@@ -213,10 +213,10 @@ def result_rows(result: BoardResult) -> list[tuple[State, str, str, str, str]]:
     sure = math.isfinite(depth.offset_sd_m)
     apart = float(np.hypot(*depth.apart_px))
     rows += [
-        ("good", tr("Depth scale"), unknown, f"{_signed(share, 2)} ± {numbers.fixed(100 * depth.scale_sd, 2)} %",
+        ("good", tr("Depth scale"), unknown, f"{numbers.signed(share, 2)} ± {numbers.fixed(100 * depth.scale_sd, 2)} %",
          tr("put right") if abs(share) >= 100 * _DEPTH_SHARE else tr("small; put right")),
         ("good", tr("Depth shift"), unknown,
-         f"{_signed(shift, 1)} ± {numbers.fixed(1e3 * depth.offset_sd_m, 1)} mm" if sure else tr("none sure"),
+         f"{numbers.signed(shift, 1)} ± {numbers.fixed(1e3 * depth.offset_sd_m, 1)} mm" if sure else tr("none sure"),
          tr("put right") if sure else tr("within the scale’s error")),
         ("good" if 1e3 * depth.flat_m <= MOST_FLAT_MM else "warn", tr("Board flat in depth"), "",
          f"{numbers.fixed(1e3 * depth.flat_m, 1)} mm", tr("good: within {most} mm").format(most=f"{MOST_FLAT_MM:.0f}")
@@ -231,11 +231,6 @@ def result_rows(result: BoardResult) -> list[tuple[State, str, str, str, str]]:
         words = tr("1 field empty") if thin == 1 else tr("{count} fields empty")
         rows.append(("warn", tr("Edge of the picture"), "", words.format(count=thin), tr("keep the hand inside")))
     return rows
-
-
-def _signed(value: float, digits: int) -> str:
-    sign = "−" if value < 0 else "+"
-    return f"{sign}{numbers.fixed(abs(value), digits)}"
 
 
 def effect_rows(result: BoardResult) -> list[tuple[str, str]]:
@@ -268,3 +263,47 @@ def kept_words(result: BoardResult) -> str:
         "Kept for this camera, number {serial}, instead of {before}. Sessions measured before keep their values and "
         "say so."
     ).format(serial=result.serial, before=before)
+
+
+@dataclass(frozen=True, slots=True)
+class BoardChoice:
+    """Which board on which paper, how long its ruler was measured, and whether before the simulated camera."""
+
+    pattern: Pattern = "chessboard"
+    paper: Paper = "a4"
+    ruler_mm: float = RULER_MM
+    practice: bool = False
+
+    @property
+    def board(self) -> Board:
+        board, share = BOARDS[self.pattern], self.ruler_mm / RULER_MM
+        return replace(board, square_m=board.square_m * share, code_m=board.code_m * share)
+
+
+@dataclass(frozen=True, slots=True)
+class BoardProgress:
+    """How far the showing of the board is: the newest ``look``, all that was kept, the next ``step``, and where the
+    board is wanted (4, 2) in the picture, None for nowhere in particular; ``asked`` so many pictures. ``frame`` is the
+    one that was looked at: its corners are drawn on it and on no other."""
+
+    look: Look
+    judgement: Judgement
+    step: GuidanceStep
+    target: FloatArray | None
+    corner_count: int
+    asked: int
+    frame: Frame
+
+
+@dataclass(frozen=True, slots=True)
+class BoardResult:
+    """A calibration before it is kept. ``camera`` and ``serial`` name it, ``serial`` empty where nobody knows which it
+    is; ``since`` the day of the calibration used so far, empty for the maker's own values."""
+
+    made: CameraCalibration
+    effect: Effect
+    camera: str
+    serial: str
+    since: str = ""
+    simulated: bool = False
+    may_use: bool = True

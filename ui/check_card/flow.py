@@ -15,7 +15,7 @@ from carpus.core.types import Frame
 from carpus.ui import numbers
 from carpus.ui.camera_at_hand import AtCameraFlow, Look
 from carpus.ui.check_card.screen import CardScreen
-from carpus.ui.check_card.values import CameraChecks, CardProgress
+from carpus.ui.check_card.words import CameraChecks, CardProgress
 from carpus.ui.flow import ScreenContext
 from carpus.ui.report.check_page import CheckResult, write_check_report
 from carpus.ui.report.pdf import write_sheets
@@ -76,7 +76,7 @@ class CardFlow(AtCameraFlow):
 
     def _choose_camera(self, practice: bool) -> None:
         """Read which camera it is and its checks in the background: the disk may keep anybody waiting."""
-        now, cameras = _now(), self.context.cameras
+        now, cameras = datetime.now().astimezone(), self.context.cameras
         self.practice = practice
         self._asked += 1
         asked, self._unread = self._asked, True
@@ -130,8 +130,7 @@ class CardFlow(AtCameraFlow):
             self._keep(session, watch)
 
     def _keep(self, session: LiveSession, watch: CardWatch) -> None:
-        """Work out what was measured and add it to the chart."""
-        practice, info, now, camera = self.practice, session.info, _now(), self.context.camera
+        practice, info, now, camera = self.practice, session.info, datetime.now().astimezone(), self.context.camera
         folder, serial = self.context.cameras.folder(practice=practice), info.serial
 
         def keep() -> CameraChecks:
@@ -179,7 +178,3 @@ def checks_of(folder: Path, serial: str, now: datetime, camera: str = "", *, sim
     return CameraChecks(
         camera, serial, checks, standing.verdict, standing.checked_days, day, standing.recalibrated, simulated
     )
-
-
-def _now() -> datetime:
-    return datetime.now().astimezone()

@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QPainter, QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QGridLayout, QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtGui import QPainter
+from PySide6.QtWidgets import QBoxLayout, QStackedWidget, QWidget
 
 from carpus.core.calibration.card.card import CHECK_S
 from carpus.core.types import ByteImage
 from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 from carpus.ui.camera_calibration.overlay import paint_discs
-from carpus.ui.check_card.values import CameraChecks, CardProgress
-from carpus.ui.check_card.words import cause_words, check_day, figure_rows, headline, hint
+from carpus.ui.check_card.words import CameraChecks, CardProgress, cause_words, check_day, figure_rows, headline, hint
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import ScrolledColumn, empty, scroll_area, scrolled
+from carpus.ui.controls.layouts import (
+    STRETCH,
+    Fitted,
+    ScrolledColumn,
+    empty,
+    fill,
+    in_column,
+    in_grid,
+    in_line,
+    scroll_area,
+    scrolled,
+)
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind
@@ -30,7 +40,7 @@ MOST_PX = 16777215
 """Qt's own greatest width."""
 
 
-class CardScreen(QWidget):
+class CardScreen(Fitted):
     """``camera_chosen`` carries whether the simulated camera is meant; ``check`` begins, ``leave`` ends one;
     ``print_card`` and ``page`` ask for PDFs, ``calibrate`` for the screen of the board.
     ``turned`` when another camera's checks are shown."""
@@ -72,9 +82,7 @@ class CardScreen(QWidget):
         self._lay_out_measuring()
         for part in (self.overview, self.measuring):
             self._parts.addWidget(part)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.addWidget(self._parts)
+        in_column(self._parts, margins=(0, 0, 0, 0), within=self)
         self.name_sheet = CameraNameSheet(self, theme)
         self.camera.chosen.connect(lambda practice: self.camera_chosen.emit(bool(practice)))
         self.check_button.clicked.connect(self.check)
@@ -88,65 +96,38 @@ class CardScreen(QWidget):
 
     def _lay_out_overview(self) -> None:
         theme = self._theme
-        texts = QVBoxLayout()
-        texts.setSpacing(2)
-        texts.addWidget(self.answer)
-        texts.addWidget(self.basis)
-        head = QHBoxLayout()
-        head.setSpacing(GAP_PX)
-        head.addLayout(texts, 1)
-        head.addWidget(self.check_button, 0, Qt.AlignmentFlag.AlignTop)
-        right = QVBoxLayout()
-        right.setSpacing(12)
-        right.addWidget(self._figures)
-        right.addWidget(self._out)
-        row = QHBoxLayout()
-        row.setSpacing(12)
-        row.addWidget(self.paper)
-        row.addWidget(self.print_button)
-        right.addLayout(row)
-        right.addWidget(self.page_button)
-        right.addWidget(self.calibrate_button)
+        texts = in_column(self.answer, self.basis, gap=2)
+        head = in_line((texts, 1), (self.check_button, 0, Qt.AlignmentFlag.AlignTop), gap=GAP_PX)
+        right = in_column(self._figures, self._out, gap=12)
+        row = in_line(self.paper, self.print_button, gap=12)
+        fill(right, row, self.page_button, self.calibrate_button)
         words = self.tr("Usual: mean of the first 7 checks after a calibration, + 3 sd. Limits are fixed.")
-        right.addWidget(caption(theme, words, wrap=True))
-        right.addStretch(1)
+        fill(right, caption(theme, words, wrap=True), STRETCH)
         self._side_scroll = scrolled(right)
         host = ScrolledColumn()
         self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight, host)
         self._columns.setContentsMargins(0, 0, 8, 0)
         self._columns.setSpacing(GAP_PX)
-        self._columns.addWidget(self.charts, 1)
-        self._columns.addWidget(self._side_scroll)
-        whole = QVBoxLayout(self.overview)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX - 4, MARGIN_PX - 8, GAP_PX)
-        whole.setSpacing(12)
-        whole.addWidget(self.camera)
-        whole.addLayout(head)
+        fill(self._columns, (self.charts, 1), self._side_scroll)
+        whole = in_column(
+            self.camera, head, gap=12, margins=(MARGIN_PX, GAP_PX - 4, MARGIN_PX - 8, GAP_PX), within=self.overview
+        )
         whole.addWidget(scroll_area(host), 1)
 
     def _lay_out_measuring(self) -> None:
         theme = self._theme
-        column = QVBoxLayout()
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(12)
-        column.addWidget(Text(theme, self.tr("Checking"), 28, SEMIBOLD))
-        column.addWidget(self.left_s)
-        column.addWidget(self.bar)
+        column = in_column(
+            Text(theme, self.tr("Checking"), 28, SEMIBOLD), self.left_s, self.bar, gap=12, margins=(0, 0, 0, 0)
+        )
         column.addWidget(self.hint)
         words = self.tr("Its ruler must be 100 mm long, the wedge glued onto the dashed field. Nothing is held.")
-        column.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        column.addStretch(1)
-        column.addWidget(self.leave_button)
+        fill(column, Text(theme, words, 14, REGULAR, "text2", wrap=True), STRETCH, self.leave_button)
         self._side = QWidget()
         self._side.setLayout(column)
-        whole = QHBoxLayout(self.measuring)
-        whole.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX)
-        whole.setSpacing(MARGIN_PX)
-        whole.addWidget(self.picture, 1)
+        whole = in_line(
+            (self.picture, 1), gap=MARGIN_PX, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX), within=self.measuring
+        )
         whole.addWidget(self._side)
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._fit()
 
     def _fit(self) -> None:
         scale = self._theme.text_scale
@@ -170,7 +151,6 @@ class CardScreen(QWidget):
 
     @property
     def shows_simulated(self) -> bool:
-        """Whether what is shown is of the simulated camera."""
         return self.checks.simulated
 
     def set_camera_there(self, there: bool) -> None:
@@ -212,7 +192,6 @@ class CardScreen(QWidget):
         self.picture.show_frame(color_rgb)
 
     def show_lost(self, words: str) -> None:
-        """The camera sends nothing: why, and what to do."""
         self.picture.clear(words)
         self.hint.setText(words)
 
@@ -245,12 +224,7 @@ class CardScreen(QWidget):
         title = Text(theme, check_day(last), 16, SEMIBOLD, wrap=True)
         body.addWidget(title)
         table = QWidget()
-        grid = QGridLayout(table)
-        grid.setContentsMargins(0, 0, 0, 0)
-        grid.setHorizontalSpacing(8)
-        grid.setVerticalSpacing(3)
-        for column, stretch in enumerate((0, 46, 32, 22)):
-            grid.setColumnStretch(column, stretch)
+        grid = in_grid(8, 3, shares=(0, 46, 32, 22), margins=(0, 0, 0, 0), within=table)
         right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         for column, words in enumerate((self.tr("On the card"), self.tr("Measured"), self.tr("Off by")), 1):
             grid.addWidget(caption(theme, words), 0, column, right if column > 1 else Qt.AlignmentFlag.AlignLeft)
@@ -284,6 +258,5 @@ def _what_to_do(theme: Theme) -> Card:
         (tr("Still out: do not measure"), tr("sessions near this check say that they are not sure")),
     )
     for number, (what, how) in enumerate(steps, 1):
-        card.body.addWidget(Text(theme, f"{number}  {what}", 14, MEDIUM, wrap=True))
-        card.body.addWidget(caption(theme, how, wrap=True))
+        fill(card.body, Text(theme, f"{number}  {what}", 14, MEDIUM, wrap=True), caption(theme, how, wrap=True))
     return card

@@ -13,7 +13,7 @@ from carpus.core.records.values import WEEKS, ClinicWeek, Counted, DueTest
 from carpus.ui import language, numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import in_column, in_line, scrolled
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line, scrolled
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.controls.words_table import WordsTable
 from carpus.ui.keys import Keys, bind
@@ -60,15 +60,13 @@ class ClinicScreen(QWidget):
         column = in_column(gap=GAP_PX)
         for title, table in ((self.sessions_title, self.sessions), (self.due_title, self.due)):
             card = Card(theme, 20)
-            card.body.addWidget(title)
-            card.body.addWidget(table)
+            fill(card.body, title, table)
             column.addWidget(card)
         words = self.tr(
             "Counts and dates only, without simulated sessions: no measured value leaves a patient’s own record. "
             "Therapists stand in the order in which they joined and are never ranked."
         )
-        column.addWidget(Text(theme, words, 12, REGULAR, "text2", wrap=True))
-        column.addStretch(1)
+        fill(column, Text(theme, words, 12, REGULAR, "text2", wrap=True), STRETCH)
         in_column(top, (scrolled(column), 1), gap=GAP_PX, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, 0), within=self)
 
     def first(self) -> QWidget:

@@ -33,7 +33,7 @@ class Button(QPushButton):
         self._theme, self._kind, self._icon, self._key = theme, kind, icon, hint
         self.on_enter: OnEnter = "press"
         """What Enter does while it has the keyboard; ``pass``: it goes to the card or screen that it stands on."""
-        self._height_px = height_px or HEIGHT_PX[kind]
+        self.height_px = height_px or HEIGHT_PX[kind]
         self.setCursor(Qt.CursorShape.PointingHandCursor)
         self.setSizePolicy(QSizePolicy.Policy.Minimum, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(text.replace("&", ""))
@@ -49,7 +49,6 @@ class Button(QPushButton):
 
     @property
     def key(self) -> str:
-        """The key that presses it, as the table of keys names it."""
         return self._key
 
     @property
@@ -62,7 +61,6 @@ class Button(QPushButton):
         return key_name(self._key)
 
     def set_face(self, text: str, *, icon: str | None = None, hint: str | None = None) -> None:
-        """Change text, icon and key hint together."""
         icon = self._icon if icon is None else icon
         key = self._key if hint is None else hint
         if (text, icon, key) != (self.text(), self._icon, self._key):
@@ -76,7 +74,7 @@ class Button(QPushButton):
         self.update()
 
     def _text_font(self) -> QFont:
-        big = self._kind == "primary" and self._height_px >= 50
+        big = self._kind == "primary" and self.height_px >= 50
         return font((16 if big else 14) * self._theme.text_scale, SEMIBOLD)
 
     def _hint_font(self) -> QFont:
@@ -97,7 +95,7 @@ class Button(QPushButton):
         icon, text, hint = self._parts_px()
         gaps = (8 if icon and text else 0) + (12 if hint else 0)
         pad = 11 if not text else 16 if self._kind != "primary" else 20
-        return QSize(round(icon + text + hint + gaps + 2 * pad), self._theme.px(self._height_px))
+        return QSize(round(icon + text + hint + gaps + 2 * pad), self._theme.px(self.height_px))
 
     def minimumSizeHint(self) -> QSize:
         """Without the key's name, which goes first where there is little room."""

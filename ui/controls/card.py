@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import QRect, QRectF, QSize, Qt
-from PySide6.QtGui import QPainter, QPen, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtGui import QPainter, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from carpus.ui.controls.layouts import Fitted, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, Text
 from carpus.ui.keys import key_name
 from carpus.ui.theme import CARD_PADDING_PX, CARD_RADIUS_PX, Theme
@@ -55,9 +56,7 @@ class Card(Surface):
         self, theme: Theme, padding_px: int = CARD_PADDING_PX, fill: str = "surface", edge: str = "line"
     ) -> None:
         super().__init__(theme, fill, edge)
-        self.body = QVBoxLayout(self)
-        self.body.setContentsMargins(padding_px, padding_px, padding_px, padding_px)
-        self.body.setSpacing(8)
+        self.body = in_column(gap=8, margins=(padding_px, padding_px, padding_px, padding_px), within=self)
 
 
 class Line(Surface):
@@ -74,7 +73,7 @@ class Line(Surface):
 SPACE_PX = 7
 
 
-class KeyCaps(QWidget):
+class KeyCaps(Fitted):
     """Keys and what they do, in one line: ``[("Space", "accept"), ...]``."""
 
     def __init__(self, theme: Theme, keys: Sequence[tuple[str, str]], gap_px: int = 16) -> None:
@@ -95,8 +94,7 @@ class KeyCaps(QWidget):
         self._keys, self._pairs = tuple(keys), []
         for name, words in keys:
             cap, said = Surface(self._theme, "surface", "border"), Text(self._theme, words, 12, MEDIUM, "text2")
-            inside = QVBoxLayout(cap)
-            inside.setContentsMargins(6, 0, 6, 0)
+            inside = in_column(margins=(6, 0, 6, 0), within=cap)
             inside.addWidget(Text(self._theme, key_name(name), 12, MEDIUM), 0, Qt.AlignmentFlag.AlignCenter)
             for part in (cap, said):
                 part.setParent(self)
@@ -104,7 +102,6 @@ class KeyCaps(QWidget):
         self._fit()
 
     def _places(self) -> list[tuple[int, int, int]]:
-        """Left edge of each cap, of its words, and where these end."""
         places, left = [], 0
         for cap, said in self._pairs:
             words = left + cap.sizeHint().width() + SPACE_PX
@@ -121,9 +118,6 @@ class KeyCaps(QWidget):
             for part in (cap, said):
                 part.setVisible(end <= self.width() + 1)  # else left out whole; the help names every key
 
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._fit()
-
     def minimumSizeHint(self) -> QSize:
         return QSize(0, self.sizeHint().height())
 
@@ -138,9 +132,5 @@ def named_by_color(theme: Theme, name: str, token: str) -> QWidget:
     named, bar = QWidget(), Surface(theme, token)
     bar.setObjectName("bar")
     bar.setFixedSize(5, 14)
-    line = QHBoxLayout(named)
-    line.setContentsMargins(0, 0, 0, 0)
-    line.setSpacing(11)
-    line.addWidget(bar)
-    line.addWidget(Text(theme, name, 14, MEDIUM, wrap=True), 1)
+    in_line(bar, (Text(theme, name, 14, MEDIUM, wrap=True), 1), gap=11, margins=(0, 0, 0, 0), within=named)
     return named

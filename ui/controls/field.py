@@ -18,8 +18,7 @@ from carpus.ui.theme import Theme
 
 def lay_inside(line: QLineEdit, *parts: QWidget | None, edge_px: int = 15) -> None:
     """Put signs and words over a line to type in, which leaves room for them; None is what stretches."""
-    row = QHBoxLayout(line)
-    row.setContentsMargins(edge_px, 0, edge_px, 0)
+    row = in_line(margins=(edge_px, 0, edge_px, 0), within=line)
     for part in parts:
         if part is None:
             row.addStretch(1)

@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TypeAlias, TypeVar
 
 from PySide6.QtCore import QPoint, QRect, QSize, Qt
-from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QLayout, QLayoutItem, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import (
+    QBoxLayout,
+    QGridLayout,
+    QHBoxLayout,
+    QLayout,
+    QLayoutItem,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
 
 Margins: TypeAlias = tuple[int, int, int, int]
 """Left, top, right, bottom."""
@@ -64,6 +75,20 @@ def in_column(
 ) -> QVBoxLayout:
     """One below the other; else as :func:`in_line`."""
     return _laid(QVBoxLayout() if within is None else QVBoxLayout(within), parts, gap, margins)
+
+
+def in_grid(
+    across: int, down: int, *, shares: Sequence[int] = (), margins: Margins | None = None, within: QWidget | None = None
+) -> QGridLayout:
+    """In rows and columns, with so many pixels between them; ``shares`` of the room for each column."""
+    grid = QGridLayout() if within is None else QGridLayout(within)
+    grid.setHorizontalSpacing(across)
+    grid.setVerticalSpacing(down)
+    if margins is not None:
+        grid.setContentsMargins(*margins)
+    for column, share in enumerate(shares):
+        grid.setColumnStretch(column, share)
+    return grid
 
 
 def _laid(layout: LayoutT, parts: tuple[Part, ...], gap: int | None, margins: Margins | None) -> LayoutT:
@@ -126,7 +151,6 @@ class FlowLayout(QLayout):
         return QSize(max((one.width() for one in sizes), default=0), max((one.height() for one in sizes), default=0))
 
     def _placed(self, room: QRect, *, moves: bool) -> int:
-        """The height that all lines take in a width."""
         x = y = line_px = 0
         for item in self._items:
             size = item.sizeHint()
@@ -140,6 +164,16 @@ class FlowLayout(QLayout):
 
 
 RING_PX = 5
+
+
+class Fitted(QWidget):
+    """What is on it is fitted to the room whenever that changes."""
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._fit()
+
+    def _fit(self) -> None:
+        raise NotImplementedError
 
 
 class ScrolledColumn(QWidget):

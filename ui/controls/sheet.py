@@ -7,7 +7,6 @@ from PySide6.QtGui import QKeyEvent, QKeySequence, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractButton,
     QApplication,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QPlainTextEdit,
@@ -19,8 +18,8 @@ from shiboken6 import isValid
 from carpus.ui.controls.button import ENTER, Button, is_enter, press
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import SearchField
-from carpus.ui.controls.layouts import host_of
-from carpus.ui.controls.text import SEMIBOLD, Text
+from carpus.ui.controls.layouts import STRETCH, fill, host_of, in_line
+from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.theme import Theme
 
 _open: list[Sheet] = []
@@ -62,10 +61,7 @@ class Sheet(QWidget):
         self._typed_before: list[str] = []
         self._warning: Text | None = None
         self.card = Card(theme, 24)
-        across = QHBoxLayout()
-        across.addStretch(1)
-        across.addWidget(self.card)
-        across.addStretch(1)
+        across = in_line(STRETCH, self.card, STRETCH)
         down = QVBoxLayout(self)
         down.addStretch(12 if low else 2)
         down.addLayout(across)
@@ -86,6 +82,21 @@ class Sheet(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._take_room()
         super().resizeEvent(event)
+
+    def head(self, title: str = "", words: str = "", *, gap: int = 12) -> None:
+        """What is asked, and a sentence of what follows; ``gap`` between all that is on the card."""
+        self.title = Text(self._theme, title, 20, SEMIBOLD, wrap=True)
+        self.words = Text(self._theme, words, 14, REGULAR, "text2", wrap=True)
+        self.card.body.setSpacing(gap)
+        fill(self.card.body, self.title, self.words)
+
+    def answer_row(self, take: Button, *others: Button, words: str = "", gap: int | None = 10) -> Button:
+        """The last line: ``others`` at the left, then the way out, which is returned, and what Enter takes."""
+        close = Button(self._theme, words or self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=take.height_px)
+        close.clicked.connect(self.close_sheet)
+        self.set_default(take)
+        self.card.body.addLayout(in_line(*others, STRETCH, close, take, gap=gap))
+        return close
 
     def set_default(self, button: Button) -> None:
         """What Enter answers: it loses nothing."""

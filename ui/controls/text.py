@@ -45,12 +45,16 @@ class Text(QLabel):
         self.setWordWrap(wrap)
         if wrap:
             self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        theme.changed.connect(self._take_theme)
-        self._take_theme()
+        theme.follow(self, self._take_theme)
 
     def setText(self, text: str) -> None:
         super().setText(text)
         self._leave_room()
+
+    def say(self, words: str) -> None:
+        """These words; hidden where there are none."""
+        self.setText(words)
+        self.setVisible(bool(words))
 
     def set_look(self, token: str, weight: int) -> None:
         if (token, weight) != (self._token, self._weight):

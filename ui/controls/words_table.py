@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
-from carpus.ui.controls.layouts import empty
+from carpus.ui.controls.layouts import empty, in_grid
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text, caption
 from carpus.ui.theme import Theme
 
@@ -27,10 +27,7 @@ class WordsTable(QWidget):
         self._theme = theme
         self.rows: tuple[tuple[str, ...], ...] = ()
         self.buttons: tuple[Button, ...] = ()
-        self._grid = QGridLayout(self)
-        self._grid.setContentsMargins(0, 0, 0, 0)
-        self._grid.setHorizontalSpacing(10)
-        self._grid.setVerticalSpacing(4)
+        self._grid = in_grid(10, 4, margins=(0, 0, 0, 0), within=self)
 
     def show_rows(self, heads: Sequence[str], rows: Sequence[tuple[str, ...]], keys: Sequence[str] = ()) -> None:
         empty(self._grid)

@@ -46,8 +46,8 @@ class CorrectFlow(Flow):
         self.sheet = ResultsSheet(context.shell.stage, context.theme)
         self._tracking, self._background = Background(), Background()
         self._stopping = threading.Event()
-        self._running, self._whose, self._percent = "", "", -1
-        self._waiting: list[Waiting] = []
+        self.running, self._whose, self._percent = "", "", -1
+        self.waiting: list[Waiting] = []
         self._shown: Waiting | None = None
         self._at.connect(self._take_progress)
         self.screen.wanted.connect(self.start)
@@ -61,26 +61,16 @@ class CorrectFlow(Flow):
     def is_at_work(self) -> bool:
         return self._tracking.busy
 
-    @property
-    def running(self) -> str:
-        """Identity of the session that is being tracked again; empty for none."""
-        return self._running
-
-    @property
-    def waiting(self) -> Sequence[Waiting]:
-        """The new results that nobody has decided about."""
-        return self._waiting
-
     def look_for_waiting(self) -> None:
         """When the program starts, and after something was erased: what waits for a decision."""
         self._background.run(self._stored.waiting, self._take_waiting, self.context.messages.fault, self)
 
     def _take_waiting(self, found: Sequence[Waiting]) -> None:
-        self._waiting = list(found)
+        self.waiting = list(found)
         self._say()
 
     def show(self, session_id: str, session: Session, row: int) -> None:
-        if self._running:
+        if self.running:
             self.open_sheet()
             return
         self._whose = whose(session.header)
@@ -89,10 +79,10 @@ class CorrectFlow(Flow):
 
     def start(self, session_id: str, corrections: Sequence[Correction]) -> None:
         """Track again in the background."""
-        if self._running:
+        if self.running:
             self.open_sheet()
             return
-        self._running, self._percent = session_id, 0
+        self.running, self._percent = session_id, 0
         self._stopping.clear()
         trial: list[Path] = []
 
@@ -104,10 +94,10 @@ class CorrectFlow(Flow):
 
         def done(finished: bool) -> None:
             if finished:
-                self._waiting.append(Waiting(session_id, trial[0]))
+                self.waiting.append(Waiting(session_id, trial[0]))
             self._end()
             if finished and self.sheet.isVisible():  # somebody waits for it there
-                self._show_waiting(self._waiting[-1])
+                self._show_waiting(self.waiting[-1])
 
         def failed(fault: Exception) -> None:
             self._end()
@@ -127,12 +117,12 @@ class CorrectFlow(Flow):
 
     def open_sheet(self, session_id: str = "") -> None:
         """What runs, or what waits for a decision: of this session first."""
-        if self._running:
+        if self.running:
             self.sheet.show_running(self._whose, max(self._percent, 0))
             self.sheet.begin()
-        elif self._waiting:
-            own = [one for one in self._waiting if one.session_id == session_id]
-            self._show_waiting((own or self._waiting)[-1 if own else 0])
+        elif self.waiting:
+            own = [one for one in self.waiting if one.session_id == session_id]
+            self._show_waiting((own or self.waiting)[-1 if own else 0])
             self.sheet.begin()
 
     def close(self) -> None:
@@ -146,7 +136,7 @@ class CorrectFlow(Flow):
         self._at.emit(100 * done // max(total, 1))
 
     def _take_progress(self, percent: int) -> None:
-        if not self._running:
+        if not self.running:
             return
         self._percent = percent
         if self.sheet.isVisible():
@@ -154,13 +144,13 @@ class CorrectFlow(Flow):
         self._say()
 
     def _end(self) -> None:
-        self._running, self._percent = "", -1
-        if self._stopping.is_set() or not self._waiting:
+        self.running, self._percent = "", -1
+        if self._stopping.is_set() or not self.waiting:
             self.sheet.close_sheet()
         self._say()
 
     def _say(self) -> None:
-        self.changed.emit(self._percent, len(self._waiting))
+        self.changed.emit(self._percent, len(self.waiting))
 
     # --- old or new ---------------------------------------------------------------------------------------
     def _show_waiting(self, one: Waiting) -> None:
@@ -190,8 +180,8 @@ class CorrectFlow(Flow):
         """The new result that was decided about; it waits no more."""
         one, self._shown = self._shown, None
         self.sheet.close_sheet()
-        if one in self._waiting:
-            self._waiting.remove(one)
+        if one in self.waiting:
+            self.waiting.remove(one)
             self._say()
         return one
 
@@ -206,7 +196,7 @@ class CorrectFlow(Flow):
             return
 
         def failed(fault: Exception) -> None:
-            self._waiting.append(one)
+            self.waiting.append(one)
             self._say()
             self.context.messages.fault(fault)
 

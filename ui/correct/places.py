@@ -32,7 +32,6 @@ class Places:
         return np.asarray(self.session.markers.measured_px[row])
 
     def now(self, row: int) -> FloatArray:
-        """The same with what a person said of this picture."""
         places = self.before(row).copy()
         for name, place in self._changed.get(row, {}).items():
             places[self.markers.index(name)] = np.nan if place is None else place

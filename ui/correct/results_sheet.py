@@ -5,14 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QProgressBar, QWidget
+from PySide6.QtWidgets import QWidget
 
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Surface
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import STRETCH, in_line
+from carpus.ui.controls.layouts import STRETCH, fill, in_line
+from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.figures import FINGERS
@@ -50,14 +51,12 @@ class ResultsSheet(Sheet):
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 980)
-        self._both: BothResults | None = None
+        self.both: BothResults | None = None
+        """The two results that are shown; None while one is made or read."""
         self.title = Text(theme, "", 20, SEMIBOLD, wrap=True)
         self.whose = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.words = Text(theme, "", 14, REGULAR, wrap=True)
-        self.bar = QProgressBar()
-        self.bar.setTextVisible(False)
-        self.bar.setAccessibleName(self.tr("How far the tracking is"))
-        self.bar.setFixedHeight(8)
+        self.bar = ThinBar(theme, self.tr("How far the tracking is"))
         self.legend = _legend(theme)
         fingers: list[tuple[object, str]] = [(finger, finger_name(str(finger))) for finger in FINGERS]
         self.finger = Choices(theme, [*fingers, (WRIST, self.tr("Wrist"))])
@@ -79,25 +78,11 @@ class ResultsSheet(Sheet):
             body.addWidget(widget)
         body.addWidget(self.curves, 1)
         row = in_line(self.stop, self.keep, self.use, STRETCH, self.later, gap=10)
-        body.addSpacing(4)
-        body.addLayout(row)
-        self._paint_bar()
-        theme.changed.connect(self._paint_bar)
-
-    def _paint_bar(self) -> None:
-        bar = "QProgressBar {{ background: {0}; border: 0; border-radius: 4px; height: 8px; }}"
-        chunk = " QProgressBar::chunk {{ background: {1}; border-radius: 4px; }}"
-        tokens = self._theme.tokens
-        self.bar.setStyleSheet((bar + chunk).format(tokens.sunken, tokens.accent))
-
-    @property
-    def both(self) -> BothResults | None:
-        """The two results that are shown; None while one is made or read."""
-        return self._both
+        fill(body, 4, row)
 
     def show_running(self, whose: str, percent: int) -> None:
         self._show(self.tr("Tracking again: {percent} %").format(percent=percent), whose)
-        self.bar.setValue(percent)
+        self.bar.show_progress(percent, 100)
         self.words.setText(
             self.tr("Go on working meanwhile. Nothing replaces the old result until you choose; Stop keeps it.")
         )
@@ -111,7 +96,6 @@ class ResultsSheet(Sheet):
         self._show_parts(running=False, both=None)
 
     def show_both(self, whose: str, words: str, both: BothResults) -> None:
-        """Old and new over each other, and the choice."""
         self._show(self.tr("Use the new result?"), whose)
         self.words.setText(words)
         self.later.set_face(self.tr("Decide later"))
@@ -130,7 +114,7 @@ class ResultsSheet(Sheet):
         self.setAccessibleName(f"{title} {whose}")
 
     def _show_parts(self, *, running: bool, both: BothResults | None) -> None:
-        self._both = both
+        self.both = both
         self.bar.setVisible(running)
         self.stop.setVisible(running)
         for widget in (self.legend, self.curves, self.keep, self.use):
@@ -139,7 +123,7 @@ class ResultsSheet(Sheet):
         self.words.setVisible(bool(self.words.text()))
 
     def _draw(self) -> None:
-        both = self._both
+        both = self.both
         if both is None:
             return
         shown = (both.new, both.figures.exercise, both.figures.repetitions, -1)
@@ -160,7 +144,6 @@ def _legend(theme: Theme) -> QWidget:
             stroke = Surface(theme, token)
             stroke.setFixedSize(dash_px, 2)
             row.addWidget(stroke)
-        row.addWidget(Text(theme, words, 14, MEDIUM))
-        row.addSpacing(16)
+        fill(row, Text(theme, words, 14, MEDIUM), 16)
     row.addStretch(1)
     return legend

@@ -6,9 +6,9 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QPushButton, QSizePolicy, QWidget
 
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.seen import session_curves
@@ -19,11 +19,10 @@ from carpus.ui import numbers
 from carpus.ui.background import Background
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card, KeyCaps
-from carpus.ui.controls.layouts import STRETCH, empty, in_column, in_line, scrolled
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text
+from carpus.ui.controls.layouts import STRETCH, Fitted, empty, fill, in_column, in_line, scrolled
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Sign, StateText, Text
 from carpus.ui.correct.picture import CorrectionPicture
 from carpus.ui.correct.places import Places
-from carpus.ui.correct.rows import MarkerRow
 from carpus.ui.keys import Keys, bind
 from carpus.ui.marker_words import marker_name
 from carpus.ui.playback.pictures import RowReader, plain_ground
@@ -32,7 +31,7 @@ from carpus.ui.plot.session import SessionPlot
 from carpus.ui.plot.session_view import CurveView
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
-if TYPE_CHECKING:  # it reads and writes files
+if TYPE_CHECKING:
     from carpus.core.records.corrections import Corrections
 
 ARROWS = {
@@ -43,7 +42,7 @@ FAR_MM = 8.0
 """Further than this from where the others expect it a marker is worth a look."""
 
 
-class CorrectScreen(QWidget):
+class CorrectScreen(Fitted):
     """``wanted`` carries the session's identity and the corrections; ``done`` asks to go back; ``told`` a fault."""
 
     wanted = Signal(str, object)
@@ -58,7 +57,7 @@ class CorrectScreen(QWidget):
         self._figures: SessionFigures | None = None
         self.places: Places | None = None
         self._time_s = np.empty(0)
-        self._row = 0
+        self.row = 0
         self._spots: FloatArray = np.empty((0, 2))
         self.current = ""
         self.picture = CorrectionPicture(theme)
@@ -93,17 +92,13 @@ class CorrectScreen(QWidget):
         player = Card(self._theme, 0)
         line = in_line(self.transport, 32, STRETCH, self.time, 8, (self.scrubber, 6), 8, gap=4, margins=(12, 7, 16, 7))
         player.body.addLayout(line)
-        left.addWidget(player)
-        left.addWidget(self.curves, 200)
+        fill(left, player, (self.curves, 200))
         right = in_column(self.step, self.title, self.hint, gap=8, margins=(0, 0, 0, 0))
         card = Card(self._theme, 16)
         card.body.addWidget(Text(self._theme, self.tr("At this picture: distance to its place"), 14, SEMIBOLD))
         column = in_column(self._rows, STRETCH)
         card.body.addWidget(scrolled(column), 1)
-        right.addWidget(card, 1)
-        right.addLayout(in_line(self.hide_button, STRETCH))
-        right.addWidget(self.next_doubtful)
-        right.addWidget(self.although)
+        fill(right, (card, 1), in_line(self.hide_button, STRETCH), self.next_doubtful, self.although)
         right.addLayout(in_line((self.primary, 1), self.cancel, gap=12))
         self._column = QWidget()
         self._column.setLayout(right)
@@ -117,9 +112,6 @@ class CorrectScreen(QWidget):
         self.curves.setVisible(not tight and self.height() >= 600 * self._theme.text_scale)
         self.next_doubtful.setVisible(bool(self._doubtful().size) and not self.although.isVisibleTo(self))
         self.primary.set_face(self.primary.text(), hint="" if tight else ENTER)
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._fit()
 
     def _connect(self, keys: Keys) -> None:
         self.picture.dropped.connect(self.put)
@@ -165,7 +157,7 @@ class CorrectScreen(QWidget):
         self.curves.show_plot(SessionPlot(curves, self._figures.exercise, self._figures.repetitions, -1))
         self.scrubber.show_session(float(self._time_s[-1]), self._figures.repetitions, -1)
         self.reader.begin(session_id)
-        self._row = -1
+        self.row = -1
         self.show_row(row)
         self._fit()
         self.setFocus(Qt.FocusReason.OtherFocusReason)
@@ -177,16 +169,13 @@ class CorrectScreen(QWidget):
         return np.flatnonzero(doubted)
 
     # --- time ---------------------------------------------------------------------------------------------
-    @property
-    def row(self) -> int:
-        return self._row
 
     def show_row(self, row: int) -> None:
         if self._session is None:
             return
         row = int(np.clip(row, 0, len(self._session) - 1))
-        if row != self._row:
-            self._row = row
+        if row != self.row:
+            self.row = row
             self._spots = np.empty((0, 2))
             self.curves.set_time(float(self._time_s[row]))
             self.time.setText(clock_words(float(self._time_s[row]), float(self._time_s[-1])))
@@ -195,7 +184,7 @@ class CorrectScreen(QWidget):
         self._refresh()
 
     def go_on(self, pictures: int) -> None:
-        self.show_row(self._row + pictures)
+        self.show_row(self.row + pictures)
 
     def _seek(self, time_s: float) -> None:
         if self._session is not None:
@@ -207,11 +196,11 @@ class CorrectScreen(QWidget):
         if not rows.size:
             return
         begins = rows[np.flatnonzero(np.diff(rows, prepend=-9) > 1)]
-        after = begins[begins > self._row]
+        after = begins[begins > self.row]
         self.show_row(int(after[0] if after.size else begins[0]))
 
     def _show_moment(self, row: int, moment: tuple[ByteImage | None, FloatArray]) -> None:
-        if row != self._row or self._session is None or self.places is None:
+        if row != self.row or self._session is None or self.places is None:
             return  # the one that is shown follows
         picture_rgb, self._spots = moment
         self.picture.show_frame(plain_ground(self._session.camera) if picture_rgb is None else picture_rgb)
@@ -226,7 +215,7 @@ class CorrectScreen(QWidget):
     def put(self, name: str, pixel: FloatArray) -> None:
         if self.places is not None:
             self.current = name
-            self.places.put(self._row, name, pixel, self._spots)
+            self.places.put(self.row, name, pixel, self._spots)
             self._refresh()
 
     def _clicked_beside(self, pixel: FloatArray) -> None:
@@ -239,18 +228,17 @@ class CorrectScreen(QWidget):
         if self.places is None or not self.current:
             return
         number = self.places.markers.index(self.current)
-        start = self.places.now(self._row)[number]
+        start = self.places.now(self.row)[number]
         if not np.isfinite(start).all():
-            start = self.places.modelled(self._row)[number]
+            start = self.places.modelled(self.row)[number]
         if np.isfinite(start).all():
             step = (BIG_STEP_PX if big else 1.0) * np.array(ARROWS[Qt.Key(key)])
-            self.places.put(self._row, self.current, start + step, np.empty((0, 2)))
+            self.places.put(self.row, self.current, start + step, np.empty((0, 2)))
             self._refresh()
 
     def hide_current(self) -> None:
-        """The chosen marker is not to be seen here."""
         if self.places is not None and self.current:
-            self.places.hide(self._row, self.current)
+            self.places.hide(self.row, self.current)
             self._refresh()
 
     def undo(self) -> None:
@@ -275,7 +263,7 @@ class CorrectScreen(QWidget):
         elif found[1].exchanged is not None:
             self.places.exchange(found[0], *found[1].exchanged)
             self.show_row(found[0])
-        elif found[0] != self._row:
+        elif found[0] != self.row:
             self.show_row(found[0])
         else:
             self.undo()
@@ -295,11 +283,11 @@ class CorrectScreen(QWidget):
     # --- showing ------------------------------------------------------------------------------------------
     def _refresh(self) -> None:
         places, session = self.places, self._session
-        if places is None or session is None or self._row < 0:
+        if places is None or session is None or self.row < 0:
             return
-        at = numbers.clock_tenths(float(self._time_s[self._row]))
-        doubtful = bool(session.markers.doubted[self._row].any()) or session.status[self._row] == TrackStatus.DOUBTFUL
-        changed = places.changed(self._row)
+        at = numbers.clock_tenths(float(self._time_s[self.row]))
+        doubtful = bool(session.markers.doubted[self.row].any()) or session.status[self.row] == TrackStatus.DOUBTFUL
+        changed = places.changed(self.row)
         state = self.tr("Doubtful at {time}") if doubtful else self.tr("Picture at {time}")
         self.step.show_state("warn" if doubtful else "none", state.format(time=at))
         name = marker_name(self.current) if self.current else ""
@@ -311,11 +299,11 @@ class CorrectScreen(QWidget):
         else:
             pattern = self.tr("No pictures stored: the {count} blue spots of this moment. Drag a name to its spot.")
             self.hint.setText(pattern.format(count=len(self._spots)))
-        now = places.now(self._row)
+        now = places.now(self.row)
         for number, (marker, line) in enumerate(self.rows.items()):
             seen = bool(np.isfinite(now[number]).all())
-            off = places.off_mm(self._row, marker)
-            was = places.off_mm(self._row, marker, as_tracked=True) if marker in changed else math.nan
+            off = places.off_mm(self.row, marker)
+            was = places.off_mm(self.row, marker, as_tracked=True) if marker in changed else math.nan
             line.show_line(off, was, seen=seen, changed=marker in changed, chosen=marker == self.current, far_mm=FAR_MM)
         self.hide_button.setEnabled(bool(self.current))
         self.picture.current = self.current
@@ -351,5 +339,63 @@ class CorrectScreen(QWidget):
         self.title.setText(words)
         far = self.tr("It lies {size} mm from where the other discs let it be. It may be another disc, or no disc.")
         self.hint.setText(far.format(size=f"{1000.0 * doubt.off_m:.0f}"))
-        here = row == self._row
+        here = row == self.row
         self.primary.set_face(self.tr("Take the last step back") if here else self.tr("Show that picture"))
+
+
+ROW_PX = 34
+MOVES = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down)
+
+
+class MarkerRow(QPushButton):
+    """``nudged`` carries an arrow key, and whether Shift was held."""
+
+    nudged = Signal(int, bool)
+
+    def __init__(self, theme: Theme, name: str) -> None:
+        super().__init__()
+        self._theme, self._name = theme, name
+        self._sign = Sign(theme, "good", 18, (18, 20))
+        self._said, self._value = ElidedText(theme, name, 14, MEDIUM), Text(theme, "", 14, REGULAR)
+        self._value.setObjectName("value")
+        row = in_line(gap=10, margins=(8, 0, 8, 0), within=self)
+        for part in (self._sign, self._said, self._value):
+            part.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+            row.addWidget(part, int(part is self._said))
+        self.on_enter = "pass"
+        self.setCheckable(True)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        theme.changed.connect(self.updateGeometry)
+
+    def show_line(
+        self, off_mm: float, was_mm: float, *, seen: bool, changed: bool, chosen: bool, far_mm: float
+    ) -> None:
+        """``off_mm`` from its place now, ``was_mm`` before a change; NaN where nobody knows."""
+        now = self.tr("{size} mm").format(size=numbers.fixed(off_mm, 1)) if math.isfinite(off_mm) else "–"
+        if not seen:
+            now = self.tr("hidden")
+        if changed and math.isfinite(was_mm):
+            now = self.tr("{now}, was {size} mm").format(now=now, size=f"{was_mm:.0f}")
+        far = seen and math.isfinite(off_mm) and off_mm > far_mm
+        self._sign.show_sign("warn" if far else "predicted" if changed else "partly" if not seen else "good")
+        self._value.setText(now)
+        self._said.set_look("text", SEMIBOLD if chosen else MEDIUM)
+        self.setChecked(chosen)
+        self.setAccessibleName(f"{self._name}, {now}")
+        self.setToolTip(f"{self._name}, {now}")
+
+    def sizeHint(self) -> QSize:
+        return QSize(300, self._theme.px(ROW_PX))
+
+    def minimumSizeHint(self) -> QSize:
+        return QSize(200, self._theme.px(ROW_PX))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() in MOVES and self.isChecked():
+            self.nudged.emit(event.key(), bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
+        elif event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            event.ignore()  # Enter tracks again, wherever the keyboard is
+        else:
+            super().keyPressEvent(event)

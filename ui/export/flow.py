@@ -30,7 +30,6 @@ class Exporting(QObject):
         self._stepped.connect(self.formats.progress, Qt.ConnectionType.QueuedConnection)
 
     def ask(self, session_id: str) -> None:
-        """Ask for the formats and a folder, and write them."""
         self._session_id = session_id
         self.formats.begin()
 

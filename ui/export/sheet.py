@@ -1,4 +1,4 @@
-"""Which formats a session is exported in, then how far that is, until all of it is written."""
+"""A session in open formats: which of them and where to, how far it is, until all of it is written."""
 
 from __future__ import annotations
 
@@ -50,8 +50,7 @@ class ExportSheet(Sheet):
         words = self.tr("Tables of angles, repetitions and measures (CSV), for any spreadsheet.")
         self.plain = Text(theme, words, 14, wrap=True)
         self.plain.hide()
-        body.addWidget(self.plain)
-        body.addSpacing(8)
+        fill(body, self.plain, 8)
         self.nobody = self._tick(self.tr("Nobody can be found by it: new random name, days counted, no notes"))
         self.bar = ThinBar(theme, self.tr("How far the export is"))
         fill(body, 8, self.bar, 8)

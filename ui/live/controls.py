@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent
-from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.core.records.exercise_sets import next_part
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Surface
+from carpus.ui.controls.layouts import fill, in_line
 from carpus.ui.fonts import MEDIUM, SEMIBOLD, font
 from carpus.ui.icons import paint_state
 from carpus.ui.live.light import Lamp
@@ -28,17 +29,10 @@ class Controls(Surface):
         self.pain = Button(theme, self.tr("Pain"), "quiet", hint="F6")
         self.pause = Button(theme, self.tr("Pause"), icon="pause", hint="F7", height_px=52)
         self.main = Button(theme, "", "primary", height_px=56)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, MARGIN_PX, 0)
-        row.setSpacing(4)
-        row.addWidget(self.light, 1)
-        row.addSpacing(8)
-        row.addWidget(self.note)
-        row.addWidget(self.pain)
-        row.addSpacing(8)
-        row.addWidget(self.pause)
-        row.addSpacing(12)
-        row.addWidget(self.main)
+        row = in_line(
+            (self.light, 1), 8, self.note, self.pain, 8, self.pause, gap=4, margins=(0, 0, MARGIN_PX, 0), within=self
+        )
+        fill(row, 12, self.main)
         for button in (self.note, self.pain, self.pause, self.main):
             button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         recording.changed.connect(self.refresh)

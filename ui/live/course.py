@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from carpus.core.records.exercise_sets import next_part
 from carpus.core.records.set_up import SetUp
 from carpus.ui import numbers
-from carpus.ui.live.glance import Glance
+from carpus.ui.live.recording import Glance
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.now_open import NowOpen
 from carpus.ui.patient.viewing import PatientViewing
@@ -30,18 +30,15 @@ class CourseRun(QObject):
         self._live, self._patient, self._now = live, patient, now
         self._done_since_s = math.inf
         self._rest_left_s = self._rest_s = 0
-        self._timer = QTimer(self)
-        self._timer.setInterval(1000)
+        self._timer = QTimer(self, interval=1000)
         self._timer.timeout.connect(self._second)
         live.glanced.connect(self._follow)
 
     @property
     def resting(self) -> bool:
-        """Whether the hand has its rest between two parts."""
         return self._rest_left_s > 0
 
     def begun(self, set_up: SetUp) -> None:
-        """The live screen is shown for an exercise, in a set or not."""
         self._done_since_s = math.inf
         self._show(set_up)
 

@@ -34,12 +34,10 @@ class Doubt:
 
     @property
     def has_spot(self) -> bool:
-        """Whether there is another spot to choose."""
         return bool(np.isfinite(self.spot_px).all())
 
     @property
     def hidden(self) -> bool:
-        """Whether no spot is taken for the marker."""
         return not np.isfinite(self.disc_px).all()
 
     def answer(self, chosen: Chosen) -> SpotAnswer:

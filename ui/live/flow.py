@@ -12,7 +12,7 @@ from carpus.ui.check_card.standing_words import session_lines
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.live.course import CourseRun
 from carpus.ui.live.screen import LiveScreen
-from carpus.ui.messages.stop_card import Answer
+from carpus.ui.messages.messages import Answer
 from carpus.ui.patient.viewing import PatientViewing
 
 log = logging.getLogger(__name__)
@@ -74,7 +74,6 @@ class LiveFlow(Flow):
 
     # --- what the source tells ----------------------------------------------------------------------------
     def take(self, told: object) -> None:
-        """An event of the source, or a fault of a command."""
         messages = self.context.messages
         if isinstance(told, Exception):
             messages.fault(told)
@@ -110,7 +109,6 @@ class LiveFlow(Flow):
 
     # --- how it ends --------------------------------------------------------------------------------------
     def _stopped(self, session_id: str) -> None:
-        """Stored: on to the next part of a set, else to what was measured."""
         now, way = self.context.now, self.context.way
         self.context.messages.withdraw(self._closing_question())
         self.context.messages.withdraw(self._hasty_question())

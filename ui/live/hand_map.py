@@ -12,7 +12,7 @@ from carpus.ui.controls.card import paint_card
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.hand_drawing import PLACES, outline, placement
 from carpus.ui.icons import paint_state
-from carpus.ui.live.hand_words import map_words
+from carpus.ui.live.light import map_words
 from carpus.ui.plot.history import Seen
 from carpus.ui.theme import Theme
 

@@ -7,6 +7,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
 from carpus.ui.controls.button import Button
+from carpus.ui.controls.layouts import STRETCH, fill, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.theme import Theme
@@ -25,17 +26,12 @@ class NoteSheet(Sheet):
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 720, low=True)
-        self.line = QLineEdit()
-        self.line.setPlaceholderText(self.tr("What happened? No names."))
+        self.line = QLineEdit(placeholderText=self.tr("What happened? No names."))
         self.line.setAccessibleName(self.tr("Note"))
         keep = Button(theme, self.tr("Keep note"), "primary", height_px=44)
         close = Button(theme, self.tr("Close"), "plain", hint=self.tr("Esc"))
         self.card.body.addWidget(Text(theme, self.tr("Note at this moment"), 16, SEMIBOLD))
-        row = QHBoxLayout()
-        row.addWidget(self.line, 1)
-        row.addWidget(close)
-        row.addWidget(keep)
-        self.card.body.addLayout(row)
+        self.card.body.addLayout(in_line((self.line, 1), close, keep))
         quick = QHBoxLayout()
         for words in (
             self.tr("Stopped for pain"),
@@ -48,8 +44,7 @@ class NoteSheet(Sheet):
         self._passive = False
         self.way = Button(theme, "", "plain", height_px=36)
         self.way.clicked.connect(self._change_way)
-        quick.addWidget(self.way)
-        quick.addStretch(1)
+        fill(quick, self.way, STRETCH)
         self.card.body.addLayout(quick)
         keep.clicked.connect(lambda: self._keep(self.line.text()))
         close.clicked.connect(self.close_sheet)
@@ -80,8 +75,7 @@ class PainSheet(Sheet):
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 720, low=True)
         self.card.body.addWidget(Text(theme, self.tr("Pain now, 0 (none) to 10 (worst)"), 16, SEMIBOLD))
-        row = QHBoxLayout()
-        row.setSpacing(6)
+        row = in_line(gap=6)
         self.buttons: list[Button] = []
         for score in range(MOST_PAIN + 1):
             button = Button(theme, str(score), "plain", height_px=48)
@@ -97,9 +91,7 @@ class PainSheet(Sheet):
         self.set_default(close)
         below.addWidget(close)
         self.card.body.addLayout(below)
-        self._one = QTimer(self)
-        self._one.setSingleShot(True)
-        self._one.setInterval(SECOND_DIGIT_MS)
+        self._one = QTimer(self, singleShot=True, interval=SECOND_DIGIT_MS)
         self._one.timeout.connect(lambda: self._keep(1))
         self.closed.connect(self._one.stop)
 

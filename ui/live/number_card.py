@@ -58,7 +58,6 @@ class Reading:
     target_negative_deg: float = math.nan
 
     def with_next_angle(self) -> Reading:
-        """Of the next of the three angles of the wrist, or of a finger."""
         if self.figure is None:
             return Reading(angle=(self.angle + 1) % 3)
         own = [figure for figure in FIGURES if figure.finger == self.figure.finger]
@@ -138,7 +137,6 @@ class NumberCard(QWidget):
         return terms.movement_long_name(self._word)
 
     def _ends(self) -> tuple[float, float, str, str]:
-        """Lower and upper end of the gauge with their words."""
         figure = self.reading.figure
         if figure is not None:
             return *figure.range_deg, *figure.end_names
@@ -165,7 +163,6 @@ class NumberCard(QWidget):
         return NUMBER_PX * room / needed
 
     def _right_px(self) -> float:
-        """Width of the column at the right: repetition, speed, best."""
         narrow = self._across < NARROW_BELOW_PX * self._theme.text_scale
         return (NARROW_RIGHT_PX if narrow else RIGHT_PX) * self._theme.text_scale
 

@@ -64,7 +64,6 @@ class OnPicture:
         self._paint_question(painter, picture, frame)
 
     def _paint_question(self, painter: QPainter, picture: PictureView, frame: TrackedFrame) -> None:
-        """What is asked about, as it lies in the picture shown."""
         asked, measuring = self._question.doubt, self._recording.measuring
         if asked is None or measuring is None or measuring.calibration is None:
             return

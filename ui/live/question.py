@@ -8,10 +8,11 @@ from functools import partial
 
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt, Signal
 from PySide6.QtGui import QPainter, QShortcut
-from PySide6.QtWidgets import QGridLayout, QWidget
+from PySide6.QtWidgets import QWidget
 
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
+from carpus.ui.controls.layouts import fill, in_grid
 from carpus.ui.controls.text import Text
 from carpus.ui.fonts import SEMIBOLD
 from carpus.ui.keys import Keys, bind
@@ -60,27 +61,23 @@ class SpotQuestion(Card):
         self.buttons: dict[Chosen, Button] = {
             name: Button(theme, "", height_px=32) for name in ("disc", "spot", "none")
         }
-        self._grid = QGridLayout()
-        self._grid.setSpacing(GAP_PX)
+        self._grid = in_grid(GAP_PX, GAP_PX)
         for name, button in self.buttons.items():
             button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
             button.clicked.connect(lambda _=False, name=name: self.answer(name))
         self._grid.setColumnStretch(len(self.buttons), 1)
-        self.body.addWidget(self.words)
-        self.body.addLayout(self._grid)
+        fill(self.body, self.words, self._grid)
         self.hide()
         names = ("answer_first", "answer_second", "answer_none")
         self._answer_keys = {name: bind(host, keys, name, partial(self._answer_by_key, name)) for name in names}
         self._arm_keys()
 
     def look(self, doubt: Doubt | None) -> Doubt | None:
-        """What is in question when the newest frame leaves this one."""
         self.open_doubt = self._steady.show(doubt, self._now_s())
         self._ask(self.open_doubt)
         return self.open_doubt
 
     def withdraw(self) -> None:
-        """Nothing is in question any more, at once."""
         self._steady.answered()
         self.open_doubt = None
         self._ask(None)
@@ -152,7 +149,6 @@ class SpotQuestion(Card):
         self.setGeometry(AWAY_PX, top, width, height)
 
     def _arrange(self, room_px: int) -> None:
-        """The answers in one row, or in two where they do not fit."""
         shown = [button for button in self.buttons.values() if not button.isHidden()]
         needed = sum(button.sizeHint().width() for button in shown) + GAP_PX * max(len(shown) - 1, 0)
         columns = len(shown) if needed <= room_px else 2

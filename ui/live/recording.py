@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
@@ -16,9 +18,10 @@ from carpus.core.types import FloatArray, SpotAnswer, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.figures import FIGURES, FINGERS, Figure
 from carpus.ui.live.counting import RunningCount
-from carpus.ui.live.glance import RecordingState
 from carpus.ui.plot.history import History
-from carpus.ui.ports import Measuring
+
+if TYPE_CHECKING:
+    from carpus.core.pipeline.measuring import SourceMeasuring
 
 HASTY_S = 3.0
 """So soon after a recording began nobody is taken to mean its end without being asked."""
@@ -41,7 +44,7 @@ class Recording(QObject):
     def __init__(self, background: Background, history: History) -> None:
         super().__init__()
         self._background, self._history = background, history
-        self.measuring: Measuring | None = None
+        self.measuring: SourceMeasuring | None = None
         self.set_up: SetUp | None = None
         self.count: RunningCount | None = None
         self.start_mode: StartMode = "key"
@@ -53,7 +56,7 @@ class Recording(QObject):
         """Whether it is being started or stopped, which waits for the disk."""
         self._begun_at_s = -HASTY_S
 
-    def open(self, measuring: Measuring, set_up: SetUp) -> None:
+    def open(self, measuring: SourceMeasuring, set_up: SetUp) -> None:
         self.measuring, self.set_up, self.count = measuring, set_up, None
         self.camera_lost = self.under_way = self._rests = False
         self._arm()
@@ -232,12 +235,10 @@ class Beginning:
         self._lately.clear()
 
     def wait(self) -> None:
-        """From now on wait for a hand that lies still."""
         self.stop()
         self.waits = True
 
     def count(self, now_s: float) -> None:
-        """Count down from now, whatever the hand does."""
         self.stop()
         self._begins_s, self._watches = now_s + COUNT_S, False
 
@@ -279,3 +280,31 @@ class Beginning:
             self._lately.popleft()
         seen = np.array([angles for _, angles in self._lately])
         return float(np.nanmax(seen.max(axis=0) - seen.min(axis=0)))
+
+
+RecordingState = Literal["off", "recording", "paused"]
+
+
+@dataclass(frozen=True, slots=True)
+class Glance:
+    """One look at the hand; degrees, unknown is NaN.
+
+    ``at_s`` on a clock that never stands still. ``value_deg`` of the trained angle with its sign, ``sure`` whether it
+    is measured now; ``hand_seen`` whether at least the hand is, where the trained joint is not. ``wrist_deg``
+    deviation, flexion, pro/supination and ``bent_deg`` the mean bending of the fingers, for exercises without a
+    trained angle. ``done`` full repetitions of ``asked``; ``found`` as they
+    are counted now, of which one may still turn out to be none. ``starts_s``: seconds that are still counted down
+    to the recording, 0 for none.
+    """
+
+    at_s: float
+    value_deg: float = math.nan
+    sure: bool = False
+    hand_seen: bool = False
+    wrist_deg: tuple[float, float, float] = (math.nan, math.nan, math.nan)
+    bent_deg: float = math.nan
+    state: RecordingState = "off"
+    done: int = 0
+    asked: int = 0
+    found: int = 0
+    starts_s: int = 0

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 import time
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLayout, QWidget
 
 from carpus.core.hand.protocols import PROTOCOLS
 from carpus.core.pipeline.live_values import LiveCounters, TrackedView
@@ -15,32 +15,32 @@ from carpus.core.records.set_up import SetUp
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
+from carpus.ui.controls.layouts import STRETCH, Fitted, fill, in_column, in_line
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.figures import figure_of
 from carpus.ui.keys import Keys, bind
-from carpus.ui.live.behind import Behind, behind_lamp, words_left
 from carpus.ui.live.controls import Controls
 from carpus.ui.live.doubt import doubt_lamp, doubt_of
-from carpus.ui.live.glance import Glance
 from carpus.ui.live.hand_map import HandMap
-from carpus.ui.live.hand_words import hand_lamp
-from carpus.ui.live.light import Lamp, SteadyLight, lamp_for
+from carpus.ui.live.light import Behind, Lamp, SteadyLight, behind_lamp, hand_lamp, lamp_for, words_left
 from carpus.ui.live.notes import NoteSheet, PainSheet
 from carpus.ui.live.number_card import NumberCard, Reading
 from carpus.ui.live.on_picture import OnPicture
 from carpus.ui.live.question import SpotQuestion
 from carpus.ui.live.readings import Readings
-from carpus.ui.live.recording import Recording
+from carpus.ui.live.recording import Glance, Recording
 from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM, PictureView
 from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.finger_curves import FingerCurves
 from carpus.ui.plot.history import History
 from carpus.ui.plot.live_curves import LiveCurves
 from carpus.ui.plot.path_view import PathView
-from carpus.ui.ports import Measuring
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
+
+if TYPE_CHECKING:  # it reads and writes files
+    from carpus.core.pipeline.measuring import SourceMeasuring
 
 LOOK_EVERY_MS = 8
 """So often the screen looks for a new picture: the curves are as old as this, not as the time between two drawings."""
@@ -60,7 +60,7 @@ STALE_S = 0.4
 """Without a new picture for so long, what was tracked last is not the hand of now."""
 
 
-class LiveScreen(QWidget):
+class LiveScreen(Fitted):
     """``recording_changed`` (state, seconds) and ``counted`` feed the top bar; ``told`` carries events of the source
     and faults of commands."""
 
@@ -110,43 +110,22 @@ class LiveScreen(QWidget):
         self._connect(keys)
         self.picture.installEventFilter(self)
         theme.changed.connect(self._fit)
-        self._timer = QTimer(self)
-        self._timer.setTimerType(Qt.TimerType.PreciseTimer)
-        self._timer.setInterval(LOOK_EVERY_MS)
+        self._timer = QTimer(self, timerType=Qt.TimerType.PreciseTimer, interval=LOOK_EVERY_MS)
         self._timer.timeout.connect(self.look)
 
     def _lay_out(self) -> None:
-        left = QVBoxLayout()
-        left.setSpacing(12)
-        left.addWidget(self.picture, 390)
-        left.addWidget(self.path, 242)
-        left.addWidget(self.hand_map, 300)
-        right = QVBoxLayout()
-        right.setSpacing(12)
-        right.addWidget(self.number)
-        right.addWidget(self.curves, 1)
-        right.addWidget(self.fingers, 1)
+        left = in_column((self.picture, 390), (self.path, 242), (self.hand_map, 300), gap=12)
+        right = in_column(self.number, (self.curves, 1), (self.fingers, 1), gap=12)
         self._columns = columns = QHBoxLayout(self.stage)
         columns.setContentsMargins(MARGIN_PX, GAP_PX, MARGIN_PX, 12)
         columns.setSpacing(GAP_PX)
-        columns.addLayout(left, 520)
-        columns.addLayout(right, 696)
+        fill(columns, (left, 520), (right, 696))
         # Over the corner of the curves that nothing is written in, and over the picture.
         for button, host, top_px, right_px in ((self.speeds, self.curves, 4, 6), (self.patient, self.picture, 8, 8)):
             button.setProperty("floats", True)
-            over = QHBoxLayout(host)
-            over.setContentsMargins(0, top_px, right_px, 0)
-            over.addStretch(1)
-            over.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
-        whole = QVBoxLayout(self)
-        whole.setContentsMargins(0, 0, 0, 0)
-        whole.setSpacing(0)
-        whole.addWidget(self.stage, 1)
-        whole.addLayout(_between_margins(self.course, 8))
-        whole.addLayout(_between_margins(self.bubble, 4))
-        whole.addWidget(self.catching_up)
-        whole.addWidget(Line(self._theme))
-        whole.addWidget(self.controls)
+            in_line(STRETCH, (button, 0, Qt.AlignmentFlag.AlignTop), margins=(0, top_px, right_px, 0), within=host)
+        whole = in_column((self.stage, 1), _between_margins(self.course, 8), gap=0, margins=(0, 0, 0, 0), within=self)
+        fill(whole, _between_margins(self.bubble, 4), self.catching_up, Line(self._theme), self.controls)
 
     def _connect(self, keys: Keys) -> None:
         recording, controls = self.recording, self.controls
@@ -183,9 +162,6 @@ class LiveScreen(QWidget):
         self.question.other_keys = list(self._shortcuts.values())
         self.question.changed.connect(self._place_question)
         self.question.answered.connect(recording.answer_spot)
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._fit()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """The question keeps its place on the picture."""
@@ -224,7 +200,7 @@ class LiveScreen(QWidget):
         self.controls.fit(tight=tight, large=self._large)
 
     # --- life ---------------------------------------------------------------------------------------------
-    def begin(self, measuring: Measuring, set_up: SetUp) -> None:
+    def begin(self, measuring: SourceMeasuring, set_up: SetUp) -> None:
         exercise, calibration = set_up.exercise, measuring.calibration
         self.history.clear(set_up.protocol)
         self._whole_hand = set_up.protocol.has_fingers
@@ -281,15 +257,13 @@ class LiveScreen(QWidget):
             self._view = self.on_picture.view = None
 
     def set_patient_view(self, is_open: bool) -> None:
-        """The patient's own view is there, or not."""
         self.patient.set_face(self.patient.text(), icon="check" if is_open else "monitor")
         words = self.tr("Close the patient’s view") if is_open else self.tr("Open the patient’s view")
         self.patient.setAccessibleName(words)
 
     def show_course(self, words: str) -> None:
         """Which part of a set it is, and how long the rest still is; empty outside a set."""
-        self.course.setText(words)
-        self.course.setVisible(bool(words))
+        self.course.say(words)
 
     def _keep_pain(self, score: int) -> None:
         if self.recording.note("pain", str(score)):
@@ -353,7 +327,6 @@ class LiveScreen(QWidget):
             self.told.emit(event)
 
     def plots(self) -> PlotCard:
-        """The curves that are shown: of the wrist or of the fingers."""
         return self.fingers if self._whole_hand else self.curves
 
     def glance(self) -> Glance:
@@ -382,7 +355,7 @@ class LiveScreen(QWidget):
         self.number.show_reading(self.readings.now(self.number.reading))
         self.recording_changed.emit(self.recording.state, self.recording.recorded_s)
 
-    def _lamp(self, measuring: Measuring) -> Lamp:
+    def _lamp(self, measuring: SourceMeasuring) -> Lamp:
         """What the light says: of the camera, else of the computer, of a question, of how it begins."""
         recording, calibration, view = self.recording, measuring.calibration, self._view
         if recording.camera_lost:
@@ -422,7 +395,4 @@ class LiveScreen(QWidget):
 
 
 def _between_margins(widget: QWidget, below_px: int) -> QLayout:
-    row = QHBoxLayout()
-    row.setContentsMargins(MARGIN_PX, 0, MARGIN_PX, below_px)
-    row.addWidget(widget)
-    return row
+    return in_line(widget, margins=(MARGIN_PX, 0, MARGIN_PX, below_px))

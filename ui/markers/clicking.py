@@ -139,7 +139,6 @@ class Clicking:
         self.pixel[one], self.pixel[other] = self.pixel[other], self.pixel[one]
 
     def step(self, by: int) -> None:
-        """Make the next or previous marker the current one, clicked or not."""
         self.current = self.order[(self.order.index(self.current) + by) % len(self.order)]
 
     def near(self, pixel: FloatArray, reach_px: float) -> str:
@@ -150,7 +149,6 @@ class Clicking:
         return name if name and distances[name] <= reach_px else ""
 
     def clicks(self) -> Clicks:
-        """All clicks in the order of the protocol."""
         return Clicks(
             self.side, self.protocol, np.array([self.pixel[name] for name in self.order]), self.straight_fingers
         )

@@ -11,7 +11,7 @@ from carpus.ui import numbers
 from carpus.ui.check_card.standing_words import session_lines
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.markers.screen import MarkersScreen
-from carpus.ui.messages.stop_card import Answer
+from carpus.ui.messages.messages import Answer
 
 
 class MarkersFlow(Flow):

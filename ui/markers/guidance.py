@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QSpinBox, QVBoxLayout, QWidget
 
 from carpus.core.calibration.result import ALL_STRAIGHT
+from carpus.core.hand.exercises import SIDES
+from carpus.core.types import FloatArray
 from carpus.core.words import marker_in_words
+from carpus.ui import terms
 from carpus.ui.controls.button import ENTER, Button
+from carpus.ui.controls.field import Choices, number_field
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_grid, in_line
+from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, heading
 from carpus.ui.fault_words import finding_words
 from carpus.ui.hand_drawing import HandDrawing, MarkerState
 from carpus.ui.icons import State
 from carpus.ui.marker_words import click_instruction, finger_name, marker_name, marker_place
 from carpus.ui.markers.clicking import Clicking
-from carpus.ui.markers.remedy import Remedy, at_fault, face
+from carpus.ui.markers.naming import Remedy, at_fault, face
 from carpus.ui.markers.verdict import DISC_DOUBTED, NAMES_WRONG, VerdictPanel, headline, rows_before, rows_of
 from carpus.ui.ports import Calibrator, Judged
 from carpus.ui.theme import MARGIN_PX, Theme
@@ -49,21 +57,10 @@ class Guidance(QWidget):
         self._column = column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(8)
-        column.addSpacing(8)
-        column.addWidget(self.step)
-        column.addWidget(self.title)
-        column.addWidget(self.place)
-        column.addWidget(self.hand, 1)
+        fill(column, 8, self.step, self.title, self.place, (self.hand, 1))
         column.addStretch(0)  # where the drawing has given way its room stays in one piece
-        column.addWidget(self.straight)
-        column.addWidget(self.panel)
-        column.addSpacing(8)
-        column.addWidget(self.bubble)
-        row = QHBoxLayout()
-        row.setSpacing(12)
-        row.addWidget(self.primary, 1)
-        row.addWidget(self.second)
-        column.addLayout(row)
+        fill(column, self.straight, self.panel, 8, self.bubble)
+        column.addLayout(in_line((self.primary, 1), self.second, gap=12))
 
     def fit(self, height_px: int, *, clicks: bool, judged: bool) -> None:
         """What is read now has the room: ``clicks`` while markers are clicked, ``judged`` once there is a verdict."""
@@ -257,8 +254,7 @@ class StraightFingers(QWidget):
         self._question = Text(theme, self.tr("Do the fingers lie straight?"), 14, SEMIBOLD)
         self._said = Text(theme, "", 12, REGULAR, "text2", wrap=True)
         self.buttons: list[Button] = []
-        grid = QGridLayout()
-        grid.setSpacing(4)
+        grid = in_grid(4, 4)
         for number in range(1, 6):
             button = Button(theme, finger_name(str(number)), "well", height_px=32)
             button.setCheckable(True)
@@ -266,12 +262,7 @@ class StraightFingers(QWidget):
             button.clicked.connect(self._clicked)
             grid.addWidget(button, (number - 1) // 3, (number - 1) % 3)
             self.buttons.append(button)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(4)
-        column.addWidget(self._question)
-        column.addLayout(grid)
-        column.addWidget(self._said)
+        in_column(self._question, grid, self._said, gap=4, margins=(0, 0, 0, 0), within=self)
         self.show_answer(ALL_STRAIGHT)
 
     @property
@@ -307,3 +298,57 @@ class StraightFingers(QWidget):
             if not bent
             else self.tr("A bent finger is measured from its own rest, and less surely.")
         )
+
+
+LARGEST_DEG = 80
+ORDER = (1, 0, 2)
+"""Flexion first, as it is the one that contractures limit most."""
+
+
+class StartAngleSheet(Sheet):
+    """Three angles with the word for their direction; emits ``kept`` with (3,) radians."""
+
+    kept = Signal(object)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 620)
+        body = self.card.body
+        words = self.tr(
+            "Measure with a goniometer how far the wrist is from straight as it lies now. Carpus adds these "
+            "angles to all it measures of the wrist and says so in the report. Bent fingers are fine as they are: zero "
+            "of a finger joint is the straight finger, whatever the picture."
+        )
+        self.head(self.tr("The wrist cannot lie straight"), words, gap=16)
+        self.fields: dict[int, tuple[Choices, QSpinBox]] = {}
+        for column in ORDER:
+            direction = Choices(theme, [(name, terms.movement_name(name)) for name in SIDES[column]], SIDES[column][0])
+            value = number_field(theme, LARGEST_DEG, "°")
+            value.setAlignment(Qt.AlignmentFlag.AlignRight)
+            value.setAccessibleName(terms.movement_name(SIDES[column][0]))
+            body.addLayout(in_line((direction, 1), value))
+            self.fields[column] = (direction, value)
+        straight = Button(theme, self.tr("It lies straight"), "plain", height_px=52)
+        straight.clicked.connect(lambda: self._keep(np.zeros(3)))
+        keep = Button(theme, self.tr("Use these angles"), "primary")
+        keep.clicked.connect(lambda: self._keep(self.angles_rad()))
+        self.set_default(keep)
+        body.addLayout(in_line(STRETCH, straight, keep))
+
+    def begin(self, angles_rad: FloatArray) -> None:
+        for column, (direction, value) in self.fields.items():
+            direction.choose(SIDES[column][0 if angles_rad[column] >= 0 else 1])
+            value.setValue(round(abs(math.degrees(angles_rad[column]))))
+        self.open(self.fields[ORDER[0]][1])
+        self.fields[ORDER[0]][1].selectAll()
+
+    def angles_rad(self) -> FloatArray:
+        """Deviation, flexion, pro/supination (3,) as entered."""
+        out = np.zeros(3)
+        for column, (direction, value) in self.fields.items():
+            sign = 1.0 if direction.value() == SIDES[column][0] else -1.0
+            out[column] = sign * math.radians(value.value())
+        return out
+
+    def _keep(self, angles_rad: FloatArray) -> None:
+        self.close_sheet()
+        self.kept.emit(angles_rad)

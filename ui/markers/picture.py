@@ -242,7 +242,6 @@ class MarkerPicture(PictureView):
         return self.tr("{marker}?").format(marker=marker_name(name)) if name else self.tr("What is this?")
 
     def _spot_plate(self, pixel: Sequence[float], name: str) -> QRectF:
-        """Where the words of a spot in question stand."""
         at, away = self.to_screen(*map(float, pixel)), RING_LEAST_PX + 8.0
         metrics = QFontMetricsF(font(12 * self._theme.text_scale, SEMIBOLD))
         width = metrics.horizontalAdvance(self._spot_words(name)) + 12

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, QPointF, QRectF, Qt, QTimer
-from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtWidgets import QBoxLayout, QWidget
 
 from carpus.core.types import ByteImage, FloatArray
 from carpus.core.words import marker_in_words
@@ -15,15 +15,13 @@ from carpus.ui import terms
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import KeyCaps
-from carpus.ui.controls.layouts import host_of
+from carpus.ui.controls.layouts import STRETCH, Fitted, host_of, in_column, in_line
 from carpus.ui.controls.text import REGULAR, Text
 from carpus.ui.keys import Keys, bind
 from carpus.ui.markers.clicking import Clicking
-from carpus.ui.markers.guidance import COLUMN_PX, Guidance
-from carpus.ui.markers.naming import Naming
+from carpus.ui.markers.guidance import COLUMN_PX, Guidance, StartAngleSheet
+from carpus.ui.markers.naming import Naming, Remedy, at_fault, exchanged
 from carpus.ui.markers.picture import MarkerPicture
-from carpus.ui.markers.remedy import Remedy, at_fault, exchanged
-from carpus.ui.markers.start_angle import StartAngleSheet
 from carpus.ui.picture.photo import Photo, label_size
 from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM
 from carpus.ui.ports import Calibrator
@@ -38,7 +36,7 @@ BESIDE_PX = 780
 TWO_LINES_PX, BUTTONS_PX = 40, 36
 
 
-class MarkersScreen(QWidget):
+class MarkersScreen(Fitted):
     """What is done on it is told by its :class:`Naming`."""
 
     def __init__(self, theme: Theme, keys: Keys, background: Background) -> None:
@@ -60,35 +58,27 @@ class MarkersScreen(QWidget):
         self.caps = KeyCaps(theme, self._keys_now())
         self._lay_out()
         self._connect(keys)
-        self._preview = QTimer(self)
-        self._preview.setInterval(PREVIEW_EVERY_MS)
+        self._preview = QTimer(self, interval=PREVIEW_EVERY_MS)
         self._preview.timeout.connect(self._show_newest)
 
     def _lay_out(self) -> None:
-        left = QVBoxLayout()
-        left.setSpacing(8)
-        left.addWidget(self.picture, 1)
-        caps = QHBoxLayout()
-        caps.addWidget(self.caps)
-        caps.addStretch(1)
-        left.addLayout(caps)
+        left = in_column((self.picture, 1), gap=8)
+        left.addLayout(in_line(self.caps, STRETCH))
         self._below = QWidget()
         below = self._below_row = QBoxLayout(QBoxLayout.Direction.LeftToRight, self._below)
         below.setContentsMargins(0, 0, 0, 0)
         below.setSpacing(4)
         below.addWidget(self.hint, 1)
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
+        buttons = in_line(STRETCH)
         for button in (self.new_picture, self.start_angle, self.take_rest, self.click_all, self.although):
             buttons.addWidget(button)
         for button in (self.take_rest, self.click_all, self.although):
             button.hide()
         below.addLayout(buttons)
         left.addWidget(self._below)
-        columns = QHBoxLayout(self)
-        columns.setContentsMargins(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4)
-        columns.setSpacing(MARGIN_PX)
-        columns.addLayout(left, 1)
+        columns = in_line(
+            (left, 1), gap=MARGIN_PX, margins=(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4), within=self
+        )
         columns.addWidget(self.guidance)
         self._theme.changed.connect(self._fit)
         self._fit()
@@ -124,9 +114,6 @@ class MarkersScreen(QWidget):
             self._is_fitting = False
         if self.height() != height_px:
             self._fit()
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._fit()
 
     def _connect(self, keys: Keys) -> None:
         naming, picture, straight = self.naming, self.picture, self.guidance.straight
@@ -166,7 +153,6 @@ class MarkersScreen(QWidget):
 
     @property
     def has_names(self) -> bool:
-        """Whether a person has named a disc of this picture."""
         return self.clicking is not None and bool(self.clicking.pixel)
 
     def first(self) -> QWidget:
@@ -188,7 +174,6 @@ class MarkersScreen(QWidget):
         self.naming.calibrator = None
 
     def preview(self) -> None:
-        """Show the live picture until the hand lies right."""
         if self.naming.calibrator is None or not self.naming.calibrator.is_live:
             return
         self.naming.aim()
@@ -201,7 +186,6 @@ class MarkersScreen(QWidget):
         self.picture.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def hold(self) -> None:
-        """Fix the picture and ask for the first marker."""
         calibrator = self.naming.calibrator
         assert calibrator is not None
         self._preview.stop()

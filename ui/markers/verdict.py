@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtWidgets import QGridLayout, QHBoxLayout
 
 from carpus.core.calibration.result import CalibrationFinding, Verdict
 from carpus.ui import numbers
 from carpus.ui.controls.card import Card, Line
+from carpus.ui.controls.layouts import in_grid, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, StateText, Text
 from carpus.ui.icons import State
 from carpus.ui.numbers import NARROW_GAP, UNKNOWN
@@ -103,16 +103,9 @@ class VerdictPanel(Card):
         self._theme = theme
         self.headline = Text(theme, "", 16, SEMIBOLD)
         self.sign = StateText(theme)
-        head = QHBoxLayout()
-        head.addWidget(self.headline, 1)
-        head.addWidget(self.sign)
-        self.body.addLayout(head)
+        self.body.addLayout(in_line((self.headline, 1), self.sign))
         self.body.setSpacing(0)
-        self._grid = QGridLayout()
-        self._grid.setContentsMargins(0, 8, 0, 0)
-        self._grid.setHorizontalSpacing(10)
-        self._grid.setVerticalSpacing(0)
-        self._grid.setColumnStretch(2, 1)
+        self._grid = in_grid(10, 0, shares=(0, 0, 1), margins=(0, 8, 0, 0))
         self.body.addLayout(self._grid)
         self._lines: list[tuple[StateText, Text, Text, Text]] = []
         self._close = False

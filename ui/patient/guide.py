@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
-from carpus.ui.live.glance import Glance
+from carpus.ui.live.recording import Glance
 
 Phase = Literal["out", "there", "back", "free", "hidden", "lost", "paused", "done", "rest", "away"]
 """Way to the goal, at it, way back; no goal; the trained joint is out of sight at the far end; the hand is not surely
@@ -163,7 +163,6 @@ class Guide:
             self._begin(-self._aim, along * self._aim)
 
     def _begin(self, aim: int, value_deg: float) -> None:
-        """Out towards a side, from where the hand is."""
         self._aim, self._phase = aim, "out"
         self._start_deg = self._peak_deg = self._low_deg = aim * value_deg
 

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QGuiApplication, QScreen
-from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 
 from carpus.core.records.set_up import SetUp
-from carpus.ui.live.glance import Glance
+from carpus.ui.controls.layouts import in_column
+from carpus.ui.live.recording import Glance
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.patient.guide import Guide, GuideScene
 from carpus.ui.patient.view import PatientView
@@ -47,7 +48,7 @@ class PatientViewing(QObject):
             return
         if self.window is None:
             self.window = PatientWindow(self._context.theme)
-            self.window.closed.connect(self._closed)
+            self.window.closed.connect(lambda: self._live.set_patient_view(False))
         self.window.view.sound_on = self._context.patient_sound
         self.window.view.begin(self._set_up)
         self.window.open_beside(self._context.shell)
@@ -114,9 +115,6 @@ class PatientViewing(QObject):
             if self._context.patient_sound and math.isfinite(self.window.view.scene.goal_deg):
                 QApplication.beep()
 
-    def _closed(self) -> None:
-        self._live.set_patient_view(False)
-
 
 STALE_MS = 900
 """Where nothing was told for so long nothing old is left standing."""
@@ -136,12 +134,8 @@ class PatientWindow(QWidget):
         self.setWindowTitle("Carpus")
         self.setMinimumSize(*LEAST_PX)
         self.view = PatientView(theme)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(self.view)
-        self._watch = QTimer(self)
-        self._watch.setSingleShot(True)
-        self._watch.setInterval(STALE_MS)
+        in_column(self.view, margins=(0, 0, 0, 0), within=self)
+        self._watch = QTimer(self, singleShot=True, interval=STALE_MS)
         self._watch.timeout.connect(lambda: self.view.show_scene(GuideScene()))
 
     def open_beside(self, other: QWidget) -> None:

@@ -102,7 +102,6 @@ class PatientCardView(Card):
         self._photo.set_roomy(self.height() >= self._theme.px(needed_px))
 
     def show_card(self, card: PatientCard | None, camera_ready: bool) -> None:
-        """Show one patient, or hide when none is chosen."""
         self.setVisible(card is not None)
         if card is None:
             return
@@ -120,8 +119,7 @@ class PatientCardView(Card):
         none = self.tr("No session counted yet") if card.has_sessions else self.tr("No session yet")
         self._exercise.setText(terms.exercise_name(row.exercise) if row.exercise else none)
         self._last.setText(self._last_words(card, practice))
-        self._about.setText(card.about)
-        self._about.setVisible(bool(card.about))
+        self._about.say(card.about)
         self._warning.setText(" ".join(card.warnings))
         self._warning.setVisible(bool(card.warnings))
         self._show_results(card)
@@ -144,8 +142,7 @@ class PatientCardView(Card):
             (self._since, terms.onset_words(row.onset, day)),
             (self._weeks, numbers.weeks_since(day, self._today()) if day is not None else ""),
         ):
-            text.setText(words)
-            text.setVisible(bool(words))
+            text.say(words)
         self._why.setVisible(bool(shown or day))
         self._fit_photo()
 
@@ -178,8 +175,7 @@ class PatientCardView(Card):
         if joint:
             self._results.addWidget(caption(self._theme, followed_name(joint)))
         for line in card.results:
-            self._results.addWidget(Line(self._theme))
-            self._results.addWidget(_ResultRow(self._theme, line))
+            fill(self._results, Line(self._theme), _ResultRow(self._theme, line))
         if card.results:
             self._results.addWidget(Line(self._theme))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from datetime import date
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QStringListModel, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QResizeEvent
@@ -19,8 +20,10 @@ from carpus.ui.controls.layouts import STRETCH, fill, host_of, in_column, in_lin
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.fault_words import fault_words
-from carpus.ui.ports import PatientStore
 from carpus.ui.theme import Theme
+
+if TYPE_CHECKING:  # it reads and writes files
+    from carpus.ui.patients.flow import PatientShelf
 
 NOTE_HEIGHT_PX = 84
 
@@ -32,7 +35,7 @@ class PatientForm(Sheet):
     accepted = Signal(PatientEntry)
     removal_wanted = Signal()
 
-    def __init__(self, host: QWidget, theme: Theme, store: PatientStore, today: Callable[[], date]) -> None:
+    def __init__(self, host: QWidget, theme: Theme, store: PatientShelf, today: Callable[[], date]) -> None:
         super().__init__(host, theme, 740)
         self._store, self._today = store, today
         self._taken: frozenset[str] = frozenset()
@@ -53,8 +56,7 @@ class PatientForm(Sheet):
         self.diagnosis.setCompleter(completer)
         self.listed = Tick(theme, self.tr("In the clinic’s &list"))
         self.listed.setFocusPolicy(Qt.FocusPolicy.NoFocus)  # its letter leads to it; Tab goes on to the next fact
-        self.onset_day = QLineEdit()
-        self.onset_day.setPlaceholderText(self.tr("day month year"))
+        self.onset_day = QLineEdit(placeholderText=self.tr("day month year"))
         self.onset = Choices(theme, [("operation", self.tr("Operation")), ("injury", self.tr("Injury"))])
         self.since = Text(theme, "", 14, token="text2")
         self.note = QPlainTextEdit()
@@ -144,7 +146,6 @@ class PatientForm(Sheet):
         self.name.selectAll()
 
     def _fit(self) -> None:
-        """As high as the fields are, as far as there is room."""
         room = host_of(self).height() - self._theme.px(250)
         self._scroll.setFixedHeight(min(self._fields.sizeHint().height() + 2, max(room, 160)))
 
@@ -176,7 +177,6 @@ class PatientForm(Sheet):
         self.save.setEnabled(not asked)
 
     def _day(self) -> date | None:
-        """The day that is typed, where it is one and not to come."""
         day = numbers.day_typed(self.onset_day.text())
         return day if day is not None and day <= self._today() else None
 
@@ -245,5 +245,4 @@ class PatientForm(Sheet):
         self._show_fault(f"{words.happened} {words.do}")
 
     def _show_fault(self, words: str) -> None:
-        self._fault.setText(words)
-        self._fault.setVisible(bool(words))
+        self._fault.say(words)

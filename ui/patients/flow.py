@@ -71,7 +71,7 @@ _ENDS = ("arc",)
 
 
 class PatientShelf:
-    """:class:`ui.ports.PatientStore` over the library."""
+    """The register of patients. Names beyond the pseudonym are known behind it alone."""
 
     def __init__(self, library: Library) -> None:
         self._library = library

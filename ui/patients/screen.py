@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import date
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QModelIndex, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import PatientEntry
@@ -16,14 +17,17 @@ from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import KeyCaps, Line
 from carpus.ui.controls.field import SearchField
-from carpus.ui.controls.layouts import STRETCH, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text, heading
 from carpus.ui.patients.card import PatientCardView
 from carpus.ui.patients.entry import PatientForm
 from carpus.ui.patients.listing import ListHeader, PatientList
-from carpus.ui.ports import MOST_ROWS, PatientRow, PatientStore
+from carpus.ui.ports import MOST_ROWS, PatientRow
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.welcome.panel import WelcomePanel
+
+if TYPE_CHECKING:  # it reads and writes files
+    from carpus.ui.patients.flow import PatientShelf
 
 LOOK_AT_DAY_MS = 30_000
 ARCHIVED_NAMED = 3
@@ -44,7 +48,7 @@ class PatientsScreen(QWidget):
     archive_wanted = Signal()
     clinic_wanted = Signal()
 
-    def __init__(self, theme: Theme, store: PatientStore, today: Callable[[], date]) -> None:
+    def __init__(self, theme: Theme, store: PatientShelf, today: Callable[[], date]) -> None:
         """``today`` is asked each time: the program may stand open for days."""
         super().__init__()
         self._theme, self._store, self._today = theme, store, today
@@ -56,8 +60,7 @@ class PatientsScreen(QWidget):
         self.header = ListHeader(theme, self.list)
         self.card = PatientCardView(theme, today)
         self.day = Text(theme, "", 14, REGULAR, "text2")
-        self._day_timer = QTimer(self)
-        self._day_timer.setInterval(LOOK_AT_DAY_MS)
+        self._day_timer = QTimer(self, interval=LOOK_AT_DAY_MS)
         self._day_timer.timeout.connect(self.look_at_day)
         self._day_timer.start()
         self.notice_place = QVBoxLayout()
@@ -135,7 +138,6 @@ class PatientsScreen(QWidget):
             self.list.viewport().update()
 
     def refresh(self, choose: str = "") -> None:
-        """Read the register again and keep, or set, the choice."""
         self.look_at_day()
         practice = PatientRow(PRACTICE_PATIENT, self.tr("Practice patient"), "right")
         self._rows = (*self._store.patients(), practice)
@@ -252,12 +254,10 @@ class _Nobody(QWidget):
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
-        row = QHBoxLayout(self)
-        row.setContentsMargins(20, 24, 20, 24)
+        row = in_line(margins=(20, 24, 20, 24), within=self)
         self._words = Text(theme, "", 16, MEDIUM, wrap=True)
         self.button = Button(theme, "", icon="plus")
-        row.addWidget(self._words, 1)
-        row.addWidget(self.button)
+        fill(row, (self._words, 1), self.button)
         self.button.clicked.connect(self.create_wanted)
 
     def show_for(self, search: str, register_empty: bool, rows_shown: bool) -> None:

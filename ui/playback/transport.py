@@ -1,10 +1,10 @@
-"""The buttons of a player, and the line of time with a knob."""
+"""Where one is in a recording: the time that runs there, the buttons of a player, the line of time with a knob."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QObject, QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
@@ -12,7 +12,6 @@ from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button, icon_button
 from carpus.ui.controls.layouts import in_line
-from carpus.ui.playback.playing import Playing
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
 
@@ -120,3 +119,50 @@ class Scrubber(QWidget):
         painter.setPen(QPen(color("text"), 2.5))
         painter.setBrush(color("surface"))
         painter.drawEllipse(QPointF(self._x(self._time_s), middle), 9, 9)
+
+
+PLAY_EVERY_MS = 40
+
+
+class Playing(QObject):
+    """``moved`` carries the new time, ``changed`` whether it plays."""
+
+    moved = Signal(float)
+    changed = Signal(bool)
+
+    def __init__(self, owner: QObject) -> None:
+        super().__init__(owner)
+        self.time_s = 0.0
+        self.end_s = -1.0
+        """How long there is something to play; below 0 there is nothing yet."""
+        self.factor = 1.0
+        self._timer = QTimer(self, interval=PLAY_EVERY_MS)
+        self._timer.timeout.connect(self._go_on)
+
+    def open(self, end_s: float) -> None:
+        """Stop; from now on it is another recording, -1 while that is read."""
+        self.stop()
+        self.end_s = end_s
+
+    def seek(self, time_s: float) -> None:
+        if self.end_s >= 0.0:
+            self.time_s = min(max(time_s, 0.0), self.end_s)
+            self.moved.emit(self.time_s)
+
+    def toggle(self) -> None:
+        if self._timer.isActive():
+            self.stop()
+        elif self.end_s >= 0.0:
+            if self.time_s >= self.end_s - 1e-3:
+                self.seek(0.0)
+            self._timer.start()
+            self.changed.emit(True)
+
+    def stop(self) -> None:
+        self._timer.stop()
+        self.changed.emit(False)
+
+    def _go_on(self) -> None:
+        self.seek(self.time_s + 0.001 * PLAY_EVERY_MS * self.factor)
+        if self.time_s >= self.end_s - 1e-6:
+            self.stop()

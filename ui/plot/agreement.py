@@ -69,7 +69,6 @@ class AgreementPlot:
         return self.pairs.time_s if self.over_time else np.arange(1.0, len(self.pairs.time_s) + 1.0)
 
     def extent(self) -> tuple[float, float]:
-        """Ends of what runs along, with air beside it."""
         low, high = float(self.along.min()), float(self.along.max())
         if self.view == "curves" and self.over_time:
             return low, max(high, low + 1.0)
@@ -122,7 +121,6 @@ class AgreementPlot:
         ]  # fmt: skip
 
     def moving(self) -> list[Mark]:
-        """What the axis moves under: dots or curves."""
         token = angle_token(self.pairs.name)
         if self.view == "differences":
             rows = self.drawn

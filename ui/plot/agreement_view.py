@@ -31,29 +31,25 @@ class AgreementChart(ZoomCard):
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, "agreement")
-        self._plot: AgreementPlot | None = None
+        self.plot: AgreementPlot | None = None
         self.setAccessibleName(self.tr("Difference of the two measurements"))
 
     def show_plot(self, plot: AgreementPlot | None) -> None:
-        self._plot, self._window = plot, None
+        self.plot, self._window = plot, None
         self.forget()
-
-    @property
-    def plot(self) -> AgreementPlot | None:
-        return self._plot
 
     def minimumSizeHint(self) -> QSize:
         return QSize(420, self._theme.px(HEAD_PX) + self._theme.px(180))
 
     # --- window -------------------------------------------------------------------------------------------
     def extent(self) -> tuple[float, float] | None:
-        return None if self._plot is None else self._plot.extent()
+        return None if self.plot is None else self.plot.extent()
 
     def panel(self) -> Panel | None:
-        if self._plot is None:
+        if self.plot is None:
             return None
         box = QRectF(self.rect()).adjusted(16.5, self._theme.px(HEAD_PX) + 0.5, -16.5, -8.5)
-        panel = self._plot.panel(screen_style(self._theme), box, self._window)
+        panel = self.plot.panel(screen_style(self._theme), box, self._window)
         return replace(panel, box=axes.crisp(panel.box))
 
     # --- what is in it ------------------------------------------------------------------------------------
@@ -63,23 +59,23 @@ class AgreementChart(ZoomCard):
         canvas.lay_out([panel] if panel is not None else [], self.extent(), self.shortest)
 
     def show_marks(self, canvas: Canvas) -> None:
-        canvas.show_marks([self._plot.moving()] if self._plot is not None else [])
+        canvas.show_marks([self.plot.moving()] if self.plot is not None else [])
 
     def paint_ground(self, painter: QPainter) -> None:
         panel, style = self.panel(), screen_style(self._theme)
-        if panel is not None and self._plot is not None:
-            for mark in self._plot.ground():
+        if panel is not None and self.plot is not None:
+            for mark in self.plot.ground():
                 mark.paint(painter, style, panel)
-            self._plot.beside(painter, style, panel)
+            self.plot.beside(painter, style, panel)
 
     # --- for other programs -------------------------------------------------------------------------------
     def paint_on(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
-        if self._plot is not None:
-            self._plot.paint(painter, style, box)
+        if self.plot is not None:
+            self.plot.paint(painter, style, box)
 
     def table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
         """Every pair of what is shown, not only those that are drawn."""
-        plot = self._plot
+        plot = self.plot
         head = ["angle", "time_s", "carpus_deg", "reference_deg", "difference_deg"]
         if plot is None:
             return head, []

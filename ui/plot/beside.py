@@ -62,7 +62,6 @@ class BesidePlot:
         return Scale(float(ticks[-1]) - pad, float(ticks[0]) + pad, tuple(ticks.tolist()), labels, strong_ends=False)
 
     def panel(self, style: PlotStyle, box: QRectF) -> Panel:
-        """Where the curves are within a box: words left, right and below."""
         regular, medium = QFontMetricsF(style.label), QFontMetricsF(style.end_label)
         scale = self.scale()
         left = max(medium.horizontalAdvance(text) for _, text in scale.labels) + 14 * style.unit
@@ -119,7 +118,6 @@ class BesidePlot:
         EndLabels(labels).paint(painter, style, panel)
 
     def _paint_places(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        """A line where the first is, and a dot on each curve."""
         if math.isfinite(self.shares[0]):
             x = float(panel.x(self.shares[0]))
             painter.setPen(QPen(style.color("text"), 1.5 * style.grid_width))

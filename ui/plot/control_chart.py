@@ -40,7 +40,6 @@ class ControlPlot:
     usual_from: int
 
     def scale(self) -> Scale:
-        """Zero to half above the limit, or to the worst check."""
         top = max(_ROOM * self.limit, 1.1 * float(self.value.max(initial=0.0)))
         step = next(step for step in (0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 1e9) if top / step <= 5.0)
         ticks = tuple(float(one) for one in np.arange(0.0, top + 1e-9, step))

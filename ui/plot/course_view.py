@@ -60,7 +60,7 @@ class ProgressChart(ZoomCard):
         return -1 if self._pointed is None else self._pointed[0]
 
     def step(self, by: int) -> None:
-        found = [at for at in self.points() if at[1] == self._first_key()]
+        found = [at for at in self.points() if at[1] == next(iter(course.panels_of(self._progress)), None)]
         if not found:
             return
         numbers_of = [number for number, _, _ in found]
@@ -86,12 +86,8 @@ class ProgressChart(ZoomCard):
         return QRectF(self.rect()).adjusted(20.5, 16.5, -16.5, -14.5)
 
     def panels(self) -> list[tuple[Panel, RowKey]]:
-        """Where the panels are, and what each shows."""
         placed = course.place_panels(self._progress, screen_style(self._theme), self._box(), self._window)
         return [(replace(panel, box=axes.crisp(panel.box)), key) for panel, key in placed]
-
-    def _first_key(self) -> RowKey | None:
-        return next(iter(course.panels_of(self._progress)), None)
 
     def points(self) -> list[tuple[int, RowKey, QPointF]]:
         return [
@@ -102,7 +98,6 @@ class ProgressChart(ZoomCard):
         ]
 
     def point_at(self, at: QPointF) -> tuple[int, RowKey] | None:
-        """Session and panel of the point near a place."""
         near = [(math.hypot(p.x() - at.x(), p.y() - at.y()), number, key) for number, key, p in self.points()]
         away, number, key = min(near, default=(math.inf, 0, ("", "arc", 0)))
         return (number, key) if away <= NEAR_PX else None
@@ -126,7 +121,6 @@ class ProgressChart(ZoomCard):
 
     # --- a point ------------------------------------------------------------------------------------------
     def said_of(self, number: int, key: RowKey) -> list[str]:
-        """Date, value, set-up and remarks of a session."""
         point = self._progress.points[number]
         figures, row = point.figures, course.row_of(self._progress, number, key)
         assert row is not None

@@ -128,7 +128,6 @@ class History:
 
     @property
     def has_fingers(self) -> bool:
-        """Whether the frames bring angles of the fingers."""
         return bool(self._hand.value_deg.shape[1] > 0)
 
     @property
@@ -260,7 +259,6 @@ class History:
         return float(np.linalg.norm(self.centre_mm() - self.centre_home_mm()))
 
     def forearm_moved(self) -> bool:
-        """Whether the forearm is outside the ball it must stay in."""
         distance = self.from_home_mm()
         return math.isfinite(distance) and distance > STILL_RADIUS_MM
 

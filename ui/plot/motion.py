@@ -83,7 +83,6 @@ class MotionPlot(SessionPlot):
         return panel_words()[key]
 
     def all_series(self, key: int) -> list[tuple[str, str, Series]]:
-        """Name, colour and samples of every curve of a panel."""
         assert self.motion is not None
         motion = self.motion
         if self.kind == "zyz":

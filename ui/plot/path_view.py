@@ -143,7 +143,6 @@ class PathView(PlotCard):
         self.setAccessibleName(self.tr("Path of the wrist"))
 
     def set_exercise(self, side: Side, pure_wrist: bool) -> None:
-        """Which hand, and whether the forearm must lie still."""
         self._side, self._pure = side, pure_wrist
         self.forget()
 

@@ -114,7 +114,6 @@ class SessionPlot:
         return max(float(self.curves.time_s[-1]), 1.0) if len(self.curves.time_s) else 1.0
 
     def order(self) -> list[int]:
-        """Angle columns from top to bottom, the trained one first."""
         first = FLEXION if self.exercise.angle is None else self.exercise.angle
         return [first, *[k for k in (FLEXION, 0, PRONOSUPINATION) if k != first]]
 
@@ -196,7 +195,6 @@ class HandPlot(SessionPlot):
         return found
 
     def is_bound(self, figure: Figure) -> bool:
-        """Whether a joint has no angle of its own."""
         return self.joints is not None and figure.joint not in self.joints.names
 
     def panels(self, box: QRectF, between: float, *, single: bool = False) -> list[tuple[Panel, int]]:

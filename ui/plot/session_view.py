@@ -57,7 +57,6 @@ class CurveView(ZoomCard):
         self.forget()
 
     def clear(self) -> None:
-        """Nothing, as before another session is there."""
         self._plot = self._window = None
         self.forget()
 
@@ -95,7 +94,6 @@ class CurveView(ZoomCard):
 
     # --- places -------------------------------------------------------------------------------------------
     def panels(self) -> list[tuple[Panel, int]]:
-        """Where the panels are, and what each shows."""
         assert self._plot is not None
         scale = self._theme.text_scale
         box = QRectF(self.rect()).adjusted(LEFT_PX * scale, TOP_PX * scale, -RIGHT_PX * scale, -BOTTOM_PX * scale)
@@ -134,7 +132,6 @@ class CurveView(ZoomCard):
         paint_behind(painter, style, plot, self.panels())
 
     def _paint_over(self, painter: QPainter) -> None:
-        """Cursor, its numbers, and the grips of the current repetition."""
         plot = self._plot
         if plot is None:
             return
@@ -162,7 +159,6 @@ class CurveView(ZoomCard):
         self.face.setCursor(shape if over_edge or pans else Qt.CursorShape.ArrowCursor)
 
     def said_at(self, at: QPointF) -> list[str]:
-        """Time, values and standard deviations under a point."""
         plot = self._plot
         assert plot is not None
         time_s = self.time_at(at.x())
@@ -204,7 +200,6 @@ class CurveView(ZoomCard):
         return nearest if away[nearest] <= GRIP_PX else ""
 
     def time_at(self, x: float) -> float:
-        """Seconds at a place across, within what is shown."""
         panel = self.panels()[0][0]
         share = (x - panel.box.left()) / max(panel.box.width(), 1.0)
         return panel.start_s + min(max(share, 0.0), 1.0) * (panel.end_s - panel.start_s)

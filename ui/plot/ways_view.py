@@ -32,7 +32,6 @@ class WaysView(PlotCard):
         self.setAccessibleName(self.tr("Ways in three planes"))
 
     def show_plot(self, plot: WayPlot, title: str) -> None:
-        """Draw another session, or other joints of it."""
         self._plot, self._title = plot, title
         self.forget()
 

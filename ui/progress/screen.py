@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QWidget
 
 from carpus.core.measures.by_hand import HandValue, counted
@@ -18,22 +18,24 @@ from carpus.ui.by_hand.change_rows import add_changes
 from carpus.ui.by_hand.names import changes, day_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, fill, in_column, in_line, scroll_area
+from carpus.ui.controls.layouts import STRETCH, Fitted, ScrolledColumn, empty, fill, in_column, in_line, scroll_area
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
 from carpus.ui.keys import Keys, bind, letter_key
 from carpus.ui.plot.course_view import ProgressChart
-from carpus.ui.ports import SessionStore
 from carpus.ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
 from carpus.ui.report.hand_rows import followed_keys, followed_kinds
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, verdict_word
+
+if TYPE_CHECKING:  # it reads and writes files
+    from carpus.core.records.library import Library
 
 LEAST_LETTERS = 14
 FILTERS_PX = 1180
 """What the row above the sentence needs with everything in it."""
 
 
-class ProgressScreen(QWidget):
+class ProgressScreen(Fitted):
     """``report`` carries the sessions shown; ``session`` one that was chosen; ``told`` a fault."""
 
     report = Signal(object)
@@ -42,7 +44,7 @@ class ProgressScreen(QWidget):
     session = Signal(str)
     by_hand_wanted = Signal()
 
-    def __init__(self, theme: Theme, keys: Keys, background: Background, store: SessionStore) -> None:
+    def __init__(self, theme: Theme, keys: Keys, background: Background, store: Library) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self._all: tuple[SessionFigures, ...] = ()
@@ -105,9 +107,6 @@ class ProgressScreen(QWidget):
         whole = in_column(filters, 18, gap=0, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX), within=self)
         whole.addLayout(in_line((self.answer, 1), (self.by_hand_button, 0, Qt.AlignmentFlag.AlignBottom), gap=12))
         fill(whole, 2, self.basis, 16, (columns, 1))
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._fit()
 
     def _fit(self) -> None:
         tight = is_tight(self, self._theme)
@@ -172,8 +171,7 @@ class ProgressScreen(QWidget):
         self.chart.show_progress(self.progress)
         answer, basis = headline(self.progress)
         self.answer.setText(answer)
-        self.basis.setText(basis)
-        self.basis.setVisible(bool(basis))
+        self.basis.say(basis)
         words = ""
         if alike:
             first, last = numbers.day_month(alike[0].when), numbers.day_month(alike[-1].when)
@@ -267,8 +265,7 @@ class _Row(QWidget):
         words = Text(theme, small, 12, MEDIUM, "text2", wrap=True)  # two lines where the text is large
         words.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         below.addWidget(words, 1)
-        column.addLayout(top)
-        column.addLayout(below)
+        fill(column, top, below)
 
 
 class _ComparisonRow(_Row):

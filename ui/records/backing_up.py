@@ -35,11 +35,11 @@ from carpus.ui import numbers
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.field import Labelled
-from carpus.ui.controls.layouts import STRETCH, fill, in_line
+from carpus.ui.controls.layouts import fill
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
+from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.flow import ScreenContext
-from carpus.ui.messages.stop_card import Answer
+from carpus.ui.messages.messages import Answer
 from carpus.ui.records.cards import BackupCard, BackupFacts
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
@@ -78,15 +78,13 @@ class BackingUp(QObject):
         self.card.place_wanted.connect(self._choose_place)
         self.card.hour_chosen.connect(lambda hour: self._change(BackupSettings(self._settings.folder, hour)))
         self.stepped.connect(self.card.show_progress)
-        self._clock = QTimer(self)
-        self._clock.setInterval(LOOK_MS)
+        self._clock = QTimer(self, interval=LOOK_MS)
         self._clock.timeout.connect(self.look)
         self._clock.start()
         self.look_again()
 
     @property
     def is_at_work(self) -> bool:
-        """Whether something runs that ends with the window."""
         return self._background.busy
 
     def end(self) -> None:
@@ -344,34 +342,20 @@ class PassphraseSheet(Sheet):
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 560)
-        self.title = Text(theme, "", 20, SEMIBOLD)
-        self.words = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.head()
         self.first, self.again = QLineEdit(), QLineEdit()
         for line in (self.first, self.again):
             line.setEchoMode(QLineEdit.EchoMode.Password)
         self._again_row = Labelled(theme, self.tr("The same &again"), self.again)
         self.said = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.go = Button(theme, "", "primary")
-        cancel = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=52)
         self.go.clicked.connect(self._take)
-        cancel.clicked.connect(self.close_sheet)
-        body = self.card.body
-        body.setSpacing(12)
-        fill(
-            body,
-            self.title,
-            self.words,
-            Labelled(theme, self.tr("&Passphrase"), self.first),
-            self._again_row,
-            self.said,
-        )
-        body.addLayout(in_line(STRETCH, cancel, self.go))
-        self.set_default(self.go)
+        fill(self.card.body, Labelled(theme, self.tr("&Passphrase"), self.first), self._again_row, self.said)
+        self.answer_row(self.go, gap=None)
         self._chosen: Callable[[str], None] = lambda _: None
         self._seals = True
 
     def begin(self, chosen: Callable[[str], None], *, seals: bool) -> None:
-        """Ask for a new one where a file is to be sealed, else for that of a file."""
         self._chosen, self._seals = chosen, seals
         self.title.setText(self.tr("Seal into one file") if seals else self.tr("Open the sealed file"))
         self.go.set_face(self.tr("Seal it") if seals else self.tr("Open it"))
@@ -393,8 +377,7 @@ class PassphraseSheet(Sheet):
             words = self.tr("A passphrase has ten signs or more.")
         elif self._seals and typed != self.again.text():
             words = self.tr("The two are not the same.")
-        self.said.setText(words)
-        self.said.setVisible(bool(words))
+        self.said.say(words)
         if not words and typed:
             self.first.clear()
             self.again.clear()

@@ -108,16 +108,14 @@ class BackupCard(Card):
         self.sign.show_state(facts.state, "")
         self.sign.setVisible(facts.state != "none")
         for text, words in ((self.headline, facts.headline), (self.detail, facts.detail), (self.more, facts.more)):
-            text.setText(words)
-            text.setVisible(bool(words))
+            text.say(words)
         self.place.setText(facts.place or self.tr("none"))
         self.place_state.show_state(facts.place_state, facts.place_words)
         self.now_button.setEnabled(facts.can_back_up)
 
     def show_sealed(self, words: str) -> None:
         """Which file was sealed; empty while one is made."""
-        self.sealed.setText(words)
-        self.sealed.setVisible(bool(words))
+        self.sealed.say(words)
 
     def show_progress(self, percent: int | None) -> None:
         """While it runs; None when it does not."""
@@ -145,8 +143,7 @@ class LockCard(Card):
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self.disk = StateText(theme, 14, SEMIBOLD)
         self.disk_remedy = Text(theme, "", 14, REGULAR, "text2", wrap=True)
-        self.body.addWidget(self.disk)
-        self.body.addWidget(self.disk_remedy)
+        fill(self.body, self.disk, self.disk_remedy)
         self.minutes = Choices(
             theme,
             [
@@ -178,8 +175,7 @@ class LockCard(Card):
     def show_disk(self, state: State, words: str, remedy: str) -> None:
         """Whether the disk is encrypted, which is what protects the files."""
         self.disk.show_state(state, words)
-        self.disk_remedy.setText(remedy)
-        self.disk_remedy.setVisible(bool(remedy))
+        self.disk_remedy.say(remedy)
 
     def show_pin(self, *, is_set: bool) -> None:
         self.pin_button.set_face(self.tr("Change PIN…") if is_set else self.tr("Set a PIN…"))
@@ -207,9 +203,7 @@ class RecordsCard(Card):
         self.due_button = Button(theme, self.tr("What is d&ue…"), height_px=40)
         self.archive_button = Button(theme, self.tr("&Archive…"), icon="archive", height_px=40)
         self.log_button = Button(theme, self.tr("&Log…"), icon="file-text", height_px=40)
-        self.body.addWidget(self.years)
-        self.body.addSpacing(4)
-        self.body.addLayout(in_line(self.due_button, self.archive_button, self.log_button, STRETCH, gap=12))
+        fill(self.body, self.years, 4, in_line(self.due_button, self.archive_button, self.log_button, STRETCH, gap=12))
         self.years.chosen.connect(lambda years: self.years_chosen.emit(years))
         self.due_button.clicked.connect(self.due_wanted)
         self.archive_button.clicked.connect(self.archive_wanted)

@@ -16,7 +16,7 @@ from carpus.core.words import Words
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, in_column, in_line, scroll_area
+from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, fill, in_column, in_line, scroll_area
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.flow import ScreenContext
@@ -164,7 +164,6 @@ class Erasing(QObject):
         self._context.messages.fault(fault)
 
     def _gone(self, single: bool) -> None:
-        """The list from which it was chosen, without it."""
         self._sessions().changed.emit()
         patient = self._context.now.patient
         if single and patient is not None:
@@ -245,8 +244,7 @@ class EraseSheet(Sheet):
             (_sign(theme, "good"), self.tr("This stays"), self.stays),
             (_sign(theme, "warn"), self.tr("This cannot be undone"), self.ends),
         ):
-            column.addWidget(Line(theme))
-            column.addLayout(_section(theme, sign, Text(theme, title, 20, SEMIBOLD), words))
+            fill(column, Line(theme), _section(theme, sign, Text(theme, title, 20, SEMIBOLD), words))
         column.addWidget(Line(theme))
         milder = Card(theme, 0, "soft", "soft")
         offered = Text(
@@ -263,9 +261,7 @@ class EraseSheet(Sheet):
         )
         column.addWidget(milder)
         self._scroll = scroll_area(self._parts)  # large text on a small screen: the answer stays to be seen
-        body.addWidget(self._scroll)
-        body.addLayout(in_line((self.label, 1), (self.line, 1), gap=16))
-        body.addSpacing(8)
+        fill(body, self._scroll, in_line((self.label, 1), (self.line, 1), gap=16), 8)
         body.addLayout(in_line(self.for_good, STRETCH, self.cancel, self.instead))
 
     def begin(self, facts: ErasureFacts) -> None:
@@ -286,7 +282,6 @@ class EraseSheet(Sheet):
         self._fit()
 
     def _fit(self) -> None:
-        """As high as the texts need, as far as there is room."""
         column = self._parts.layout()
         assert column is not None
         column.activate()

@@ -17,7 +17,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.layouts import ScrolledColumn, empty, fill, host_of, in_column, in_line, scroll_area
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
+from carpus.ui.controls.text import MEDIUM, REGULAR, Text
 from carpus.ui.flow import ScreenContext
 from carpus.ui.fonts import font
 from carpus.ui.patients.screen import PatientsScreen
@@ -216,8 +216,7 @@ class RecordsSheet(Sheet):
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 800)
-        self.title = Text(theme, "", 20, SEMIBOLD)
-        self.words = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.head()
         self.rows = in_column(gap=8, margins=(0, 0, 8, 0))
         self._inside = ScrolledColumn()
         self._inside.setLayout(self.rows)
@@ -225,8 +224,7 @@ class RecordsSheet(Sheet):
         self.done = Button(theme, self.tr("Done"), "primary", height_px=44)
         self.done.clicked.connect(self.close_sheet)
         self.set_default(self.done)
-        self.card.body.setSpacing(12)
-        fill(self.card.body, self.title, self.words, self._scroll, (self.done, 0, Qt.AlignmentFlag.AlignRight))
+        fill(self.card.body, self._scroll, (self.done, 0, Qt.AlignmentFlag.AlignRight))
         self.buttons: list[Button] = []
 
     def begin(self, title: str, words: str, records: Sequence[ListedRecord]) -> None:
@@ -235,8 +233,7 @@ class RecordsSheet(Sheet):
         self.buttons = []
         empty(self.rows)
         for record in records:
-            self.rows.addWidget(self._row(record))
-            self.rows.addWidget(Line(self._theme))
+            fill(self.rows, self._row(record), Line(self._theme))
         self.rows.addStretch(1)
         self.open()
 
@@ -274,11 +271,11 @@ class LogSheet(Sheet):
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 1080)
-        self.title = Text(theme, self.tr("Log"), 20, SEMIBOLD)
         words = self.tr(
             "Only ever added to, which protects against mistakes, not against the owner of the computer: a back-up "
             "kept elsewhere shows a later change. Names are put to it here, as long as they are in the list."
         )
+        self.head(self.tr("Log"), words, gap=10)
         self.table = QTableWidget(0, 5)
         heads = (self.tr("When"), self.tr("Who"), self.tr("What"), self.tr("Of whom"), self.tr("Details"))
         self.table.setHorizontalHeaderLabels(heads)
@@ -292,14 +289,7 @@ class LogSheet(Sheet):
         self.done = Button(theme, self.tr("Done"), "primary", height_px=44)
         self.done.clicked.connect(self.close_sheet)
         self.set_default(self.done)
-        self.card.body.setSpacing(10)
-        fill(
-            self.card.body,
-            self.title,
-            Text(theme, words, 14, REGULAR, "text2", wrap=True),
-            self.table,
-            (self.done, 0, Qt.AlignmentFlag.AlignRight),
-        )
+        fill(self.card.body, self.table, (self.done, 0, Qt.AlignmentFlag.AlignRight))
 
     def begin(self, deeds: Sequence[DeedLine]) -> None:
         self.title.setText(self.tr("Log: {n} lines").format(n=len(deeds)))

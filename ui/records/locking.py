@@ -1,13 +1,13 @@
-"""When the window locks, and what opens it."""
+"""When the window locks, what is seen meanwhile, what opens it, and how the PIN is changed."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from datetime import datetime
 
-from PySide6.QtCore import QEvent, QObject, QTimer, Signal
-from PySide6.QtGui import QKeySequence, QShortcut, QWindow
-from PySide6.QtWidgets import QApplication, QLineEdit, QWidget
+from PySide6.QtCore import QEvent, QObject, Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent, QKeySequence, QResizeEvent, QShortcut, QWindow
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QWidget
 
 from carpus.core.disks import disk_encryption_finding, disk_state
 from carpus.core.errors import CarpusFault, PinUncheckable
@@ -15,14 +15,14 @@ from carpus.core.installing import Finding
 from carpus.core.records.pin import Pin
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
+from carpus.ui.controls.card import Line, Surface
 from carpus.ui.controls.field import Labelled
-from carpus.ui.controls.layouts import STRETCH, fill, in_line
+from carpus.ui.controls.layouts import fill, in_line
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, StateText, Text
 from carpus.ui.fault_words import fault_words
 from carpus.ui.flow import ScreenContext
 from carpus.ui.records.cards import LockCard
-from carpus.ui.records.lock_sheet import MOST_SIGNS, LockSheet
 from carpus.ui.theme import Theme
 from carpus.ui.translate import say
 
@@ -189,8 +189,7 @@ class Idle(QObject):
         super().__init__(window)
         self._window = window
         self._watched: QObject | None = None
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
+        self._timer = QTimer(self, singleShot=True)
         self._timer.timeout.connect(self.passed)
 
     @property
@@ -225,7 +224,11 @@ class PinSheet(Sheet):
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 560)
-        self.title = Text(theme, "", 20, SEMIBOLD)
+        words = self.tr(
+            "Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are "
+            "readable for whoever has this computer’s account or disk."
+        )
+        self.head(words=words)
         self.old, self.new, self.again = QLineEdit(), QLineEdit(), QLineEdit()
         for line in (self.old, self.new, self.again):
             line.setEchoMode(QLineEdit.EchoMode.Password)
@@ -234,26 +237,11 @@ class PinSheet(Sheet):
         self.said = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.keep = Button(theme, self.tr("Keep this PIN"), "primary")
         self.remove = Button(theme, self.tr("&Take the PIN away"), "plain", height_px=52)
-        cancel = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=52)
         self.keep.clicked.connect(self._keep)
-        self.set_default(self.keep)
         self.remove.clicked.connect(lambda: self.chosen.emit(self.old.text(), ""))
-        cancel.clicked.connect(self.close_sheet)
-        words = self.tr(
-            "Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are "
-            "readable for whoever has this computer’s account or disk."
-        )
-        self.card.body.setSpacing(12)
-        fill(
-            self.card.body,
-            self.title,
-            Text(theme, words, 14, REGULAR, "text2", wrap=True),
-            self._old_row,
-            Labelled(theme, self.tr("&New PIN"), self.new),
-            Labelled(theme, self.tr("The same &again"), self.again),
-            self.said,
-        )
-        self.card.body.addLayout(in_line(self.remove, STRETCH, cancel, self.keep))
+        new, again = (self.tr("&New PIN"), self.new), (self.tr("The same &again"), self.again)
+        fill(self.card.body, self._old_row, Labelled(theme, *new), Labelled(theme, *again), self.said)
+        self.answer_row(self.keep, self.remove, gap=None)
 
     def begin(self, *, is_set: bool) -> None:
         """Ask; the old one first where there is one."""
@@ -276,3 +264,155 @@ class PinSheet(Sheet):
             self.say(self.tr("The two are not the same."))
         else:
             self.chosen.emit(self.old.text(), self.new.text())
+
+
+MOST_SIGNS = 64
+
+
+class LockSheet(Sheet):
+    """Covers the whole window. ``tried`` carries what was typed; the answer comes by :meth:`refuse` or by closing."""
+
+    tried = Signal(str)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 480, may_close=False)
+        self._pause_s = 0
+        self._says_why = False
+        self.badge = Surface(theme, "soft")
+        self.badge.setObjectName("badge")
+        QHBoxLayout(self.badge).addWidget(Sign(theme, "lock", 32, (50, 50), lean=0.5))
+        self._bar = Surface(theme, under="line")
+        self._bar.setParent(self)
+        in_line(
+            Sign(theme, "carpus", 22, (26, 32)),
+            (Text(theme, "Carpus", 16, SEMIBOLD), 1),
+            gap=6,
+            margins=(20, 0, 0, 0),
+            within=self._bar,
+        )
+        self.title = Text(theme, self.tr("Locked"), 28, SEMIBOLD)
+        self.why = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        self.line = QLineEdit(echoMode=QLineEdit.EchoMode.Password, maxLength=MOST_SIGNS)
+        self.line.setAccessibleName(self.tr("PIN"))
+        self.said = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
+        self.unlock = Button(theme, self.tr("Unlock"), "primary")
+        self.unlock.clicked.connect(self._try)
+        self.set_default(self.unlock)
+        self.safe = StateText(theme, 14, MEDIUM)
+        self.hidden = StateText(theme, 14, REGULAR)
+        self.forgotten = Text(theme, "", 14, REGULAR, "text2", wrap=True)
+        body = self.card.body
+        body.setContentsMargins(36, 20, 36, 16)
+        body.setSpacing(8)
+        middle = Qt.AlignmentFlag.AlignHCenter
+        fill(body, (self.badge, 0, middle), (self.title, 0, middle))
+        self.why.setAlignment(middle)
+        fill(
+            body,
+            self.why,
+            8,
+            Text(theme, self.tr("PIN"), 14, REGULAR, "text2"),
+            self.line,
+            self.said,
+            self.unlock,
+            4,
+            Line(theme),
+            self.safe,
+            self.hidden,
+            self.forgotten,
+        )
+        self._clock = QTimer(self, interval=1000)
+        self._clock.timeout.connect(self._count)
+
+    def begin(self, why: str, *, stored: bool) -> None:
+        """Cover the window; ``stored`` whether a session was open, which is."""
+        self.why.setText(why)
+        words = self.tr("Nothing is lost. The open session is stored.") if stored else self.tr("Nothing is lost.")
+        self.safe.show_state("good", words, token="text")
+        self.hidden.show_state("none", self.tr("Names, pictures and figures are hidden."), icon="eye-off")
+        self._say_forgotten(help_shown=False)
+        self.said.hide()
+        self.line.clear()
+        self.line.setEnabled(True)
+        self.unlock.setEnabled(True)
+        self.open(self.line)
+
+    def reason(self, when: datetime, minutes: int) -> str:
+        if minutes:
+            words = self.tr("Locked by itself at {time}, after {minutes} minutes without a key.")
+            return words.format(time=f"{when:%H:%M}", minutes=minutes)
+        return self.tr("Locked at {time}.").format(time=f"{when:%H:%M}")
+
+    def refuse(self, left: int, pause_s: int) -> None:
+        """The PIN was not the one: how many tries are left, or how long to wait."""
+        self.line.clear()
+        self._pause_s = pause_s
+        if pause_s:
+            self.line.setEnabled(False)
+            self.unlock.setEnabled(False)
+            self._clock.start()
+            self._show_pause()
+        else:
+            words = self.tr("Not this PIN. 1 more try, then a pause of 1 minute.")
+            if left != 1:
+                words = self.tr("Not this PIN. {left} more tries, then a pause of 1 minute.").format(left=left)
+            self.said.setText(words)
+            self.line.setFocus(Qt.FocusReason.OtherFocusReason)
+        self.said.show()
+
+    def say(self, words: str) -> None:
+        self.line.clear()
+        self.said.setText(words)
+        self.said.show()
+        self.line.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def pause(self, pause_s: int) -> None:
+        """Nothing is tried for so long; what was said stays."""
+        self._says_why, self._pause_s = True, pause_s
+        self.line.setEnabled(False)
+        self.unlock.setEnabled(False)
+        self._clock.start()
+
+    def _show_pause(self) -> None:
+        if self._says_why:
+            return
+        self.said.setText(self.tr("Too many tries. The next one in {seconds} s.").format(seconds=self._pause_s))
+
+    def _count(self) -> None:
+        self._pause_s = max(0, self._pause_s - 1)
+        if self._pause_s:
+            self._show_pause()
+            return
+        self._clock.stop()
+        self._says_why = False
+        self.said.hide()
+        self.line.setEnabled(True)
+        self.unlock.setEnabled(True)
+        self.line.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _try(self) -> None:
+        if self.line.text():
+            self.tried.emit(self.line.text())
+
+    def close_sheet(self) -> None:
+        self._clock.stop()
+        self.line.clear()
+        super().close_sheet()
+
+    def _say_forgotten(self, *, help_shown: bool) -> None:
+        words = self.tr("PIN forgotten? F1 says what can be done.")
+        if help_shown:
+            words = self.tr(
+                "Whoever looks after this computer takes the file pin.json out of the data folder and starts Carpus "
+                "again: nothing is lost. A PIN hides; it does not protect the files."
+            )
+        self.forgotten.setText(words)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_F1:
+            self._say_forgotten(help_shown=True)
+        super().keyPressEvent(event)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._bar.setGeometry(0, 0, self.width(), self._theme.px(56) + 1)
+        super().resizeEvent(event)

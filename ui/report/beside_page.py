@@ -9,7 +9,16 @@ from carpus.core.results.motion_curves import Quantity
 from carpus.core.results.report_form import USUAL_FORM, ReportForm
 from carpus.ui import numbers, terms
 from carpus.ui.beside.shown import Shown
-from carpus.ui.beside.words import doubts, other_hand_words, quantity_name, unfair_words
+from carpus.ui.beside.words import (
+    doubts,
+    facts_words,
+    headline,
+    heads,
+    other_hand_words,
+    quantity_name,
+    table_rows,
+    unfair_words,
+)
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page, PageColumn, paint_to_fit
 from carpus.ui.report.progress_page import paint_made_of
@@ -57,7 +66,7 @@ def _paint(page: Page, report: BesideReport) -> float:
     y = paint_head(page, tr("Side by side"), report.pseudonym, terms.exercise_name(first.exercise.id))
     y = _paint_facts(page, report, y)
     width = page.right - page.left
-    answer, basis = shown.head
+    answer, basis = headline(shown.both)
     y = page.said(answer, y + 8, 14.0, SEMIBOLD)
     if basis:
         y = page.said(basis, y + 1, 9.5, REGULAR, "text2")
@@ -73,13 +82,13 @@ def _paint(page: Page, report: BesideReport) -> float:
         shown.plot(quantity).paint(page.painter, page.style, page.box(page.left, y + 28, width, height))
         y += 28 + height
     page.title(tr("Differences"), y + 20)
-    y = page.said(shown.facts, y + 24, 8.5, REGULAR, "text2")
+    y = page.said(facts_words(shown.both), y + 24, 8.5, REGULAR, "text2")
     rows = []
-    for row in shown.rows:
+    for row in table_rows(shown.both, whole_hand=bool(shown.followed)):
         strong = SEMIBOLD if row.strong else REGULAR
         judged = [(words, strong, "text") for words in (row.difference, row.words)]
         rows.append((row.movement, row.first, row.second, judged[0], row.error, judged[1]))
-    y = page.table(TABLE, rows, y + 10, heads=shown.heads)
+    y = page.table(TABLE, rows, y + 10, heads=heads(shown.both))
     words = f"{tr('± is the spread between repetitions.')} {limit_words(first.study)}"
     if first.side != second.side:
         words += f" {other_hand_words()}"

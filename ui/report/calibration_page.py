@@ -6,8 +6,7 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus.ui import numbers
-from carpus.ui.camera_calibration.values import BoardResult
-from carpus.ui.camera_calibration.words import effect_rows, headline, kept_words, result_rows
+from carpus.ui.camera_calibration.words import BoardResult, effect_rows, headline, kept_words, result_rows
 from carpus.ui.fonts import MEDIUM, SEMIBOLD
 from carpus.ui.report.page import Page, PageColumn
 from carpus.ui.report.pdf import write_page

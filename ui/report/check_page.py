@@ -47,7 +47,7 @@ def paint_check_page(page: Page, result: CheckResult) -> None:
     check, earlier = result.check, result.earlier
     verdict = verdict_of(earlier, check)
     page.text(tr("Carpus camera check"), page.left, 62, 15, SEMIBOLD)
-    page.text_right(_day(check.when), page.right, 62, 10, MEDIUM)
+    page.text_right(numbers.report_date(datetime.fromisoformat(check.when)), page.right, 62, 10, MEDIUM)
     lower = page.said(say(sentence_of(check, verdict)), 76, 12, SEMIBOLD, _TOKENS[verdict])
     pairs = [(tr("Camera"), result.camera), *result.asides]
     page.facts(pairs, lower + 10, (0.0, *(0.46 + 0.54 * k / (len(pairs) - 1) for k in range(len(pairs) - 1))))
@@ -68,10 +68,10 @@ def _table(page: Page, check: CardCheck, top: float) -> float:
     rows = []
     for figure, measured, sd in zip(FIGURES, check.measured, check.sd, strict=True):
         unit = "°" if figure.kind == "angle" else " mm"
-        off = f"{_signed(measured - figure.true, 1)}{unit}"
+        off = f"{numbers.signed(measured - figure.true, 1)}{unit}"
         seen = f"{numbers.fixed(measured, 1)} ± {numbers.fixed(sd, 1)}{unit}"
         rows.append((figure_name(figure.name), f"{numbers.fixed(figure.true, 1)}{unit}", seen, off))
-    rows.append((tr("All distances together"), "", "", f"{_signed(100.0 * (check.scale - 1.0), 2)} %"))
+    rows.append((tr("All distances together"), "", "", f"{numbers.signed(100.0 * (check.scale - 1.0), 2)} %"))
     heads = (tr("On the card"), tr("True"), tr("Measured"), tr("Off by"))
     return page.table(TABLE, rows, top - 8, heads=heads, pitch_pt=_ROW_PT, drop_pt=6.0) - 6
 
@@ -84,11 +84,3 @@ def _chart(page: Page, top: float, plot: ControlPlot) -> float:
     paint_control_ground(page.painter, page.style, plot, panel)
     ControlMarks(plot).paint(page.painter, page.style, panel)
     return top + 24 + _CHART_PT
-
-
-def _signed(value: float, decimals: int) -> str:
-    return f"{'−' if value < 0 else '+'}{numbers.fixed(abs(value), decimals)}"
-
-
-def _day(when: str) -> str:
-    return numbers.report_date(datetime.fromisoformat(when))

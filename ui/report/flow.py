@@ -17,14 +17,13 @@ from carpus.core.results.report_form import ReportForm, usual_paper
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.home_page import HomeReport, own_way
-from carpus.ui.report.home_sheet import HomeSheet
 from carpus.ui.report.letter_page import LetterReport
-from carpus.ui.report.letter_sheet import LetterSheet
 from carpus.ui.report.pages import Report
 from carpus.ui.report.pdf import session_report
 from carpus.ui.report.progress_page import ProgressReport
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.report.session_page import SessionReport
+from carpus.ui.report.sheets import HomeSheet, LetterSheet
 from carpus.ui.settings.report_card import ReportCard
 
 T = TypeVar("T")

@@ -147,7 +147,6 @@ class Page:
         return self.paragraph(text, self.left, top, self.right - self.left, size_pt, weight, token)
 
     def small_line(self, text: str, baseline: float, size_pt: float = 8.0) -> None:
-        """One small line across the page, smaller where it is too long."""
         room = 0.99 * (self.right - self.left)
         size_pt *= min(1.0, room / max(self.width_of(text, size_pt), 1.0))
         self.text(text, self.left, baseline, size_pt, REGULAR, "text2")

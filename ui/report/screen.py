@@ -154,8 +154,7 @@ class ReportScreen(QWidget):
         path = self._saved[1] if self._saved is not None and self._saved[0] is self._report else ""
         words = self.tr("Saved") if path else self.tr("Not saved yet")
         self.state.show_state("good" if path else "none", words, icon="file-text", token="text")
-        self.where.setText(path)
-        self.where.setVisible(bool(path))
+        self.where.say(path)
         self.open_button.setVisible(bool(path))
 
     def ask_and_save(self) -> None:
@@ -181,7 +180,6 @@ class ReportScreen(QWidget):
         return True
 
     def print_out(self) -> None:
-        """Ask for a printer, then paint the same pages on its paper."""
         self.panel.keep_comment()
         if self._report is None:
             return

@@ -54,12 +54,8 @@ def since_compared(figures: SessionFigures, before: SessionFigures, when: str) -
 
 def _name(movement: str, angle: int, figures: SessionFigures) -> str:
     if movement == "arc":
-        return tr("whole arc") if figures.exercise.angle is not None else _arc_name(angle)
+        return tr("whole arc") if figures.exercise.angle is not None else inside(terms.arc_name(angle))
     return inside(terms.movement_long_name(movement))
-
-
-def _arc_name(angle: int) -> str:
-    return inside(terms.arc_name(angle))
 
 
 def since_words(changes: tuple[Comparison, ...], when: str) -> str:

@@ -15,9 +15,9 @@ from carpus.ui import terms
 from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.layouts import RING_PX, STRETCH, host_of, in_column, in_line, scroll_area
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
+from carpus.ui.controls.text import REGULAR, Text
 from carpus.ui.flow import Flow, ScreenContext
-from carpus.ui.messages.stop_card import Answer
+from carpus.ui.messages.messages import Answer
 from carpus.ui.retest.screen import RetestScreen
 from carpus.ui.theme import Theme
 
@@ -155,22 +155,17 @@ class PeopleSheet(Sheet):
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 560)
-        body = self.card.body
-        body.addWidget(Text(theme, self.tr("Who takes part?"), 20, SEMIBOLD, wrap=True))
         words = self.tr(
             "Volunteers or staff whose hands do not change, never patients. Add them under Patients, by a pseudonym "
             "such as P01. Each is measured twice or more within 14 days, all discs taken off and put on anew."
         )
-        body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.head(self.tr("Who takes part?"), words, gap=8)
         self._scroll = scroll_area(QWidget())
-        body.addWidget(self._scroll)
+        self.card.body.addWidget(self._scroll)
         self.ticks: dict[str, Tick] = {}
-        close = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
         self.take = Button(theme, self.tr("These take part"), "primary", height_px=44)
-        body.addLayout(in_line(STRETCH, close, self.take, gap=10))
-        close.clicked.connect(self.close_sheet)
+        self.answer_row(self.take)
         self.take.clicked.connect(self._take)
-        self.set_default(self.take)
 
     def begin(self, people: Sequence[tuple[str, str, int]], chosen: Sequence[str]) -> None:
         """Identity, pseudonym and number of sessions of everybody, and who takes part already."""

@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QBoxLayout, QWidget
+from collections.abc import Sequence
 
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QBoxLayout, QScrollArea, QWidget
+
+from carpus.core.records.values import SessionEntry
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.progress import other_hand_of, previous_of
 from carpus.core.results.side_by_side import partner_of
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import STRETCH, in_line
-from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Text, plain_tooltip
+from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, fill, in_column, in_line
+from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, plain_tooltip
+from carpus.ui.controls.words_table import WordsTable
+from carpus.ui.report.active_passive import active_passive
+from carpus.ui.report.further_rows import further_rows, further_title
+from carpus.ui.report.hand_rows import column_heads, finger_rows, limits_words
 from carpus.ui.report.main_figure import main_figure
-from carpus.ui.report.tables import repetition_words
+from carpus.ui.report.tables import column_names, repetition_words, table_rows
 from carpus.ui.report.words import corrected_words
-from carpus.ui.review.result_tables import ResultTables
 from carpus.ui.review.reviewed import Reviewed
+from carpus.ui.review.tables import FurtherTable, HandTable, RangeTable
 from carpus.ui.theme import Theme, is_tight
 from carpus.ui.translate import inside
 
@@ -49,14 +58,11 @@ class ReviewCard(Card):
         self.tables = ResultTables(theme)
         said = self._said = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         said.setSpacing(12)
-        said.addWidget(self.title)
-        said.addWidget(self.count, 1)
+        fill(said, self.title, (self.count, 1))
         buttons = (self.count_button, self.beside_button, self.again_button, self.export_button, self.report_button)
         self.body.setContentsMargins(24, 4, 16, 4)
         self.body.setSpacing(4)
-        self.body.addLayout(said)
-        self.body.addLayout(in_line(STRETCH, *buttons, gap=12))
-        self.body.addWidget(self.tables)
+        fill(self.body, said, in_line(STRETCH, *buttons, gap=12), self.tables)
 
     def show_places(self, *, whole_hand: bool) -> None:
         """The places of a session that is still being read, with nothing of the one before."""
@@ -118,3 +124,130 @@ class ReviewCard(Card):
         whole.invalidate()  # the text may just have become larger
         least = whole.minimumHeightForWidth(width) if whole.hasHeightForWidth() else whole.minimumSize().height()
         return screen.height() - (least - self.tables.minimumHeight())
+
+
+class ResultTables(QScrollArea):
+    """Range of motion, active and passive, further measures, notes, and other results of the recording."""
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self.range = RangeTable(theme)
+        self.hand = HandTable(theme)
+        self.further = FurtherTable(theme)
+        self.ways_said = Text(theme, "", 16, SEMIBOLD, wrap=True)
+        self.ways = WordsTable(theme)
+        self.ways_note = Text(theme, "", 12, REGULAR, "text2", wrap=True)
+        self._ways = (self.ways_said, self.ways, self.ways_note)
+        self.limits = Text(theme, "", 12, REGULAR, "text2", wrap=True)
+        self.notes = Text(theme, "", 14, REGULAR, wrap=True)
+        self.results = ResultChoice(theme)
+        column = ScrolledColumn()
+        self._column = in_column(gap=4, margins=(0, 0, 0, 0), within=column)
+        for widget in (self.range, self.hand, *self._ways, self.further, self.limits, self.notes, self.results):
+            self._column.addWidget(widget)
+        self._column.addStretch(1)
+        for hidden in (self.hand, self.limits, self.further, *self._ways):
+            hidden.hide()  # until there is a session that has it
+        self.setWidget(column)
+        self.setWidgetResizable(True)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+
+    def show_places(self, *, whole_hand: bool) -> None:
+        self.hand.setVisible(whole_hand)
+        self.limits.setVisible(whole_hand)
+        self.range.setVisible(not whole_hand)
+        policy = Qt.ScrollBarPolicy
+        self.setVerticalScrollBarPolicy(policy.ScrollBarAlwaysOn if whole_hand else policy.ScrollBarAsNeeded)
+
+    def show_nothing(self) -> None:
+        """While a session of the whole hand is read: places without figures."""
+        self.limits.setText("\n")
+        self.hand.show_rows((), ())
+
+    def needed_px(self) -> int:
+        needed, gap = 0 if self.range.isHidden() else self.range.sizeHint().height(), self._column.spacing()
+        shown: list[QWidget] = [widget for widget in self._ways if not widget.isHidden()]
+        shown += [self.further] if self.further.rows else []
+        shown += [self.results] if self.results.buttons else []
+        for widget in shown:
+            needed += widget.sizeHint().height() + gap
+        # A line for notes, also while nobody knows yet whether there are any: nothing jumps when they are read.
+        return needed + self.notes.fontMetrics().height() + 2 * gap
+
+    def show_session(self, reviewed: Reviewed) -> None:
+        figures = reviewed.figures
+        previous, other = previous_of(reviewed.history, figures), other_hand_of(reviewed.history, figures)
+        if reviewed.is_hand:
+            self.hand.show_rows(column_heads(figures, previous, other), finger_rows(figures, previous, other))
+            self.limits.setText(limits_words(figures))
+        else:
+            self.range.show_rows(column_names(figures, previous, other), table_rows(figures, previous, other))
+        self.range.setVisible(not reviewed.is_hand and bool(self.range.rows))
+        self._show_active_passive(reviewed)
+        self._show_further(figures, previous, is_hand=reviewed.is_hand)
+        self._show_notes(figures)
+
+    def _show_active_passive(self, reviewed: Reviewed) -> None:
+        """The table of what was active, passive and measured by hand, where there is more than the first."""
+        found = active_passive(reviewed.figures, reviewed.by_hand)
+        if found is not None:
+            self.ways_said.setText(found.said)
+            self.ways.show_rows(found.heads, found.rows)
+            self.ways_note.setText(found.note)
+        for place, widget in enumerate(self._ways):
+            self._column.removeWidget(widget)  # what was done both ways is the first to be read
+            self._column.insertWidget(place if reviewed.figures.passive is not None else place + 2, widget)
+        self.ways.setVisible(found is not None)
+        self.ways_said.setVisible(found is not None and bool(found.said))
+        self.ways_note.setVisible(found is not None and bool(found.note))
+
+    def _show_further(self, figures: SessionFigures, previous: SessionFigures | None, *, is_hand: bool) -> None:
+        rows = further_rows(figures, previous)
+        day = numbers.day_beside(previous.when, figures.when) if previous is not None else ""
+        self.further.show_rows(further_title(figures), day, rows)
+        if rows and is_hand:  # what the exercise is about comes first
+            self._column.removeWidget(self.further)
+            last = self._column.count() - 1  # before the stretch, after what explains the table
+            self._column.insertWidget(0 if figures.exercise.is_task else last, self.further)
+
+    def _show_notes(self, figures: SessionFigures) -> None:
+        said = "  ".join(f"{numbers.clock(time_s)} “{text}”" for time_s, text in figures.notes)
+        words = [self.tr("Notes: {notes}").format(notes=said)] if said else []
+        if figures.pain:
+            pains = ", ".join(str(pain) for pain in figures.pain)
+            words.append(self.tr("Pain (0–10): {pains}").format(pains=pains))
+        self.notes.setText("  ".join(words))
+        self.notes.setVisible(bool(words))
+
+
+class ResultChoice(QWidget):
+    """``chosen`` carries the identity of another result. Hidden while there is one only; the newest counts."""
+
+    chosen = Signal(str)
+
+    def __init__(self, theme: Theme) -> None:
+        super().__init__()
+        self._theme = theme
+        self._row = in_line(gap=8, margins=(0, 0, 0, 0), within=self)
+        self.buttons: list[Button] = []
+        self.hide()
+
+    def show_results(self, results: Sequence[SessionEntry], current: str) -> None:
+        """All results of the recording, the first one first."""
+        empty(self._row)
+        self.buttons = []
+        if len(results) > 1:
+            self._row.addWidget(Text(self._theme, self.tr("Results of this recording"), 14, MEDIUM))
+            for number, result in enumerate(results, 1):
+                words = self.tr("{number} · {day}").format(number=number, day=numbers.short_date(result.created))
+                if number == len(results):
+                    words = self.tr("{result}, counts").format(result=words)
+                button = Button(self._theme, words, "well", height_px=32)
+                button.setCheckable(True)
+                button.setChecked(result.session_id == current)
+                button.setEnabled(result.session_id != current)
+                button.clicked.connect(lambda _=False, one=result: self.chosen.emit(one.session_id))
+                self._row.addWidget(button)
+                self.buttons.append(button)
+            self._row.addStretch(1)
+        self.setVisible(len(results) > 1)

@@ -16,7 +16,6 @@ from carpus.core.session.values import Session
 from carpus.core.types import ByteImage
 from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.picture.convert import image_of
@@ -112,14 +111,11 @@ class FilmSheet(Sheet):
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 560)
         body = self.card.body
-        body.setSpacing(12)
-        self._title = Text(theme, "", 20, SEMIBOLD)
-        body.addWidget(self._title)
         words = self.tr(
             "The hand alone, with its angle: face and room are cut away, there is no sound and no name. Where the "
             "movement does not lie in the picture, the angle is said in words only."
         )
-        body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
+        self.head(words=words)
         body.addWidget(Text(theme, self.tr("Speed"), 14, REGULAR, "text2"))
         self.speed = Choices(theme, [*SPEEDS, (STILL, self.tr("This picture only"))], 0.5)
         body.addWidget(self.speed)
@@ -130,21 +126,16 @@ class FilmSheet(Sheet):
         body.addWidget(self._refused)
         self.agreed = Tick(theme, self.tr("The patient has agreed"))
         body.addWidget(self.agreed)
-        row = in_line(STRETCH, gap=10)
-        self.close_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)
         self.take = Button(theme, self.tr("Save…"), "primary", height_px=44)
-        row.addWidget(self.close_button)
-        row.addWidget(self.take)
-        body.addLayout(row)
+        self.close_button = self.answer_row(self.take)
         self.agreed.toggled.connect(self._check)
-        self.close_button.clicked.connect(self.leave)
         self.take.clicked.connect(self._take)
 
     def begin(self, number: int, *, doubtful: bool = False) -> None:
         """Ask about a repetition, counted from 1; agreement is given anew each time. A ``doubtful`` one is refused."""
         self._refused.setVisible(doubtful)
         self.agreed.setDisabled(doubtful)
-        self._title.setText(self.tr("Film of repetition {number}").format(number=number))
+        self.title.setText(self.tr("Film of repetition {number}").format(number=number))
         self.agreed.setChecked(False)
         self._check(False)
         self.open()

@@ -68,7 +68,6 @@ class ReviewFlow(Flow):
         self.exporting.formats.show_research(on=on)
 
     def save_film(self, wanted: FilmWanted) -> None:
-        """Ask for a name and write a repetition as a film, or one picture of it."""
         session_id, library = wanted.session_id, self.context.library
         head = wanted.session.header
         what = f"{head.exercise.lower().replace('_', '-')}_{head.hand}"

@@ -17,8 +17,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.field import ChoiceButton
 from carpus.ui.picture.photo import label_size, paint_label
 from carpus.ui.picture.view import PictureView
-from carpus.ui.playback.pictures import SessionPicture
-from carpus.ui.playback.skeleton import paint_trails
+from carpus.ui.playback.pictures import SessionPicture, paint_trails
 from carpus.ui.review.film import paint_angle
 from carpus.ui.review.reviewed import Reviewed
 from carpus.ui.theme import Theme

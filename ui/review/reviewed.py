@@ -6,11 +6,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime, timedelta
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from carpus.core.hand.exercises import FLEXION, SIDES
 from carpus.core.measures.by_hand import HandValue, of_session
+from carpus.core.records.values import SessionEntry
 from carpus.core.results.camera_said import CameraSaid
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.motion_curves import MotionCurves, motion_curves
@@ -21,10 +23,12 @@ from carpus.core.session.values import Session
 from carpus.core.types import FloatArray, TrackStatus
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
-from carpus.ui.playback.skeleton import modelled_px
+from carpus.ui.playback.pictures import modelled_px
 from carpus.ui.plot.session import value_at, with_edge
-from carpus.ui.ports import SessionStore, StoredResult
 from carpus.ui.translate import tr
+
+if TYPE_CHECKING:  # it reads and writes files
+    from carpus.core.records.library import Library
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +40,7 @@ class Reviewed:
     choices: RepetitionChoices
     history: Sequence[SessionFigures]
     camera: CameraSaid
-    results: Sequence[StoredResult]
+    results: Sequence[SessionEntry]
     by_hand: Sequence[HandValue]
     curves: ReportCurves
     joints: JointCurves | None
@@ -45,7 +49,7 @@ class Reviewed:
     figures: SessionFigures
 
     @classmethod
-    def read(cls, store: SessionStore, patient_id: str, session_id: str) -> Reviewed:
+    def read(cls, store: Library, patient_id: str, session_id: str) -> Reviewed:
         """All of it, in the background."""
         session, choices = store.session(session_id), store.choices(session_id)
         history, camera = store.history(patient_id), store.camera(session)
@@ -72,7 +76,6 @@ class Reviewed:
         return self.figures.when + timedelta(seconds=self.figures.duration_s)
 
     def under(self, time_s: float) -> list[int]:
-        """Numbers of the repetitions that a time is in."""
         return [n for n, one in enumerate(self.figures.repetitions) if one.start_s - 1e-6 <= time_s <= one.end_s + 1e-6]
 
     def rows_of(self, number: int) -> range:
@@ -110,7 +113,6 @@ class Reviewed:
 
     # --- what a person chooses ----------------------------------------------------------------------------
     def counting(self, number: int) -> RepetitionChoices:
-        """A repetition that was left out or is passive counts again."""
         reasons = {n: words for n, words in self.choices.left_out.items() if n != number}
         if self.figures.repetitions[number].reason == PASSIVE:  # also where that was said while it was measured
             reasons[number] = ""
@@ -126,7 +128,6 @@ class Reviewed:
         return replace(self.choices, edges_s={**self.choices.edges_s, number: (start_s, end_s)})
 
     def nudged(self, number: int, time_s: float, by_s: float) -> RepetitionChoices:
-        """The edge of a repetition that is nearer to a time is moved."""
         one = self.figures.repetitions[number]
         at_start = abs(time_s - one.start_s) <= abs(time_s - one.end_s)
         edge, at_s = ("start", one.start_s) if at_start else ("end", one.end_s)

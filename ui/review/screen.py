@@ -4,35 +4,38 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.types import TrackStatus
 from carpus.ui.background import Background
-from carpus.ui.controls.layouts import in_column, in_line
+from carpus.ui.controls.button import Button
+from carpus.ui.controls.layouts import STRETCH, Fitted, in_column, in_line
+from carpus.ui.controls.sheet import Sheet
+from carpus.ui.controls.text import Text
 from carpus.ui.keys import Keys, bind
-from carpus.ui.playback.playing import Playing
+from carpus.ui.playback.transport import Playing
 from carpus.ui.plot.session import row_at
-from carpus.ui.ports import SessionStore
 from carpus.ui.review.card import ReviewCard
-from carpus.ui.review.charts import ReviewCharts
+from carpus.ui.review.charts import Player, ReviewCharts
 from carpus.ui.review.film import FilmSheet, FilmWanted, film_of
 from carpus.ui.review.picture import ReviewPicture
-from carpus.ui.review.player import Player
-from carpus.ui.review.reason import ReasonSheet
 from carpus.ui.review.reviewed import Reviewed
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.tour.bubble import LEAST_SCREEN_PX, BubbleView
 
+if TYPE_CHECKING:
+    from carpus.core.records.library import Library
+
 EDGE_STEP_S = 0.1
 
 
-class ReviewScreen(QWidget):
+class ReviewScreen(Fitted):
     """``report`` and ``export`` carry the session's identity, ``beside`` with it that of the session to be held against
     it; ``told`` a fault; ``again`` asks for another set; ``arrived`` when a session is on the screen; ``correct``
     carries the session and the row whose markers are to be put right, ``result`` another result of the recording,
@@ -48,7 +51,7 @@ class ReviewScreen(QWidget):
     told = Signal(object)
     arrived = Signal()
 
-    def __init__(self, theme: Theme, keys: Keys, background: Background, store: SessionStore) -> None:
+    def __init__(self, theme: Theme, keys: Keys, background: Background, store: Library) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self._session_id = ""
@@ -78,9 +81,6 @@ class ReviewScreen(QWidget):
         # At once, and again when every part has taken its new size.
         theme.changed.connect(self._fit)
         theme.changed.connect(self._fit_soon)
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        self._fit()
 
     def _fit_soon(self) -> None:
         QTimer.singleShot(0, self, self._fit)
@@ -203,14 +203,12 @@ class ReviewScreen(QWidget):
             self.playing.seek(float(times[np.clip(row, 0, len(times) - 1)]))
 
     def go_to_repetition(self, number: int) -> None:
-        """Make a repetition the current one and go to its start."""
         if self.reviewed is not None and 0 <= number < len(self.reviewed.figures.repetitions):
             self.current = number
             self._refresh()
             self.playing.seek(self.reviewed.figures.repetitions[number].start_s)
 
     def correct_here(self) -> None:
-        """A marker is wrong or missing in the picture shown."""
         if self.reviewed is not None and self.picture.row >= 0:
             self.playing.stop()
             self.correct.emit(self._session_id, self.reviewed.session, self.picture.row)
@@ -248,13 +246,11 @@ class ReviewScreen(QWidget):
             self._choose(lambda one: one.nudged(self.current, self.playing.time_s, by_s))
 
     def toggle_counted(self) -> None:
-        """Let the whole session count no more, or again."""
         if self.reviewed is not None:
             self._choose(lambda one: replace(one.choices, not_counted=not one.choices.not_counted))
             self.arrived.emit()
 
     def _choose(self, choices_of: Callable[[Reviewed], RepetitionChoices]) -> None:
-        """Show what a person has chosen, and keep it."""
         if self.reviewed is None:
             return
         choices = choices_of(self.reviewed)
@@ -262,3 +258,56 @@ class ReviewScreen(QWidget):
         self._refresh()
         store, session_id = self._store, self._session_id
         self._background.run(lambda: store.keep_choices(session_id, choices), lambda _: None, self.told.emit, self)
+
+
+class ReasonSheet(Sheet):
+    """Emits ``kept`` with the reason, and whether it is that of all repetitions after it as well."""
+
+    kept = Signal(str, bool)
+
+    def __init__(self, host: QWidget, theme: Theme) -> None:
+        super().__init__(host, theme, 560)
+        self.head(words=self.tr("Passive: somebody else moved the hand. It counts apart, beside the active ones."))
+        body = self.card.body
+        self.passive = Button(theme, self.tr("Passive"), "plain", height_px=40)
+        self.passive.clicked.connect(lambda: self._keep(PASSIVE))
+        self.passive_on = Button(theme, self.tr("Passive, and all after it"), "plain", height_px=40)
+        self.passive_on.clicked.connect(lambda: self._keep(PASSIVE, and_after=True))
+        body.addLayout(in_line(self.passive, self.passive_on, STRETCH))
+        words = self.tr(
+            "Left out: it stays in the recording and on the curves, and counts no longer. The report says so."
+        )
+        body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
+        quick = QHBoxLayout()
+        self.buttons: list[Button] = []
+        for reason in (self.tr("pain"), self.tr("other movement"), self.tr("trial")):
+            button = Button(theme, reason, "plain", height_px=40)
+            button.clicked.connect(lambda _=False, reason=reason: self._keep(reason))
+            quick.addWidget(button)
+            self.buttons.append(button)
+        quick.addStretch(1)
+        body.addLayout(quick)
+        self.line = QLineEdit(placeholderText=self.tr("Another reason"))
+        self.line.setAccessibleName(self.tr("Another reason"))
+        self.line.textChanged.connect(self._written)
+        self._take = Button(theme, self.tr("Leave it out"), "plain")
+        self._take.clicked.connect(lambda: self._keep(self.line.text().strip()))
+        self._close = Button(theme, self.tr("Keep it in"), "plain")
+        self._close.clicked.connect(self.close_sheet)
+        body.addLayout(in_line((self.line, 1), self._take, self._close))
+
+    def begin(self, number: int) -> None:
+        self.title.setText(self.tr("Is repetition {number} passive, or left out?").format(number=number))
+        self.line.clear()
+        self._written("")
+        self.open()
+
+    def _written(self, text: str) -> None:
+        """Who writes a reason means it; without one nothing is left out by Enter."""
+        self._take.setEnabled(bool(text.strip()))
+        self.set_default(self._take if text.strip() else self._close)
+
+    def _keep(self, reason: str, *, and_after: bool = False) -> None:
+        if reason:
+            self.close_sheet()
+            self.kept.emit(reason, and_after)

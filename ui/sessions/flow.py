@@ -118,7 +118,6 @@ class SessionShelf:
         return [(row.patient_id, row.entry.pseudonym) for row in rows if row.patient_id != patient_id]
 
     def archived(self, patient_id: str) -> int:
-        """How many sessions of the patient are in the archive."""
         found = Records(self._library).archived()
         return sum(one.patient_id == patient_id and one.recorded is not None for one in found)
 

@@ -102,7 +102,6 @@ class SessionModel(QAbstractListModel):
                 self.dataChanged.emit(self.index(number), self.index(number))
 
     def show_line(self, line: SessionLine) -> None:
-        """Replace the row of one session, when its figures are known."""
         for number, old in enumerate(self.lines):
             if old.session_id == line.session_id:
                 self.lines = (*self.lines[:number], line, *self.lines[number + 1 :])
@@ -223,7 +222,6 @@ class SessionList(QListView):
         self._take_theme()
 
     def tick_current(self) -> None:
-        """Tick the chosen session, or take its tick away."""
         if self.currentIndex().isValid():
             self.rows.toggle(self.currentIndex().row())
             self.ticks_changed.emit()

@@ -131,7 +131,6 @@ class SessionsScreen(QWidget):
 
     # --- showing ------------------------------------------------------------------------------------------
     def begin(self, patient_id: str, pseudonym: str, choose: str = "") -> None:
-        """Show a patient's sessions, one of them chosen."""
         self._patient_id, self._pseudonym = patient_id, pseudonym
         self._round += 1
         number = self._round
@@ -181,8 +180,7 @@ class SessionsScreen(QWidget):
             numbers.clock(line.duration_s), line.counted_words, line.corrected.rstrip("."),
         )  # fmt: skip
         self.facts.setText(" · ".join(fact for fact in facts if fact))
-        self.remark.setText(" · ".join(part for part in (remark(line), line.warning) if part))
-        self.remark.setVisible(bool(self.remark.text()))
+        self.remark.say(" · ".join(part for part in (remark(line), line.warning) if part))
         back = self.tr("&Take back: let it count")
         self.aside_button.set_face(back if line.set_aside else self.tr("&Set aside…"))
         practice = self._patient_id == PRACTICE_PATIENT
@@ -203,7 +201,6 @@ class SessionsScreen(QWidget):
             self.pair_wanted.emit(*ticked)
 
     def _show_ticks(self) -> None:
-        """What can be done with the sessions that are ticked."""
         lines = [line for line in self.list.rows.lines if line.session_id in self.list.rows.ticked]
         words = {
             0: self.tr("Tick two to compare them"), 1: self.tr("Tick one more to compare"),

@@ -10,34 +10,18 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLineEdit, QWidget
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.theme import Theme
 
 
-class _Asking(Sheet):
-    """A title, a sentence of what follows, then the answer."""
-
-    def __init__(self, host: QWidget, theme: Theme) -> None:
-        super().__init__(host, theme, 600)
-        self.title = Text(theme, "", 20, SEMIBOLD, wrap=True)
-        self.words = Text(theme, "", 14, token="text2", wrap=True)
-        self.card.body.setSpacing(12)
-        self.card.body.addWidget(self.title)
-        self.card.body.addWidget(self.words)
-
-    def _buttons(self, *buttons: Button) -> None:
-        self.card.body.addLayout(in_line(STRETCH, *buttons))
-
-
-class SetAsideSheet(_Asking):
+class SetAsideSheet(Sheet):
     """Emits ``kept`` with the reason."""
 
     kept = Signal(str)
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
-        super().__init__(host, theme)
-        self.title.setText(self.tr("Set this session aside?"))
-        self.words.setText(self.tr("It stays in the list and can be opened, but counts nowhere. It can be taken back."))
+        super().__init__(host, theme, 600)
+        words = self.tr("It stays in the list and can be opened, but counts nowhere. It can be taken back.")
+        self.head(self.tr("Set this session aside?"), words)
         quick = QHBoxLayout()
         self.buttons: list[Button] = []
         for reason in (self.tr("wrong exercise"), self.tr("trial"), self.tr("discs lost"), self.tr("pain")):
@@ -47,8 +31,7 @@ class SetAsideSheet(_Asking):
             self.buttons.append(button)
         quick.addStretch(1)
         self.card.body.addLayout(quick)
-        self.line = QLineEdit()
-        self.line.setPlaceholderText(self.tr("Another reason"))
+        self.line = QLineEdit(placeholderText=self.tr("Another reason"))
         self.line.setAccessibleName(self.tr("Another reason"))
         self.take = Button(theme, self.tr("Set it aside"), "plain")
         self.take.clicked.connect(lambda: self._keep(self.line.text().strip()))
@@ -56,7 +39,7 @@ class SetAsideSheet(_Asking):
         self.card.body.addWidget(self.line)
         self.close_button = Button(theme, self.tr("Let it count"), "plain")
         self.close_button.clicked.connect(self.close_sheet)
-        self._buttons(self.take, self.close_button)
+        self.card.body.addLayout(in_line(STRETCH, self.take, self.close_button))
 
     def begin(self) -> None:
         self.line.clear()
@@ -74,13 +57,14 @@ class SetAsideSheet(_Asking):
             self.kept.emit(reason)
 
 
-class ChooseSheet(_Asking):
+class ChooseSheet(Sheet):
     """A list to choose one from; emits ``chosen`` with its key. Used for the right patient and the exercise."""
 
     chosen = Signal(str)
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
-        super().__init__(host, theme)
+        super().__init__(host, theme, 600)
+        self.head()
         self.box = QComboBox()
         self.box.setAccessibleName(self.tr("Choice"))
         self.card.body.addWidget(self.box)
@@ -89,7 +73,7 @@ class ChooseSheet(_Asking):
         close = Button(theme, self.tr("Leave it as it is"), "plain", height_px=44)
         close.clicked.connect(self.close_sheet)
         self.set_default(close)
-        self._buttons(self.take, close)
+        self.card.body.addLayout(in_line(STRETCH, self.take, close))
 
     def begin(self, title: str, words: str, take: str, choices: Sequence[tuple[str, str]]) -> None:
         """Ask for one of the (key, text); ``take`` is what the button says."""

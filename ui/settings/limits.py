@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from datetime import date
 
-from PySide6.QtWidgets import QGridLayout
-
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import (
     ARC_LIMIT_FACTOR,
@@ -19,7 +17,7 @@ from carpus.core.measures.change import (
 )
 from carpus.ui import numbers, terms
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import fill
+from carpus.ui.controls.layouts import fill, in_grid
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text
 from carpus.ui.figures import figure_of
 from carpus.ui.theme import Theme
@@ -32,9 +30,7 @@ def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:
     card = Card(theme, 24)
     card.body.addWidget(Text(theme, tr("What counts as a change"), 20, SEMIBOLD))
     card.body.addWidget(Text(theme, limit_words(), 14, REGULAR, "text2", wrap=True))
-    grid = QGridLayout()
-    grid.setHorizontalSpacing(24)
-    grid.setVerticalSpacing(6)
+    grid = in_grid(24, 6)
     lines = limit_lines()
     half = (len(lines) + 1) // 2
     for place, (name, limit) in enumerate(lines):
@@ -51,9 +47,7 @@ def limits_card(theme: Theme, measured: ErrorLimits = DEFAULT_LIMITS) -> Card:
             Text(theme, study_title(study), 16, SEMIBOLD),
             Text(theme, study_words(study), 14, REGULAR, "text2", wrap=True),
         )
-        table = QGridLayout()
-        table.setHorizontalSpacing(24)
-        table.setVerticalSpacing(6)
+        table = in_grid(24, 6)
         for place, cells in enumerate(study_lines(study)):
             for column, cell in enumerate(cells):
                 table.addWidget(Text(theme, cell, 14, MEDIUM if column == len(cells) - 1 else REGULAR), place, column)

@@ -32,8 +32,7 @@ class ReportCard(Card):
         self.body.addWidget(Text(theme, self.tr("Report"), 20, SEMIBOLD))
         words = self.tr("Name, address and logo of the clinic stand above every page. Left empty, nothing is printed.")
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
-        self.name = QLineEdit(form.letterhead.name)
-        self.name.setMaxLength(MOST_NAME)
+        self.name = QLineEdit(form.letterhead.name, maxLength=MOST_NAME)
         self.address = QPlainTextEdit("\n".join(form.letterhead.address))
         self.address.setTabChangesFocus(True)
         theme.follow(self.address, lambda: self.address.setFixedHeight(theme.px(ADDRESS_PX)))
@@ -48,8 +47,7 @@ class ReportCard(Card):
         self.body.addLayout(row)
         self.problem = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
         self.problem.hide()
-        self.body.addWidget(self.problem)
-        self.body.addWidget(Text(theme, self.tr("Paper"), 14, REGULAR, "text2"))
+        fill(self.body, self.problem, Text(theme, self.tr("Paper"), 14, REGULAR, "text2"))
         self.paper = Choices(theme, [("a4", "A4"), ("letter", self.tr("US Letter"))], form.paper)
         self.body.addWidget(self.paper)
         self.name.editingFinished.connect(self._take)
@@ -69,7 +67,6 @@ class ReportCard(Card):
             self.take_picture(Path(path))
 
     def take_picture(self, path: Path) -> None:
-        """Take a picture as the logo, or say in one sentence why not."""
         try:
             found = logo_png(path)
         except LogoRefused as refused:

@@ -51,7 +51,7 @@ class SettingsScreen(QWidget):
         self, theme: Theme, preferences: Preferences, version: str = "", measured: ErrorLimits = DEFAULT_LIMITS
     ) -> None:
         super().__init__()
-        self._theme, self._preferences, self._version, self._measured = theme, preferences, version, measured
+        self._theme, self.preferences, self._version, self._measured = theme, preferences, version, measured
         self.looks = Choices(
             theme, [("light", self.tr("Light")), ("dark", self.tr("Dark")), ("system", self.tr("As the computer"))],
             preferences.theme,
@@ -66,8 +66,7 @@ class SettingsScreen(QWidget):
         self.language_note.hide()
         self.folder = Text(theme, preferences.data_folder, 14)
         self.folder_button = Button(theme, self.tr("Change…"), height_px=40)
-        self.therapist = QLineEdit(preferences.therapist)
-        self.therapist.setMaxLength(12)
+        self.therapist = QLineEdit(preferences.therapist, maxLength=12)
         self.therapist.setAccessibleName(self.tr("Initials on reports"))
         self.angle_order = Choices(
             theme,
@@ -220,7 +219,6 @@ class SettingsScreen(QWidget):
         )
 
     def _lay_out_index(self, cards: dict[PartName, tuple[QWidget, ...]]) -> None:
-        """A button for each part on the left, what is in it on the right."""
         titles: dict[PartName, str] = {
             "camera": self.tr("Camera"), "measuring": self.tr("Measuring"), "report": self.tr("Report and clinic"),
             "safety": self.tr("Safety"), "looks": self.tr("Looks and language"), "keys": self.tr("Keys"),
@@ -257,13 +255,12 @@ class SettingsScreen(QWidget):
                 old.hide()
                 old.deleteLater()
         card = limits_card(self._theme, measured)
-        card.body.addSpacing(8)
-        card.body.addWidget(self.retest, 0, Qt.AlignmentFlag.AlignLeft)
+        fill(card.body, 8, (self.retest, 0, Qt.AlignmentFlag.AlignLeft))
         self._limits.body.addWidget(card)
 
     def keep_language(self, code: str, why: str) -> None:
         """The language cannot be changed now: the old one stays chosen, and why is said."""
-        self._preferences = replace(self._preferences, language=code)
+        self.preferences = replace(self.preferences, language=code)
         self.language.choose(code)
         self.language_note.setText(why)
         self.language_note.show()
@@ -281,12 +278,12 @@ class SettingsScreen(QWidget):
     def _fold(self) -> None:
         """What only research needs is there for who switched it on; a part with nothing in it is not offered."""
         for card in self._folded:
-            card.setVisible(self._preferences.research)
+            card.setVisible(self.preferences.research)
         for part, page in self._pages.items():
             self.index[part].setVisible(page.count() > 1)
 
     def _take_research(self, on: bool) -> None:
-        self._change(replace(self._preferences, research=on))
+        self._change(replace(self.preferences, research=on))
         self._fold()
 
     def _card(self, title: str, words: str, *parts: Part) -> Card:
@@ -298,18 +295,18 @@ class SettingsScreen(QWidget):
         return card
 
     def _connect(self) -> None:
-        self.looks.chosen.connect(lambda value: self._change(replace(self._preferences, theme=value)))
-        self.text_scale.chosen.connect(lambda value: self._change(replace(self._preferences, text_scale=value)))
-        self.language.chosen.connect(lambda value: self._change(replace(self._preferences, language=value)))
-        self.angle_order.chosen.connect(lambda value: self._change(replace(self._preferences, angle_order=value)))
-        self.stream.chosen.connect(lambda value: self._change(replace(self._preferences, stream=value)))
+        self.looks.chosen.connect(lambda value: self._change(replace(self.preferences, theme=value)))
+        self.text_scale.chosen.connect(lambda value: self._change(replace(self.preferences, text_scale=value)))
+        self.language.chosen.connect(lambda value: self._change(replace(self.preferences, language=value)))
+        self.angle_order.chosen.connect(lambda value: self._change(replace(self.preferences, angle_order=value)))
+        self.stream.chosen.connect(lambda value: self._change(replace(self.preferences, stream=value)))
         self.research.toggled.connect(self._take_research)
-        self.start.chosen.connect(lambda value: self._change(replace(self._preferences, start=value)))
-        self.patient_sound.chosen.connect(lambda value: self._change(replace(self._preferences, patient_sound=value)))
+        self.start.chosen.connect(lambda value: self._change(replace(self.preferences, start=value)))
+        self.patient_sound.chosen.connect(lambda value: self._change(replace(self.preferences, patient_sound=value)))
         self.therapist.editingFinished.connect(self._take_therapist)
         self.agreement.editingFinished.connect(self._take_agreement)
         self.folder_button.clicked.connect(self.ask_folder)
-        self.keys_card.changed.connect(lambda keys: self._change(replace(self._preferences, keys=keys)))
+        self.keys_card.changed.connect(lambda keys: self._change(replace(self.preferences, keys=keys)))
         self.retest.clicked.connect(self.retest_wanted)
         self.back.clicked.connect(self.done)
 
@@ -327,29 +324,25 @@ class SettingsScreen(QWidget):
             words = self.tr("The clinic’s packages in {folder} are not newer than this version.")
         self.newer.setText(words.format(folder=folder, newest=newest))
 
-    @property
-    def preferences(self) -> Preferences:
-        return self._preferences
-
     def _change(self, preferences: Preferences) -> None:
-        if preferences != self._preferences:
-            self._preferences = preferences
+        if preferences != self.preferences:
+            self.preferences = preferences
             self.changed.emit(preferences)
 
     def _take_therapist(self) -> None:
-        self._change(replace(self._preferences, therapist=self.therapist.text().strip()))
+        self._change(replace(self.preferences, therapist=self.therapist.text().strip()))
 
     def _take_agreement(self) -> None:
         if not self.agreement.problem:
             value = self.agreement.value()
-            self._change(replace(self._preferences, agreement_limit_deg=value if math.isfinite(value) else 0.0))
+            self._change(replace(self.preferences, agreement_limit_deg=value if math.isfinite(value) else 0.0))
 
     def ask_folder(self) -> None:
         over = self if self.isVisible() else QApplication.activeWindow()  # the first start asks from another screen
-        path = QFileDialog.getExistingDirectory(over, self.tr("Data folder"), self._preferences.data_folder)
+        path = QFileDialog.getExistingDirectory(over, self.tr("Data folder"), self.preferences.data_folder)
         if path:
             self.folder.setText(path)
-            self._change(replace(self._preferences, data_folder=path))
+            self._change(replace(self.preferences, data_folder=path))
 
 
 KEY_PX = 104

@@ -5,14 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFileDialog, QProgressBar, QWidget
 
 from carpus.core.hand.exercises import Exercise
 from carpus.core.records.set_up import SetUp
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
-from carpus.ui.setup.choice import SourceChoice, SourceKind
+from carpus.ui.now_open import SourceChoice, SourceKind
 from carpus.ui.setup.option import Options
 from carpus.ui.theme import MARGIN_PX, Theme
 from carpus.ui.tour.bubble import BubbleView
@@ -70,35 +71,20 @@ class CameraScreen(QWidget):
 
     def _lay_out(self) -> None:
         theme = self._theme
-        left = QVBoxLayout()
-        left.setSpacing(16)
-        left.addWidget(heading(theme, self.tr("Where do the pictures come from?")))
-        left.addWidget(self.sources)
+        left = in_column(heading(theme, self.tr("Where do the pictures come from?")), self.sources, gap=16)
         self._files = QWidget()
-        row = QHBoxLayout(self._files)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(12)
-        row.addWidget(self.choose_file)
-        row.addWidget(self.choose_folder)
-        row.addStretch(1)
-        left.addWidget(self._files)
-        left.addStretch(1)
+        in_line(self.choose_file, self.choose_folder, STRETCH, gap=12, margins=(0, 0, 0, 0), within=self._files)
+        fill(left, self._files, STRETCH)
         self._card = Card(theme, 24)
         body = self._card.body
         body.setSpacing(12)
-        body.addWidget(Text(theme, self.tr("Before you go on"), 20, SEMIBOLD))
-        body.addWidget(self.position)
+        fill(body, Text(theme, self.tr("Before you go on"), 20, SEMIBOLD), self.position)
         light = self.tr("Camera above the hand, 60 cm or more away, looking straight down. No sun on the markers.")
-        body.addWidget(Text(theme, light, 14, REGULAR, "text2", wrap=True))
-        body.addStretch(1)
-        body.addWidget(self.progress_words)
-        body.addWidget(self.progress)
-        body.addWidget(self.bubble)
-        body.addWidget(self.primary)
-        columns = QHBoxLayout(self)
-        columns.setContentsMargins(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4)
-        columns.setSpacing(MARGIN_PX)
-        columns.addLayout(left, 1)
+        fill(body, Text(theme, light, 14, REGULAR, "text2", wrap=True), STRETCH, self.progress_words, self.progress)
+        fill(body, self.bubble, self.primary)
+        columns = in_line(
+            (left, 1), gap=MARGIN_PX, margins=(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4), within=self
+        )
         columns.addWidget(self._card)
 
     def _fit(self) -> None:
@@ -144,8 +130,7 @@ class CameraScreen(QWidget):
         self._opening = opening
         self.progress.setVisible(opening)
         self.progress.setRange(0, 0)
-        self.progress_words.setText(words)
-        self.progress_words.setVisible(bool(words))
+        self.progress_words.say(words)
         for widget in (self.sources, self._files):
             widget.setEnabled(not opening)
         self._show()

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.hand.exercises import SIDES, Exercise, exercise_named, exercises_of
 from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_named
@@ -20,7 +20,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.controls.button import ENTER, Button, is_enter, press
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import Choices, DegreesField, Labelled, number_field
-from carpus.ui.controls.layouts import scrolled
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line, scrolled
 from carpus.ui.controls.text import SEMIBOLD, Text, caption, heading
 from carpus.ui.figures import figure_of
 from carpus.ui.ports import PatientRow
@@ -88,43 +88,28 @@ class ExerciseScreen(QWidget):
 
     def _lay_out(self) -> None:
         theme = self._theme
-        left = QVBoxLayout()
-        left.setSpacing(16)
-        left.addWidget(heading(theme, self.tr("Which exercise?")))
-        left.addWidget(self.protocol)
+        left = in_column(heading(theme, self.tr("Which exercise?")), self.protocol, gap=16)
         for options in self.lists.values():
             self._offered.addWidget(options, 1)
-        left.addWidget(scrolled(self._offered), 1)
-        left.addWidget(self.sets_button, 0, Qt.AlignmentFlag.AlignLeft)
+        fill(left, (scrolled(self._offered), 1), (self.sets_button, 0, Qt.AlignmentFlag.AlignLeft))
         self._card = Card(theme, 24)
         self._card.body.setSpacing(12)
         self._card.body.addWidget(Text(theme, self.tr("This set"), 20, SEMIBOLD))
-        body = QVBoxLayout()
-        body.setSpacing(16)
-        body.addWidget(Labelled(theme, self.tr("Hand that is measured"), self.side))
+        body = in_column(Labelled(theme, self.tr("Hand that is measured"), self.side), gap=16)
         self._repetition_field = Labelled(theme, self.tr("Repetitions"), self.repetitions)
         body.addWidget(self._repetition_field)
-        row = QHBoxLayout()
-        row.setSpacing(16)
+        row = in_line(gap=16)
         for field in self._target_fields:
             row.addWidget(field)
-        body.addLayout(row)
-        body.addWidget(self.problem)
-        body.addWidget(self.proposal)
-        body.addWidget(self.accept, 0, Qt.AlignmentFlag.AlignLeft)
-        body.addWidget(self._ends_field)
+        fill(body, row, self.problem, self.proposal, (self.accept, 0, Qt.AlignmentFlag.AlignLeft), self._ends_field)
         body.addWidget(Labelled(theme, self.tr("The patient’s view is for"), self.audience))
         body.addWidget(Labelled(theme, self.tr("Keep the pictures too"), self.pictures))
         self.pictures_cost = caption(theme, wrap=True)
-        body.addWidget(self.pictures_cost)
-        body.addWidget(self.view)
-        body.addStretch(1)
-        self._card.body.addWidget(scrolled(body), 1)
-        self._card.body.addWidget(self.primary)
-        columns = QHBoxLayout(self)
-        columns.setContentsMargins(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4)
-        columns.setSpacing(MARGIN_PX)
-        columns.addLayout(left, 1)
+        fill(body, self.pictures_cost, self.view, STRETCH)
+        fill(self._card.body, (scrolled(body), 1), self.primary)
+        columns = in_line(
+            (left, 1), gap=MARGIN_PX, margins=(MARGIN_PX, MARGIN_PX - 4, MARGIN_PX, MARGIN_PX - 4), within=self
+        )
         columns.addWidget(self._card)
 
     def _listen(self) -> None:
@@ -196,7 +181,6 @@ class ExerciseScreen(QWidget):
         return self.lists[str(self.protocol.value())]
 
     def choose(self, exercise: Exercise, protocol: MarkerProtocol | None = None) -> None:
-        """Show an exercise as the chosen one, with its usual discs or others."""
         self.protocol.choose((protocol or exercise.protocol).name)
         self.exercises.choose(exercise.id)
         self._show_protocol()
@@ -254,7 +238,7 @@ class ExerciseScreen(QWidget):
         for number, (field, name) in enumerate(zip(self._target_fields, self._target_names, strict=True)):
             field.setVisible(exercise.angle is not None or (bool(exercise.joint) and number == 0))
             if exercise.joint and number == 0:
-                words = self.tr("Target, {movement}").format(movement=_lower(figure_of(exercise.joint).long_name))
+                words = self.tr("Target, {movement}").format(movement=inside(figure_of(exercise.joint).long_name))
                 name.setText(words)
                 self.targets[number].setAccessibleName(words)
             elif exercise.angle is not None:
@@ -269,8 +253,7 @@ class ExerciseScreen(QWidget):
         self._ends_field.setVisible(self._discs().has_fingers)
         self.ends.choose(exercise.ends_free)
         words = say(exercise.unseen)
-        self.view.setText(words)
-        self.view.setVisible(bool(words))
+        self.view.say(words)
         self._show_problem()
 
     def _show_set(self, chosen: ExerciseSet) -> None:
@@ -329,8 +312,7 @@ class ExerciseScreen(QWidget):
 
     def _show_problem(self) -> None:
         words = next((field.problem for field in self.targets if field.isVisibleTo(self) and field.problem), "")
-        self.problem.setText(words)
-        self.problem.setVisible(bool(words))
+        self.problem.say(words)
         to_choose = self.side.value() is None
         self.primary.setEnabled(not words and not to_choose)
         self.primary.set_face(self.tr("Which hand is measured?") if to_choose else self.tr("Next: the camera"))
@@ -365,10 +347,6 @@ def _rows(protocol: MarkerProtocol, sets: Sequence[ExerciseSet]) -> list[tuple[s
 
 def _set_id(set_id: str) -> str:
     return f"set:{set_id}"
-
-
-def _lower(words: str) -> str:
-    return inside(words)
 
 
 def proposal_words(exercise: Exercise, proposed: Sequence[GoalProposal]) -> str:

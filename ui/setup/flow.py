@@ -15,9 +15,9 @@ from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp, practice_set_up
 from carpus.core.results.figures import SessionFigures
 from carpus.core.types import Side
 from carpus.ui.flow import Flow, ScreenContext
-from carpus.ui.messages.stop_card import Answer
+from carpus.ui.messages.messages import Answer
+from carpus.ui.now_open import SourceChoice
 from carpus.ui.setup.camera import CameraScreen
-from carpus.ui.setup.choice import SourceChoice
 from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.setup.set_sheet import SetSheet
 

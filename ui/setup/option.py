@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QButtonGroup, QGridLayout, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QButtonGroup, QPushButton, QSizePolicy, QWidget
 
+from carpus.ui.controls.layouts import in_column, in_grid
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, StateText, Text
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
@@ -20,11 +21,7 @@ class Option(QPushButton):
         super().__init__()
         self._mark, self._state = Sign(theme, "open", 22, (22, 22)), StateText(theme, 14, REGULAR)
         self._sentence = Text(theme, sentence, 14, REGULAR, "text2", wrap=True)
-        grid = QGridLayout(self)
-        grid.setContentsMargins(18, 14, 22, 14)
-        grid.setHorizontalSpacing(18)
-        grid.setVerticalSpacing(2)
-        grid.setColumnStretch(1, 1)
+        grid = in_grid(18, 2, shares=(0, 1), margins=(18, 14, 22, 14), within=self)
         grid.addWidget(self._mark, 0, 0)
         grid.setRowStretch(1, 1)
         grid.addWidget(Text(theme, name, 16, SEMIBOLD), 0, 1)
@@ -72,9 +69,7 @@ class Options(QWidget):
 
     def __init__(self, theme: Theme, options: Sequence[tuple[object, str, str]]) -> None:
         super().__init__()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(12)
+        column = in_column(gap=12, margins=(0, 0, 0, 0), within=self)
         self._group = QButtonGroup(self)
         self._values: list[object] = []
         for number, (value, name, sentence) in enumerate(options):
@@ -97,7 +92,6 @@ class Options(QWidget):
         return self._group.button(self._values.index(value))  # type: ignore[return-value]
 
     def current(self) -> Option:
-        """The chosen button, which takes the keyboard."""
         return self._group.checkedButton()  # type: ignore[return-value]
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QLineEdit, QWidget
 
 from carpus.core.hand.exercises import exercise_named, exercises_of
 from carpus.core.hand.protocols import protocol_named
@@ -24,9 +24,9 @@ from carpus.core.records.set_up import CoursePart
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.field import Labelled, number_field
-from carpus.ui.controls.layouts import scrolled
+from carpus.ui.controls.layouts import STRETCH, in_column, in_grid, in_line, scrolled
 from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import SEMIBOLD, Text, caption
+from carpus.ui.controls.text import Text, caption
 from carpus.ui.theme import Theme
 from carpus.ui.translate import say, tr
 
@@ -101,57 +101,37 @@ class SetSheet(Sheet):
         self.rows: list[PartRow] = []
         self.which = QComboBox()
         self.which.setAccessibleName(self.tr("Set"))
-        self.name = QLineEdit()
-        self.name.setMaxLength(MOST_NAME)
-        self.name.setPlaceholderText(self.tr("No names of patients"))
+        self.name = QLineEdit(maxLength=MOST_NAME, placeholderText=self.tr("No names of patients"))
         self.name.setAccessibleName(self.tr("Name of the set"))
         self.add = Button(theme, self.tr("Add an exercise"), "plain", icon="plus", height_px=40)
         self.delete = Button(theme, self.tr("Delete this set"), "quiet", icon="trash-2", height_px=40)
         self.problem = Text(theme, "", 14, token="bad", wrap=True)
         self.keep = Button(theme, self.tr("Keep the set"), "primary", height_px=44)
-        self.close_button = Button(theme, self.tr("Close"), "plain", hint=self.tr("Esc"), height_px=44)
-        self._grid = QGridLayout()
-        self._grid.setHorizontalSpacing(8)
-        self._grid.setVerticalSpacing(8)
-        self._grid.setColumnStretch(0, 1)
+        self._grid = in_grid(8, 8, shares=(1,))
         self._lay_out()
         self.which.currentIndexChanged.connect(lambda _: self._choose())
         self.name.textEdited.connect(lambda _: self._judge())
         self.add.clicked.connect(self._add)
         self.delete.clicked.connect(self._delete)
         self.keep.clicked.connect(self._keep)
-        self.set_default(self.keep)
-        self.close_button.clicked.connect(self.close_sheet)
 
     def _lay_out(self) -> None:
         theme, body = self._theme, self.card.body
-        body.setSpacing(12)
-        body.addWidget(Text(theme, self.tr("Sets of exercises"), 20, SEMIBOLD))
         words = self.tr(
             "Exercises that run one after the other with the same markers. Each becomes a session of its own."
         )
-        body.addWidget(Text(theme, words, 14, token="text2", wrap=True))
-        top = QHBoxLayout()
-        top.setSpacing(16)
-        top.addWidget(Labelled(theme, self.tr("Set"), self.which), 1)
+        self.head(self.tr("Sets of exercises"), words)
+        top = in_line((Labelled(theme, self.tr("Set"), self.which), 1), gap=16)
         top.addWidget(Labelled(theme, self.tr("Name of the set"), self.name), 1)
         body.addLayout(top)
         for column, head in enumerate((self.tr("Exercise"), self.tr("How much"), "", self.tr("Rest after it"))):
             self._grid.addWidget(caption(theme, head), 0, column)
-        rows = QVBoxLayout()
-        rows.addLayout(self._grid)
-        rows.addStretch(1)
+        rows = in_column(self._grid, STRETCH)
         area = scrolled(rows)
         area.setMinimumHeight(theme.px(190))
         body.addWidget(area, 1)
         body.addWidget(self.problem)
-        bottom = QHBoxLayout()
-        bottom.addWidget(self.add)
-        bottom.addWidget(self.delete)
-        bottom.addStretch(1)
-        bottom.addWidget(self.close_button)
-        bottom.addWidget(self.keep)
-        body.addLayout(bottom)
+        self.close_button = self.answer_row(self.keep, self.add, self.delete, words=self.tr("Close"), gap=None)
 
     def begin(self, sets: Sequence[ExerciseSet], discs: str, chosen_id: str = "") -> None:
         """Open with the sets of these discs; the others are kept as they are."""

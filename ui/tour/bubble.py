@@ -7,7 +7,7 @@ from PySide6.QtGui import QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.layouts import in_line
+from carpus.ui.controls.layouts import fill, in_line
 from carpus.ui.controls.text import MEDIUM, Text, caption
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.tour.order import PARTS, POINTLESS, Bubble, part_of, words_of
@@ -50,15 +50,13 @@ class BubbleView(QWidget):
         if wide:
             whole.setSpacing(16)
             whole.addWidget(self.words, 1)
-            foot.addWidget(self.part)
-            foot.addSpacing(8)
+            fill(foot, self.part, 8)
         else:
             whole.setSpacing(6)
             whole.addWidget(self.part)
             whole.addWidget(self.words)
             foot.addStretch(1)
-        foot.addWidget(self.leave_button)
-        foot.addWidget(self.next_button)
+        fill(foot, self.leave_button, self.next_button)
         whole.addLayout(foot)
         whole.setContentsMargins(16, 8, 10, 8 + TAIL_PX)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)

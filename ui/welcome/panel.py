@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QHBoxLayout, QWidget
 from carpus.core.purpose import PURPOSE
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.layouts import STRETCH, in_column, in_line, scrolled
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line, scrolled
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
@@ -78,9 +78,7 @@ class WelcomePanel(Card):
         theme = self._theme
         text = in_column(Text(theme, self.tr("Welcome to Carpus"), 20, SEMIBOLD), gap=8)
         self.purpose = Text(theme, purpose_lines(), 14, REGULAR, "text2", wrap=True)
-        text.addWidget(self.purpose)
-        text.addLayout(in_line((self.state, 1), self.details_button, self.again_button))
-        text.addLayout(self._rows)
+        fill(text, self.purpose, in_line((self.state, 1), self.details_button, self.again_button), self._rows)
         text.addWidget(Line(theme))
         note = self.tr("Patients and sessions will lie here; nothing leaves this computer.")
         lies = in_column(Text(theme, note, 14, REGULAR, "text2", wrap=True), self.where, gap=0)
@@ -88,8 +86,7 @@ class WelcomePanel(Card):
         later = QHBoxLayout()
         later.setContentsMargins(20, 6, 20, 8)  # its widgets hide it whole, and this with it
         later.setSpacing(12)
-        later.addWidget(self.counts, 1)
-        later.addWidget(self.close_button)
+        fill(later, (self.counts, 1), self.close_button)
         text.addStretch(1)
         foot = in_line(self.tour_button, STRETCH, self.later_button, gap=8, margins=(20, 10, 20, 12))
         self.body.setSpacing(0)
@@ -98,8 +95,7 @@ class WelcomePanel(Card):
         text.setContentsMargins(20, 14, 20, 8)
         self.body.addWidget(area, 1)
         self.body.addLayout(later)  # never scrolled away: it came after what was looked at
-        self.body.addWidget(Line(theme))
-        self.body.addLayout(foot)
+        fill(self.body, Line(theme), foot)
 
     def show_looking(self) -> None:
         self.state.setText(self.tr("This computer is being looked at …"))
