@@ -58,6 +58,7 @@ def pytest_configure() -> None:
     QtBot.waitSignal.__kwdefaults__["timeout"] = _PATIENCE_MS
 
 
+@pytest.hookimpl(optionalhook=True)
 def pytest_xdist_auto_num_workers() -> int:
     """One more than there are cores: what plays in real time or waits for another process leaves its core to others."""
     return len(os.sched_getaffinity(0)) + 1
