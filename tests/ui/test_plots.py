@@ -278,6 +278,23 @@ def test_dashes_are_half_of_a_line_whether_level_or_steep_and_run_with_it(qapp: 
         assert np.abs(now[:, 70:590] - later[:, 10:530]).max() <= 8, "a second is 60 pixels"
 
 
+@pytest.mark.parametrize("on_pixels", [True, False])
+@pytest.mark.parametrize("seen", [range(100), range(7, 8), range(0)])
+def test_all_that_is_drawn_of_a_curve_lies_on_it(
+    qapp: QApplication, theme: Theme, monkeypatch: pytest.MonkeyPatch, seen: range, on_pixels: bool
+) -> None:
+    """As pieces on pixels and as lines on paper, half of it dashed, all but one piece, or all."""
+    monkeypatch.setattr("carpus.ui.plot.series._on_pixels", lambda painter: on_pixels)
+    time_s = np.arange(0.0, 30.0, 0.15)
+    predicted = ~np.isin(np.arange(len(time_s)), seen)
+    ink = drawn_series(theme, Series(time_s, 3.0 * time_s - 45.0, None, predicted), 0.0, 30.0, 1.0).min(axis=2) < 200
+    down, across = np.nonzero(ink)
+    expected = 100.0 - (0.05 * 3.0 * across - 45.0) * 200.0 / 180.0
+    assert np.abs(down - expected).max() < 4.0
+    reached = np.histogram(across, bins=20, range=(0, 600))[0]
+    assert (reached > 20).all(), "no stretch of it is left out"
+
+
 def test_nothing_moves_by_mouse_while_measuring(qtbot: QtBot, theme: Theme) -> None:
     feed, history = FakeFeed(), History(WRIST6)
     curves = LiveCurves(theme, history)

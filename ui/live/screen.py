@@ -291,6 +291,7 @@ class LiveScreen(Fitted):
         recording, measuring = self.recording, self.recording.measuring
         if measuring is None:
             return
+        passed_s = min(time.monotonic() - self._ticked_at_s, 0.001 * STORING_EVERY_MS)
         self._ticked_at_s, self._ticked_cpu_s, self._drawing_ms = time.monotonic(), time.thread_time(), None
         feed, lost = measuring.feed, recording.camera_lost
         fresh = feed.tracked_since(self.history.last_index)
@@ -313,9 +314,9 @@ class LiveScreen(Fitted):
         if fresh and not lost:
             recording.look_for_start()
         if lost:
-            self.history.wait(0.001 * TICK_EVERY_MS)
+            self.history.wait(passed_s)
             self.plots().draw()
-        if self._tick % VALUES_EVERY == 0:
+        if self._tick % VALUES_EVERY == 0 or recording.storing:
             self._show_values()
         if self._ticked_at_s - self._glanced_at_s >= GLANCE_EVERY_S:
             self._glanced_at_s = self._ticked_at_s

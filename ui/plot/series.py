@@ -170,7 +170,8 @@ class Drawing:
                 for first, past in runs(solid):
                     ends = self._ends[own.start + first : own.start + past]
                     painter.drawPolyline(polygon(np.append(ends[0, 0], ends[:, 2]), np.append(ends[0, 1], ends[:, 3])))
-            if len(dashes):  # no Python object per line: Qt reads the array
+            if len(dashes):  # no Python object per line: Qt reads the array, row by row
+                dashes = np.ascontiguousarray(dashes)
                 painter.drawLines(_wrapped(dashes.ctypes.data, QLineF), len(dashes))
 
 
