@@ -46,6 +46,7 @@ class Camera:
 
     @property
     def matrix(self) -> FloatArray:
+        """Camera matrix K, shape (3, 3)."""
         return np.array([[self.fx_px, 0.0, self.cx_px], [0.0, self.fy_px, self.cy_px], [0.0, 0.0, 1.0]])
 
     @property

@@ -35,6 +35,7 @@ class NoiseLaw:
     square_per_m: float = 0.0
 
     def sd_m(self, depth_m: FloatArray) -> FloatArray:
+        """Standard deviation (...) at depths (...), metres."""
         out = self.square_per_m * depth_m**2
         return np.asarray(out + self.fixed_m if self.fixed_m else out)
 

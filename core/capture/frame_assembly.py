@@ -307,6 +307,7 @@ class LensBending:
             self._maps = np.ascontiguousarray(ideal[..., 0]), np.ascontiguousarray(ideal[..., 1])
 
     def bend(self, depth: NDArray[Any]) -> NDArray[Any]:
+        """Depth (H, W) uint16 as the real lens shows it, (H / shrink, W / shrink)."""
         if self._maps is None:
             return depth
         return np.asarray(

@@ -33,10 +33,12 @@ class RangeFigure:
 
     @property
     def mean(self) -> float:
+        """Mean over the repetitions, NaN when there is none."""
         return float(self.values.mean()) if len(self.values) else math.nan
 
     @property
     def spread_sd(self) -> float:
+        """Standard deviation between repetitions, NaN below three."""
         return float(self.values.std(ddof=1)) if len(self.values) >= FEWEST_FOR_SPREAD else math.nan
 
 

@@ -39,6 +39,7 @@ class Signal:
 
     @property
     def finite(self) -> BoolArray:
+        """Samples (n,) that are no gap."""
         flat = self.value.reshape(len(self.value), math.prod(self.value.shape[1:]))
         return np.asarray(np.isfinite(flat).all(axis=1), dtype=np.bool_)
 

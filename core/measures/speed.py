@@ -3,7 +3,8 @@ for.
 
 A stroke is the way from leaving one turning place to reaching the next. Who stops on the way has not finished: pauses
 are part of the stroke, counted and timed, and its smoothness, time and mean speed are those of all of it. SPARC and log
-dimensionless jerk: Balasubramanian et al. 2015, doi 10.1186/s12984-015-0090-9.
+dimensionless jerk: Balasubramanian et al. 2015, doi 10.1186/s12984-015-0090-9. They and the number of peaks all take a
+speed profile (n,), evenly sampled and low-passed; unit per second of whatever moved.
 
 Never from the filter's own angular velocity noise: differentiate the smoothed angle (reference 4.5).
 """

@@ -85,6 +85,7 @@ class NeverDrop(_Bounded[T]):
     """Every item that was taken in comes out; without room :class:`ChannelFull` is raised and nothing is lost."""
 
     def put(self, item: T) -> None:
+        """Adds an item at once or raises."""
         with self._changed:
             if self._closed:
                 raise ChannelClosed

@@ -114,6 +114,7 @@ class HandMotion:
         return np.asarray(own + self.habits.at(time_s, ramp)[:, :3])
 
     def joint_angles_rad(self, time_s: FloatArray) -> FloatArray:
+        """Finger joint angles, (N, J)."""
         ramp = _ramp(time_s)[:, None]
         tremor = 0.5 * self.tremor_rad * np.sin(2.0 * math.pi * self.tremor_hz * (time_s[:, None] - STILL_S) + 1.0)
         flexing = np.array([name.startswith(("MCP", "IP1")) and name.endswith("flexion") for name in self.joint_names])
@@ -125,6 +126,7 @@ class HandMotion:
         return np.asarray(own + unrest + self.habits.closing_rad(extension)[:, None] * _closing(self.joint_names))
 
     def carry_m(self, time_s: FloatArray) -> FloatArray:
+        """Displacement of the arm in W0, (N, 3)."""
         ramp = _ramp(time_s)
         own = self.carry.at(time_s) + self.sway.carry_m(time_s) * ramp[:, None]
         return np.asarray(own + self.habits.at(time_s, ramp)[:, 3:6])

@@ -267,6 +267,7 @@ class Renderer:
         self._table_point_m = scene.to_camera(np.array([0.0, 0.0, scene.table_height_m]))
 
     def depth(self, time_s: float, covered: NDArray[np.bool_]) -> FloatImage:
+        """Depth alone, (H, W) metres along z."""
         bodies = self._bodies(time_s)
         self._lay_false_blobs(None, bodies.depth_m, time_s, bodies.pose, ("skin", "air"))
         self._draw_discs(None, bodies.depth_m, bodies, covered)
@@ -311,6 +312,7 @@ class Renderer:
         return np.asarray(color * (lambert * self.looks.lamp + self.looks.ambient))
 
     def _table(self, bodies: _Bodies) -> FloatImage:
+        """The lit table with the hand's shadow, (H, W, 3)."""
         looks = self.looks
         facing = np.float32(max(float(self._up @ looks.light_cam), 0.0))
         if bodies.skin is None:

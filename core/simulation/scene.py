@@ -82,6 +82,7 @@ class Scene:
         return HandPose(rotation, position, angles, joints, carry, tissue)
 
     def discs_w0_m(self, pose: HandPose) -> FloatArray:
+        """All 21 disc centres in W0, (N, 21, 3)."""
         if self._discs_ride:
             return _moved(self._riding_discs_w(pose)[0], pose)
         local = disc_centres(self.patient.anatomy, pose.joint_angles_rad)
@@ -192,12 +193,14 @@ class Scene:
         return wrist_axes(palm, towards=np.array([0.0, 0.0, 1.0])), palm[0]
 
     def joints_w0_m(self, pose: HandPose) -> FloatArray:
+        """All 21 joint centres and tips in W0, (N, 21, 3)."""
         joints = joint_centres(self.patient.anatomy, pose.joint_angles_rad)
         if not self.tissue.is_rigid:
             joints = self.skin.cupped(joints, pose.tissue.cup_rad)
         return _moved(joints, pose)
 
     def to_camera(self, point_w0_m: FloatArray) -> FloatArray:
+        """Points (..., 3) of W0 in camera axes."""
         return np.asarray(point_w0_m @ self.rotation_w0_cam.T + self.translation_w0_cam_m)
 
     def cones_cam(self, pose: HandPose, i: int) -> Cones:

@@ -144,6 +144,11 @@ def test_in_a_longer_language_nothing_is_cut_and_nothing_stays_english(qapp: QAp
     assert not any(english.values()), english
 
 
+def test_every_state_is_looked_at() -> None:
+    shown = {name for name in vars(Gallery) if not name.startswith("_")}
+    assert shown - {"settle", "place", "show", "close"} == set(STATES)
+
+
 class Painted(QWidget):
     """Paints words where it is told."""
 

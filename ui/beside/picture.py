@@ -68,6 +68,7 @@ class BesidePicture(SessionPicture):
         self.set_hand_area(self._turned(self.session.calibration.clicks.pixel, self.session), room)
 
     def _turned(self, pixel: FloatArray, session: Session) -> FloatArray:
+        """Pixels (..., 2) as they are shown."""
         if not self.mirrored:
             return pixel
         out = pixel.copy()

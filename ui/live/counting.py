@@ -95,6 +95,7 @@ class RunningCount:
         return self.repetitions
 
     def _read(self, frames: Sequence[TrackedFrame]) -> list[tuple[float, float, bool]]:
+        """Trained angle and standard deviation in radians, and whether it was measured, frame by frame."""
         if self._figure >= 0 and frames and len(frames[0].moment.joint_angles_rad):
             _, value_deg, sd_deg, measured, _ = figures_of(self._protocol, frames)
             column = self._figure

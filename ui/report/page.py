@@ -65,6 +65,7 @@ class Page:
         return A4_PT[0] - MARGIN_PT
 
     def box(self, left: float, top: float, width: float, height: float) -> QRectF:
+        """A rectangle in painter units."""
         return QRectF(left * self.point, top * self.point, width * self.point, height * self.point)
 
     def face(self, size_pt: float, weight: int = REGULAR) -> QFont:

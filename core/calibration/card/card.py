@@ -185,6 +185,7 @@ class CardReading:
 
     @property
     def errors(self) -> FloatArray:
+        """Measured less true (6,)."""
         return np.asarray(self.measured - np.array([figure.true for figure in FIGURES]))
 
     @property
