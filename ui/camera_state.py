@@ -10,7 +10,7 @@ from typing import Protocol
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from carpus.core.calibration.camera.board import Board
-from carpus.core.calibration.card.chart import Standing
+from carpus.core.calibration.card.standing import Standing
 from carpus.core.pipeline.live import LiveSession
 from carpus.ui.background import Background
 

@@ -72,13 +72,8 @@ def _print_board(arguments: argparse.Namespace) -> int:
 
 
 def _calibrate(arguments: argparse.Namespace) -> int:
-    from carpus.core.calibration.camera.calibrate import (
-        calibrate_camera,
-        calibration_lines,
-        keep_calibration,
-        stored_of,
-        write_calibration,
-    )
+    from carpus.core.calibration.camera.calibrate import calibrate_camera, calibration_lines
+    from carpus.core.calibration.camera.keep import keep_calibration, stored_of, write_calibration
     from carpus.core.calibration.camera.views import Gathering
     from carpus.core.capture.calibrated import keep_name
     from carpus.core.dates import is_moment

@@ -58,7 +58,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _check(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
-    from carpus.core.calibration.card.card import measure_card
     from carpus.core.calibration.card.chart import (
         add_check,
         before,
@@ -68,6 +67,7 @@ def _check(arguments: argparse.Namespace) -> int:
         sentence_of,
         verdict_of,
     )
+    from carpus.core.calibration.card.measure import measure_card
     from carpus.core.capture.calibrated import keep_name
     from carpus.core.dates import is_moment, iso
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from carpus import __version__
 from carpus.app.command_line import CAMERA_HELP, camera_address
 from carpus.app.settings import Settings, load_settings
-from carpus.core.calibration.card.chart import camera_ages
+from carpus.core.calibration.card.standing import camera_ages
 from carpus.core.capture.doctor import examine
 from carpus.core.errors import CarpusFault
 from carpus.core.words import one_sentence

@@ -12,7 +12,7 @@ from typing import get_args
 import numpy as np
 
 from carpus import __version__
-from carpus.app.batch.work import is_many
+from carpus.app.batch.places import is_many
 from carpus.app.command_line import bar, count, number, tell
 from carpus.app.of_file import note
 from carpus.app.settings import load_settings

@@ -13,8 +13,9 @@ from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
+from carpus.app.batch.places import SESSION_SUFFIX, TrackingInput, places
 from carpus.app.batch.processes import LIMIT_S, cores, outcomes
-from carpus.app.batch.work import SESSION_SUFFIX, Outcome, Task, TrackingInput, fault_of, places
+from carpus.app.batch.work import Outcome, Task, fault_of
 from carpus.app.command_line import bar
 from carpus.core.errors import CarpusFault, OutputExists, OutputNotWritable, RecordingMissing
 from carpus.core.formats.measures_files import check_place, measures_file

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from carpus.app.settings import Settings
 from carpus.core.calibration.camera.board import Board
-from carpus.core.calibration.card.chart import Standing, known_serials, standing_of
+from carpus.core.calibration.card.standing import Standing, known_serials, standing_of
 from carpus.core.capture.calibrated import keep_name, stored_calibration, with_given_name, with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.devices.cameras import name_to_open, open_camera

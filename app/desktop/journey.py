@@ -201,7 +201,7 @@ CORE = (
     "carpus.core.agreement.compared_files",
     "carpus.core.agreement.retest",
     "carpus.core.calibration.camera.calibrate",
-    "carpus.core.calibration.card.card",
+    "carpus.core.calibration.card.measure",
     "carpus.core.formats.film",
     "carpus.core.results.side_by_side",
 )

@@ -7,28 +7,22 @@ first, ``complete(folder, abouts)`` after the last and ``OWN_FOLDER``. It is loa
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from importlib import import_module
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
-
-if TYPE_CHECKING:  # the list itself is read by windows, which load nothing that reads files
-    from carpus.core.formats.take import About, Take
-
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from datetime import date
+from importlib import import_module
+from pathlib import Path
+from typing import Any, NamedTuple
 
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.formats.new_output import new_text
 from carpus.core.formats.provenance import LEGAL, Deidentification, provenance
-from carpus.core.formats.take import Take, about
+from carpus.core.formats.take import About, Take, about
 from carpus.core.measures.by_hand import HandValue, of_session
 from carpus.core.results.camera_said import camera_of
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
-from carpus.core.session.reader import read_outline, read_session
 from carpus.core.session.values import Session
 
 
@@ -92,6 +86,9 @@ class Wanted:
     @classmethod
     def stored(cls, path: Path, choices: Callable[[Path], RepetitionChoices] | None = None) -> Wanted:
         """A session file as it is, with what a person chose of its repetitions as ``choices`` reads that."""
+        # The list of formats is read by windows, which load nothing that reads files.
+        from carpus.core.session.reader import read_session
+
         return cls(path, lambda: (read_session(path), None if choices is None else choices(path)))
 
 
@@ -172,6 +169,8 @@ def export_sessions(
 
 def _nobody(sessions: Iterable[Wanted]) -> Deidentification:
     """Names that are nobody's for those whose sessions these are."""
+    from carpus.core.session.reader import read_outline
+
     nobody = Deidentification()
     for one in sessions:
         with suppress(CarpusFault):  # told when it is read

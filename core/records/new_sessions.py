@@ -31,7 +31,7 @@ from carpus.core.errors import (
 )
 from carpus.core.phrase import phrase
 from carpus.core.records.changes import is_identity
-from carpus.core.records.exercise_sets import keep_set_up
+from carpus.core.records.kept_sets import keep_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.log import was_erased
 from carpus.core.records.session_list import FilesOfSessions, free_path, look_for_share

@@ -81,12 +81,12 @@ def verify(path: Path) -> Verified:
 
 
 def finish_part(part: Path, when: str) -> Path | None:
-    """Finish a part file where it can be ended by force; as :func:`core.session.reading_process.finish_part`."""
+    """Finish a part file where it can be ended by force; as :func:`core.session.rewriting.finish_part`."""
     return cast("Path | None", _ask("recover", part, when))
 
 
 def give(path: Path, target: Path, subject_id: str) -> None:
-    """Write a session anew for another patient; as :func:`core.session.reading_process.given`."""
+    """Write a session anew for another patient; as :func:`core.session.rewriting.given`."""
     _ask("give", path, target, subject_id)
 
 

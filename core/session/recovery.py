@@ -1,4 +1,4 @@
-"""Finds sessions that were cut short, and has them finished (:func:`core.session.reading_process.finish_part`); which
+"""Finds sessions that were cut short, and has them finished (:func:`core.session.rewriting.finish_part`); which
 of them are still being recorded, a heartbeat tells.
 
 File locks do not work on many network shares, and clocks of two computers differ. So who wants to know watches whether

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from carpus.core.calibration.camera.board import BOARDS, Pattern, board_sheet
 from carpus.core.calibration.camera.calibrate import CameraCalibration, calibrate_camera
 from carpus.core.calibration.camera.views import ASKED_VIEWS, Gathering
-from carpus.core.calibration.card.card import CardReading, measure_card
+from carpus.core.calibration.card.card import CardReading
+from carpus.core.calibration.card.measure import measure_card
 from carpus.core.camera import DEFAULT_CAMERA, Camera
 from carpus.core.capture.calibrated import correction_table
 from carpus.core.capture.camera_info import StoredCalibration

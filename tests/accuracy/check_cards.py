@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from carpus.core.calibration.card.card import CHECK_S, LOOK_EVERY_S, CardReading, measure_card
+from carpus.core.calibration.card.card import CHECK_S, CardReading
+from carpus.core.calibration.card.measure import LOOK_EVERY_S, measure_card
 from carpus.core.depth_sensor import SENSORS
 from carpus.core.simulation.practice_camera import LENS, Studio, card_scene
 from tests.accuracy.cameras import OFF_SHARE

@@ -18,7 +18,7 @@ from carpus.app.compose import Desktop, application, compose
 from carpus.app.desktop import care_cameras
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.calibration.camera import views
-from carpus.core.calibration.card import card
+from carpus.core.calibration.card import measure
 from carpus.core.calibration.card.chart import add_check, chart_path, read_checks
 from carpus.core.camera import Camera
 from carpus.core.capture.calibrated import stored_calibration
@@ -60,9 +60,9 @@ def hurry(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(practice_camera, "_MOST_PICTURES", 6)
     monkeypatch.setattr(practice_camera, "_between", lambda one, other: other)
     monkeypatch.setitem(views.ASKED_VIEWS, "chessboard", FEW)
-    monkeypatch.setattr(card, "CHECK_S", 6.0)
-    monkeypatch.setattr(card, "_LONGEST_GAP_S", 1e9)
-    monkeypatch.setattr(card, "FEWEST_PICTURES", 2)
+    monkeypatch.setattr(measure, "CHECK_S", 6.0)
+    monkeypatch.setattr(measure, "_LONGEST_GAP_S", 1e9)
+    monkeypatch.setattr(measure, "FEWEST_PICTURES", 2)
 
 
 def press(qtbot: QtBot, key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> None:

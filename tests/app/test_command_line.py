@@ -159,6 +159,23 @@ def test_a_closed_stream_is_no_trouble(streams: tuple[int, ...], recording: Path
     assert len(read_session(output)) > 10
 
 
+NOT_LOADED = {
+    "demo": ("h5py", "yaml", "threadpoolctl", "sqlalchemy", "carpus.core.detection", "carpus.core.measures"),
+    "info": ("h5py", "threadpoolctl", "sqlalchemy", "carpus.core.detection", "carpus.core.kernels"),
+    "track": ("yaml", "threadpoolctl", "sqlalchemy", "carpus.core.measures", "carpus.core.results.figures"),
+}
+"""By commands that only tell what they take: a tenth of a second each, for whoever types one."""
+
+
+@pytest.mark.parametrize("name", NOT_LOADED)
+def test_a_command_that_tells_what_it_takes_loads_little(name: str) -> None:
+    words = (sys.executable, "-X", "importtime", "-m", "carpus", name, "--help")
+    told = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=True)
+    loaded = {line.rpartition("|")[2].strip() for line in told.stderr.splitlines()}
+    assert f"carpus.app.commands.{name}" in loaded
+    assert not loaded & set(NOT_LOADED[name])
+
+
 ASKED = [["info", "SESSION"], ["info", "SESSION", "--json"], ["--version"], ["track", "--help"]]
 
 

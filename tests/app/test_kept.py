@@ -15,8 +15,8 @@ from carpus.app.__main__ import main
 from carpus.app.of_file import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.errors import OutputNotWritable
-from carpus.core.records.exercise_sets import last_set_up
 from carpus.core.records.keeping import Records
+from carpus.core.records.kept_sets import last_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.set_up import PRACTICE_PATIENT

@@ -18,8 +18,8 @@ from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import OutputExists, SessionUnreadable
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.records import of_sessions
-from carpus.core.records.exercise_sets import last_set_up
 from carpus.core.records.keeping import Records
+from carpus.core.records.kept_sets import last_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import NewSessions, recover
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp

@@ -20,8 +20,8 @@ from carpus.core.measures.by_hand import HandValue
 from carpus.core.records import database, erasure, of_clinic, of_sessions, patients
 from carpus.core.records.changes import new
 from carpus.core.records.corrections import Corrections
-from carpus.core.records.exercise_sets import keep_set_up
 from carpus.core.records.keeping import due, kept_until
+from carpus.core.records.kept_sets import keep_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import PATIENT, SESSION

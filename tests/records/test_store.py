@@ -37,8 +37,8 @@ from carpus.core.names import name_of
 from carpus.core.records import of_clinic, of_sessions, patients, schema
 from carpus.core.records.changes import PRACTICE, new
 from carpus.core.records.database import STORE_FILE, set_aside
-from carpus.core.records.exercise_sets import read_sets
 from carpus.core.records.keeping import due
+from carpus.core.records.kept_sets import read_sets
 from carpus.core.records.log import read_log
 from carpus.core.records.of_clinic import diagnoses, list_diagnosis
 from carpus.core.records.patients import WORDS, columns, suggest_pseudonym

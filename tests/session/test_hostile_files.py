@@ -227,6 +227,13 @@ def dying(path: Path) -> None:
     os.kill(os.getpid(), 11)
 
 
+def test_a_reader_that_starts_is_deaf_to_the_keyboard_before_it_loads_anything() -> None:
+    """A new process imports the module of its entry first: what that loads, an interrupt would end with a traceback."""
+    code = f"import sys; import {reading_process.__name__}; print({{'h5py', 'numpy'}} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
+
+
 @pytest.fixture
 def another(monkeypatch: pytest.MonkeyPatch) -> ReadingProcess:
     """A reading process of this test's own that has more questions; ended with the test."""

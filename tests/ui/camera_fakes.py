@@ -12,8 +12,9 @@ from carpus.core.calibration.camera.board import CHESSBOARD, board_sheet
 from carpus.core.calibration.camera.calibrate import CameraCalibration, DepthCheck, Intrinsics
 from carpus.core.calibration.camera.effect import CELLS, Effect
 from carpus.core.calibration.camera.views import FIELDS, Gathering, Judgement, next_step, target_outline
-from carpus.core.calibration.card.card import FIGURES, CardWatch
+from carpus.core.calibration.card.card import FIGURES
 from carpus.core.calibration.card.chart import CardCheck, verdict_of
+from carpus.core.calibration.card.measure import CardWatch
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.simulation.practice_camera import LENS, Studio, card_scene, poses, texture_of
 from carpus.core.types import Frame

@@ -5,8 +5,9 @@ from __future__ import annotations
 from datetime import datetime
 
 from carpus.core.calibration.camera.board import board_sheet
-from carpus.core.calibration.camera.calibrate import calibrate_camera, keep_calibration, stored_of
+from carpus.core.calibration.camera.calibrate import calibrate_camera
 from carpus.core.calibration.camera.effect import effect_of
+from carpus.core.calibration.camera.keep import keep_calibration, stored_of
 from carpus.core.calibration.camera.views import ASKED_VIEWS, Gathering, next_step, target_outline
 from carpus.core.errors import BoardMissing, BoardViewsAlike
 from carpus.core.pipeline.channels import Newest

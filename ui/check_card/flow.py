@@ -6,8 +6,10 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus.core.calibration.camera.sheet import PAPER_MM
-from carpus.core.calibration.card.card import CardWatch, card_sheets
-from carpus.core.calibration.card.chart import add_check, chart_path, check_of, read_checks, standing_of
+from carpus.core.calibration.card.card import card_sheets
+from carpus.core.calibration.card.chart import add_check, chart_path, check_of, read_checks
+from carpus.core.calibration.card.measure import CardWatch
+from carpus.core.calibration.card.standing import standing_of
 from carpus.core.dates import is_moment, iso
 from carpus.core.pipeline.channels import Newest
 from carpus.core.pipeline.live import LiveSession

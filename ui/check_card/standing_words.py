@@ -10,7 +10,7 @@ from carpus.ui.icons import State
 from carpus.ui.translate import inside, tr
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
-    from carpus.core.calibration.card.chart import Standing
+    from carpus.core.calibration.card.standing import Standing
     from carpus.core.results.camera_said import CameraSaid
 
 

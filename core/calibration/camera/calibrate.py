@@ -1,6 +1,5 @@
 """The whole calibration of a camera: intrinsics by Zhang's method, as OpenCV has it, with its standard deviations; how
-far depth is off the board's plane and whether it lies on the colour picture; what is said of both, and where it is
-kept.
+far depth is off the board's plane and whether it lies on the colour picture; what is said of both.
 
 A reading at a pixel is compared with the distance of the board's plane there, as the colours have it: measured = scale
 * true + offset + slope_u * du + slope_v * dv, where the slopes are how much the plane's distance changes from a pixel
@@ -10,21 +9,16 @@ to the next. Depth that lies du, dv pixels beside the colours shows on a tilted 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from datetime import datetime
-from pathlib import Path
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
 
 from carpus.core.calibration.camera.views import NEAR_FAR_RATIO, BoardView, Judgement, board_of, judge
 from carpus.core.camera import Camera
-from carpus.core.capture.calibrated import new_calibration_path
-from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
-from carpus.core.dates import iso
 from carpus.core.depth_sensor import DepthSensor
-from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike, OutputNotWritable
+from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
 from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray
 
@@ -163,44 +157,6 @@ def _readings(view: BoardView, camera: Camera, turn: FloatArray, shift_m: FloatA
     rows = np.column_stack((measured, true, *slopes))
     kept = (measured > 0.0) & (np.abs(measured - true) < _FURTHEST * true)
     return rows[kept] if np.count_nonzero(kept) >= _LEAST_READINGS else None
-
-
-def stored_of(
-    made: CameraCalibration, serial: str, when: datetime, settings: Mapping[str, str] | None = None
-) -> StoredCalibration:
-    """What is kept of a calibration. ``settings`` of the source: depth that was corrected already counts in."""
-    scale, offset_m = (1.0, 0.0) if made.depth is None else (made.depth.scale, made.depth.offset_m)
-    before = settings or {}
-    old_scale = float(before.get("depth_scale_corrected", 1.0))
-    old_offset_m = 1e-3 * float(before.get("depth_offset_corrected_mm", 0.0))
-    found = made.intrinsics
-    return StoredCalibration(
-        serial,
-        iso(when),
-        old_scale * scale,
-        old_scale * offset_m + old_offset_m,
-        found.error_px,
-        len(found.used),
-    )
-
-
-def write_calibration(path: Path, made: CameraCalibration, stored: StoredCalibration) -> Path:
-    """Write the camera file. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
-    try:
-        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
-    registered = None if made.depth is None else made.depth.is_registered
-    name = stored.serial or "carpus"
-    camera = replace(made.intrinsics.camera, sensor=made.before.sensor)
-    write_camera_info(path, camera, camera_name=name, registered=registered, calibration=stored)
-    return path
-
-
-def keep_calibration(data_folder: Path, made: CameraCalibration, stored: StoredCalibration) -> Path:
-    """Keep it for the camera of ``stored``; earlier ones stay."""
-    when = datetime.fromisoformat(stored.calibrated)
-    return write_calibration(new_calibration_path(data_folder, stored.serial, when), made, stored)
 
 
 GOOD_PX, FAIR_PX, MOST_PX = 0.3, 0.6, 1.2

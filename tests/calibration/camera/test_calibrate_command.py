@@ -13,7 +13,8 @@ import pytest
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
 from carpus.app.sources import open_recording
-from carpus.core.calibration.camera.calibrate import calibrate_camera, stored_of
+from carpus.core.calibration.camera.calibrate import calibrate_camera
+from carpus.core.calibration.camera.keep import stored_of
 from carpus.core.calibration.camera.views import Gathering
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture.calibrated import (

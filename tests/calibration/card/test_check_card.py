@@ -14,26 +14,18 @@ import pytest
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
 from carpus.core.calibration.camera.sheet import PAPER_MM, Disc, Paper, SheetLine, SheetText
-from carpus.core.calibration.card.card import (
-    FIGURES,
-    CardReading,
-    CardWatch,
-    card_sheets,
-    disc_places_m,
-    figures_of,
-    measure_card,
-)
+from carpus.core.calibration.card.card import FIGURES, CardReading, card_sheets, disc_places_m, figures_of
 from carpus.core.calibration.card.chart import (
     CardCheck,
     add_check,
-    camera_ages,
     chart_path,
     read_checks,
     sentence_of,
-    standing_of,
     usual_of,
     verdict_of,
 )
+from carpus.core.calibration.card.measure import CardWatch, measure_card
+from carpus.core.calibration.card.standing import camera_ages, standing_of
 from carpus.core.camera import Camera
 from carpus.core.capture.calibrated import new_calibration_path
 from carpus.core.capture.camera_info import StoredCalibration, write_camera_info

@@ -1,0 +1,52 @@
+"""Where a camera's calibration is kept, and what of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from datetime import datetime
+from pathlib import Path
+
+from carpus.core.calibration.camera.calibrate import CameraCalibration
+from carpus.core.capture.calibrated import new_calibration_path
+from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
+from carpus.core.dates import iso
+from carpus.core.errors import OutputNotWritable
+
+
+def stored_of(
+    made: CameraCalibration, serial: str, when: datetime, settings: Mapping[str, str] | None = None
+) -> StoredCalibration:
+    """What is kept of a calibration. ``settings`` of the source: depth that was corrected already counts in."""
+    scale, offset_m = (1.0, 0.0) if made.depth is None else (made.depth.scale, made.depth.offset_m)
+    before = settings or {}
+    old_scale = float(before.get("depth_scale_corrected", 1.0))
+    old_offset_m = 1e-3 * float(before.get("depth_offset_corrected_mm", 0.0))
+    found = made.intrinsics
+    return StoredCalibration(
+        serial,
+        iso(when),
+        old_scale * scale,
+        old_scale * offset_m + old_offset_m,
+        found.error_px,
+        len(found.used),
+    )
+
+
+def write_calibration(path: Path, made: CameraCalibration, stored: StoredCalibration) -> Path:
+    """Write the camera file. Raises :class:`OutputExists` or :class:`OutputNotWritable`."""
+    try:
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
+    registered = None if made.depth is None else made.depth.is_registered
+    name = stored.serial or "carpus"
+    camera = replace(made.intrinsics.camera, sensor=made.before.sensor)
+    write_camera_info(path, camera, camera_name=name, registered=registered, calibration=stored)
+    return path
+
+
+def keep_calibration(data_folder: Path, made: CameraCalibration, stored: StoredCalibration) -> Path:
+    """Keep it for the camera of ``stored``; earlier ones stay."""
+    when = datetime.fromisoformat(stored.calibrated)
+    return write_calibration(new_calibration_path(data_folder, stored.serial, when), made, stored)
