@@ -16,7 +16,7 @@ from carpus.core.records.library import Library
 from carpus.core.records.session_list import TRIALS_FOLDER
 from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.records.values import SessionEntry
-from carpus.core.results.repetition_rows import PASSIVE, repetitions_of
+from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.results.seen import best_motion
 from carpus.core.session.disk import free_name
 from carpus.core.session.reader import read_detections, read_outline, read_session
@@ -125,10 +125,10 @@ class Corrections:
             library.index.rename_exercise(new.session_id, entry.exercise)
         with suppress(SessionUnreadable):
             choices = library.choices(session_id)
-            moved = {number: why for number, why in choices.left_out.items() if why in (PASSIVE, "")}
-            if moved:  # who moved the hand is true of the same moments
+            moved = dict(choices.left_out)
+            if moved:  # pain, help, another exercise: as true of the same moments, and nothing counts again unasked
                 moved = _found_again(moved, library.session(session_id), library.session(new.session_id))
-            if choices.not_counted or moved:  # the rest speaks of repetitions that are found anew
+            if choices.not_counted or moved:  # edges are those of repetitions that are found anew
                 library.keep_choices(new.session_id, replace(choices, left_out=moved, edges_s={}))
         return new.session_id
 

@@ -159,6 +159,22 @@ def test_a_wanted_result_counts_and_the_old_one_stays(library: Library, stored: 
     assert library.choices(new) == RepetitionChoices(not_counted=True, not_counted_reason="discs lost")
 
 
+def test_what_was_left_out_of_the_old_result_does_not_count_in_the_new_one(
+    library: Library,
+    stored: Stored,  # noqa: F811
+) -> None:
+    _, session_id = entered(library, stored)
+    figures = session_figures(library.session(session_id))
+    number = next(number for number, one in enumerate(figures.repetitions) if one.counts)
+    library.keep_choices(session_id, RepetitionChoices({number: "pain"}))
+    corrections = Corrections(library)
+    new = corrections.use(session_id, made(corrections, session_id, stored))
+    again = session_figures(library.session(new), library.choices(new))
+    left_out = [one for one in again.repetitions if not one.counts]
+    assert [one.reason for one in left_out] == ["pain"]
+    assert left_out[0].start_s == pytest.approx(figures.repetitions[number].start_s, abs=0.3)
+
+
 def test_who_moved_the_hand_is_still_known_of_the_new_result(library: Library, stored: Stored) -> None:  # noqa: F811
     _, session_id = entered(library, stored)
     corrections = Corrections(library)

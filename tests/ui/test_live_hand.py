@@ -130,6 +130,23 @@ def test_a_joint_counts_as_measured_only_while_a_disc_beyond_it_is_seen() -> Non
     assert {name for name, state in seen.items() if state == "hidden"} == {"DIP4", "TIP4", "MCP1"}
 
 
+@pytest.mark.parametrize(("every", "points_s"), [(1, 10.0), (2, 15.0)])
+def test_a_hand_that_is_seen_has_whole_curves_at_every_rate(every: int, points_s: float) -> None:
+    """Of 30 and of 15 pictures a second; one picture that is missing is no gap, half a second is."""
+    frames = [
+        replace(frame, index=k, timestamp_s=k * every / 30.0) for k, frame in enumerate(feed_of([]).frames[:300:every])
+    ]
+    history = History(HAND21)
+    history.append([*frames[:31], *frames[32:]])
+    block = history.block()
+    assert 1.0 / np.median(np.diff(block.time_s)) == pytest.approx(points_s)
+    series = block.series(FIGURES.index(Figure(4, "middle")))
+    assert series.gaps_s() == []
+    last = frames[-1]
+    history.append([replace(last, index=last.index + 19, timestamp_s=last.timestamp_s + 19 * every / 30.0)])
+    assert len(history.block().series(0).gaps_s()) == 1
+
+
 def test_the_band_of_a_hidden_joint_grows() -> None:
     history = History(HAND21)
     history.append(feed_of([(1.0, 9.0, "DIP2"), (1.0, 9.0, "TIP2")]).frames[:90])

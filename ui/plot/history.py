@@ -15,7 +15,7 @@ from carpus.core.measures.forearm import USUAL_CENTRE_M, rotation_in_place, wris
 from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
 from carpus.ui.figures import FIGURES
 from carpus.ui.joint_figures import BoolArray, figures_of, joints_of, measured_figures, mix
-from carpus.ui.plot.series import Series
+from carpus.ui.plot.series import LONGEST_STEP_S, Series
 
 SHOWN_S = 10.0
 KEPT_S = 11.0
@@ -24,8 +24,9 @@ Seen = Literal["seen", "partly", "hidden"]
 SHARE_S = 0.4
 """How well a disc is seen is judged over this long: hidden after 0.3 s, and seen again as soon."""
 SEEN_SHARE, HIDDEN_SHARE = 0.75, 0.25
-EVERY = 3
-"""Small panels draw every third frame: ten points a second, two pixels each on a large screen."""
+POINT_EVERY_S = 0.1
+"""Small panels draw every third frame of thirty a second: ten points, two pixels each on a large screen. Of fewer
+frames they draw more, or the points would lie further apart than what is joined."""
 HOME_S = 0.5
 """The forearm's place is the median over this long."""
 FIT_EVERY_S = 1.0
@@ -53,11 +54,12 @@ class Block:
     sd_deg: FloatArray
     predicted: BoolArray
     start_s: float
+    longest_step_s: float
 
     def series(self, figure: int) -> Series:
         return Series(
             self.time_s, self.value_deg[:, figure], self.sd_deg[:, figure], self.predicted[:, figure],
-            start_s=self.start_s,
+            self.longest_step_s, self.start_s,
         )  # fmt: skip
 
 
@@ -172,17 +174,19 @@ class History:
 
     # --- fingers ------------------------------------------------------------------------------------------
     def block(self, *, speeds: bool = False) -> Block:
-        """The curves of all figures over the shown time up to now, every third frame; speeds in degrees/s without
-        sign."""
+        """The curves of all figures over the shown time up to now; speeds in degrees/s without sign."""
         rows, hand, now_s = self._rows, self._hand, self.now_s
         if not self.has_fingers:
             none = np.empty((0, len(FIGURES)))
-            return Block(np.empty(0), none, none, none.astype(bool), now_s)
-        part = (rows[:, _TIME] >= now_s - SHOWN_S) & ((self._index % EVERY == 0) | (len(rows) < EVERY))
+            return Block(np.empty(0), none, none, none.astype(bool), now_s, LONGEST_STEP_S)
+        frame_s = float(rows[-1, _TIME] - rows[0, _TIME]) / max(int(self._index[-1] - self._index[0]), 1)
+        every = max(1, int(POINT_EVERY_S / frame_s + 0.25)) if frame_s > 0.0 else 1
+        longest_s = LONGEST_STEP_S + 2 * (every - 1) * frame_s  # what is left out at both ends of a gap is none
+        part = (rows[:, _TIME] >= now_s - SHOWN_S) & (self._index % every == 0)
         value, sd = hand.value_deg[part], hand.sd_deg[part]
         if speeds:
             value, sd = np.abs(hand.speed_deg_s[part]), np.zeros_like(value)
-        return Block(rows[part, _TIME] - now_s, value, sd, ~hand.measured[part] | self._mix.inferred, now_s)
+        return Block(rows[part, _TIME] - now_s, value, sd, ~hand.measured[part] | self._mix.inferred, now_s, longest_s)
 
     def figure_value(self, figure: int) -> tuple[float, float, bool]:
         """Newest value, its standard deviation, and whether its discs have been seen of late, as :meth:`seen` says."""
