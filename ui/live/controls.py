@@ -132,14 +132,20 @@ class LightView(QWidget):
         remedy_width = QFontMetricsF(remedy_face).horizontalAdvance(self.lamp.remedy)
         beside = left + state_width + 18 + remedy_width <= self.width() - 12
         middle = self.height() / 2
-        state_at = QPointF(left, middle + 10 * scale if beside else middle - 3 * scale)
-        remedy_at = QPointF(left + state_width + 18, state_at.y()) if beside else QPointF(left, middle + 24 * scale)
+        baseline = middle + 10 * scale if beside else middle - 3 * scale
+        remedy_at = QPointF(left + state_width + 18, baseline) if beside else QPointF(left, middle + 24 * scale)
+        if not beside and remedy_width > room:  # what is to be done is read whole, on two lines
+            large, high = QFontMetricsF(state_face), 2 * QFontMetricsF(remedy_face).lineSpacing()
+            baseline = middle - (large.height() + high) / 2 + large.ascent()
+            below = QRectF(left, baseline + large.descent(), room, high)
+        else:
+            below = QRectF()
         painter.setFont(state_face)
         painter.setPen(color(word))
-        painter.drawText(state_at, self.lamp.state)
+        painter.drawText(QPointF(left, baseline), self.lamp.state)
         painter.setFont(remedy_face)
         painter.setPen(color(remedy))
-        room = self.width() - remedy_at.x() - 8
-        painter.drawText(
-            remedy_at, QFontMetricsF(remedy_face).elidedText(self.lamp.remedy, Qt.TextElideMode.ElideRight, room)
-        )
+        if below.isEmpty():
+            painter.drawText(remedy_at, self.lamp.remedy)
+        else:
+            painter.drawText(below, int(Qt.TextFlag.TextWordWrap), self.lamp.remedy)
