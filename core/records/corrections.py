@@ -20,7 +20,7 @@ from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.results.seen import best_motion
 from carpus.core.session.disk import free_name
 from carpus.core.session.reader import read_detections, read_outline, read_session
-from carpus.core.session.values import DetectionTable, Session
+from carpus.core.session.values import DetectionTable, RepetitionRow, Session
 from carpus.core.types import ByteImage, FloatArray
 
 SESSION_SUFFIX = ".h5"
@@ -137,14 +137,20 @@ class Corrections:
 
 
 def _found_again(said: Mapping[int, str], old: Session, new: Session) -> dict[int, str]:
-    """What was said of repetitions, by the numbers of those of a new result that have their middle in them."""
+    """What was said of repetitions, by the numbers of those of a new result that are mostly the same moments."""
     before = repetitions_of(old).rows
     return {
         number: why
         for number, row in enumerate(repetitions_of(new).rows)
         for earlier, why in said.items()
-        if earlier < len(before) and before[earlier].start_s <= 0.5 * (row.start_s + row.end_s) <= before[earlier].end_s
+        if earlier < len(before) and _mostly_same(before[earlier], row)
     }
+
+
+def _mostly_same(one: RepetitionRow, other: RepetitionRow) -> bool:
+    """Whether half of the shorter one lies in the longer: one may be found as two, or two as one."""
+    both_s = min(one.end_s, other.end_s) - max(one.start_s, other.start_s)
+    return both_s >= 0.5 * min(one.end_s - one.start_s, other.end_s - other.start_s)
 
 
 def difference(old: Session, new: Session) -> Difference:

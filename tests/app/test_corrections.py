@@ -7,6 +7,7 @@ import shutil
 import threading
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import fields
 from datetime import datetime
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.pipeline.correction import CorrectionTask, correct, task_of
-from carpus.core.records.corrections import Corrections, Waiting, difference
+from carpus.core.records.corrections import Corrections, Waiting, _found_again, difference
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import recover
@@ -23,6 +24,7 @@ from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
+from carpus.core.session.values import RepetitionRow, Repetitions
 from carpus.ui.background import Background
 from carpus.ui.correct.flow import CorrectFlow
 from carpus.ui.now_open import NowOpen
@@ -173,6 +175,28 @@ def test_what_was_left_out_of_the_old_result_does_not_count_in_the_new_one(
     left_out = [one for one in again.repetitions if not one.counts]
     assert [one.reason for one in left_out] == ["pain"]
     assert left_out[0].start_s == pytest.approx(figures.repetitions[number].start_s, abs=0.3)
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "left_out"),
+    [
+        ([(0.9, 1.9), (3.07, 6.24)], [(0.87, 4.61), (4.61, 7.94)], {0, 1}),  # found as two where it was one and a piece
+        ([(0.0, 8.0)], [(0.0, 3.9), (4.1, 8.0)], {0, 1}),
+        ([(0.0, 3.9)], [(0.0, 8.0)], {0}),
+        ([(0.0, 4.0)], [(0.1, 4.1), (3.0, 7.0)], {0}),
+        ([(0.0, 4.0)], [(4.0, 8.0)], set()),
+    ],
+)
+def test_what_was_left_out_is_found_by_its_moments(
+    monkeypatch: pytest.MonkeyPatch, before: list[tuple[float, float]], after: list[tuple[float, float]],
+    left_out: set[int],
+) -> None:  # fmt: skip
+    def found(times_s: list[tuple[float, float]]) -> Repetitions:
+        unknown = dict.fromkeys(one.name for one in fields(RepetitionRow))
+        return Repetitions("", tuple(RepetitionRow(**{**unknown, "start_s": a, "end_s": b}) for a, b in times_s))  # type: ignore[arg-type]
+
+    monkeypatch.setattr("carpus.core.records.corrections.repetitions_of", found)
+    assert set(_found_again(dict.fromkeys(range(len(before)), "pain"), before, after)) == left_out  # type: ignore[arg-type]
 
 
 def test_who_moved_the_hand_is_still_known_of_the_new_result(library: Library, stored: Stored) -> None:  # noqa: F811
