@@ -70,6 +70,7 @@ age age
 desktop-file-validate desktop-file-utils
 update-mime-database shared-mime-info
 apt-ftparchive apt-utils
+dpkg-parsechangelog dpkg-dev
 appstreamcli appstream
 cc gcc libc6-dev
 "
