@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import yaml
 
 from carpus.core.camera import COEFFICIENTS, DEFAULT_CAMERA, Camera, DistortionModel
@@ -22,6 +23,7 @@ _USUAL_MODEL: DistortionModel = "plumb_bob"
 _MOST_BYTES = 1_000_000
 _MOST_SIDE_PX = 100_000
 _SCALES, _MOST_OFFSET_M = (0.8, 1.25), 0.1
+_FOUND_BACK_PX = 2.0
 _FOCAL_SHARE = (0.2, 10.0)
 """Focal length over the picture's width: beyond these a camera sees more than 136 or less than 6 degrees."""
 
@@ -178,7 +180,22 @@ def _camera(path: Path, content: dict[str, Any]) -> Camera:
             ),
         )
     lens = (*distortion, *[0.0] * (wanted - len(distortion)))
-    return Camera(fx, fy, cx, cy, width, height, lens, "file", _sensor(path, content), model)
+    camera = Camera(fx, fy, cx, cy, width, height, lens, "file", _sensor(path, content), model)
+    if not _is_lens(camera):
+        raise CameraFileUnreadable(
+            path,
+            phrase("distortion_coefficients are no lens’s: points do not find back to their places"),
+        )
+    return camera
+
+
+def _is_lens(camera: Camera) -> bool:
+    """Whether undistorted pixels of the picture find back, but for those at its very edge."""
+    across, down = (np.linspace(0.1, 0.9, 5) * size for size in (camera.width_px, camera.height_px))
+    pixel = np.stack(np.meshgrid(across, down), axis=-1).reshape(-1, 2)
+    with np.errstate(all="ignore"):
+        off_px = np.abs(camera.distort(camera.undistort(pixel)) - pixel).max()
+    return bool(off_px <= _FOUND_BACK_PX)
 
 
 def _sensor(path: Path, content: dict[str, Any]) -> DepthSensor:

@@ -6984,6 +6984,10 @@
         <translation>meinten Sie „{meant}“? Es gibt: {names}</translation>
     </message>
     <message>
+        <source>distortion_coefficients are no lens’s: points do not find back to their places</source>
+        <translation>distortion_coefficients gehören zu keinem Objektiv: Punkte finden nicht an ihren Platz zurück</translation>
+    </message>
+    <message>
         <source>there are none yet</source>
         <translation>es gibt noch keine</translation>
     </message>

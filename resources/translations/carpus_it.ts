@@ -6972,6 +6972,10 @@
         <translation>si intendeva “{meant}”? Ci sono: {names}</translation>
     </message>
     <message>
+        <source>distortion_coefficients are no lens’s: points do not find back to their places</source>
+        <translation>distortion_coefficients non è di alcun obiettivo: i punti non ritrovano il loro posto</translation>
+    </message>
+    <message>
         <source>there are none yet</source>
         <translation>non ce ne sono ancora</translation>
     </message>

@@ -115,6 +115,8 @@ def test_a_file_of_ros_is_read(tmp_path: Path) -> None:
         ("[537.5,", "[wide,", "camera_matrix"),
         ("0.0]\nrect", "0.0\nrect", "not YAML, line"),
         ("[1e-05, -2.5e-1, 0.001,", "[", "2 numbers"),
+        ("[1e-05, -2.5e-1, 0.001,", "[30.0, 0.0, 0.001,", "no lens"),
+        ("[1e-05, -2.5e-1, 0.001,", "[1e9, 0.0, 0.001,", "no lens"),
         ("registered: true", "registered: perhaps", "registered"),
         ("image_width: 640", "\timage_width: 640", "YAML"),
     ],
