@@ -9,10 +9,31 @@ import os
 import re
 from collections.abc import Callable
 from pathlib import Path
+from types import TracebackType
+from typing import Self
 
 from carpus.core.errors import CarpusFault, DiskFull, OutputNotWritable
 
 FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
+
+
+class Writing:
+    """A file in the making: closed where its block ends, abandoned where that ends by a fault, with what was taken."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, fault: BaseException | None, _: TracebackType | None) -> None:
+        if kind is None:
+            self.close()
+        else:
+            self.abandon()
+
+    def close(self) -> None:
+        raise NotImplementedError
+
+    def abandon(self) -> None:
+        raise NotImplementedError
 
 
 def write_fault(path: Path, cause: OSError | RuntimeError) -> CarpusFault:

@@ -9,13 +9,13 @@ import uuid
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 import numpy as np
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.durable import Writing
 from carpus.core.errors import (
     CarpusFault,
     DiskFull,
@@ -48,7 +48,7 @@ class Fallback:
     told: Callable[[CarpusFault], None]
 
 
-class SessionWriter:
+class SessionWriter(Writing):
     """One session file in the making; used by one thread, from :meth:`create` to :meth:`close`.
 
     Rows are held in memory and written, flushed and synchronised together, so that between two flushes the file
@@ -89,17 +89,6 @@ class SessionWriter:
         Raises :class:`OutputExists`, :class:`OutputNotWritable` or :class:`DiskFull`; then nothing is left behind.
         """
         return cls(path, FileBeginning(header, camera, calibration, raw_depth_unit_m), clock, fallback)
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if kind is None:
-            self.close()
-        else:
-            self.abandon()
 
     @property
     def part_path(self) -> Path:

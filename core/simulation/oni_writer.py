@@ -10,7 +10,6 @@ import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
-from types import TracebackType
 from typing import BinaryIO, Literal
 
 import numpy as np
@@ -22,7 +21,7 @@ from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType, en
 from carpus.core.capture.files.pictures import encode_color
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.video_mode import PixelFormat
-from carpus.core.durable import private
+from carpus.core.durable import Writing, private
 from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
@@ -49,7 +48,7 @@ class _Stream:
         self.entries: list[tuple[int, int]] = []
 
 
-class OniWriter:
+class OniWriter(Writing):
     """Writes one recording. Use as a context manager; the file is whole only after :meth:`close`.
 
     >>> import tempfile
@@ -93,15 +92,6 @@ class OniWriter:
         for stream in self._streams.values():
             fields = oni.DATA_BEGIN_FIELDS.pack(0xFFFFFFFF, NOT_KNOWN)
             self._record(RecordType.DATA_BEGIN, stream.node, fields)
-
-    def __enter__(self) -> OniWriter:
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, fault: BaseException | None, _: TracebackType | None) -> None:
-        if kind is None:
-            self.close()
-        else:
-            self.abandon()
 
     def add_color(self, color_rgb: ByteImage, timestamp_s: float) -> None:
         """Append a colour picture (H, W, 3); times rise strictly."""

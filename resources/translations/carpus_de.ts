@@ -536,10 +536,6 @@
         <translation>nicht beurteilt: nur eine von beiden hat es</translation>
     </message>
     <message>
-        <source>no change beyond error</source>
-        <translation type="vanished">im Rahmen des Fehlers</translation>
-    </message>
-    <message>
         <source>improved, just beyond error</source>
         <translation>verbessert, knapp über Fehler</translation>
     </message>
@@ -2068,14 +2064,6 @@
         <translation>Diese Stelle nehmen</translation>
     </message>
     <message>
-        <source>with the names</source>
-        <translation type="vanished">mit Namen</translation>
-    </message>
-    <message>
-        <source>after marker {number}</source>
-        <translation type="vanished">nach Marker {number}</translation>
-    </message>
-    <message>
         <source>{done} of {asked} found</source>
         <translation>{done} von {asked}</translation>
     </message>
@@ -2436,18 +2424,6 @@
         <translation>Noch keine gezählt</translation>
     </message>
     <message>
-        <source>No camera needed</source>
-        <translation type="vanished">Keine Kamera nötig</translation>
-    </message>
-    <message>
-        <source>Simulated camera</source>
-        <translation type="vanished">Simulierte Kamera</translation>
-    </message>
-    <message>
-        <source>No session yet</source>
-        <translation type="vanished">Noch keine Sitzung</translation>
-    </message>
-    <message>
         <source>Carpus</source>
         <translation>Carpus</translation>
     </message>
@@ -2676,10 +2652,6 @@
         <translation>{count} Sitzungen sind ausgelassen.</translation>
     </message>
     <message>
-        <source>Sessions that are left out, or measured otherwise, are not compared: their rings say why.</source>
-        <translation type="vanished">Ausgelassene oder anders gemessene Sitzungen werden nicht verglichen: Ihre Ringe sagen, warum.</translation>
-    </message>
-    <message>
         <source>Nothing to compare: {left_out}</source>
         <translation>Nichts zu vergleichen: {left_out}</translation>
     </message>
@@ -2706,10 +2678,6 @@
     <message>
         <source>{name} has lost {size} since {day}.</source>
         <translation>{name} hat seit {day} {size} verloren.</translation>
-    </message>
-    <message>
-        <source>No change beyond measurement error since {day}.</source>
-        <translation type="vanished">Seit {day} keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
         <source>Not judged: the joints were hidden in part.</source>
@@ -2750,10 +2718,6 @@
     <message>
         <source>{name}: {change}.</source>
         <translation>{name}: {change}.</translation>
-    </message>
-    <message>
-        <source>{name}: no change beyond measurement error.</source>
-        <translation type="vanished">{name}: keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
         <source>What is left out, or was measured otherwise, is not compared.</source>
@@ -2918,10 +2882,6 @@
     <message>
         <source>Counts and dates only, without simulated sessions</source>
         <translation>Nur Anzahl und Datum, ohne simulierte Sitzungen</translation>
-    </message>
-    <message>
-        <source>Counts and dates only</source>
-        <translation type="vanished">Nur Anzahl und Datum</translation>
     </message>
     <message>
         <source>The clinic</source>
@@ -3480,10 +3440,6 @@
         <translation>SIMULIERT</translation>
     </message>
     <message>
-        <source>{ordinal}, active</source>
-        <translation type="vanished">{ordinal}, aktiv</translation>
-    </message>
-    <message>
         <source>active and passive</source>
         <translation>aktiv und passiv</translation>
     </message>
@@ -3704,10 +3660,6 @@
         <translation>ohne das Passive</translation>
     </message>
     <message>
-        <source>number {number} left out: not seen well enough</source>
-        <translation type="vanished">Nummer {number} ausgelassen: nicht gut genug gesehen</translation>
-    </message>
-    <message>
         <source>one range over the whole recording; no repetitions</source>
         <translation>ein Umfang über die ganze Aufnahme; keine Wiederholungen</translation>
     </message>
@@ -3774,10 +3726,6 @@
     <message>
         <source>whole arc</source>
         <translation>Gesamtumfang</translation>
-    </message>
-    <message>
-        <source>No change beyond measurement error since {when}.</source>
-        <translation type="vanished">Seit {when} keine Änderung über den Messfehler hinaus.</translation>
     </message>
     <message>
         <source>No active range was measured.</source>
@@ -4472,10 +4420,6 @@
         <translation>Das war eine ganze Sitzung; der Pfeil oben links führt zurück, am Ende zu den Patienten.</translation>
     </message>
     <message>
-        <source>no change</source>
-        <translation type="vanished">unverändert</translation>
-    </message>
-    <message>
         <source>the other hand</source>
         <translation>andere Hand</translation>
     </message>
@@ -4544,10 +4488,6 @@
         <translation>„Fehler“ ist der kleinste Unterschied, der Änderung heißt: von Fachleuten für Carpus gewählt, nicht veröffentlicht; bei einem Gesamtumfang mit seinen zwei Enden das √2-Fache. Für gleiche Marker, Seite und gleichen Aufbau, bis die Einrichtung selbst gemessen hat.</translation>
     </message>
     <message>
-        <source>the same</source>
-        <translation type="vanished">gleich</translation>
-    </message>
-    <message>
         <source>{size} more</source>
         <translation>{size} mehr</translation>
     </message>
@@ -4610,10 +4550,6 @@
     <message>
         <source>All other pictures are used, and the gaps are marked.</source>
         <translation>Alle anderen Bilder werden verwendet, und die Lücken sind gekennzeichnet.</translation>
-    </message>
-    <message>
-        <source>All sessions are safe; names and notes are missing. The damaged list is kept as {subject}.</source>
-        <translation type="vanished">Alle Sitzungen sind sicher; Namen und Notizen fehlen. Die beschädigte Liste ist aufbewahrt: {subject}.</translation>
     </message>
     <message>
         <source>Another Carpus is using the patients of {subject}.</source>
@@ -4874,10 +4810,6 @@
     <message>
         <source>Fonts</source>
         <translation>Schriften</translation>
-    </message>
-    <message>
-        <source>For the window, run: pip install {name}</source>
-        <translation type="vanished">Für das Fenster: pip install {name}</translation>
     </message>
     <message>
         <source>Free some space, or choose another disk.</source>
@@ -5212,10 +5144,6 @@
         <translation>Zeigen Sie die Tafel überall im Bild, nach allen vier Seiten geneigt, nah und fern, und halten Sie sie still.</translation>
     </message>
     <message>
-        <source>Single exercises can be measured as ever. Put a copy of the file back, or make the sets anew.</source>
-        <translation type="vanished">Einzelne Übungen lassen sich messen wie immer. Legen Sie eine Kopie der Datei zurück, oder legen Sie die Folgen neu an.</translation>
-    </message>
-    <message>
         <source>Some pictures are smaller and have been enlarged: {subject} ({detail}).</source>
         <translation>Einige Bilder sind kleiner und wurden vergrößert: {subject} ({detail}).</translation>
     </message>
@@ -5316,10 +5244,6 @@
         <translation>ChArUco-Tafel {columns} x {rows}, Felder von {size} mm</translation>
     </message>
     <message>
-        <source>Install the udev rules that come with Orbbec&apos;s OpenNI2 package, then plug the camera in again.</source>
-        <translation type="vanished">Installieren Sie die udev-Regeln aus Orbbecs OpenNI2-Paket, und schließen Sie die Kamera neu an.</translation>
-    </message>
-    <message>
         <source>It needs a USB 2 port.</source>
         <translation>Sie braucht einen USB-2-Anschluss.</translation>
     </message>
@@ -5342,14 +5266,6 @@
     <message>
         <source>RealSense driver</source>
         <translation>RealSense-Treiber</translation>
-    </message>
-    <message>
-        <source>Run: sudo apt-get install libopenni2-0, which brings them. Then plug the camera in again.</source>
-        <translation type="vanished">Ausführen: sudo apt-get install libopenni2-0, das bringt sie mit. Dann die Kamera neu anschließen.</translation>
-    </message>
-    <message>
-        <source>Run: {command}</source>
-        <translation type="vanished">Ausführen: {command}</translation>
     </message>
     <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
@@ -5476,10 +5392,6 @@
         <translation>Die Liste der Patienten ist beschädigt: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>The list of patients was damaged ({detail}), so Carpus has made a new one from the sessions.</source>
-        <translation type="vanished">Die Liste der Patienten war beschädigt ({detail}); Carpus hat aus den Sitzungen eine neue erstellt.</translation>
-    </message>
-    <message>
         <source>The marker of the {markers} is {value} mm off its place (up to {limit} mm is good).</source>
         <translation>{markers}: Der Marker liegt {value} mm neben seinem Platz (bis {limit} mm ist gut).</translation>
     </message>
@@ -5498,10 +5410,6 @@
     <message>
         <source>The old result is unchanged.</source>
         <translation>Das alte Ergebnis ist unverändert.</translation>
-    </message>
-    <message>
-        <source>The packed program has no driver for it: install Carpus with pip, then run: {command}</source>
-        <translation type="vanished">Das fertige Paket hat keinen Treiber dafür: Installieren Sie Carpus mit pip, dann ausführen: {command}</translation>
     </message>
     <message>
         <source>The pictures of the board are too few or too alike: {subject} ({detail}).</source>
@@ -5554,10 +5462,6 @@
     <message>
         <source>The session is unchanged, and its repetitions can be left out.</source>
         <translation>Die Sitzung ist unverändert, und Wiederholungen lassen sich auslassen.</translation>
-    </message>
-    <message>
-        <source>The sets of exercises cannot be read: {subject} ({detail}).</source>
-        <translation type="vanished">Die Übungsfolgen sind nicht lesbar: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The times of the recording do not rise: {subject} ({detail}).</source>
@@ -5654,10 +5558,6 @@
     <message>
         <source>This session was changed after it was finished: {subject}.</source>
         <translation>Diese Sitzung wurde nach ihrem Ende verändert: {subject}.</translation>
-    </message>
-    <message>
-        <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
-        <translation type="vanished">Diese Version beendet das Programm unter Python 3.11. Ausführen: pip install &quot;PySide6-Essentials&lt;6.12&quot;</translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
@@ -6236,22 +6136,6 @@
         <translation>viel zu lang für Klicks</translation>
     </message>
     <message>
-        <source>names in it are no text</source>
-        <translation type="vanished">Namen darin sind kein Text</translation>
-    </message>
-    <message>
-        <source>not installed; only a RealSense and its recordings need it</source>
-        <translation type="vanished">nicht installiert; nur eine RealSense und ihre Aufnahmen brauchen ihn</translation>
-    </message>
-    <message>
-        <source>the form of the reports cannot be read</source>
-        <translation type="vanished">die Form der Berichte ist nicht lesbar</translation>
-    </message>
-    <message>
-        <source>the logo of the reports is gone; choose it again</source>
-        <translation type="vanished">das Logo der Berichte ist weg; wählen Sie es neu</translation>
-    </message>
-    <message>
         <source>no MOT: it has no end of its header</source>
         <translation>kein MOT: Der Kopf hat kein Ende</translation>
     </message>
@@ -6400,10 +6284,6 @@
         <translation>nicht in der Liste der Patienten</translation>
     </message>
     <message>
-        <source>not installed; only an Orbbec Femto, Gemini or Astra 2 needs it</source>
-        <translation type="vanished">nicht installiert; nur eine Orbbec Femto, Gemini oder Astra 2 braucht ihn</translation>
-    </message>
-    <message>
         <source>not the part file of a session</source>
         <translation>nicht die Teildatei einer Sitzung</translation>
     </message>
@@ -6458,10 +6338,6 @@
     <message>
         <source>straight_fingers is not five times true or false, thumb to little</source>
         <translation>straight_fingers ist nicht fünfmal true oder false, Daumen bis Kleinfinger</translation>
-    </message>
-    <message>
-        <source>the comment cannot be read</source>
-        <translation type="vanished">die Bemerkung ist nicht lesbar</translation>
     </message>
     <message>
         <source>the curves match by {match} at best: is it the same movement?</source>
@@ -6638,10 +6514,6 @@
     <message>
         <source>version {version}, this Carpus reads up to {count}</source>
         <translation>Version {version}, dieses Carpus liest bis {count}</translation>
-    </message>
-    <message>
-        <source>what was left out cannot be read</source>
-        <translation type="vanished">das Ausgelassene ist nicht lesbar</translation>
     </message>
     <message>
         <source>wrist</source>
@@ -7044,18 +6916,6 @@
         <translation>Diese Datei ist kein Bild, das Carpus lesen kann. Wählen Sie eine PNG- oder JPEG-Datei.</translation>
     </message>
     <message>
-        <source>The hand rests until then.</source>
-        <translation type="vanished">Bis dahin ruht die Hand.</translation>
-    </message>
-    <message>
-        <source>The movement of the simulated hand is still being drawn.</source>
-        <translation type="vanished">Die Bewegung der simulierten Hand wird noch gezeichnet.</translation>
-    </message>
-    <message>
-        <source>Wait a moment; it moves by itself.</source>
-        <translation type="vanished">Warten Sie einen Moment; sie bewegt sich von selbst.</translation>
-    </message>
-    <message>
         <source>Names are right</source>
         <translation>Namen stimmen</translation>
     </message>
@@ -7066,10 +6926,6 @@
     <message>
         <source>Look whether every name is on its disc, then press Enter; click the discs that are asked for above.</source>
         <translation>Schauen Sie, ob jeder Name auf seinem Punkt liegt, dann Eingabe; klicken Sie die Punkte an, nach denen oben gefragt wird.</translation>
-    </message>
-    <message>
-        <source>This needs the Python package {detail} (carpus[{subject}]), which is not installed.</source>
-        <translation type="vanished">Dafür braucht es das Python-Paket {detail} (carpus[{subject}]); es ist nicht installiert.</translation>
     </message>
     <message>
         <source>Measure</source>
@@ -7088,20 +6944,8 @@
         <translation>eine Sitzung oder der Verlauf als PDF auf Englisch, Deutsch oder Italienisch</translation>
     </message>
     <message>
-        <source>a session: picture, curves, repetitions, corrected where need be</source>
-        <translation type="vanished">eine Sitzung: Bild, Kurven, Wiederholungen, korrigiert wo nötig</translation>
-    </message>
-    <message>
         <source>how wrist and fingers move, live, every angle with how sure it is</source>
         <translation>wie sich Handgelenk und Finger bewegen, live, jeder Winkel mit seiner Unsicherheit</translation>
-    </message>
-    <message>
-        <source>of a patient from session to session, beyond measurement error or not</source>
-        <translation type="vanished">eines Patienten von Sitzung zu Sitzung, über den Messfehler hinaus oder nicht</translation>
-    </message>
-    <message>
-        <source>to open formats: CSV, JSON, C3D, TRC, MOT, BIDS</source>
-        <translation type="vanished">in offene Formate: CSV, JSON, C3D, TRC, MOT, BIDS</translation>
     </message>
     <message>
         <source>runs the other way: opposite sign?</source>
@@ -7376,10 +7220,6 @@
         <translation>keine Änderung nachgewiesen</translation>
     </message>
     <message>
-        <source>Install it with the pip of Carpus’s own environment; in a checkout that is “.venv/bin/pip”.</source>
-        <translation type="vanished">Installieren Sie es mit dem pip der eigenen Umgebung von Carpus; in einem Checkout ist das „.venv/bin/pip“.</translation>
-    </message>
-    <message>
         <source>Each joint where it was bent most; ± is the spread between repetitions.</source>
         <translation>Jedes Gelenk dort, wo es am meisten gebeugt war; ± ist die Streuung zwischen den Wiederholungen.</translation>
     </message>
@@ -7500,20 +7340,8 @@
         <translation>Es darf ziehen, aber nicht wehtun. Tut es nach einer Stunde noch weh, das nächste Mal weniger machen und uns anrufen.</translation>
     </message>
     <message>
-        <source>{count} pictures are missing, the rest is kept: close other programs</source>
-        <translation type="vanished">{count} Bilder fehlen, der Rest ist da: andere Programme schließen</translation>
-    </message>
-    <message>
         <source>The computer is too busy</source>
         <translation>Der Computer ist überlastet</translation>
-    </message>
-    <message>
-        <source>The figures come {seconds} s late; every picture is kept</source>
-        <translation type="vanished">Die Werte kommen {seconds} s später; kein Bild geht verloren</translation>
-    </message>
-    <message>
-        <source>The figures come {seconds} s late</source>
-        <translation type="vanished">Die Werte kommen {seconds} s später</translation>
     </message>
     <message>
         <source>{count} pictures are missing: close other programs</source>
@@ -7766,54 +7594,6 @@
         <translation>Ordner für Sicherungen, auf anderem Datenträger</translation>
     </message>
     <message>
-        <source>not chosen yet</source>
-        <translation type="vanished">noch nicht gewählt</translation>
-    </message>
-    <message>
-        <source>not there now</source>
-        <translation type="vanished">jetzt nicht da</translation>
-    </message>
-    <message>
-        <source>{free} GB free</source>
-        <translation type="vanished">{free} GB frei</translation>
-    </message>
-    <message>
-        <source>There is no back-up yet.</source>
-        <translation type="vanished">Es gibt noch keine Sicherung.</translation>
-    </message>
-    <message>
-        <source>Every session is in it.</source>
-        <translation type="vanished">Jede Sitzung ist darin.</translation>
-    </message>
-    <message>
-        <source>1 session is not in it.</source>
-        <translation type="vanished">1 Sitzung ist nicht darin.</translation>
-    </message>
-    <message>
-        <source>{n} sessions are not in it.</source>
-        <translation type="vanished">{n} Sitzungen sind nicht darin.</translation>
-    </message>
-    <message>
-        <source>The last back-up is {days} days old.</source>
-        <translation type="vanished">Die letzte Sicherung ist {days} Tage alt.</translation>
-    </message>
-    <message>
-        <source>{when} · {n} sessions, {size} GB · read back and compared: all equal</source>
-        <translation type="vanished">{when} · {n} Sitzungen, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
-    </message>
-    <message>
-        <source>{when} · 1 session, {size} GB · read back and compared: all equal</source>
-        <translation type="vanished">{when} · 1 Sitzung, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
-    </message>
-    <message>
-        <source>Reminder after {days} days.</source>
-        <translation type="vanished">Erinnerung nach {days} Tagen.</translation>
-    </message>
-    <message>
-        <source>none</source>
-        <translation type="vanished">keine</translation>
-    </message>
-    <message>
         <source>Folder that holds the back-ups</source>
         <translation>Ordner mit den Sicherungen</translation>
     </message>
@@ -7836,18 +7616,6 @@
     <message>
         <source>Sealed: {name}, {size} MB. Whoever has the passphrase can open it.</source>
         <translation>Versiegelt: {name}, {size} MB. Wer die Passphrase hat, kann sie öffnen.</translation>
-    </message>
-    <message>
-        <source>The last back-up is of {day}.</source>
-        <translation type="vanished">Letzte Sicherung: {day}.</translation>
-    </message>
-    <message>
-        <source>on the same disk as the data</source>
-        <translation type="vanished">auf derselben Platte wie die Daten</translation>
-    </message>
-    <message>
-        <source>It lies on the disk that holds the data: if that disk breaks, both are lost.</source>
-        <translation type="vanished">Sie liegt auf der Platte mit den Daten: Geht diese kaputt, ist beides verloren.</translation>
     </message>
     <message>
         <source>Sealed back-up</source>
@@ -7948,29 +7716,9 @@
         <source>Back from a sealed file…</source>
         <translation>Aus versiegelter Datei zurück…</translation>
     </message>
-    <message>
-        <source>closed with a passphrase, to carry away or send</source>
-        <translation type="vanished">mit einer Passphrase verschlossen, zum Mitnehmen oder Verschicken</translation>
-    </message>
 </context>
 <context>
     <name>Bar</name>
-    <message>
-        <source>Clinic</source>
-        <translation type="vanished">Klinik</translation>
-    </message>
-    <message>
-        <source>Test and retest</source>
-        <translation type="vanished">Wiederholungstest</translation>
-    </message>
-    <message>
-        <source>Camera calibration</source>
-        <translation type="vanished">Kamerakalibrierung</translation>
-    </message>
-    <message>
-        <source>Check card</source>
-        <translation type="vanished">Prüfkarte</translation>
-    </message>
     <message>
         <source>Exercise</source>
         <translation>Übung</translation>
@@ -8519,21 +8267,6 @@
     </message>
 </context>
 <context>
-    <name>Calibrating</name>
-    <message>
-        <source>Save the board to print</source>
-        <translation type="vanished">Tafel zum Drucken speichern</translation>
-    </message>
-    <message>
-        <source>Save one page</source>
-        <translation type="vanished">Eine Seite speichern</translation>
-    </message>
-    <message>
-        <source>Show it some more, tilted more and nearer: {why}.</source>
-        <translation type="vanished">Zeigen Sie sie weiter, stärker geneigt und näher: {why}.</translation>
-    </message>
-</context>
-<context>
     <name>CameraCard</name>
     <message>
         <source>Camera</source>
@@ -8584,10 +8317,6 @@
     <message>
         <source>Stop</source>
         <translation>Stopp</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
     </message>
     <message>
         <source>Is this still the camera called “{name}”?</source>
@@ -8815,30 +8544,6 @@
         <translation>Abweichung</translation>
     </message>
     <message>
-        <source>If it is out</source>
-        <translation type="vanished">Wenn sie falsch misst</translation>
-    </message>
-    <message>
-        <source>card flat, 60 cm away, its ruler 100 mm long</source>
-        <translation type="vanished">Karte flach, 60 cm entfernt, ihr Lineal 100 mm lang</translation>
-    </message>
-    <message>
-        <source>Calibrate the camera again</source>
-        <translation type="vanished">Kamera neu kalibrieren</translation>
-    </message>
-    <message>
-        <source>with the board, five minutes</source>
-        <translation type="vanished">mit der Tafel, fünf Minuten</translation>
-    </message>
-    <message>
-        <source>Still out: do not measure</source>
-        <translation type="vanished">Weiter falsch: nicht messen</translation>
-    </message>
-    <message>
-        <source>sessions near this check say that they are not sure</source>
-        <translation type="vanished">Sitzungen nahe dieser Prüfung sagen, dass sie unsicher sind</translation>
-    </message>
-    <message>
         <source>Simulated camera and card</source>
         <translation>Simulierte Kamera und Karte</translation>
     </message>
@@ -8856,29 +8561,6 @@
     <message>
         <source>missing</source>
         <translation>fehlt</translation>
-    </message>
-</context>
-<context>
-    <name>Checking</name>
-    <message>
-        <source>Save the card to print</source>
-        <translation type="vanished">Karte zum Drucken speichern</translation>
-    </message>
-    <message>
-        <source>Save one page</source>
-        <translation type="vanished">Eine Seite speichern</translation>
-    </message>
-    <message>
-        <source>not with a board</source>
-        <translation type="vanished">nicht mit einer Tafel</translation>
-    </message>
-    <message>
-        <source>Calibrated</source>
-        <translation type="vanished">Kalibriert</translation>
-    </message>
-    <message>
-        <source>Checks</source>
-        <translation type="vanished">Prüfungen</translation>
     </message>
 </context>
 <context>
@@ -8906,24 +8588,8 @@
 <context>
     <name>ClinicScreen</name>
     <message>
-        <source>Week before</source>
-        <translation type="vanished">Woche davor</translation>
-    </message>
-    <message>
-        <source>Week after</source>
-        <translation type="vanished">Woche danach</translation>
-    </message>
-    <message>
-        <source>Save page…</source>
-        <translation type="vanished">Seite speichern…</translation>
-    </message>
-    <message>
         <source>The clinic</source>
         <translation>Die Klinik</translation>
-    </message>
-    <message>
-        <source>Counts and dates only: no measured value leaves a patient’s own record. Therapists stand in the order in which they joined and are never ranked.</source>
-        <translation type="vanished">Nur Anzahl und Datum: Kein Messwert verlässt die Akte eines Patienten. Therapeuten stehen in der Reihenfolge, in der sie dazukamen, nie nach einer Zahl geordnet.</translation>
     </message>
     <message>
         <source>Week &amp;before</source>
@@ -8963,14 +8629,6 @@
     <message>
         <source>Radians</source>
         <translation>Radiant</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation type="vanished">Abbrechen</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
     </message>
     <message>
         <source>Compare</source>
@@ -9336,32 +8994,8 @@
         <translation>Anderswo gespeicherte Berichte und Exporte löschen Sie selbst ({n}): {path}.</translation>
     </message>
     <message>
-        <source>{one} and {other}</source>
-        <translation type="vanished">{one} und {other}</translation>
-    </message>
-    <message>
         <source>Angles, pictures, notes and pain scores of this session ({files}, {size} MB).</source>
         <translation>Winkel, Bilder, Notizen und Schmerzwerte dieser Sitzung ({files}, {size} MB).</translation>
-    </message>
-    <message>
-        <source>1 export</source>
-        <translation type="vanished">1 Export</translation>
-    </message>
-    <message>
-        <source>{n} exports</source>
-        <translation type="vanished">{n} Exporte</translation>
-    </message>
-    <message>
-        <source>1 report</source>
-        <translation type="vanished">1 Bericht</translation>
-    </message>
-    <message>
-        <source>{n} reports</source>
-        <translation type="vanished">{n} Berichte</translation>
-    </message>
-    <message>
-        <source>The {made} that Carpus made from it go too.</source>
-        <translation type="vanished">Gelöscht wird auch, was Carpus daraus erstellt hat: {made}.</translation>
     </message>
     <message>
         <source>The other session.</source>
@@ -9378,14 +9012,6 @@
     <message>
         <source>Files copied elsewhere: Carpus cannot reach them.</source>
         <translation>Anderswohin kopierte Dateien: Carpus erreicht sie nicht.</translation>
-    </message>
-    <message>
-        <source>Exports and reports that were changed since: {n}.</source>
-        <translation type="vanished">Seitdem geänderte Exporte und Berichte: {n}.</translation>
-    </message>
-    <message>
-        <source>Exports and reports that are not where Carpus put them: {n}, look for them yourself.</source>
-        <translation type="vanished">Exporte und Berichte, die nicht mehr liegen, wo Carpus sie abgelegt hat: {n}; suchen Sie sie selbst.</translation>
     </message>
     <message>
         <source>The log keeps that it was erased, no name.</source>
@@ -9414,10 +9040,6 @@
     <message>
         <source>{count} values measured by hand.</source>
         <translation>{count} von Hand gemessene Werte.</translation>
-    </message>
-    <message>
-        <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}</source>
-        <translation type="vanished">Anderswo gespeicherte Berichte und Exporte, bitte selbst löschen ({n}): {path}</translation>
     </message>
 </context>
 <context>
@@ -9662,35 +9284,8 @@
         <translation>Speichern…</translation>
     </message>
     <message>
-        <source>The patient has agreed to this film</source>
-        <translation type="vanished">Der Patient hat diesem Film zugestimmt</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation type="vanished">Abbrechen</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
-    </message>
-    <message>
-        <source>Save film…</source>
-        <translation type="vanished">Film speichern…</translation>
-    </message>
-    <message>
         <source>Film of repetition {number}</source>
         <translation>Film der Wiederholung {number}</translation>
-    </message>
-</context>
-<context>
-    <name>Filming</name>
-    <message>
-        <source>Save film</source>
-        <translation type="vanished">Film speichern</translation>
-    </message>
-    <message>
-        <source>Save picture</source>
-        <translation type="vanished">Bild speichern</translation>
     </message>
 </context>
 <context>
@@ -9931,30 +9526,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Eine Seite für den Patienten, ohne Zahlen und Diagnose. Bis zu {count} Übungen.</translation>
     </message>
     <message>
-        <source>Times</source>
-        <translation type="vanished">Wie oft</translation>
-    </message>
-    <message>
-        <source>Rounds a day</source>
-        <translation type="vanished">Runden am Tag</translation>
-    </message>
-    <message>
-        <source>Next appointment</source>
-        <translation type="vanished">Nächster Termin</translation>
-    </message>
-    <message>
-        <source>Time</source>
-        <translation type="vanished">Uhrzeit</translation>
-    </message>
-    <message>
-        <source>No appointment yet: a line to write on</source>
-        <translation type="vanished">Noch kein Termin: eine Zeile zum Schreiben</translation>
-    </message>
-    <message>
-        <source>A line for the patient, no names</source>
-        <translation type="vanished">Eine Zeile für den Patienten, keine Namen</translation>
-    </message>
-    <message>
         <source>&amp;Times</source>
         <translation>&amp;Wie oft</translation>
     </message>
@@ -9979,14 +9550,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Sprache des Patienten</translation>
     </message>
     <message>
-        <source>Cancel</source>
-        <translation type="vanished">Abbrechen</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
-    </message>
-    <message>
         <source>Show the sheet</source>
         <translation>Das Blatt zeigen</translation>
     </message>
@@ -10009,25 +9572,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Line: {count} letters too many</source>
         <translation>Zeile: {count} Zeichen zu viel</translation>
-    </message>
-</context>
-<context>
-    <name>Journey</name>
-    <message>
-        <source>Camera calibration</source>
-        <translation type="vanished">Kamerakalibrierung</translation>
-    </message>
-    <message>
-        <source>Check card</source>
-        <translation type="vanished">Prüfkarte</translation>
-    </message>
-    <message>
-        <source>Simulated camera: nothing here is of a real one.</source>
-        <translation type="vanished">Simulierte Kamera: Nichts hier kommt von einer echten.</translation>
-    </message>
-    <message>
-        <source>Simulated hand: this is not a patient’s, and does not count.</source>
-        <translation type="vanished">Simulierte Hand: Sie gehört keinem Patienten und zählt nicht.</translation>
     </message>
 </context>
 <context>
@@ -10102,14 +9646,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Der Name steht nur in diesem Brief. Wer die Datei bekommt, kann ihn lesen.</translation>
     </message>
     <message>
-        <source>Cancel</source>
-        <translation type="vanished">Abbrechen</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
-    </message>
-    <message>
         <source>Show the letter</source>
         <translation>Brief zeigen</translation>
     </message>
@@ -10138,10 +9674,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Since</source>
         <translation>Seit</translation>
-    </message>
-    <message>
-        <source>Last exercise</source>
-        <translation type="vanished">Letzte Übung</translation>
     </message>
     <message>
         <source>Last session</source>
@@ -10253,18 +9785,6 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>LiveScreen</name>
     <message>
-        <source>Note</source>
-        <translation type="vanished">Notiz</translation>
-    </message>
-    <message>
-        <source>Pain</source>
-        <translation type="vanished">Schmerz</translation>
-    </message>
-    <message>
-        <source>Pause</source>
-        <translation type="vanished">Anhalten</translation>
-    </message>
-    <message>
         <source>Speeds</source>
         <translation>Geschwindigkeiten</translation>
     </message>
@@ -10285,24 +9805,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Warten auf ein Bild</translation>
     </message>
     <message>
-        <source>Storing…</source>
-        <translation type="vanished">Wird gespeichert…</translation>
-    </message>
-    <message>
         <source>Angles</source>
         <translation>Winkel</translation>
     </message>
     <message>
         <source>No picture</source>
         <translation>Kein Bild</translation>
-    </message>
-    <message>
-        <source>Pain {score} noted</source>
-        <translation type="vanished">Schmerz {score} vermerkt</translation>
-    </message>
-    <message>
-        <source>Passive</source>
-        <translation type="vanished">Passiv</translation>
     </message>
     <message>
         <source>Plug the camera in again</source>
@@ -10323,38 +9831,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Open the patient’s view</source>
         <translation>Patientenansicht öffnen</translation>
-    </message>
-    <message>
-        <source>Go on</source>
-        <translation type="vanished">Fortsetzen</translation>
-    </message>
-    <message>
-        <source>Play and record</source>
-        <translation type="vanished">Abspielen und aufnehmen</translation>
-    </message>
-    <message>
-        <source>Record</source>
-        <translation type="vanished">Aufnehmen</translation>
-    </message>
-    <message>
-        <source>Stop and go on</source>
-        <translation type="vanished">Beenden und weiter</translation>
-    </message>
-    <message>
-        <source>Stop and review</source>
-        <translation type="vanished">Beenden und auswerten</translation>
-    </message>
-    <message>
-        <source>Starts in {seconds}: not yet</source>
-        <translation type="vanished">Beginn in {seconds}: noch nicht</translation>
-    </message>
-    <message>
-        <source>Space · pedal</source>
-        <translation type="vanished">Leertaste · Pedal</translation>
-    </message>
-    <message>
-        <source>Side · {finger}</source>
-        <translation type="vanished">Seite · {finger}</translation>
     </message>
 </context>
 <context>
@@ -10477,10 +9953,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Protokoll</translation>
     </message>
     <message>
-        <source>Only ever added to. In the file patients and sessions are numbers: names are put to them here, as long as they are in the list.</source>
-        <translation type="vanished">Es wird nur ergänzt. In der Datei sind Patienten und Sitzungen Nummern: Namen stehen nur hier dabei, solange sie in der Liste sind.</translation>
-    </message>
-    <message>
         <source>When</source>
         <translation>Wann</translation>
     </message>
@@ -10503,14 +9975,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Done</source>
         <translation>Fertig</translation>
-    </message>
-    <message>
-        <source>The log was changed at or before line {line}.</source>
-        <translation type="vanished">Das Protokoll wurde in oder vor Zeile {line} geändert.</translation>
-    </message>
-    <message>
-        <source>Whole: {n} lines, none changed.</source>
-        <translation type="vanished">Vollständig: {n} Zeilen, keine geändert.</translation>
     </message>
     <message>
         <source>Only ever added to, which protects against mistakes, not against the owner of the computer: a back-up kept elsewhere shows a later change. Names are put to it here, as long as they are in the list.</source>
@@ -10669,100 +10133,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>Ziehen Sie einen Namen auf seinen Punkt. Namen, die den Platz wechseln, tauschen.</translation>
     </message>
     <message>
-        <source>Picture</source>
-        <translation type="vanished">Bild</translation>
-    </message>
-    <message>
-        <source>Lay the hand flat and still</source>
-        <translation type="vanished">Legen Sie die Hand flach und ruhig hin</translation>
-    </message>
-    <message>
-        <source>Palm down, fingers as straight as they go, forearm in line. Then take the picture.</source>
-        <translation type="vanished">Handfläche nach unten, Finger so gerade wie möglich, Unterarm in Linie. Nehmen Sie dann das Bild auf.</translation>
-    </message>
-    <message>
-        <source>Checks</source>
-        <translation type="vanished">Prüfungen</translation>
-    </message>
-    <message>
-        <source>Take the picture</source>
-        <translation type="vanished">Bild aufnehmen</translation>
-    </message>
-    <message>
-        <source>Marker {number} of {asked}</source>
-        <translation type="vanished">Marker {number} von {asked}</translation>
-    </message>
-    <message>
-        <source>Checking…</source>
-        <translation type="vanished">Wird geprüft…</translation>
-    </message>
-    <message>
-        <source>Good so far</source>
-        <translation type="vanished">So weit gut</translation>
-    </message>
-    <message>
-        <source>1 marker to go</source>
-        <translation type="vanished">Noch 1 Marker</translation>
-    </message>
-    <message>
-        <source>{count} markers to go</source>
-        <translation type="vanished">Noch {count} Marker</translation>
-    </message>
-    <message>
-        <source>Start measuring · {left}</source>
-        <translation type="vanished">Messung starten · {left}</translation>
-    </message>
-    <message>
-        <source>Checking the markers…</source>
-        <translation type="vanished">Marker werden geprüft…</translation>
-    </message>
-    <message>
         <source>The hand lies flat and still, palm down. Fingers that stay bent are fine.</source>
         <translation>Hand flach und ruhig, Handfläche unten. Gebeugte Finger sind in Ordnung.</translation>
-    </message>
-    <message>
-        <source>Looking for the markers…</source>
-        <translation type="vanished">Marker werden gesucht…</translation>
-    </message>
-    <message>
-        <source>No blue disc in the picture</source>
-        <translation type="vanished">Kein blauer Punkt im Bild</translation>
-    </message>
-    <message>
-        <source>No blue disc is to be seen</source>
-        <translation type="vanished">Kein blauer Punkt ist zu sehen</translation>
-    </message>
-    <message>
-        <source>Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc.</source>
-        <translation type="vanished">Sind die Punkte aufgeklebt, und liegt die Hand unter der Kamera? Mehr Licht hilft; dunkelblauer Stoff ist kein Punkt.</translation>
-    </message>
-    <message>
-        <source>Click by hand</source>
-        <translation type="vanished">Von Hand anklicken</translation>
-    </message>
-    <message>
-        <source>Names to confirm</source>
-        <translation type="vanished">Namen zu bestätigen</translation>
-    </message>
-    <message>
-        <source>All markers found</source>
-        <translation type="vanished">Alle Marker gefunden</translation>
-    </message>
-    <message>
-        <source>Ready to measure</source>
-        <translation type="vanished">Bereit zum Messen</translation>
-    </message>
-    <message>
-        <source>Hold the hand in this position until the measuring begins.</source>
-        <translation type="vanished">Halten Sie die Hand in dieser Lage, bis die Messung beginnt.</translation>
-    </message>
-    <message>
-        <source>Start measuring</source>
-        <translation type="vanished">Messung starten</translation>
-    </message>
-    <message>
-        <source>Correct names</source>
-        <translation type="vanished">Namen berichtigen</translation>
     </message>
     <message>
         <source>Click these again</source>
@@ -10828,61 +10200,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>mean {value}</source>
         <translation>Mittel {value}</translation>
-    </message>
-</context>
-<context>
-    <name>MeasuringFlow</name>
-    <message>
-        <source>Recording paused by itself at {time}.</source>
-        <translation type="vanished">Die Aufnahme hielt um {time} von selbst an.</translation>
-    </message>
-    <message>
-        <source>{time} and {count} full repetitions are stored.</source>
-        <translation type="vanished">{time} und {count} ganze Wiederholungen sind gespeichert.</translation>
-    </message>
-    <message>
-        <source>Stop and review</source>
-        <translation type="vanished">Beenden und auswerten</translation>
-    </message>
-    <message>
-        <source>Choose another source</source>
-        <translation type="vanished">Andere Quelle wählen</translation>
-    </message>
-    <message>
-        <source>To the patients</source>
-        <translation type="vanished">Zu den Patienten</translation>
-    </message>
-    <message>
-        <source>Go on measuring</source>
-        <translation type="vanished">Weiter messen</translation>
-    </message>
-    <message>
-        <source>The recording has only just begun.</source>
-        <translation type="vanished">Die Aufnahme hat gerade erst begonnen.</translation>
-    </message>
-    <message>
-        <source>It goes on while you choose, and everything is kept.</source>
-        <translation type="vanished">Sie läuft weiter, während Sie wählen, und alles bleibt erhalten.</translation>
-    </message>
-    <message>
-        <source>Go on measuring, or stop it already?</source>
-        <translation type="vanished">Weiter messen oder schon beenden?</translation>
-    </message>
-    <message>
-        <source>Stop, save and close</source>
-        <translation type="vanished">Beenden, speichern, schließen</translation>
-    </message>
-    <message>
-        <source>A recording is running.</source>
-        <translation type="vanished">Eine Aufnahme läuft.</translation>
-    </message>
-    <message>
-        <source>Everything measured up to now is kept, whatever you choose.</source>
-        <translation type="vanished">Alles bisher Gemessene bleibt erhalten, was Sie auch wählen.</translation>
-    </message>
-    <message>
-        <source>Go on measuring, or stop: the session is saved and Carpus closes.</source>
-        <translation type="vanished">Messen Sie weiter, oder beenden Sie: Die Sitzung wird gespeichert, und Carpus schließt sich.</translation>
     </message>
 </context>
 <context>
@@ -10954,10 +10271,6 @@ Umschalt+F8 von der Seite</translation>
         <source>Passive from here</source>
         <translation>Passiv ab hier</translation>
     </message>
-    <message>
-        <source>Helped by hand</source>
-        <translation type="vanished">Von Hand geholfen</translation>
-    </message>
 </context>
 <context>
     <name>NoticeStrip</name>
@@ -10999,10 +10312,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>follows the middle joint</source>
         <translation>folgt dem Mittelgelenk</translation>
-    </message>
-    <message>
-        <source>Repetition</source>
-        <translation type="vanished">Wiederholung</translation>
     </message>
     <message>
         <source>of {asked}</source>
@@ -11049,18 +10358,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>The same &amp;again</source>
         <translation>&amp;Noch einmal</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation type="vanished">Eingabe</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation type="vanished">Abbrechen</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
     </message>
     <message>
         <source>&amp;Passphrase</source>
@@ -11171,10 +10468,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>&amp;Edit…</source>
         <translation>&amp;Bearbeiten…</translation>
-    </message>
-    <message>
-        <source>&amp;Change…</source>
-        <translation type="vanished">Ä&amp;ndern…</translation>
     </message>
     <message>
         <source>&amp;Other exercise…</source>
@@ -11328,10 +10621,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Diagnose: {count} Zeichen zu viel</translation>
     </message>
     <message>
-        <source>N&amp;ote (no diagnosis, no names)</source>
-        <translation type="vanished">N&amp;otiz (keine Diagnose, keine Namen)</translation>
-    </message>
-    <message>
         <source>Archi&amp;ve or delete…</source>
         <translation>Arc&amp;hivieren oder löschen…</translation>
     </message>
@@ -11372,10 +10661,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Operation oder Verletzung?</translation>
     </message>
     <message>
-        <source>A name has up to {count} letters: what goes beyond is not taken.</source>
-        <translation type="vanished">Ein Name hat höchstens {count} Zeichen: Was darüber hinausgeht, wird nicht übernommen.</translation>
-    </message>
-    <message>
         <source>Give the patient a name.</source>
         <translation>Geben Sie dem Patienten einen Namen.</translation>
     </message>
@@ -11405,10 +10690,6 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>PatientsScreen</name>
     <message>
-        <source>Name or exercise</source>
-        <translation type="vanished">Name oder Übung</translation>
-    </message>
-    <message>
         <source>Ctrl+F</source>
         <translation>Strg+F</translation>
     </message>
@@ -11423,10 +10704,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Ctrl+N</source>
         <translation>Strg+N</translation>
-    </message>
-    <message>
-        <source>Clinic…</source>
-        <translation type="vanished">Klinik…</translation>
     </message>
     <message>
         <source>&amp;Clinic…</source>
@@ -11476,14 +10753,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Freiwillige oder Personal, deren Hände sich nicht ändern, nie Patienten. Fügen Sie sie unter Patienten hinzu, mit einem Pseudonym wie P01. Jede Person wird zweimal oder öfter innerhalb von 14 Tagen gemessen; dazwischen werden alle Punkte abgenommen und neu geklebt.</translation>
     </message>
     <message>
-        <source>Cancel</source>
-        <translation type="vanished">Abbrechen</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
-    </message>
-    <message>
         <source>These take part</source>
         <translation>Diese nehmen teil</translation>
     </message>
@@ -11528,14 +10797,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>&amp;Take the PIN away</source>
         <translation>PIN &amp;entfernen</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation type="vanished">Abbrechen</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
     </message>
     <message>
         <source>Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are readable for whoever has this computer’s account or disk.</source>
@@ -11649,17 +10910,6 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>Printing</name>
-    <message>
-        <source>Export into a folder</source>
-        <translation type="vanished">In einen Ordner exportieren</translation>
-    </message>
-    <message>
-        <source>Save table</source>
-        <translation type="vanished">Tabelle speichern</translation>
-    </message>
-</context>
-<context>
     <name>ProgressChart</name>
     <message>
         <source>Range over the sessions</source>
@@ -11759,16 +11009,8 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>ReasonSheet</name>
     <message>
-        <source>It stays in the recording and on the curves, but counts no longer. The report says so.</source>
-        <translation type="vanished">Sie bleibt in der Aufnahme und auf den Kurven, zählt aber nicht mehr. Der Bericht sagt es.</translation>
-    </message>
-    <message>
         <source>pain</source>
         <translation>Schmerz</translation>
-    </message>
-    <message>
-        <source>helped by hand</source>
-        <translation type="vanished">von Hand geholfen</translation>
     </message>
     <message>
         <source>Passive: somebody else moved the hand. It counts apart, beside the active ones.</source>
@@ -11805,10 +11047,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Is repetition {number} passive, or left out?</source>
         <translation>Ist Wiederholung {number} passiv oder weggelassen?</translation>
-    </message>
-    <message>
-        <source>Leave repetition {number} out?</source>
-        <translation type="vanished">Wiederholung {number} auslassen?</translation>
     </message>
     <message>
         <source>Leave it out</source>
@@ -12653,16 +11891,8 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>ReviewScreen</name>
     <message>
-        <source>This repetition as a film of the hand alone (F)</source>
-        <translation type="vanished">Diese Wiederholung als Film der Hand allein (F)</translation>
-    </message>
-    <message>
         <source>Reading the session…</source>
         <translation>Sitzung wird gelesen…</translation>
-    </message>
-    <message>
-        <source>Not in the picture’s plane: not drawn</source>
-        <translation type="vanished">Nicht in der Bildebene: nicht gezeichnet</translation>
     </message>
 </context>
 <context>
@@ -12843,10 +12073,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Schließen</translation>
     </message>
     <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
-    </message>
-    <message>
         <source>Sets of exercises</source>
         <translation>Übungsfolgen</translation>
     </message>
@@ -12885,65 +12111,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Delete “{name}”? Press again</source>
         <translation>„{name}“ löschen? Noch einmal drücken</translation>
-    </message>
-</context>
-<context>
-    <name>SettingUp</name>
-    <message>
-        <source>The camera is being opened.</source>
-        <translation type="vanished">Die Kamera wird geöffnet.</translation>
-    </message>
-    <message>
-        <source>The recording is being opened.</source>
-        <translation type="vanished">Die Aufnahme wird geöffnet.</translation>
-    </message>
-    <message>
-        <source>Choose the source again</source>
-        <translation type="vanished">Quelle neu wählen</translation>
-    </message>
-    <message>
-        <source>The depth of {name} lies {px} pixels beside its colours.</source>
-        <translation type="vanished">Die Tiefe von {name} liegt {px} Pixel neben den Farben.</translation>
-    </message>
-    <message>
-        <source>The recording itself is not changed. It does not say that its depth was laid on its colours.</source>
-        <translation type="vanished">Die Aufnahme selbst ist nicht geändert. Sie sagt nicht, dass die Tiefe auf die Farben gelegt wurde.</translation>
-    </message>
-    <message>
-        <source>Open it again with the depth moved onto the colours, then click the markers anew.</source>
-        <translation type="vanished">Öffnen Sie sie noch einmal, mit der Tiefe auf den Farben, und klicken Sie dann die Marker neu an.</translation>
-    </message>
-    <message>
-        <source>Leave it as it is</source>
-        <translation type="vanished">So lassen</translation>
-    </message>
-    <message>
-        <source>Open it again</source>
-        <translation type="vanished">Noch einmal öffnen</translation>
-    </message>
-    <message>
-        <source>Leave the markers?</source>
-        <translation type="vanished">Die Marker verlassen?</translation>
-    </message>
-    <message>
-        <source>The names given on this picture would be lost.</source>
-        <translation type="vanished">Die Namen, die auf diesem Bild vergeben sind, gingen verloren.</translation>
-    </message>
-    <message>
-        <source>Stay here, or go back to the camera.</source>
-        <translation type="vanished">Hier bleiben oder zurück zur Kamera.</translation>
-    </message>
-    <message>
-        <source>Back to the camera</source>
-        <translation type="vanished">Zurück zur Kamera</translation>
-    </message>
-    <message>
-        <source>Stay here</source>
-        <translation type="vanished">Hier bleiben</translation>
-    </message>
-    <message>
-        <source>The simulated patient is being drawn.</source>
-        <translation type="vanished">Der simulierte Patient wird gezeichnet.</translation>
     </message>
 </context>
 <context>
@@ -13101,14 +12268,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Tasten</translation>
     </message>
     <message>
-        <source>Click a key and press another one. While measuring only the space bar and function keys are safe.</source>
-        <translation type="vanished">Klicken Sie eine Taste an und drücken Sie eine andere. Beim Messen sind nur Leertaste und Funktionstasten sicher.</translation>
-    </message>
-    <message>
-        <source>Usual keys again</source>
-        <translation type="vanished">Übliche Tasten wieder</translation>
-    </message>
-    <message>
         <source>About Carpus</source>
         <translation>Über Carpus</translation>
     </message>
@@ -13167,10 +12326,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Data folder</source>
         <translation>Datenordner</translation>
-    </message>
-    <message>
-        <source>{key} already does: {action}.</source>
-        <translation type="vanished">{key} tut schon: {action}.</translation>
     </message>
 </context>
 <context>
@@ -13455,21 +12610,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>The folder counts from the next start on: close Carpus and open it again before you measure.</source>
         <translation>Der Ordner gilt ab dem nächsten Start: Schließen Sie Carpus und öffnen Sie es wieder, bevor Sie messen.</translation>
-    </message>
-</context>
-<context>
-    <name>WordTable</name>
-    <message>
-        <source>Something happened that Carpus does not know.</source>
-        <translation type="vanished">Etwas ist geschehen, das Carpus nicht kennt.</translation>
-    </message>
-    <message>
-        <source>Everything stored before is safe.</source>
-        <translation type="vanished">Alles vorher Gespeicherte ist sicher.</translation>
-    </message>
-    <message>
-        <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
-        <translation type="vanished">Gehen Sie zurück und versuchen Sie es noch einmal. Kommt es wieder, starten Sie Carpus neu und melden Sie es.</translation>
     </message>
 </context>
 <context>

@@ -536,10 +536,6 @@
         <translation>non valutato: c’è solo in una delle due</translation>
     </message>
     <message>
-        <source>no change beyond error</source>
-        <translation type="vanished">nessun cambiamento oltre l’errore</translation>
-    </message>
-    <message>
         <source>improved, just beyond error</source>
         <translation>miglioramento, appena oltre l’errore</translation>
     </message>
@@ -2068,14 +2064,6 @@
         <translation>Prendi quel punto</translation>
     </message>
     <message>
-        <source>with the names</source>
-        <translation type="vanished">con i nomi</translation>
-    </message>
-    <message>
-        <source>after marker {number}</source>
-        <translation type="vanished">dopo il n. {number}</translation>
-    </message>
-    <message>
         <source>{done} of {asked} found</source>
         <translation>{done} su {asked}</translation>
     </message>
@@ -2436,18 +2424,6 @@
         <translation>Nessuna ancora contata</translation>
     </message>
     <message>
-        <source>No camera needed</source>
-        <translation type="vanished">Nessuna telecamera necessaria</translation>
-    </message>
-    <message>
-        <source>Simulated camera</source>
-        <translation type="vanished">Telecamera simulata</translation>
-    </message>
-    <message>
-        <source>No session yet</source>
-        <translation type="vanished">Ancora nessuna seduta</translation>
-    </message>
-    <message>
         <source>Carpus</source>
         <translation>Carpus</translation>
     </message>
@@ -2676,10 +2652,6 @@
         <translation>{count} sedute sono escluse.</translation>
     </message>
     <message>
-        <source>Sessions that are left out, or measured otherwise, are not compared: their rings say why.</source>
-        <translation type="vanished">Le sedute escluse, o misurate in altro modo, non si confrontano: il loro anello dice perché.</translation>
-    </message>
-    <message>
         <source>Nothing to compare: {left_out}</source>
         <translation>Nulla da confrontare: {left_out}</translation>
     </message>
@@ -2706,10 +2678,6 @@
     <message>
         <source>{name} has lost {size} since {day}.</source>
         <translation>{name}: perdita di {size} rispetto a {day}.</translation>
-    </message>
-    <message>
-        <source>No change beyond measurement error since {day}.</source>
-        <translation type="vanished">Nessun cambiamento oltre l’errore di misura rispetto a {day}.</translation>
     </message>
     <message>
         <source>Not judged: the joints were hidden in part.</source>
@@ -2750,10 +2718,6 @@
     <message>
         <source>{name}: {change}.</source>
         <translation>{name}: {change}.</translation>
-    </message>
-    <message>
-        <source>{name}: no change beyond measurement error.</source>
-        <translation type="vanished">{name}: nessun cambiamento oltre l’errore di misura.</translation>
     </message>
     <message>
         <source>What is left out, or was measured otherwise, is not compared.</source>
@@ -2918,10 +2882,6 @@
     <message>
         <source>Counts and dates only, without simulated sessions</source>
         <translation>Solo numeri e date, senza sedute simulate</translation>
-    </message>
-    <message>
-        <source>Counts and dates only</source>
-        <translation type="vanished">Solo numeri e date</translation>
     </message>
     <message>
         <source>The clinic</source>
@@ -3480,10 +3440,6 @@
         <translation>SIMULATA</translation>
     </message>
     <message>
-        <source>{ordinal}, active</source>
-        <translation type="vanished">{ordinal}, attiva</translation>
-    </message>
-    <message>
         <source>active and passive</source>
         <translation>attiva e passiva</translation>
     </message>
@@ -3704,10 +3660,6 @@
         <translation>senza ciò che è stato passivo</translation>
     </message>
     <message>
-        <source>number {number} left out: not seen well enough</source>
-        <translation type="vanished">numero {number} esclusa: non vista abbastanza bene</translation>
-    </message>
-    <message>
         <source>one range over the whole recording; no repetitions</source>
         <translation>un’unica escursione su tutta la registrazione; nessuna ripetizione</translation>
     </message>
@@ -3774,10 +3726,6 @@
     <message>
         <source>whole arc</source>
         <translation>arco totale</translation>
-    </message>
-    <message>
-        <source>No change beyond measurement error since {when}.</source>
-        <translation type="vanished">Confronto con {when}: nessun cambiamento oltre l’errore di misura.</translation>
     </message>
     <message>
         <source>No active range was measured.</source>
@@ -4472,10 +4420,6 @@
         <translation>Questa era una seduta intera; la freccia in alto a sinistra torna indietro, alla fine ai pazienti.</translation>
     </message>
     <message>
-        <source>no change</source>
-        <translation type="vanished">stabile</translation>
-    </message>
-    <message>
         <source>the other hand</source>
         <translation>l’altra mano</translation>
     </message>
@@ -4544,10 +4488,6 @@
         <translation>“Errore” è la minima differenza considerata un cambiamento: scelta di esperti per Carpus, non valori pubblicati; per un arco, che ha due estremi, √2 volte tanto. A parità di protocollo, lato e preparazione, finché il centro non ha misurato i propri limiti.</translation>
     </message>
     <message>
-        <source>the same</source>
-        <translation type="vanished">uguale</translation>
-    </message>
-    <message>
         <source>{size} more</source>
         <translation>{size} in più</translation>
     </message>
@@ -4610,10 +4550,6 @@
     <message>
         <source>All other pictures are used, and the gaps are marked.</source>
         <translation>Tutte le altre immagini sono usate, e i vuoti sono segnati.</translation>
-    </message>
-    <message>
-        <source>All sessions are safe; names and notes are missing. The damaged list is kept as {subject}.</source>
-        <translation type="vanished">Tutte le sedute sono al sicuro; mancano nomi e note. L’elenco danneggiato è conservato come {subject}.</translation>
     </message>
     <message>
         <source>Another Carpus is using the patients of {subject}.</source>
@@ -4884,10 +4820,6 @@
         <translation>Caratteri</translation>
     </message>
     <message>
-        <source>For the window, run: pip install {name}</source>
-        <translation type="vanished">Per la finestra, eseguire: pip install {name}</translation>
-    </message>
-    <message>
         <source>Free some space, or choose another disk.</source>
         <translation>Liberare spazio, o scegliere un altro disco.</translation>
     </message>
@@ -4950,10 +4882,6 @@
     <message>
         <source>Install the packages that bring these libraries.</source>
         <translation>Installare i pacchetti che portano queste librerie.</translation>
-    </message>
-    <message>
-        <source>Install the udev rules that come with Orbbec&apos;s OpenNI2 package, then plug the camera in again.</source>
-        <translation type="vanished">Installare le regole udev del pacchetto OpenNI2 di Orbbec, poi ricollegare la telecamera.</translation>
     </message>
     <message>
         <source>It can still be read; its seal does not fit what it holds now.</source>
@@ -5228,20 +5156,12 @@
         <translation>Eseguire: sudo apt-get install libopenni2-0</translation>
     </message>
     <message>
-        <source>Run: sudo apt-get install libopenni2-0, which brings them. Then plug the camera in again.</source>
-        <translation type="vanished">Eseguire: sudo apt-get install libopenni2-0, che li porta. Poi ricollegare la telecamera.</translation>
-    </message>
-    <message>
         <source>Set colour and depth to one size next time.</source>
         <translation>La prossima volta impostare colore e profondità alla stessa dimensione.</translation>
     </message>
     <message>
         <source>Show the board in every part of the picture, tilted to all four sides, near and far, and hold it still.</source>
         <translation>Mostrare la tavola in ogni parte dell’immagine, inclinata sui quattro lati, vicina e lontana, e tenerla ferma.</translation>
-    </message>
-    <message>
-        <source>Single exercises can be measured as ever. Put a copy of the file back, or make the sets anew.</source>
-        <translation type="vanished">I singoli esercizi si misurano come sempre. Rimettere una copia del file, o rifare le sequenze.</translation>
     </message>
     <message>
         <source>Some pictures are smaller and have been enlarged: {subject} ({detail}).</source>
@@ -5334,10 +5254,6 @@
     <message>
         <source>Install the package {package}, which comes beside that of Carpus.</source>
         <translation>Installare il pacchetto {package}, che si trova accanto a quello di Carpus.</translation>
-    </message>
-    <message>
-        <source>Run: {command}</source>
-        <translation type="vanished">Eseguire: {command}</translation>
     </message>
     <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
@@ -5464,10 +5380,6 @@
         <translation>L’elenco dei pazienti è danneggiato: {subject} ({detail}).</translation>
     </message>
     <message>
-        <source>The list of patients was damaged ({detail}), so Carpus has made a new one from the sessions.</source>
-        <translation type="vanished">L’elenco dei pazienti era danneggiato ({detail}), quindi Carpus ne ha creato uno nuovo dalle sedute.</translation>
-    </message>
-    <message>
         <source>The marker of the {markers} is {value} mm off its place (up to {limit} mm is good).</source>
         <translation>Marcatore a {value} mm dal suo posto: {markers} (fino a {limit} mm è buono).</translation>
     </message>
@@ -5486,10 +5398,6 @@
     <message>
         <source>The old result is unchanged.</source>
         <translation>Il vecchio risultato non è cambiato.</translation>
-    </message>
-    <message>
-        <source>The packed program has no driver for it: install Carpus with pip, then run: {command}</source>
-        <translation type="vanished">Il programma pronto non ha un driver per questa: installare Carpus con pip, poi eseguire: {command}</translation>
     </message>
     <message>
         <source>The pictures of the board are too few or too alike: {subject} ({detail}).</source>
@@ -5542,10 +5450,6 @@
     <message>
         <source>The session is unchanged, and its repetitions can be left out.</source>
         <translation>La seduta non è cambiata, e le sue ripetizioni si possono escludere.</translation>
-    </message>
-    <message>
-        <source>The sets of exercises cannot be read: {subject} ({detail}).</source>
-        <translation type="vanished">Le sequenze di esercizi non si possono leggere: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The times of the recording do not rise: {subject} ({detail}).</source>
@@ -5642,10 +5546,6 @@
     <message>
         <source>This session was changed after it was finished: {subject}.</source>
         <translation>Questa seduta è stata modificata dopo la conclusione: {subject}.</translation>
-    </message>
-    <message>
-        <source>This version stops the program on Python 3.11. Run: pip install &quot;PySide6-Essentials&lt;6.12&quot;</source>
-        <translation type="vanished">Questa versione ferma il programma con Python 3.11. Eseguire: pip install &quot;PySide6-Essentials&lt;6.12&quot;</translation>
     </message>
     <message>
         <source>Tracking again stopped: {subject} ({detail}).</source>
@@ -6224,22 +6124,6 @@
         <translation>troppo lungo per dei clic</translation>
     </message>
     <message>
-        <source>names in it are no text</source>
-        <translation type="vanished">contiene nomi che non sono testo</translation>
-    </message>
-    <message>
-        <source>not installed; only a RealSense and its recordings need it</source>
-        <translation type="vanished">non installato; serve solo a una RealSense e alle sue registrazioni</translation>
-    </message>
-    <message>
-        <source>the form of the reports cannot be read</source>
-        <translation type="vanished">il modello delle relazioni non si può leggere</translation>
-    </message>
-    <message>
-        <source>the logo of the reports is gone; choose it again</source>
-        <translation type="vanished">il logo delle relazioni non c’è più; sceglierlo di nuovo</translation>
-    </message>
-    <message>
         <source>no MOT: it has no end of its header</source>
         <translation>non è un MOT: manca la fine dell’intestazione</translation>
     </message>
@@ -6388,10 +6272,6 @@
         <translation>non nell’elenco dei pazienti</translation>
     </message>
     <message>
-        <source>not installed; only an Orbbec Femto, Gemini or Astra 2 needs it</source>
-        <translation type="vanished">non installato; serve solo a una Orbbec Femto, Gemini o Astra 2</translation>
-    </message>
-    <message>
         <source>not the part file of a session</source>
         <translation>non il file parziale di una seduta</translation>
     </message>
@@ -6446,10 +6326,6 @@
     <message>
         <source>straight_fingers is not five times true or false, thumb to little</source>
         <translation>straight_fingers non è cinque volte true o false, dal pollice al mignolo</translation>
-    </message>
-    <message>
-        <source>the comment cannot be read</source>
-        <translation type="vanished">il commento non si può leggere</translation>
     </message>
     <message>
         <source>the curves match by {match} at best: is it the same movement?</source>
@@ -6626,10 +6502,6 @@
     <message>
         <source>version {version}, this Carpus reads up to {count}</source>
         <translation>versione {version}, questo Carpus legge fino a {count}</translation>
-    </message>
-    <message>
-        <source>what was left out cannot be read</source>
-        <translation type="vanished">ciò che è stato escluso non si può leggere</translation>
     </message>
     <message>
         <source>wrist</source>
@@ -7036,18 +6908,6 @@
         <translation>Questo file non è un’immagine che Carpus sappia leggere. Scelga un file PNG o JPEG.</translation>
     </message>
     <message>
-        <source>The hand rests until then.</source>
-        <translation type="vanished">Fino ad allora la mano riposa.</translation>
-    </message>
-    <message>
-        <source>The movement of the simulated hand is still being drawn.</source>
-        <translation type="vanished">Il movimento della mano simulata viene ancora disegnato.</translation>
-    </message>
-    <message>
-        <source>Wait a moment; it moves by itself.</source>
-        <translation type="vanished">Attendere un momento; si muove da sola.</translation>
-    </message>
-    <message>
         <source>Names are right</source>
         <translation>I nomi sono giusti</translation>
     </message>
@@ -7058,14 +6918,6 @@
     <message>
         <source>Look whether every name is on its disc, then press Enter; click the discs that are asked for above.</source>
         <translation>Guardare se ogni nome è sul suo dischetto, poi Invio; fare clic sui dischetti richiesti sopra.</translation>
-    </message>
-    <message>
-        <source>Install it with the pip of Carpus’s own environment; in a checkout that is “.venv/bin/pip”.</source>
-        <translation type="vanished">Installarlo con il pip dell’ambiente proprio di Carpus; in un checkout è “.venv/bin/pip”.</translation>
-    </message>
-    <message>
-        <source>This needs the Python package {detail} (carpus[{subject}]), which is not installed.</source>
-        <translation type="vanished">Serve il pacchetto Python {detail} (carpus[{subject}]), che non è installato.</translation>
     </message>
     <message>
         <source>Measure</source>
@@ -7084,20 +6936,8 @@
         <translation>una seduta o i progressi in PDF in inglese, tedesco o italiano</translation>
     </message>
     <message>
-        <source>a session: picture, curves, repetitions, corrected where need be</source>
-        <translation type="vanished">una seduta: immagine, curve, ripetizioni, corrette dove serve</translation>
-    </message>
-    <message>
         <source>how wrist and fingers move, live, every angle with how sure it is</source>
         <translation>come si muovono polso e dita, dal vivo, ogni angolo con la sua incertezza</translation>
-    </message>
-    <message>
-        <source>of a patient from session to session, beyond measurement error or not</source>
-        <translation type="vanished">di un paziente da una seduta all&apos;altra, oltre l&apos;errore di misura o no</translation>
-    </message>
-    <message>
-        <source>to open formats: CSV, JSON, C3D, TRC, MOT, BIDS</source>
-        <translation type="vanished">in formati aperti: CSV, JSON, C3D, TRC, MOT, BIDS</translation>
     </message>
     <message>
         <source>runs the other way: opposite sign?</source>
@@ -7500,20 +7340,8 @@
         <translation>Può tirare, ma non deve far male. Se dopo un’ora fa ancora male, la prossima volta fare meno e chiamarci.</translation>
     </message>
     <message>
-        <source>{count} pictures are missing, the rest is kept: close other programs</source>
-        <translation type="vanished">{count} immagini mancano, il resto c’è: chiudere altri programmi</translation>
-    </message>
-    <message>
         <source>The computer is too busy</source>
         <translation>Il computer è sovraccarico</translation>
-    </message>
-    <message>
-        <source>The figures come {seconds} s late; every picture is kept</source>
-        <translation type="vanished">I valori arrivano con {seconds} s di ritardo; nessuna immagine va persa</translation>
-    </message>
-    <message>
-        <source>The figures come {seconds} s late</source>
-        <translation type="vanished">I valori arrivano con {seconds} s di ritardo</translation>
     </message>
     <message>
         <source>{count} pictures are missing: close other programs</source>
@@ -7766,54 +7594,6 @@
         <translation>Cartella per le copie di sicurezza, su un altro disco</translation>
     </message>
     <message>
-        <source>not chosen yet</source>
-        <translation type="vanished">non ancora scelta</translation>
-    </message>
-    <message>
-        <source>not there now</source>
-        <translation type="vanished">ora non c’è</translation>
-    </message>
-    <message>
-        <source>{free} GB free</source>
-        <translation type="vanished">{free} GB liberi</translation>
-    </message>
-    <message>
-        <source>There is no back-up yet.</source>
-        <translation type="vanished">Non c’è ancora nessuna copia.</translation>
-    </message>
-    <message>
-        <source>Every session is in it.</source>
-        <translation type="vanished">Ogni seduta è compresa.</translation>
-    </message>
-    <message>
-        <source>1 session is not in it.</source>
-        <translation type="vanished">1 seduta non è compresa.</translation>
-    </message>
-    <message>
-        <source>{n} sessions are not in it.</source>
-        <translation type="vanished">{n} sedute non sono comprese.</translation>
-    </message>
-    <message>
-        <source>The last back-up is {days} days old.</source>
-        <translation type="vanished">L’ultima copia è di {days} giorni fa.</translation>
-    </message>
-    <message>
-        <source>{when} · {n} sessions, {size} GB · read back and compared: all equal</source>
-        <translation type="vanished">{when} · {n} sedute, {size} GB · riletta e confrontata: tutto uguale</translation>
-    </message>
-    <message>
-        <source>{when} · 1 session, {size} GB · read back and compared: all equal</source>
-        <translation type="vanished">{when} · 1 seduta, {size} GB · riletta e confrontata: tutto uguale</translation>
-    </message>
-    <message>
-        <source>Reminder after {days} days.</source>
-        <translation type="vanished">Promemoria dopo {days} giorni.</translation>
-    </message>
-    <message>
-        <source>none</source>
-        <translation type="vanished">nessuna</translation>
-    </message>
-    <message>
         <source>Folder that holds the back-ups</source>
         <translation>Cartella che contiene le copie</translation>
     </message>
@@ -7836,18 +7616,6 @@
     <message>
         <source>Sealed: {name}, {size} MB. Whoever has the passphrase can open it.</source>
         <translation>Sigillato: {name}, {size} MB. Chi ha la passphrase può aprirlo.</translation>
-    </message>
-    <message>
-        <source>The last back-up is of {day}.</source>
-        <translation type="vanished">L’ultima copia è del {day}.</translation>
-    </message>
-    <message>
-        <source>on the same disk as the data</source>
-        <translation type="vanished">sullo stesso disco dei dati</translation>
-    </message>
-    <message>
-        <source>It lies on the disk that holds the data: if that disk breaks, both are lost.</source>
-        <translation type="vanished">Si trova sul disco che contiene i dati: se si rompe, si perdono entrambi.</translation>
     </message>
     <message>
         <source>Sealed back-up</source>
@@ -7948,29 +7716,9 @@
         <source>Back from a sealed file…</source>
         <translation>Ripristino da un file sigillato…</translation>
     </message>
-    <message>
-        <source>closed with a passphrase, to carry away or send</source>
-        <translation type="vanished">chiuso con una passphrase, da portare via o inviare</translation>
-    </message>
 </context>
 <context>
     <name>Bar</name>
-    <message>
-        <source>Clinic</source>
-        <translation type="vanished">Clinica</translation>
-    </message>
-    <message>
-        <source>Test and retest</source>
-        <translation type="vanished">Test e retest</translation>
-    </message>
-    <message>
-        <source>Camera calibration</source>
-        <translation type="vanished">Calibrazione della telecamera</translation>
-    </message>
-    <message>
-        <source>Check card</source>
-        <translation type="vanished">Cartoncino di controllo</translation>
-    </message>
     <message>
         <source>Exercise</source>
         <translation>Esercizio</translation>
@@ -8519,21 +8267,6 @@
     </message>
 </context>
 <context>
-    <name>Calibrating</name>
-    <message>
-        <source>Save the board to print</source>
-        <translation type="vanished">Salva la tavola da stampare</translation>
-    </message>
-    <message>
-        <source>Save one page</source>
-        <translation type="vanished">Salva una pagina</translation>
-    </message>
-    <message>
-        <source>Show it some more, tilted more and nearer: {why}.</source>
-        <translation type="vanished">Mostrarla ancora, più inclinata e più vicina: {why}.</translation>
-    </message>
-</context>
-<context>
     <name>CameraCard</name>
     <message>
         <source>Camera</source>
@@ -8584,10 +8317,6 @@
     <message>
         <source>Stop</source>
         <translation>Ferma</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
     </message>
     <message>
         <source>Is this still the camera called “{name}”?</source>
@@ -8815,30 +8544,6 @@
         <translation>Scarto</translation>
     </message>
     <message>
-        <source>If it is out</source>
-        <translation type="vanished">Se è fuori limite</translation>
-    </message>
-    <message>
-        <source>card flat, 60 cm away, its ruler 100 mm long</source>
-        <translation type="vanished">cartoncino piatto, a 60 cm, righello di 100 mm</translation>
-    </message>
-    <message>
-        <source>Calibrate the camera again</source>
-        <translation type="vanished">Calibrare di nuovo la telecamera</translation>
-    </message>
-    <message>
-        <source>with the board, five minutes</source>
-        <translation type="vanished">con la tavola, cinque minuti</translation>
-    </message>
-    <message>
-        <source>Still out: do not measure</source>
-        <translation type="vanished">Ancora fuori limite: non misurare</translation>
-    </message>
-    <message>
-        <source>sessions near this check say that they are not sure</source>
-        <translation type="vanished">le sedute vicine a questo controllo dicono di non essere sicure</translation>
-    </message>
-    <message>
         <source>Simulated camera and card</source>
         <translation>Telecamera e cartoncino simulati</translation>
     </message>
@@ -8856,29 +8561,6 @@
     <message>
         <source>missing</source>
         <translation>manca</translation>
-    </message>
-</context>
-<context>
-    <name>Checking</name>
-    <message>
-        <source>Save the card to print</source>
-        <translation type="vanished">Salva il cartoncino da stampare</translation>
-    </message>
-    <message>
-        <source>Save one page</source>
-        <translation type="vanished">Salva una pagina</translation>
-    </message>
-    <message>
-        <source>not with a board</source>
-        <translation type="vanished">non con una tavola</translation>
-    </message>
-    <message>
-        <source>Calibrated</source>
-        <translation type="vanished">Calibrata</translation>
-    </message>
-    <message>
-        <source>Checks</source>
-        <translation type="vanished">Controlli</translation>
     </message>
 </context>
 <context>
@@ -8906,24 +8588,8 @@
 <context>
     <name>ClinicScreen</name>
     <message>
-        <source>Week before</source>
-        <translation type="vanished">Settimana prima</translation>
-    </message>
-    <message>
-        <source>Week after</source>
-        <translation type="vanished">Settimana dopo</translation>
-    </message>
-    <message>
-        <source>Save page…</source>
-        <translation type="vanished">Salva pagina…</translation>
-    </message>
-    <message>
         <source>The clinic</source>
         <translation>La clinica</translation>
-    </message>
-    <message>
-        <source>Counts and dates only: no measured value leaves a patient’s own record. Therapists stand in the order in which they joined and are never ranked.</source>
-        <translation type="vanished">Solo numeri e date: nessun valore misurato lascia la cartella del paziente. I terapisti stanno nell’ordine in cui sono arrivati e non sono mai classificati.</translation>
     </message>
     <message>
         <source>Week &amp;before</source>
@@ -8963,14 +8629,6 @@
     <message>
         <source>Radians</source>
         <translation>Radianti</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation type="vanished">Annulla</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
     </message>
     <message>
         <source>Compare</source>
@@ -9336,32 +8994,8 @@
         <translation>Relazioni ed esportazioni salvate altrove, da cancellare di persona ({n}): {path}.</translation>
     </message>
     <message>
-        <source>{one} and {other}</source>
-        <translation type="vanished">{one} e {other}</translation>
-    </message>
-    <message>
         <source>Angles, pictures, notes and pain scores of this session ({files}, {size} MB).</source>
         <translation>Angoli, immagini, note e punteggi del dolore di questa seduta ({files}, {size} MB).</translation>
-    </message>
-    <message>
-        <source>1 export</source>
-        <translation type="vanished">1 esportazione</translation>
-    </message>
-    <message>
-        <source>{n} exports</source>
-        <translation type="vanished">{n} esportazioni</translation>
-    </message>
-    <message>
-        <source>1 report</source>
-        <translation type="vanished">1 relazione</translation>
-    </message>
-    <message>
-        <source>{n} reports</source>
-        <translation type="vanished">{n} relazioni</translation>
-    </message>
-    <message>
-        <source>The {made} that Carpus made from it go too.</source>
-        <translation type="vanished">Va via anche ciò che Carpus ne ha creato: {made}.</translation>
     </message>
     <message>
         <source>The other session.</source>
@@ -9378,14 +9012,6 @@
     <message>
         <source>Files copied elsewhere: Carpus cannot reach them.</source>
         <translation>File copiati altrove: Carpus non può raggiungerli.</translation>
-    </message>
-    <message>
-        <source>Exports and reports that were changed since: {n}.</source>
-        <translation type="vanished">Esportazioni e relazioni modificate nel frattempo: {n}.</translation>
-    </message>
-    <message>
-        <source>Exports and reports that are not where Carpus put them: {n}, look for them yourself.</source>
-        <translation type="vanished">Esportazioni e relazioni che non sono dove Carpus le ha messe: {n}; vanno cercate a mano.</translation>
     </message>
     <message>
         <source>The log keeps that it was erased, no name.</source>
@@ -9414,10 +9040,6 @@
     <message>
         <source>{count} values measured by hand.</source>
         <translation>{count} valori misurati a mano.</translation>
-    </message>
-    <message>
-        <source>Reports and exports saved elsewhere, delete them yourself ({n}): {path}</source>
-        <translation type="vanished">Rapporti ed esportazioni salvati altrove, da cancellare a mano ({n}): {path}</translation>
     </message>
 </context>
 <context>
@@ -9662,35 +9284,8 @@
         <translation>Salva…</translation>
     </message>
     <message>
-        <source>The patient has agreed to this film</source>
-        <translation type="vanished">Il paziente ha acconsentito a questo filmato</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation type="vanished">Annulla</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
-    </message>
-    <message>
-        <source>Save film…</source>
-        <translation type="vanished">Salva filmato…</translation>
-    </message>
-    <message>
         <source>Film of repetition {number}</source>
         <translation>Filmato della ripetizione {number}</translation>
-    </message>
-</context>
-<context>
-    <name>Filming</name>
-    <message>
-        <source>Save film</source>
-        <translation type="vanished">Salva filmato</translation>
-    </message>
-    <message>
-        <source>Save picture</source>
-        <translation type="vanished">Salva immagine</translation>
     </message>
 </context>
 <context>
@@ -9931,30 +9526,6 @@ Maiusc+F8 di lato</translation>
         <translation>Una pagina per il paziente, senza cifre né diagnosi. Fino a {count} esercizi.</translation>
     </message>
     <message>
-        <source>Times</source>
-        <translation type="vanished">Quante volte</translation>
-    </message>
-    <message>
-        <source>Rounds a day</source>
-        <translation type="vanished">Giri al giorno</translation>
-    </message>
-    <message>
-        <source>Next appointment</source>
-        <translation type="vanished">Prossimo appuntamento</translation>
-    </message>
-    <message>
-        <source>Time</source>
-        <translation type="vanished">Ora</translation>
-    </message>
-    <message>
-        <source>No appointment yet: a line to write on</source>
-        <translation type="vanished">Ancora nessun appuntamento: una riga per scrivere</translation>
-    </message>
-    <message>
-        <source>A line for the patient, no names</source>
-        <translation type="vanished">Una riga per il paziente, senza nomi</translation>
-    </message>
-    <message>
         <source>&amp;Times</source>
         <translation>&amp;Quante volte</translation>
     </message>
@@ -9979,14 +9550,6 @@ Maiusc+F8 di lato</translation>
         <translation>Lingua del paziente</translation>
     </message>
     <message>
-        <source>Cancel</source>
-        <translation type="vanished">Annulla</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
-    </message>
-    <message>
         <source>Show the sheet</source>
         <translation>Mostra il foglio</translation>
     </message>
@@ -10009,25 +9572,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Line: {count} letters too many</source>
         <translation>Riga: {count} lettere di troppo</translation>
-    </message>
-</context>
-<context>
-    <name>Journey</name>
-    <message>
-        <source>Camera calibration</source>
-        <translation type="vanished">Calibrazione della telecamera</translation>
-    </message>
-    <message>
-        <source>Check card</source>
-        <translation type="vanished">Cartoncino di controllo</translation>
-    </message>
-    <message>
-        <source>Simulated camera: nothing here is of a real one.</source>
-        <translation type="vanished">Telecamera simulata: qui non c’è nulla di una vera.</translation>
-    </message>
-    <message>
-        <source>Simulated hand: this is not a patient’s, and does not count.</source>
-        <translation type="vanished">Mano simulata: non è di un paziente, e non conta.</translation>
     </message>
 </context>
 <context>
@@ -10102,14 +9646,6 @@ Maiusc+F8 di lato</translation>
         <translation>Il nome entra solo in questa lettera. Chiunque riceva il file può leggerlo.</translation>
     </message>
     <message>
-        <source>Cancel</source>
-        <translation type="vanished">Annulla</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
-    </message>
-    <message>
         <source>Show the letter</source>
         <translation>Mostra la lettera</translation>
     </message>
@@ -10138,10 +9674,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Since</source>
         <translation>Da</translation>
-    </message>
-    <message>
-        <source>Last exercise</source>
-        <translation type="vanished">Ultimo esercizio</translation>
     </message>
     <message>
         <source>Last session</source>
@@ -10253,18 +9785,6 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>LiveScreen</name>
     <message>
-        <source>Note</source>
-        <translation type="vanished">Nota</translation>
-    </message>
-    <message>
-        <source>Pain</source>
-        <translation type="vanished">Dolore</translation>
-    </message>
-    <message>
-        <source>Pause</source>
-        <translation type="vanished">Pausa</translation>
-    </message>
-    <message>
         <source>Speeds</source>
         <translation>Velocità</translation>
     </message>
@@ -10285,24 +9805,12 @@ Maiusc+F8 di lato</translation>
         <translation>In attesa di un’immagine</translation>
     </message>
     <message>
-        <source>Storing…</source>
-        <translation type="vanished">Salvataggio…</translation>
-    </message>
-    <message>
         <source>Angles</source>
         <translation>Angoli</translation>
     </message>
     <message>
         <source>No picture</source>
         <translation>Nessuna immagine</translation>
-    </message>
-    <message>
-        <source>Pain {score} noted</source>
-        <translation type="vanished">Dolore {score} annotato</translation>
-    </message>
-    <message>
-        <source>Passive</source>
-        <translation type="vanished">Passivo</translation>
     </message>
     <message>
         <source>Plug the camera in again</source>
@@ -10323,38 +9831,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Open the patient’s view</source>
         <translation>Apri la vista del paziente</translation>
-    </message>
-    <message>
-        <source>Go on</source>
-        <translation type="vanished">Continua</translation>
-    </message>
-    <message>
-        <source>Play and record</source>
-        <translation type="vanished">Riproduci e registra</translation>
-    </message>
-    <message>
-        <source>Record</source>
-        <translation type="vanished">Registra</translation>
-    </message>
-    <message>
-        <source>Stop and go on</source>
-        <translation type="vanished">Ferma e continua</translation>
-    </message>
-    <message>
-        <source>Stop and review</source>
-        <translation type="vanished">Ferma e rivedi</translation>
-    </message>
-    <message>
-        <source>Starts in {seconds}: not yet</source>
-        <translation type="vanished">Inizio tra {seconds}: non ancora</translation>
-    </message>
-    <message>
-        <source>Space · pedal</source>
-        <translation type="vanished">Spazio · pedale</translation>
-    </message>
-    <message>
-        <source>Side · {finger}</source>
-        <translation type="vanished">Di lato · {finger}</translation>
     </message>
 </context>
 <context>
@@ -10477,10 +9953,6 @@ Maiusc+F8 di lato</translation>
         <translation>Registro</translation>
     </message>
     <message>
-        <source>Only ever added to. In the file patients and sessions are numbers: names are put to them here, as long as they are in the list.</source>
-        <translation type="vanished">Si può solo aggiungere. Nel file pazienti e sedute sono numeri: qui si mostrano i nomi, finché sono nell’elenco.</translation>
-    </message>
-    <message>
         <source>When</source>
         <translation>Quando</translation>
     </message>
@@ -10503,14 +9975,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Done</source>
         <translation>Fine</translation>
-    </message>
-    <message>
-        <source>The log was changed at or before line {line}.</source>
-        <translation type="vanished">Il registro è stato modificato alla riga {line} o prima.</translation>
-    </message>
-    <message>
-        <source>Whole: {n} lines, none changed.</source>
-        <translation type="vanished">Integro: {n} righe, nessuna modificata.</translation>
     </message>
     <message>
         <source>Only ever added to, which protects against mistakes, not against the owner of the computer: a back-up kept elsewhere shows a later change. Names are put to it here, as long as they are in the list.</source>
@@ -10669,100 +10133,8 @@ Maiusc+F8 di lato</translation>
         <translation>Trascinare un nome sul suo dischetto. I nomi che cambiano posto si scambiano.</translation>
     </message>
     <message>
-        <source>Picture</source>
-        <translation type="vanished">Immagine</translation>
-    </message>
-    <message>
-        <source>Lay the hand flat and still</source>
-        <translation type="vanished">Mettere la mano piatta e ferma</translation>
-    </message>
-    <message>
-        <source>Palm down, fingers as straight as they go, forearm in line. Then take the picture.</source>
-        <translation type="vanished">Palmo in giù, dita il più dritte possibile, avambraccio in linea. Poi scattare l’immagine.</translation>
-    </message>
-    <message>
-        <source>Checks</source>
-        <translation type="vanished">Controlli</translation>
-    </message>
-    <message>
-        <source>Take the picture</source>
-        <translation type="vanished">Scatta l’immagine</translation>
-    </message>
-    <message>
-        <source>Marker {number} of {asked}</source>
-        <translation type="vanished">Marcatore {number} di {asked}</translation>
-    </message>
-    <message>
-        <source>Checking…</source>
-        <translation type="vanished">Controllo…</translation>
-    </message>
-    <message>
-        <source>Good so far</source>
-        <translation type="vanished">Finora bene</translation>
-    </message>
-    <message>
-        <source>1 marker to go</source>
-        <translation type="vanished">manca 1 marcatore</translation>
-    </message>
-    <message>
-        <source>{count} markers to go</source>
-        <translation type="vanished">mancano {count} marcatori</translation>
-    </message>
-    <message>
-        <source>Start measuring · {left}</source>
-        <translation type="vanished">Inizia a misurare · {left}</translation>
-    </message>
-    <message>
-        <source>Checking the markers…</source>
-        <translation type="vanished">Controllo dei marcatori…</translation>
-    </message>
-    <message>
         <source>The hand lies flat and still, palm down. Fingers that stay bent are fine.</source>
         <translation>La mano è piatta e ferma, palmo in giù. Le dita che restano piegate vanno bene.</translation>
-    </message>
-    <message>
-        <source>Looking for the markers…</source>
-        <translation type="vanished">Ricerca dei marcatori…</translation>
-    </message>
-    <message>
-        <source>No blue disc in the picture</source>
-        <translation type="vanished">Nessun dischetto blu nell’immagine</translation>
-    </message>
-    <message>
-        <source>No blue disc is to be seen</source>
-        <translation type="vanished">Non si vede nessun dischetto blu</translation>
-    </message>
-    <message>
-        <source>Are the discs on, and the hand under the camera? More light helps; dark blue cloth is no disc.</source>
-        <translation type="vanished">I dischetti ci sono, e la mano è sotto la telecamera? Più luce aiuta; una stoffa blu scuro non è un dischetto.</translation>
-    </message>
-    <message>
-        <source>Click by hand</source>
-        <translation type="vanished">Clic a mano</translation>
-    </message>
-    <message>
-        <source>Names to confirm</source>
-        <translation type="vanished">Nomi da confermare</translation>
-    </message>
-    <message>
-        <source>All markers found</source>
-        <translation type="vanished">Trovati tutti i marcatori</translation>
-    </message>
-    <message>
-        <source>Ready to measure</source>
-        <translation type="vanished">Pronto a misurare</translation>
-    </message>
-    <message>
-        <source>Hold the hand in this position until the measuring begins.</source>
-        <translation type="vanished">Tenere la mano in questa posizione finché inizia la misura.</translation>
-    </message>
-    <message>
-        <source>Start measuring</source>
-        <translation type="vanished">Inizia a misurare</translation>
-    </message>
-    <message>
-        <source>Correct names</source>
-        <translation type="vanished">Correggi i nomi</translation>
     </message>
     <message>
         <source>Click these again</source>
@@ -10828,61 +10200,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>mean {value}</source>
         <translation>media {value}</translation>
-    </message>
-</context>
-<context>
-    <name>MeasuringFlow</name>
-    <message>
-        <source>Recording paused by itself at {time}.</source>
-        <translation type="vanished">La registrazione si è messa in pausa da sola a {time}.</translation>
-    </message>
-    <message>
-        <source>{time} and {count} full repetitions are stored.</source>
-        <translation type="vanished">Salvati {time} e {count} ripetizioni complete.</translation>
-    </message>
-    <message>
-        <source>Stop and review</source>
-        <translation type="vanished">Ferma e rivedi</translation>
-    </message>
-    <message>
-        <source>Choose another source</source>
-        <translation type="vanished">Scegli un’altra sorgente</translation>
-    </message>
-    <message>
-        <source>To the patients</source>
-        <translation type="vanished">Ai pazienti</translation>
-    </message>
-    <message>
-        <source>Go on measuring</source>
-        <translation type="vanished">Continua a misurare</translation>
-    </message>
-    <message>
-        <source>The recording has only just begun.</source>
-        <translation type="vanished">La registrazione è appena iniziata.</translation>
-    </message>
-    <message>
-        <source>It goes on while you choose, and everything is kept.</source>
-        <translation type="vanished">Prosegue durante la scelta, e tutto è conservato.</translation>
-    </message>
-    <message>
-        <source>Go on measuring, or stop it already?</source>
-        <translation type="vanished">Continuare a misurare, o fermare già?</translation>
-    </message>
-    <message>
-        <source>Stop, save and close</source>
-        <translation type="vanished">Ferma, salva e chiudi</translation>
-    </message>
-    <message>
-        <source>A recording is running.</source>
-        <translation type="vanished">È in corso una registrazione.</translation>
-    </message>
-    <message>
-        <source>Everything measured up to now is kept, whatever you choose.</source>
-        <translation type="vanished">Tutto ciò che è stato misurato finora resta, qualunque sia la scelta.</translation>
-    </message>
-    <message>
-        <source>Go on measuring, or stop: the session is saved and Carpus closes.</source>
-        <translation type="vanished">Continuare a misurare, o fermare: la seduta viene salvata e Carpus si chiude.</translation>
     </message>
 </context>
 <context>
@@ -10954,10 +10271,6 @@ Maiusc+F8 di lato</translation>
         <source>Passive from here</source>
         <translation>Passivo da qui</translation>
     </message>
-    <message>
-        <source>Helped by hand</source>
-        <translation type="vanished">Aiuto con la mano</translation>
-    </message>
 </context>
 <context>
     <name>NoticeStrip</name>
@@ -10999,10 +10312,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>follows the middle joint</source>
         <translation>segue l’articolazione media</translation>
-    </message>
-    <message>
-        <source>Repetition</source>
-        <translation type="vanished">Ripetizione</translation>
     </message>
     <message>
         <source>of {asked}</source>
@@ -11049,18 +10358,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>The same &amp;again</source>
         <translation>&amp;Ancora una volta</translation>
-    </message>
-    <message>
-        <source>Enter</source>
-        <translation type="vanished">Invio</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation type="vanished">Annulla</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
     </message>
     <message>
         <source>&amp;Passphrase</source>
@@ -11171,10 +10468,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>&amp;Edit…</source>
         <translation>&amp;Modifica…</translation>
-    </message>
-    <message>
-        <source>&amp;Change…</source>
-        <translation type="vanished">&amp;Cambia…</translation>
     </message>
     <message>
         <source>&amp;Other exercise…</source>
@@ -11328,10 +10621,6 @@ Maiusc+F8 di lato</translation>
         <translation>Diagnosi: {count} lettere di troppo</translation>
     </message>
     <message>
-        <source>N&amp;ote (no diagnosis, no names)</source>
-        <translation type="vanished">N&amp;ota (niente diagnosi, niente nomi)</translation>
-    </message>
-    <message>
         <source>Archi&amp;ve or delete…</source>
         <translation>Archivia o &amp;elimina…</translation>
     </message>
@@ -11372,10 +10661,6 @@ Maiusc+F8 di lato</translation>
         <translation>Intervento o lesione?</translation>
     </message>
     <message>
-        <source>A name has up to {count} letters: what goes beyond is not taken.</source>
-        <translation type="vanished">Un nome ha al massimo {count} lettere: il resto non viene preso.</translation>
-    </message>
-    <message>
         <source>Give the patient a name.</source>
         <translation>Dare un nome al paziente.</translation>
     </message>
@@ -11405,10 +10690,6 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>PatientsScreen</name>
     <message>
-        <source>Name or exercise</source>
-        <translation type="vanished">Nome o esercizio</translation>
-    </message>
-    <message>
         <source>Ctrl+F</source>
         <translation>Ctrl+F</translation>
     </message>
@@ -11423,10 +10704,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Ctrl+N</source>
         <translation>Ctrl+N</translation>
-    </message>
-    <message>
-        <source>Clinic…</source>
-        <translation type="vanished">Clinica…</translation>
     </message>
     <message>
         <source>&amp;Clinic…</source>
@@ -11476,14 +10753,6 @@ Maiusc+F8 di lato</translation>
         <translation>Volontari o personale le cui mani non cambiano, mai pazienti. Aggiungerli in Pazienti con uno pseudonimo come P01. Ognuno è misurato due o più volte entro 14 giorni, togliendo e rimettendo ogni volta tutti i dischetti.</translation>
     </message>
     <message>
-        <source>Cancel</source>
-        <translation type="vanished">Annulla</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
-    </message>
-    <message>
         <source>These take part</source>
         <translation>Partecipano questi</translation>
     </message>
@@ -11528,14 +10797,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>&amp;Take the PIN away</source>
         <translation>&amp;Togli il PIN</translation>
-    </message>
-    <message>
-        <source>Cancel</source>
-        <translation type="vanished">Annulla</translation>
-    </message>
-    <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
     </message>
     <message>
         <source>Four signs or more, digits or letters. It hides names and pictures from those who pass by; files are readable for whoever has this computer’s account or disk.</source>
@@ -11649,17 +10910,6 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>Printing</name>
-    <message>
-        <source>Export into a folder</source>
-        <translation type="vanished">Esporta in una cartella</translation>
-    </message>
-    <message>
-        <source>Save table</source>
-        <translation type="vanished">Salva la tabella</translation>
-    </message>
-</context>
-<context>
     <name>ProgressChart</name>
     <message>
         <source>Range over the sessions</source>
@@ -11759,16 +11009,8 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>ReasonSheet</name>
     <message>
-        <source>It stays in the recording and on the curves, but counts no longer. The report says so.</source>
-        <translation type="vanished">Resta nella registrazione e sulle curve, ma non conta più. La relazione lo dice.</translation>
-    </message>
-    <message>
         <source>pain</source>
         <translation>dolore</translation>
-    </message>
-    <message>
-        <source>helped by hand</source>
-        <translation type="vanished">aiuto con la mano</translation>
     </message>
     <message>
         <source>Passive: somebody else moved the hand. It counts apart, beside the active ones.</source>
@@ -11805,10 +11047,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Is repetition {number} passive, or left out?</source>
         <translation>La ripetizione {number} è passiva o esclusa?</translation>
-    </message>
-    <message>
-        <source>Leave repetition {number} out?</source>
-        <translation type="vanished">Escludere la ripetizione {number}?</translation>
     </message>
     <message>
         <source>Leave it out</source>
@@ -12653,16 +11891,8 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>ReviewScreen</name>
     <message>
-        <source>This repetition as a film of the hand alone (F)</source>
-        <translation type="vanished">Questa ripetizione come filmato della sola mano (F)</translation>
-    </message>
-    <message>
         <source>Reading the session…</source>
         <translation>Lettura della seduta…</translation>
-    </message>
-    <message>
-        <source>Not in the picture’s plane: not drawn</source>
-        <translation type="vanished">Non nel piano dell’immagine: non disegnato</translation>
     </message>
 </context>
 <context>
@@ -12843,10 +12073,6 @@ Maiusc+F8 di lato</translation>
         <translation>Chiudi</translation>
     </message>
     <message>
-        <source>Esc</source>
-        <translation type="vanished">Esc</translation>
-    </message>
-    <message>
         <source>Sets of exercises</source>
         <translation>Sequenze di esercizi</translation>
     </message>
@@ -12885,65 +12111,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Delete “{name}”? Press again</source>
         <translation>Eliminare “{name}”? Premere di nuovo</translation>
-    </message>
-</context>
-<context>
-    <name>SettingUp</name>
-    <message>
-        <source>The camera is being opened.</source>
-        <translation type="vanished">Apertura della telecamera.</translation>
-    </message>
-    <message>
-        <source>The recording is being opened.</source>
-        <translation type="vanished">Apertura della registrazione.</translation>
-    </message>
-    <message>
-        <source>Choose the source again</source>
-        <translation type="vanished">Scegli di nuovo la sorgente</translation>
-    </message>
-    <message>
-        <source>The depth of {name} lies {px} pixels beside its colours.</source>
-        <translation type="vanished">La profondità di {name} è spostata di {px} pixel rispetto ai colori.</translation>
-    </message>
-    <message>
-        <source>The recording itself is not changed. It does not say that its depth was laid on its colours.</source>
-        <translation type="vanished">La registrazione stessa non cambia. Non dice che la sua profondità era stata sovrapposta ai colori.</translation>
-    </message>
-    <message>
-        <source>Open it again with the depth moved onto the colours, then click the markers anew.</source>
-        <translation type="vanished">Riaprirla con la profondità spostata sui colori, poi rifare i clic sui marcatori.</translation>
-    </message>
-    <message>
-        <source>Leave it as it is</source>
-        <translation type="vanished">Lascia così</translation>
-    </message>
-    <message>
-        <source>Open it again</source>
-        <translation type="vanished">Riapri</translation>
-    </message>
-    <message>
-        <source>Leave the markers?</source>
-        <translation type="vanished">Lasciare i marcatori?</translation>
-    </message>
-    <message>
-        <source>The names given on this picture would be lost.</source>
-        <translation type="vanished">I nomi dati su questa immagine andrebbero perduti.</translation>
-    </message>
-    <message>
-        <source>Stay here, or go back to the camera.</source>
-        <translation type="vanished">Restare qui, o tornare alla telecamera.</translation>
-    </message>
-    <message>
-        <source>Back to the camera</source>
-        <translation type="vanished">Torna alla telecamera</translation>
-    </message>
-    <message>
-        <source>Stay here</source>
-        <translation type="vanished">Resta qui</translation>
-    </message>
-    <message>
-        <source>The simulated patient is being drawn.</source>
-        <translation type="vanished">Il paziente simulato viene disegnato.</translation>
     </message>
 </context>
 <context>
@@ -13101,14 +12268,6 @@ Maiusc+F8 di lato</translation>
         <translation>Tasti</translation>
     </message>
     <message>
-        <source>Click a key and press another one. While measuring only the space bar and function keys are safe.</source>
-        <translation type="vanished">Fare clic su un tasto e premerne un altro. Durante la misura sono sicuri solo la barra spaziatrice e i tasti funzione.</translation>
-    </message>
-    <message>
-        <source>Usual keys again</source>
-        <translation type="vanished">Ripristina i tasti usuali</translation>
-    </message>
-    <message>
         <source>About Carpus</source>
         <translation>Informazioni su Carpus</translation>
     </message>
@@ -13167,10 +12326,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Data folder</source>
         <translation>Cartella dei dati</translation>
-    </message>
-    <message>
-        <source>{key} already does: {action}.</source>
-        <translation type="vanished">{key} fa già: {action}.</translation>
     </message>
 </context>
 <context>
@@ -13455,21 +12610,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>The folder counts from the next start on: close Carpus and open it again before you measure.</source>
         <translation>La cartella vale dal prossimo avvio: chiudere Carpus e riaprirlo prima di misurare.</translation>
-    </message>
-</context>
-<context>
-    <name>WordTable</name>
-    <message>
-        <source>Something happened that Carpus does not know.</source>
-        <translation type="vanished">È successo qualcosa che Carpus non conosce.</translation>
-    </message>
-    <message>
-        <source>Everything stored before is safe.</source>
-        <translation type="vanished">Tutto ciò che era già salvato è al sicuro.</translation>
-    </message>
-    <message>
-        <source>Go back and try again. If it comes back, start Carpus anew and report it.</source>
-        <translation type="vanished">Tornare indietro e riprovare. Se si ripete, riavviare Carpus e segnalarlo.</translation>
     </message>
 </context>
 <context>

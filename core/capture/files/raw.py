@@ -21,7 +21,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from types import TracebackType
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -30,7 +29,7 @@ from carpus.core.camera import COEFFICIENTS, Camera
 from carpus.core.capture.files.pictures import Tiled, decode_color, decode_depth, encode_color, encode_depth, packed
 from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.depth_sensor import ASSUMED_SENSOR, sensor_of
-from carpus.core.durable import copy_open_file, is_still_there, private
+from carpus.core.durable import Writing, copy_open_file, is_still_there, private
 from carpus.core.errors import (
     DiskFull,
     OutputExists,
@@ -60,7 +59,7 @@ MAX_PICTURE_BYTES = 1 << 27
 _NO_COLOR, _NO_DEPTH = np.empty((0, 0, 3), np.uint8), np.empty((0, 0), np.uint16)
 
 
-class RawWriter:
+class RawWriter(Writing):
     """Writes one raw recording. Use as a context manager, or end it by :meth:`close`.
 
     When its folder goes away it goes on in the one that ``fallback`` names, with what was recorded if that can still be
@@ -86,15 +85,6 @@ class RawWriter:
         self._end = 0
         self._file: BinaryIO | None = _create(path)
         self._put(_START.pack(MAGIC, VERSION))
-
-    def __enter__(self) -> RawWriter:
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, fault: BaseException | None, _: TracebackType | None) -> None:
-        if kind is None:
-            self.close()
-        else:
-            self.abandon()
 
     @property
     def path(self) -> Path:

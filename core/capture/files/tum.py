@@ -11,7 +11,6 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePath
-from types import TracebackType
 from typing import TextIO
 
 import numpy as np
@@ -20,7 +19,7 @@ from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import CAMERA_FILE, default_camera, read_camera_info, write_camera_info
 from carpus.core.capture.files.pictures import encode_color, encode_depth, read_color, read_depth
 from carpus.core.capture.source import Notice, SourceInfo, ignore, is_simulated
-from carpus.core.durable import private
+from carpus.core.durable import Writing, private
 from carpus.core.errors import (
     CameraFileUnreadable,
     DepthMissing,
@@ -363,7 +362,7 @@ def _camera(folder: Path, width_px: int, height_px: int) -> Camera:
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
-class TumWriter:
+class TumWriter(Writing):
     """Writes one folder. A picture enters its list only when its file is whole, so a crash costs one frame."""
 
     def __init__(self, path: Path, info: SourceInfo) -> None:
@@ -383,15 +382,6 @@ class TumWriter:
             self.abandon()
             raise OutputNotWritable(path, cause.strerror or "") from cause
         write_camera_info(path / CAMERA_FILE, info.camera)
-
-    def __enter__(self) -> TumWriter:
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, fault: BaseException | None, _: TracebackType | None) -> None:
-        if kind is None:
-            self.close()
-        else:
-            self.abandon()
 
     @property
     def path(self) -> Path:
