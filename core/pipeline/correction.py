@@ -30,11 +30,10 @@ from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import DetectionTable, Session, header_again, motion_of
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, TrackedFrame
+from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, SpotAnswer, TrackedFrame
 
-STEP_PX, GONE_AFTER_S = 7.0, 0.5
-"""A spot that is no disc is followed from picture to picture no further than this, until it is gone for so long."""
-HELD_WITHIN_S = 0.5
+STEP_PX, HELD_WITHIN_S = 7.0, 0.5
+"""A disc moves no further than this from picture to picture; so soon after a correction its name must have held."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,13 +137,8 @@ class _Retracking:
         self._by_row = {correction.row: correction for correction in corrections}
         self._answers = answers_in(session)
         self._moments: list[Moment] = []
-        self._tracker = self._new_tracker()
-        self._false: list[_FalseSpot] = []
-
-    def _new_tracker(self) -> Tracker:
-        session, settings = self._session, self._settings
         own = self._learnt.applied(settings.tracker)
-        return Tracker(session.calibration, session.camera, own, keep_history=settings.smooth)
+        self._tracker = Tracker(session.calibration, session.camera, own, keep_history=settings.smooth)
 
     def frames(self) -> Iterator[TrackedFrame]:
         session = self._session
@@ -158,9 +152,6 @@ class _Retracking:
                 blobs = self._put_right(correction, blobs, time_s)
             for answer in self._answers.get(row, ()):
                 self._tracker.hear(answer)
-            for false in self._false:
-                blobs = false.left_out_of(blobs, time_s)
-            self._false = [false for false in self._false if not false.is_gone]
             dropped = max(int(session.quality.dropped_before[row]), 0)
             yield self._tracker.step(row, time_s, blobs, dropped)
 
@@ -181,48 +172,26 @@ class _Retracking:
             name: tuple(before[number]) for number, name in enumerate(markers) if np.isfinite(before[number]).all()
         } | dict(correction.places)
         named = np.array([place for place in now.values() if place is not None]).reshape(-1, 2)
-        for name in correction.places:
-            old = before[markers.index(name)]
-            if np.isfinite(old).all() and not _near(named, old):
-                self._false.append(_FalseSpot(old, time_s))
         blobs = with_places(blobs, named)
         palm = [markers[number] for number in session.header.protocol.palm]
         if any(name in palm for name in correction.places):
             self._look_anew(time_s)
-            fingers = session.header.protocol.has_fingers
-            if not fingers:
+            if not session.header.protocol.has_fingers:
                 blobs = blobs.only(_nearest(blobs, named))
+        for name, place in correction.places.items():
+            old = before[markers.index(name)]
+            is_false = np.isfinite(old).all() and not _near(named, old)
+            shown = None if name in palm else place  # the palm is found anew, its discs where they are on it
+            if is_false or shown is not None:
+                not_px = ((float(old[0]), float(old[1])),) if is_false else ()
+                self._tracker.hear(SpotAnswer(correction.row, name, shown, not_px))
         return blobs
 
     def _look_anew(self, time_s: float) -> None:
-        """From here on the hand is looked for: what was believed of it came of a wrong name."""
+        """From here on the hand is looked for, and what came before is not looked back at from there."""
         self._take_moments()
-        self._tracker = tracker = self._new_tracker()
-        unseen_s = self._settings.tracker.lost_after_s + 1.0
-        for back_s in (2.0 * unseen_s, 0.5 * unseen_s):
-            tracker.step(-1, time_s - back_s, Detections.none())
-        tracker.hand_over()  # two empty pictures that nobody took
-
-
-class _FalseSpot:
-    """A spot that is no disc, followed from where a person said so."""
-
-    def __init__(self, pixel: FloatArray, time_s: float) -> None:
-        self._pixel, self._seen_s = np.asarray(pixel, dtype=float), time_s
-        self.is_gone = False
-
-    def left_out_of(self, blobs: Detections, time_s: float) -> Detections:
-        self.is_gone = time_s - self._seen_s > GONE_AFTER_S
-        if not len(blobs) or self.is_gone:
-            return blobs
-        distance = np.linalg.norm(blobs.pixel - self._pixel, axis=1)
-        nearest = int(distance.argmin())
-        if distance[nearest] > STEP_PX:
-            return blobs
-        self._pixel, self._seen_s = blobs.pixel[nearest], time_s
-        kept: BoolArray = np.ones(len(blobs), dtype=np.bool_)
-        kept[nearest] = False
-        return blobs.only(kept)
+        self._tracker.begin_anywhere(time_s)
+        self._tracker.hand_over()  # taken already
 
 
 def with_places(blobs: Detections, places: FloatArray) -> Detections:

@@ -205,14 +205,18 @@ class LookingBack:
 
     def _talk(self) -> None:
         self._link.send((self._hand, self._piece_s, self._lag_s))
-        ending = False
-        while not ending:
-            ending = self._ending.wait(SEND_EVERY_S)  # looked at first: all that was taken before the end is sent
-            while self._waiting and not self._trouble:
-                count = min(len(self._waiting), FRAMES_AT_ONCE)
-                self._link.send([self._waiting.popleft() for _ in range(count)])
-                self._hear()
+        while not self._ending.wait(SEND_EVERY_S):
+            while self._waiting and not (self._trouble or self._ending.is_set()):
+                self._hand_on()
         self._link.send(None)
+        while self._waiting and not self._trouble:
+            self._hand_on()
+        self._link.send(None)
+        self._hear()
+
+    def _hand_on(self) -> None:
+        count = min(len(self._waiting), FRAMES_AT_ONCE)
+        self._link.send([self._waiting.popleft() for _ in range(count)])
         self._hear()
 
     def _hear(self) -> None:

@@ -38,13 +38,14 @@ class Waiting:
 class Difference:
     """How a new result differs: of ``common`` pictures that both know, ``changed`` differ by more than
     :data:`NOTICED_RAD` in some angle of the wrist or a finger; the most is ``most_rad`` at ``at_s``; ``found`` have an
-    angle now that had none."""
+    angle now that had none. ``live``: as measured, since one of the two was not looked back at."""
 
     common: int
     changed: int
     most_rad: float
     at_s: float
     found: int
+    live: bool
 
 
 NOTICED_RAD = np.radians(2.0)
@@ -154,8 +155,10 @@ def _mostly_same(one: RepetitionRow, other: RepetitionRow) -> bool:
 
 
 def difference(old: Session, new: Session) -> Difference:
-    """How two results of one recording differ, as they are drawn."""
-    before, after = best_motion(old), best_motion(new)
+    """How two results of one recording differ, looked back at if both are: else all that looking back betters would
+    be told as put right."""
+    live = old.smoothed is None or new.smoothed is None
+    before, after = (old.motion, new.motion) if live else (best_motion(old), best_motion(new))
     wrist_before, wrist_after = before.angles_rad, after.angles_rad
     known_before, known_after = np.isfinite(wrist_before).all(axis=1), np.isfinite(wrist_after).all(axis=1)
     both = np.asarray(known_before & known_after)
@@ -169,6 +172,5 @@ def difference(old: Session, new: Session) -> Difference:
     worst = int(size.argmax()) if len(size) else 0
     start_s = float(old.timestamp_s[0]) if len(size) else 0.0
     at_s = float(old.timestamp_s[worst]) - start_s if len(size) else 0.0
-    return Difference(
-        int(both.sum()), int((size > NOTICED_RAD).sum()), float(size.max(initial=0.0)), at_s, int(found.sum())
-    )
+    changed, most_rad = int((size > NOTICED_RAD).sum()), float(size.max(initial=0.0))
+    return Difference(int(both.sum()), changed, most_rad, at_s, int(found.sum()), live)

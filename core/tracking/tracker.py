@@ -220,6 +220,11 @@ class Tracker:
         self._manager.begin_at_neutral(at_s)
         self._results.forget_doubt()
 
+    def begin_anywhere(self, after_s: float) -> None:
+        """After that time look for the hand: what was believed of it came of a wrong name. Its anatomy stays known."""
+        self._lose(after_s)
+        self._results.forget_doubt()
+
     @property
     def is_lost(self) -> bool:
         return self._manager.is_lost

@@ -20,6 +20,10 @@
         <translation>{count} Bilder haben jetzt einen Winkel, die keinen hatten.</translation>
     </message>
     <message>
+        <source>As measured live: the old result was not looked back at.</source>
+        <translation>Wie live gemessen: Das alte Ergebnis ist nicht nachgerechnet.</translation>
+    </message>
+    <message>
         <source>Close Carpus</source>
         <translation>Carpus schließen</translation>
     </message>

@@ -20,6 +20,10 @@
         <translation>{count} immagini hanno un angolo che prima mancava.</translation>
     </message>
     <message>
+        <source>As measured live: the old result was not looked back at.</source>
+        <translation>Come misurato dal vivo: il vecchio risultato non è stato ricalcolato a posteriori.</translation>
+    </message>
+    <message>
         <source>Close Carpus</source>
         <translation>Chiudi Carpus</translation>
     </message>

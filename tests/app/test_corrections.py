@@ -7,7 +7,7 @@ import shutil
 import threading
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import fields
+from dataclasses import fields, replace
 from datetime import datetime
 from pathlib import Path
 
@@ -65,6 +65,11 @@ def test_a_trial_is_in_no_list_and_waits_until_it_is_wanted(library: Library, st
     found = difference(*corrections.both(session_id, trial))
     assert found.common > 100
     assert math.degrees(found.most_rad) < 10.0
+    assert found.live, "the old result was not looked back at"
+    old, new = corrections.both(session_id, trial)
+    assert difference(new, new).live is False
+    behind = replace(new, motion=replace(new.motion, angles_rad=new.motion.angles_rad + 1.0))
+    assert difference(old, behind).changed == len(old), "what the camera showed at the time, not what looking back made"
     trial.with_suffix(".12345678.part").write_bytes(b"x")  # the program was killed in the midst of another one
     later = Corrections(library)
     later.clear_unfinished()

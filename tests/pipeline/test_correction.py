@@ -5,16 +5,19 @@ from __future__ import annotations
 import hashlib
 import json
 import threading
+from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.errors import CarpusFault, NotCorrectable, OutputExists
+from carpus.core.hand.protocols import HAND21
 from carpus.core.pipeline import correction
 from carpus.core.pipeline.correction import CorrectionTask, correct, correct_in_process, not_held, task_of, with_places
-from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json
+from carpus.core.pipeline.track import Learnt, TrackSettings, from_neutral, learnt_from, parameters_json
 from carpus.core.session.marker_doubts import (
     CORRECTED,
     Correction,
@@ -26,8 +29,11 @@ from carpus.core.session.marker_doubts import (
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
+from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import FloatArray
+from tests.accuracy.carpus import measured_hand
+from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, blobs, calibration, discs_cam_m, swing
 
 FPS, SECONDS, WRONG_FROM = 30.0, 4.0, 60
@@ -213,3 +219,35 @@ def test_a_session_without_spots_cannot_be_corrected(stored: Stored, tmp_path: P
     writer.close()
     with pytest.raises(NotCorrectable):
         task_of(tmp_path / "empty.h5", tmp_path / "new.h5", (), "2.0")
+
+
+DIP3 = HAND21.markers.index("DIP3")
+OUT_OF_SIGHT = range(80, 105)
+
+
+def test_a_spot_that_is_no_disc_of_a_finger_stays_left_out_and_other_fingers_are_as_they_were(tmp_path: Path) -> None:
+    seen = measurement_sequence(RecordingSpec(seed=61, protocol="hand21", motion="abduction", seconds=4.5))
+    hand, neutral_ends_s = measured_hand(seen, CalibrationSettings())
+    assert hand.calibration is not None
+    path, settings, truth = tmp_path / "hand.h5", TrackSettings(), seen.truth
+    learnt = learnt_from(hand.noise, neutral_ends_s, settings.tracker)
+    header = new_header(
+        hand="right", protocol=hand.calibration.clicks.protocol, software_version="0.1", subject_id="Linden 42",
+        exercise="FINGER_ABDUCTION", parameters=parameters_json(settings, {}, learnt), dip_free=False,
+    )  # fmt: skip
+    tracker = Tracker(hand.calibration, truth.camera, learnt.applied(settings.tracker))
+    times_s = truth.timestamp_s.tolist()
+    with closing(SessionWriter.create(path, header, truth.camera, hand.calibration)) as writer:
+        for row in from_neutral(range(len(times_s)), tracker, neutral_ends_s, times_s.__getitem__):
+            spots, is_it = seen.detections[row], seen.marker[row] == DIP3
+            if row >= WRONG_FROM:  # the disc is covered, and something blue goes with it
+                spots = replace(spots, pixel=spots.pixel + np.where(is_it[:, None], (-2.0, 2.0), 0.0))
+            writer.append(tracker.step(row, times_s[row], spots.only(~is_it) if row in OUT_OF_SIGHT else spots))
+    before = read_session(path)
+    assert np.isfinite(before.markers.measured_px[OUT_OF_SIGHT.stop + 5 :, DIP3]).all()
+    correct(task_of(path, tmp_path / "new.h5", (Correction(WRONG_FROM, {"DIP3": None}),), "2.0"))
+    after = read_session(tmp_path / "new.h5")
+    assert not np.isfinite(after.markers.measured_px[WRONG_FROM:, DIP3]).any()
+    size_deg = np.degrees(np.abs(after.motion.joint_angles_rad - before.motion.joint_angles_rad)).max(axis=0)
+    changed = {name for name, size in zip(after.header.joint_names, size_deg, strict=True) if size > 0.1}
+    assert changed == {name for name in changed if "3" in name} != set(), size_deg

@@ -103,6 +103,24 @@ def frames_of(hidden: dict[int, tuple[int, ...]], count: int = 60) -> tuple[list
     ], seen
 
 
+def test_looked_for_anew_the_hand_is_found_and_its_fingers_are_as_long_as_was_learnt() -> None:
+    seen = sequence()
+    hand, _ = measured_hand(seen, CalibrationSettings())
+    assert hand.calibration is not None
+    tracker, times_s = Tracker(hand.calibration, seen.truth.camera, TrackerSettings()), seen.truth.timestamp_s
+    for row in range(60):
+        before = tracker.step(row, float(times_s[row]), seen.detections[row])
+    fingers = tracker._filter.fingers
+    assert fingers is not None
+    learnt = fingers._mean[:, ANATOMY].copy()
+    tracker.begin_anywhere(before.timestamp_s)
+    assert tracker.is_lost
+    np.testing.assert_array_equal(fingers._mean[:, ANATOMY], learnt)
+    after = tracker.step(60, float(times_s[60]), seen.detections[60])
+    assert after.status is TrackStatus.TRACKED
+    np.testing.assert_allclose(after.moment.angles_rad, before.moment.angles_rad, atol=0.03)
+
+
 def test_fingers_that_rest_are_slow_and_fingers_out_of_sight_may_be_fast() -> None:
     seen, settings = sequence(), TrackerSettings()
     hand, _ = measured_hand(seen, CalibrationSettings())

@@ -240,4 +240,6 @@ def difference_words(found: Difference, missed: Sequence[str]) -> str:
         said.append(tr("No picture differs by more than 2°."))
     if found.found:
         said.append(tr("{count} pictures have an angle that had none.").format(count=found.found))
+    if found.live:
+        said.append(tr("As measured live: the old result was not looked back at."))
     return " ".join(said)
