@@ -57,6 +57,13 @@ class PictureDamaged(CarpusFault):
     do = phrase("Copy the recording again from where it was made; carpus track --leave-out-damaged goes on without it.")
 
 
+class FirstPictureDamaged(PictureDamaged):
+    """The one on which the markers are clicked, without which nothing goes on."""
+
+    happened = phrase("The first picture of the recording cannot be used: {subject} ({detail}).")
+    do = phrase("Copy the recording again from where it was made.")
+
+
 class PictureSizeChanged(CarpusFault):
     happened = phrase("The pictures of the recording differ in size: {subject} ({detail}).")
     do = phrase("Use a recording whose pictures all have one size.")
@@ -298,6 +305,14 @@ class CameraReturned(CarpusFault):
     do = phrase("Go on; the pause is marked in the session.")
 
 
+class ExposureNotHeld(CarpusFault):
+    """Told, never raised."""
+
+    happened = phrase("The camera cannot hold its exposure: {subject}.")
+    safe = phrase("The measurement goes on.")
+    do = phrase("Keep the light as it is while you measure.")
+
+
 class RecordingDamaged(CarpusFault):
     happened = phrase("The recording is damaged: {subject} ({detail}).")
     do = phrase("Copy the recording again from where it was made.")
@@ -494,6 +509,12 @@ class ShareEmpty(FolderMissing):
         "Nothing has been changed. What is recorded meanwhile stays on this computer until the share is there."
     )
     do = phrase("Is the share connected? Connect it; if the sessions were moved, copy them there.")
+
+
+class NoDataFolder(CarpusFault):
+    happened = phrase("There is nothing of Carpus in the folder {subject}.")
+    safe = phrase("Nothing has been changed.")
+    do = phrase("Name the folder that holds the patients; carpus doctor says which it is.")
 
 
 class FolderInUse(CarpusFault):

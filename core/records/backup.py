@@ -30,6 +30,7 @@ from carpus.core.errors import (
     BackupUnequal,
     BackupUnreadable,
     FolderMissing,
+    NoDataFolder,
     OutputBusy,
     OutputExists,
 )
@@ -180,10 +181,12 @@ def backup_of(
 
 def gather(data_folder: Path, place: Path, settings_folder: Path | None, sessions: Path | None = None) -> BackupSources:
     """Everything that a back-up of a data folder holds, the ``sessions`` of a share too. Raises :class:`FolderMissing`,
-    :class:`BackupUnreadable` for a store that cannot be read, :class:`BackupPlaceUnsuited` for a place that a link
-    leads into."""
+    :class:`NoDataFolder`, :class:`BackupUnreadable` for a store that cannot be read, :class:`BackupPlaceUnsuited` for a
+    place that a link leads into."""
     if not data_folder.is_dir():
         raise FolderMissing(data_folder)
+    if not ((data_folder / STORE_FILE).exists() or (data_folder / SESSIONS_FOLDER).exists()):
+        raise NoDataFolder(data_folder)
     snapshot, wanted = _of_store(data_folder / STORE_FILE)
     lacking: list[str] = []
     place = _led_to(place)

@@ -60,7 +60,7 @@ def check_times(path: Path, timestamp_s: FloatArray) -> None:
             path, phrase("damaged: the time of frame {number} is not after the one before", number=int(wrong[0]) + 1)
         )
     if timestamp_s[-1] - timestamp_s[0] > LONGEST_S:
-        raise SessionUnreadable(path, phrase("damaged: it claims to last longer than a day"))
+        raise SessionUnreadable(path, phrase("its times span more than a day: damaged, or a clock jumped"))
 
 
 def check_values(path: Path, session: Session) -> None:

@@ -4952,6 +4952,10 @@
         <translation>Bewegen Sie die Hand ein wenig, und halten Sie Sonne und Glanz von den Markern fern.</translation>
     </message>
     <message>
+        <source>Name the folder that holds the patients; carpus doctor says which it is.</source>
+        <translation>Nennen Sie den Ordner mit den Patienten; carpus doctor sagt, welcher es ist.</translation>
+    </message>
+    <message>
         <source>Name the folder that holds the sessions.</source>
         <translation>Nennen Sie den Ordner mit den Sitzungen.</translation>
     </message>
@@ -5256,6 +5260,10 @@
         <translation>Sie braucht einen USB-2-Anschluss; manche USB-3-Anschlüsse lehnen Kameras mit alter Firmware ab.</translation>
     </message>
     <message>
+        <source>Keep the light as it is while you measure.</source>
+        <translation>Lassen Sie das Licht während der Messung, wie es ist.</translation>
+    </message>
+    <message>
         <source>Orbbec driver</source>
         <translation>Orbbec-Treiber</translation>
     </message>
@@ -5270,6 +5278,10 @@
     <message>
         <source>RealSense driver</source>
         <translation>RealSense-Treiber</translation>
+    </message>
+    <message>
+        <source>The camera cannot hold its exposure: {subject}.</source>
+        <translation>Die Kamera kann ihre Belichtung nicht halten: {subject}.</translation>
     </message>
     <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
@@ -5356,6 +5368,10 @@
         <translation>Die Datei der Kamera ist nicht verwendbar: {subject} ({detail}).</translation>
     </message>
     <message>
+        <source>The first picture of the recording cannot be used: {subject} ({detail}).</source>
+        <translation>Das erste Bild der Aufnahme ist nicht zu gebrauchen: {subject} ({detail}).</translation>
+    </message>
+    <message>
         <source>The folder of the recording is gone: {subject} ({detail}).</source>
         <translation>Der Ordner der Aufnahme ist weg: {subject} ({detail}).</translation>
     </message>
@@ -5402,6 +5418,10 @@
     <message>
         <source>The markers of this session cannot be corrected: {subject} ({detail}).</source>
         <translation>Die Marker dieser Sitzung lassen sich nicht berichtigen: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The measurement goes on.</source>
+        <translation>Die Messung geht weiter.</translation>
     </message>
     <message>
         <source>The name {subject} belongs to another patient.</source>
@@ -5498,6 +5518,10 @@
     <message>
         <source>There is no set of markers with the name {subject} ({detail}).</source>
         <translation>Diesen Markersatz gibt es nicht: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is nothing of Carpus in the folder {subject}.</source>
+        <translation>Im Ordner {subject} ist nichts von Carpus.</translation>
     </message>
     <message>
         <source>There is nothing that Carpus made in the folder of the sessions: {subject}.</source>
@@ -5772,10 +5796,6 @@
         <translation>beschädigt: nicht bis zum Ende lesbar</translation>
     </message>
     <message>
-        <source>damaged: it claims to last longer than a day</source>
-        <translation>beschädigt: angeblich länger als ein Tag</translation>
-    </message>
-    <message>
         <source>damaged: its parameters are no settings</source>
         <translation>beschädigt: ihre Parameter sind keine Einstellungen</translation>
     </message>
@@ -6022,6 +6042,10 @@
     <message>
         <source>its times do not rise</source>
         <translation>ihre Zeiten steigen nicht an</translation>
+    </message>
+    <message>
+        <source>its times span more than a day: damaged, or a clock jumped</source>
+        <translation>ihre Zeiten umfassen mehr als einen Tag: beschädigt, oder eine Uhr ist gesprungen</translation>
     </message>
     <message>
         <source>its unit is {unit}</source>

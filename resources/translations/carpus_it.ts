@@ -4956,6 +4956,10 @@
         <translation>Spostare un poco la mano, e tenere sole e riflessi lontani dai marcatori.</translation>
     </message>
     <message>
+        <source>Name the folder that holds the patients; carpus doctor says which it is.</source>
+        <translation>Indicare la cartella che contiene i pazienti; carpus doctor dice qual è.</translation>
+    </message>
+    <message>
         <source>Name the folder that holds the sessions.</source>
         <translation>Indicare la cartella che contiene le sedute.</translation>
     </message>
@@ -5260,6 +5264,14 @@
         <translation>Installare il pacchetto {package}, che si trova accanto a quello di Carpus.</translation>
     </message>
     <message>
+        <source>Keep the light as it is while you measure.</source>
+        <translation>Non cambiare la luce durante la misura.</translation>
+    </message>
+    <message>
+        <source>The camera cannot hold its exposure: {subject}.</source>
+        <translation>La telecamera non può mantenere l’esposizione: {subject}.</translation>
+    </message>
+    <message>
         <source>The camera is back: {subject} (away for {detail}).</source>
         <translation>La telecamera è tornata: {subject} (assente per {detail}).</translation>
     </message>
@@ -5344,6 +5356,10 @@
         <translation>Il file della telecamera non si può usare: {subject} ({detail}).</translation>
     </message>
     <message>
+        <source>The first picture of the recording cannot be used: {subject} ({detail}).</source>
+        <translation>La prima immagine della registrazione non è utilizzabile: {subject} ({detail}).</translation>
+    </message>
+    <message>
         <source>The folder of the recording is gone: {subject} ({detail}).</source>
         <translation>La cartella della registrazione non c’è più: {subject} ({detail}).</translation>
     </message>
@@ -5390,6 +5406,10 @@
     <message>
         <source>The markers of this session cannot be corrected: {subject} ({detail}).</source>
         <translation>I marcatori di questa seduta non si possono correggere: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The measurement goes on.</source>
+        <translation>La misura continua.</translation>
     </message>
     <message>
         <source>The name {subject} belongs to another patient.</source>
@@ -5486,6 +5506,10 @@
     <message>
         <source>There is no set of markers with the name {subject} ({detail}).</source>
         <translation>Non esiste un insieme di marcatori con il nome {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>There is nothing of Carpus in the folder {subject}.</source>
+        <translation>Nella cartella {subject} non c’è nulla di Carpus.</translation>
     </message>
     <message>
         <source>There is nothing that Carpus made in the folder of the sessions: {subject}.</source>
@@ -5760,10 +5784,6 @@
         <translation>danneggiato: non si può leggere fino alla fine</translation>
     </message>
     <message>
-        <source>damaged: it claims to last longer than a day</source>
-        <translation>danneggiato: dichiara di durare più di un giorno</translation>
-    </message>
-    <message>
         <source>damaged: its parameters are no settings</source>
         <translation>danneggiato: i suoi parametri non sono impostazioni</translation>
     </message>
@@ -6010,6 +6030,10 @@
     <message>
         <source>its times do not rise</source>
         <translation>i suoi tempi non sono crescenti</translation>
+    </message>
+    <message>
+        <source>its times span more than a day: damaged, or a clock jumped</source>
+        <translation>i suoi tempi coprono più di un giorno: danneggiata, oppure un orologio è saltato</translation>
     </message>
     <message>
         <source>its unit is {unit}</source>

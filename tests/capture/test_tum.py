@@ -20,6 +20,7 @@ from carpus.core.errors import (
     CameraFileUnreadable,
     CarpusFault,
     DepthMissing,
+    FirstPictureDamaged,
     PictureDamaged,
     PictureSizeChanged,
     PicturesLost,
@@ -200,7 +201,7 @@ BAD: dict[str, tuple[Callable[[Path], object], type[CarpusFault], str]] = {
     ),
     "colour is grey": (
         lambda f: replace_picture(f, "rgb", 0, np.zeros((HEIGHT, WIDTH), np.uint8)),
-        PictureDamaged,
+        FirstPictureDamaged,
         "grey",
     ),
     "colour size changes": (
@@ -332,5 +333,6 @@ def test_the_first_picture_must_be_there_whole(tmp_path: Path) -> None:
     for spoil in (lambda path: path.write_text("no picture"), Path.unlink):
         folder = write_recording(tmp_path / f"take {spoil}")
         spoil(sorted((folder / "rgb").iterdir())[0])
-        with pytest.raises(PictureDamaged):
-            TumFolder(folder, leave_out_damaged=True)
+        for leave_out in (False, True):  # and nobody is told to go on without it
+            with pytest.raises(FirstPictureDamaged):
+                TumFolder(folder, leave_out_damaged=leave_out)

@@ -14,6 +14,7 @@ from carpus.core.errors import (
     BackupPlaceUnsuited,
     BackupUnequal,
     BackupUnreadable,
+    NoDataFolder,
     OutputBusy,
     OutputExists,
 )
@@ -166,6 +167,14 @@ def test_a_back_up_that_was_cut_short_is_none(data: Path, tmp_path: Path, monkey
 def test_a_place_in_or_around_the_data_is_refused(data: Path, where: str) -> None:
     with pytest.raises(BackupPlaceUnsuited):
         back_up(data, data / where, software_version="1")
+
+
+def test_a_folder_that_holds_nothing_of_the_program_is_no_data_folder(tmp_path: Path) -> None:
+    (tmp_path / "pictures").mkdir()
+    (tmp_path / "pictures" / "holiday.txt").write_text("x")
+    with pytest.raises(NoDataFolder):
+        back_up(tmp_path / "pictures", tmp_path / "disk", software_version="1")
+    assert not (tmp_path / "disk").exists()
 
 
 def test_what_a_restore_changes_is_known_before_and_the_old_folder_is_kept(data: Path, tmp_path: Path) -> None:

@@ -49,6 +49,7 @@ from carpus.core.errors import (
     CarpusFault,
     DepthNotRegistered,
     DriverFailed,
+    ExposureNotHeld,
     OtherCamera,
     PicturesEnlarged,
 )
@@ -235,7 +236,6 @@ class ProcessCamera:
         self._lock = threading.Lock()
         self._locked = False
         self._relock_in = 0
-        self._exposure_locked: bool | None = False
         self._last_frame_s = time.monotonic()
         self._process = self._start()
         try:
@@ -254,13 +254,9 @@ class ProcessCamera:
     def info(self) -> SourceInfo:
         return self._info
 
-    @property
-    def exposure_locked(self) -> bool | None:
-        """Whether exposure and white balance are held; None when the camera cannot hold them."""
-        return self._exposure_locked
-
     def lock_exposure(self) -> None:
-        """Hold exposure and white balance as they are now, so that the markers keep their colours."""
+        """Hold exposure and white balance as they are now, so that the markers keep their colours; a camera that cannot
+        is told as a notice."""
         self._locked = True
         self._process.tell(LockExposure())
 
@@ -313,8 +309,8 @@ class ProcessCamera:
                         report.timestamp_us, report.number, self._process.pixels(report, modes[report.sensor])
                     )
                     self._process.free(report)
-                elif isinstance(report, ExposureSet):
-                    self._exposure_locked = True if report.done else None
+                elif isinstance(report, ExposureSet) and not report.done:
+                    self._notice(ExposureNotHeld(self._info.name))
                 elif report is None or isinstance(report, Ended):
                     return
             for frame in frames:

@@ -24,6 +24,7 @@ from carpus.core.errors import (
     CameraFileUnreadable,
     DepthMissing,
     DiskFull,
+    FirstPictureDamaged,
     OutputExists,
     OutputNotWritable,
     PictureDamaged,
@@ -89,10 +90,10 @@ class TumFolder:
             raise RecordingUnreadable(folder, phrase("not a folder"))
         self._read_ahead = read_ahead
         self._folder, self._leave_out, self._notice = folder, leave_out_damaged, notice
-        color, color_gone = _there(_read_list(folder / COLOR_LIST), leave_out_damaged)
+        color, color_gone = _there(_read_list(folder / COLOR_LIST), leave_out_damaged, first=True)
         if not color:
             raise RecordingEmpty(folder, phrase("no picture in {color_list}", color_list=COLOR_LIST))
-        depth, depth_gone = _there(_depth_list(folder, need_depth), leave_out_damaged)
+        depth, depth_gone = _there(_depth_list(folder, need_depth), leave_out_damaged, first=False)
         if color_gone or depth_gone:
             notice(PicturesLost(folder, _counted(color_gone, depth_gone, "missing")))
         color_s = np.array([time_s for time_s, _ in color])
@@ -109,7 +110,10 @@ class TumFolder:
             StoredFrame(time_s, path, None if index is None else depth[index][1], dropped)
             for (time_s, path), index, dropped in zip(color, partner, missing_before(color_s), strict=True)
         )
-        first = read_color(self.stored[0].color)
+        try:
+            first = read_color(self.stored[0].color)
+        except PictureDamaged as fault:
+            raise FirstPictureDamaged(fault.subject, fault.detail) from fault
         self._size = (first.shape[1], first.shape[0])
         self.info = SourceInfo(
             name=folder.resolve().name,
@@ -274,13 +278,15 @@ def _read_list(path: Path) -> list[_Entry]:
     return entries
 
 
-def _there(entries: list[_Entry], leave_out: bool) -> tuple[list[tuple[float, Path]], int]:
-    """Times and pictures that are there, and how many are not; the first, on which is clicked, must be."""
+def _there(entries: list[_Entry], leave_out: bool, *, first: bool) -> tuple[list[tuple[float, Path]], int]:
+    """Times and pictures that are there, and how many are not; the ``first``, where it is clicked on, must be."""
     out: list[tuple[float, Path]] = []
     for time_s, picture, place in entries:
         if _is_file(picture):
             out.append((time_s, picture))
-        elif not leave_out or not out:
+        elif first and not out:
+            raise FirstPictureDamaged(picture, phrase("missing, {place}", place=place))
+        elif not leave_out:
             raise PictureDamaged(picture, phrase("missing, {place}", place=place))
     return out, len(entries) - len(out)
 
