@@ -52,13 +52,6 @@ def test_coefficient_is_opencvs(a: int, b: int) -> None:
     assert float(ch.bhattacharyya(one.ravel(), other.ravel())) == pytest.approx(1.0 - distance**2, abs=1e-4)
 
 
-def test_coefficient_is_one_for_equal_and_zero_for_strangers() -> None:
-    mask = np.ones((20, 30), dtype=bool)
-    one, other = ch.histogram(random_hsv(0, (0, 40)), mask), ch.histogram(random_hsv(1, (100, 140)), mask)
-    assert float(ch.bhattacharyya(one.ravel(), one.ravel())) == pytest.approx(1.0)
-    assert float(ch.bhattacharyya(one.ravel(), other.ravel())) == 0.0
-
-
 def test_back_projection_is_a_look_in_the_table() -> None:
     hsv = random_hsv(2)
     table = np.random.default_rng(3).integers(0, 256, (ch.BINS, ch.BINS)).astype(np.float32)

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
+from typing import Any
 
 import cv2
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
 from carpus.core.detection.appearance import MarkerAppearance, learn_appearance
 from carpus.core.detection.components import TouchingSettings, split_touching
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
-from carpus.core.types import Detections, FloatArray, Region
+from carpus.core.types import Detections, FloatArray, Frame, Region
 from tests.detection.pictures import (
     CAMERA,
     DARK_SKIN,
@@ -22,6 +25,7 @@ from tests.detection.pictures import (
     PAPERS,
     RADIUS_PX,
     SKIN,
+    TABLE,
     Extra,
     Look,
     depth_picture,
@@ -31,6 +35,10 @@ from tests.detection.pictures import (
 )
 
 SETTINGS = DetectionSettings()
+BLUE = Look()
+
+
+WHOLE = Region(0, 0, 320, 240)
 
 
 def learnt(look: Look, rng: np.random.Generator, click_error_px: float = 2.0) -> tuple[MarkerAppearance, FloatArray]:
@@ -38,8 +46,16 @@ def learnt(look: Look, rng: np.random.Generator, click_error_px: float = 2.0) ->
     return learn_appearance(frame(picture(PALM_PX, look, rng), depth_picture(rng)), clicks, CAMERA, SETTINGS)
 
 
-def detector_for(look: Look, rng: np.random.Generator) -> Detector:
-    return Detector(learnt(look, rng)[0], CAMERA, SETTINGS)
+@cache
+def detector_for(look: Look = BLUE) -> Detector:
+    """Taught once for all tests: it keeps no memory of what it sees, which one of them shows."""
+    return Detector(learnt(look, np.random.default_rng(1))[0], CAMERA, SETTINGS)
+
+
+def seen(seed: int, discs_px: FloatArray = PALM_PX, look: Look = BLUE, **how: Any) -> Frame:
+    """A picture with its depth, as a camera has them."""
+    rng = np.random.default_rng(seed)
+    return frame(picture(discs_px, look, rng, **how), depth_picture(rng))
 
 
 def all_found(found: Detections, true_px: FloatArray, within_px: float = 0.5) -> bool:
@@ -53,7 +69,7 @@ def test_centres_are_good_to_a_tenth_of_a_pixel(paper: str, skin: tuple[int, int
     """Any paper, any skin, dim and bright, with colour halved across as the camera does."""
     rng = np.random.default_rng(1)
     look = Look(paper=PAPERS[paper], skin=skin, light=light)
-    detector = detector_for(look, rng)
+    detector = Detector(learnt(look, rng)[0], CAMERA, SETTINGS)
     errors = []
     for _ in range(4):
         true = PALM_PX + rng.uniform(-3.0, 3.0, PALM_PX.shape)
@@ -66,7 +82,7 @@ def test_centres_are_good_to_a_tenth_of_a_pixel(paper: str, skin: tuple[int, int
 def test_shading_does_not_pull_the_centres() -> None:
     """Half the light gone across the hand; without noise, so that only the pull is left."""
     look = Look(shading=0.5, noise=0.0, chroma=False)
-    detector = detector_for(look, np.random.default_rng(2))
+    detector = detector_for(look)
     errors = []
     for shift in np.linspace(0.0, 0.9, 10):
         true = PALM_PX + [shift, 0.37 + 0.5 * shift]
@@ -76,33 +92,40 @@ def test_shading_does_not_pull_the_centres() -> None:
     assert np.sqrt(np.mean(np.square(errors), axis=(0, 1))).max() < 0.05
 
 
-def test_areas_are_those_of_the_discs() -> None:
-    rng = np.random.default_rng(3)
-    detector = detector_for(Look(), rng)
-    found = detector.detect(frame(picture(PALM_PX, Look(), rng), depth_picture(rng)))
+def test_areas_and_depths_are_those_of_the_discs() -> None:
+    found = detector_for().detect(seen(3))
     assert found.area_px == pytest.approx(np.pi * RADIUS_PX**2, rel=0.1)
     assert (found.similarity > 0.0).all()
     assert (found.similarity <= 1.0 + 1e-9).all()
+    assert np.abs(found.depth_m - DISTANCE_M).max() < 0.002
+    assert (found.depth_sd_m > 3e-4).all()
+    assert (found.depth_sd_m < 0.004).all()
+
+
+def test_without_depth_blobs_have_none() -> None:
+    found = detector_for().detect(replace(seen(17), depth_raw=None))
+    assert all_found(found, PALM_PX)
+    assert np.isnan(found.depth_m).all()
+    assert np.isnan(found.depth_sd_m).all()
 
 
 def test_tilted_discs_are_found_where_their_middle_is() -> None:
-    rng = np.random.default_rng(4)
-    detector = detector_for(Look(), rng)
-    true = PALM_PX + 0.4
-    found = detector.detect(frame(picture(true, Look(), rng, squeeze=0.5), depth_picture(rng)))
-    assert all_found(found, true, within_px=0.2)
+    assert all_found(detector_for().detect(seen(4, PALM_PX + 0.4, squeeze=0.5)), PALM_PX + 0.4, within_px=0.2)
+
+
+@pytest.mark.parametrize("light", [0.5, 1.2])
+def test_other_light_than_at_calibration_is_no_trouble(light: float) -> None:
+    assert all_found(detector_for().detect(seen(11, look=Look(light=light))), PALM_PX)
 
 
 @pytest.mark.parametrize("gap_px", [-0.5, 0.0, 0.8])
 @pytest.mark.parametrize("direction_deg", [0.0, 35.0, 90.0])
 def test_touching_discs_are_taken_apart(gap_px: float, direction_deg: float) -> None:
-    rng = np.random.default_rng(5)
-    detector = detector_for(Look(), rng)
     away = (2.0 * RADIUS_PX + gap_px) * np.array([np.cos(np.radians(direction_deg)), np.sin(np.radians(direction_deg))])
     true = PALM_PX.copy()
     true[1] = [150.2, 145.6]
     true[0] = true[1] + away
-    found = detector.detect(frame(picture(true, Look(), rng), depth_picture(rng)))
+    found = detector_for().detect(seen(5, true))
     assert len(found) == 6
     error = matched(found.pixel, true)
     assert np.linalg.norm(error[:2], axis=1).max() < 0.6
@@ -110,59 +133,40 @@ def test_touching_discs_are_taken_apart(gap_px: float, direction_deg: float) -> 
 
 
 def test_three_in_a_row_are_taken_apart() -> None:
-    rng = np.random.default_rng(6)
-    detector = detector_for(Look(), rng)
     true = PALM_PX.copy()
     true[:3] = [[130.0, 150.0], [130.0 + 2.05 * RADIUS_PX, 150.0], [130.0 + 4.1 * RADIUS_PX, 150.0]]
-    found = detector.detect(frame(picture(true, Look(), rng), depth_picture(rng)))
+    found = detector_for().detect(seen(6, true))
     assert len(found) == 6
     assert np.linalg.norm(matched(found.pixel, true), axis=1).max() < 0.8
 
 
-@pytest.mark.parametrize("where", [(156.0, 232.0), (250.0, 120.0)])
-def test_a_large_patch_of_the_papers_colour_is_no_marker(where: tuple[float, float]) -> None:
-    """A sleeve at the wrist, a bag on the table."""
-    rng = np.random.default_rng(7)
-    detector = detector_for(Look(), rng)
-    color = picture(PALM_PX, Look(), rng, extras=[Extra(where, 28.0, PAPERS["blue"])])
-    assert all_found(detector.detect(frame(color, depth_picture(rng))), PALM_PX)
+NO_MARKERS = {
+    "a sleeve at the wrist": ("blue", [((156.0, 232.0), 28.0, "blue")]),
+    "a bag on the table": ("blue", [((250.0, 120.0), 28.0, "blue")]),
+    "specks": ("blue", [((120.0, 140.0), 1.0, "blue"), ((140.0, 140.0), 1.0, "blue"), ((200.0, 140.0), 1.0, "blue")]),
+    "discs on the table": ("blue", [((30.0, 60.0), RADIUS_PX, "blue"), ((290.0, 200.0), RADIUS_PX, "blue")]),
+    "a green disc": ("blue", [((150.0, 140.0), RADIUS_PX, "green")]),
+    "a red disc": ("blue", [((150.0, 140.0), RADIUS_PX, "red")]),
+    "a yellow disc": ("blue", [((150.0, 140.0), RADIUS_PX, "yellow")]),
+    "blue ones where green were clicked": (
+        "green", [((150.0, 140.0), RADIUS_PX, "blue"), ((190.0, 150.0), RADIUS_PX, "blue")],
+    ),
+}  # fmt: skip
+"""The paper of the discs, and what else is in the picture."""
 
 
-def test_small_specks_of_the_papers_colour_are_no_markers() -> None:
-    rng = np.random.default_rng(8)
-    detector = detector_for(Look(), rng)
-    specks = [Extra((float(u), 140.0), 1.0, PAPERS["blue"]) for u in (120, 140, 200)]
-    assert all_found(detector.detect(frame(picture(PALM_PX, Look(), rng, extras=specks), depth_picture(rng))), PALM_PX)
-
-
-def test_discs_that_do_not_lie_on_skin_are_no_markers() -> None:
-    rng = np.random.default_rng(9)
-    detector = detector_for(Look(), rng)
-    on_table = [Extra((30.0, 60.0), RADIUS_PX, PAPERS["blue"]), Extra((290.0, 200.0), RADIUS_PX, PAPERS["blue"])]
-    color = picture(PALM_PX, Look(), rng, extras=on_table)
-    assert all_found(detector.detect(frame(color, depth_picture(rng)), Region(0, 0, 320, 240)), PALM_PX)
-
-
-@pytest.mark.parametrize("other", ["green", "red", "yellow"])
-def test_discs_of_another_colour_are_no_markers(other: str) -> None:
-    rng = np.random.default_rng(10)
-    detector = detector_for(Look(), rng)
-    strange = [Extra((150.0, 140.0), RADIUS_PX, PAPERS[other])]
-    assert all_found(detector.detect(frame(picture(PALM_PX, Look(), rng, extras=strange), depth_picture(rng))), PALM_PX)
-
-
-@pytest.mark.parametrize("light", [0.5, 1.2])
-def test_other_light_than_at_calibration_is_no_trouble(light: float) -> None:
-    rng = np.random.default_rng(11)
-    detector = detector_for(Look(), rng)
-    found = detector.detect(frame(picture(PALM_PX, Look(light=light), rng), depth_picture(rng)))
-    assert all_found(found, PALM_PX)
+@pytest.mark.parametrize("case", NO_MARKERS)
+def test_what_else_is_in_the_picture_is_no_marker(case: str) -> None:
+    paper, others = NO_MARKERS[case]
+    look = Look(paper=PAPERS[paper])
+    extras = [Extra(pixel, radius_px, PAPERS[color]) for pixel, radius_px, color in others]
+    shown = seen(7, look=look, extras=extras)
+    for region in (None, WHOLE):
+        assert all_found(detector_for(look).detect(shown, region), PALM_PX)
 
 
 def test_only_the_region_given_is_searched() -> None:
-    rng = np.random.default_rng(12)
-    detector = detector_for(Look(), rng)
-    shown = frame(picture(PALM_PX, Look(), rng), depth_picture(rng))
+    detector, shown = detector_for(), seen(12)
     upper = Region(100, 80, 215, 130)
     found = detector.detect(shown, upper)
     assert all_found(found, PALM_PX[2:])
@@ -174,7 +178,7 @@ def test_only_the_region_given_is_searched() -> None:
 
 
 def test_predicted_region_holds_every_disc_and_little_more() -> None:
-    detector = detector_for(Look(), np.random.default_rng(13))
+    detector = detector_for()
     covariance = np.broadcast_to(4.0 * np.eye(2), (6, 2, 2))
     region = detector.region_about(PALM_PX, covariance, np.full(6, DISTANCE_M))
     low, high = PALM_PX.min(axis=0), PALM_PX.max(axis=0)
@@ -188,7 +192,7 @@ def test_predicted_region_holds_every_disc_and_little_more() -> None:
 
 def test_an_unsure_hand_is_looked_for_only_so_far_away() -> None:
     settings = DetectionSettings(most_unsure_px=60.0)
-    detector = Detector(learnt(Look(), np.random.default_rng(13))[0], CAMERA, settings)
+    detector = Detector(learnt(BLUE, np.random.default_rng(13))[0], CAMERA, settings)
     middle = np.array([[0.5 * CAMERA.width_px, 0.5 * CAMERA.height_px]])
     found = [detector.region_about(middle, sd_px**2 * np.eye(2)[None], np.array([DISTANCE_M])) for sd_px in (5.0, 1e4)]
     assert found[0].right - found[0].left < found[1].right - found[1].left, "at 5 pixels it is not the limit"
@@ -198,10 +202,16 @@ def test_an_unsure_hand_is_looked_for_only_so_far_away() -> None:
     assert found[1].bottom - found[1].top == pytest.approx(2.0 * reach_px, abs=2.5)
 
 
+def taken_apart(is_blob: NDArray[np.bool_], radius_px: float) -> list[FloatArray]:
+    """What is found of each blob that is more than one disc."""
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(is_blob.astype(np.uint8), ltype=cv2.CV_16U)
+    return [facts for _, _, facts in split_touching(labels, stats, np.full(2, radius_px), TouchingSettings())]
+
+
 @pytest.mark.parametrize(
-    ("apart_radii", "bar_radii", "parts"), [(0.7, 0.0, 0), (1.3, 0.0, 2), (0.0, 2.65, 0), (0.0, 3.0, 2)]
+    ("apart_radii", "bar_radii", "parts"), [(0.7, 0.0, []), (1.3, 0.0, [2]), (0.0, 2.65, []), (0.0, 3.0, [2])]
 )
-def test_a_blob_longer_than_a_disc_is_taken_apart(apart_radii: float, bar_radii: float, parts: int) -> None:
+def test_a_blob_longer_than_a_disc_is_taken_apart(apart_radii: float, bar_radii: float, parts: list[int]) -> None:
     """Two discs over each other by their scatter, a bar by its length: beyond 2.8 radii it is more than one disc."""
     radius_px = 20.0
     v, u = np.mgrid[:120, :160]
@@ -210,44 +220,33 @@ def test_a_blob_longer_than_a_disc_is_taken_apart(apart_radii: float, bar_radii:
     else:
         is_blob = np.hypot(u - 60, v - 60) <= radius_px
         is_blob |= np.hypot(u - 60 - apart_radii * radius_px, v - 60) <= radius_px
-    _, labels, stats, _ = cv2.connectedComponentsWithStats(is_blob.astype(np.uint8), ltype=cv2.CV_16U)
-    found = split_touching(labels, stats, np.full(2, radius_px), TouchingSettings())
-    assert [len(own) for _, own, _ in found] == ([parts] if parts else [])
+    assert [len(facts) for facts in taken_apart(is_blob, radius_px)] == parts
 
 
-@pytest.mark.parametrize(("discs", "parts"), [(2, 2), (3, 3), (4, 4), (7, 0)])
-def test_a_row_of_small_discs_with_blurred_edges_is_taken_apart(discs: int, parts: int) -> None:
+@pytest.mark.parametrize(("discs", "parts"), [(2, [2]), (3, [3]), (4, [4]), (7, [])])
+def test_a_row_of_small_discs_with_blurred_edges_is_taken_apart(discs: int, parts: list[int]) -> None:
     """Four knuckles of a small hand run together, larger than at their distance; a sleeve is longer."""
     radius_px = 4.2
     centre = np.array([[30.0 + 2.4 * radius_px * i, 40.0 - 2.0 * np.sin(i)] for i in range(discs)])
     v, u = np.mgrid[:80, :160]
-    is_blob = np.zeros(u.shape, dtype=bool)
-    for across, down in centre:
-        is_blob |= np.hypot(u - across, v - down) <= 1.3 * radius_px
-    _, labels, stats, _ = cv2.connectedComponentsWithStats(is_blob.astype(np.uint8), ltype=cv2.CV_16U)
-    found = split_touching(labels, stats, np.full(2, radius_px), TouchingSettings())
-    assert [len(own) for _, own, _ in found] == ([parts] if parts else [])
-    for _, _, facts in found:
+    is_blob = (np.hypot(u[..., None] - centre[:, 0], v[..., None] - centre[:, 1]) <= 1.3 * radius_px).any(axis=-1)
+    found = taken_apart(is_blob, radius_px)
+    assert [len(facts) for facts in found] == parts
+    for facts in found:
         assert np.abs(facts[np.argsort(facts[:, 0]), :2] - centre).max() < 0.3 * radius_px
 
 
 def test_nothing_is_found_where_nothing_is() -> None:
-    rng = np.random.default_rng(14)
-    detector = detector_for(Look(), rng)
-    assert len(detector.detect(frame(picture(np.empty((0, 2)), Look(), rng), depth_picture(rng)))) == 0
-    black = np.zeros((240, 320, 3), dtype=np.uint8)
-    assert len(detector.detect(frame(black, depth_picture(rng)))) == 0
-    white = np.full((240, 320, 3), 255, dtype=np.uint8)
-    assert len(detector.detect(frame(white, None))) == 0
+    depth = depth_picture(np.random.default_rng(14))
+    assert len(detector_for().detect(seen(14, np.empty((0, 2))))) == 0
+    assert len(detector_for().detect(frame(np.zeros((240, 320, 3), dtype=np.uint8), depth))) == 0
+    assert len(detector_for().detect(frame(np.full((240, 320, 3), 255, dtype=np.uint8), None))) == 0
 
 
 def test_covered_discs_are_left_out_and_half_covered_ones_are_small() -> None:
-    rng = np.random.default_rng(15)
-    detector = detector_for(Look(), rng)
-    color = picture(PALM_PX[1:], Look(), rng).copy()
-    half = PALM_PX[1]
-    color[int(half[1]) - 8 : int(half[1]) + 9, int(half[0]) + 1 : int(half[0]) + 9] = TABLE_STRIP
-    found = detector.detect(frame(color, depth_picture(rng)))
+    shown, half = seen(15, PALM_PX[1:]), PALM_PX[1]
+    shown.color_rgb[int(half[1]) - 8 : int(half[1]) + 9, int(half[0]) + 1 : int(half[0]) + 9] = TABLE
+    found = detector_for().detect(shown)
     away = np.linalg.norm(found.pixel - PALM_PX[0], axis=1)
     assert away.min() > 20.0, "no blob where the covered disc is"
     near = np.linalg.norm(found.pixel - half, axis=1)
@@ -255,45 +254,20 @@ def test_covered_discs_are_left_out_and_half_covered_ones_are_small() -> None:
     assert found.area_px[near.argmin()] < 0.8 * np.pi * RADIUS_PX**2
 
 
-TABLE_STRIP = np.array([90, 88, 85], dtype=np.uint8)
-
-
 def test_a_disc_at_the_rim_of_the_picture_is_no_trouble() -> None:
-    rng = np.random.default_rng(16)
-    looks, _ = learnt(Look(), rng)
     true = PALM_PX + [0.0, 48.5]  # the lowest is half outside
-    found = Detector(looks, CAMERA, SETTINGS).detect(frame(picture(true, Look(), rng), depth_picture(rng)))
-    inside = true[1:]
-    assert np.abs(matched(found.pixel, inside)).max() < 0.3
+    found = detector_for().detect(seen(16, true))
+    assert np.abs(matched(found.pixel, true[1:])).max() < 0.3
     assert (found.pixel >= -1.0).all()
     assert (found.pixel[:, 1] < 240.0).all()
-
-
-def test_without_depth_blobs_have_none() -> None:
-    rng = np.random.default_rng(17)
-    detector = detector_for(Look(), rng)
-    found = detector.detect(frame(picture(PALM_PX, Look(), rng), None))
-    assert all_found(found, PALM_PX)
-    assert np.isnan(found.depth_m).all()
-    assert np.isnan(found.depth_sd_m).all()
-
-
-def test_depths_are_those_of_the_discs() -> None:
-    rng = np.random.default_rng(18)
-    detector = detector_for(Look(), rng)
-    found = detector.detect(frame(picture(PALM_PX, Look(), rng), depth_picture(rng)))
-    assert np.abs(found.depth_m - DISTANCE_M).max() < 0.002
-    assert (found.depth_sd_m > 3e-4).all()
-    assert (found.depth_sd_m < 0.004).all()
 
 
 @pytest.mark.parametrize("times", [2, 3])
 def test_a_finer_picture_or_a_nearer_hand_shows_larger_discs(times: int) -> None:
     """Discs wider than the sensor's own window, as in 1280 x 1024 pictures or with a hand nearer than 0.34 m."""
-    rng = np.random.default_rng(21)
     size = (CAMERA.width_px * times, CAMERA.height_px * times)
     camera = Camera(525.0 * times, 525.0 * times, 159.5 * times, 119.5 * times, *size)
-    small = frame(picture(PALM_PX, Look(), rng), depth_picture())
+    small = frame(picture(PALM_PX, BLUE, np.random.default_rng(21)), depth_picture())
     assert small.depth_raw is not None
     color = cv2.resize(small.color_rgb, size, interpolation=cv2.INTER_LINEAR)
     depth = cv2.resize(small.depth_raw, size, interpolation=cv2.INTER_NEAREST)
@@ -307,15 +281,10 @@ def test_a_finer_picture_or_a_nearer_hand_shows_larger_discs(times: int) -> None
 
 def test_smaller_discs_are_followed_when_they_were_clicked() -> None:
     """A child's 8 mm discs: what a disc measures is learnt, too."""
-    rng = np.random.default_rng(19)
     radius = RADIUS_PX * 8.0 / 12.0
-    clicked = frame(picture(PALM_PX, Look(), rng, radius_px=radius), depth_picture(rng))
-    looks, _ = learn_appearance(clicked, PALM_PX + 0.5, CAMERA, SETTINGS)
-    true = PALM_PX + 0.3
-    found = Detector(looks, CAMERA, SETTINGS).detect(
-        frame(picture(true, Look(), rng, radius_px=radius), depth_picture(rng))
-    )
-    assert all_found(found, true, within_px=0.3)
+    looks, _ = learn_appearance(seen(19, radius_px=radius), PALM_PX + 0.5, CAMERA, SETTINGS)
+    found = Detector(looks, CAMERA, SETTINGS).detect(seen(20, PALM_PX + 0.3, radius_px=radius))
+    assert all_found(found, PALM_PX + 0.3, within_px=0.3)
 
 
 @pytest.mark.parametrize("click_error_px", [0.0, 3.5])
@@ -323,28 +292,16 @@ def test_colours_are_learnt_also_from_clicks_beside_the_discs(click_error_px: fl
     rng = np.random.default_rng(20)
     angle = rng.uniform(0.0, 2.0 * np.pi, 6)
     clicks = PALM_PX + click_error_px * np.stack((np.cos(angle), np.sin(angle)), axis=1)
-    first = frame(picture(PALM_PX, Look(), rng), depth_picture(rng))
+    first = seen(20)
     looks, centres = learn_appearance(first, clicks, CAMERA, SETTINGS)
     assert np.linalg.norm(centres - PALM_PX, axis=1).max() < 0.6
     assert all_found(Detector(looks, CAMERA, SETTINGS).detect(first), PALM_PX)
 
 
-def test_the_hue_is_what_was_clicked_not_what_papers_usually_are() -> None:
-    """Blue specks on a hand with green discs: the green ones are the markers."""
-    rng = np.random.default_rng(21)
-    look = Look(paper=PAPERS["green"])
-    detector = detector_for(look, rng)
-    blue = [Extra((150.0, 140.0), RADIUS_PX, PAPERS["blue"]), Extra((190.0, 150.0), RADIUS_PX, PAPERS["blue"])]
-    found = detector.detect(frame(picture(PALM_PX, look, rng, extras=blue), depth_picture(rng)))
-    assert all_found(found, PALM_PX)
-
-
 def test_detector_keeps_no_memory() -> None:
-    rng = np.random.default_rng(22)
-    detector = detector_for(Look(), rng)
-    shown = frame(picture(PALM_PX, Look(), rng), depth_picture(rng))
+    detector, shown = detector_for(), seen(22)
     first = detector.detect(shown)
-    detector.detect(frame(picture(PALM_PX + 20.0, Look(light=0.6), rng), None))
+    detector.detect(replace(seen(22, PALM_PX + 20.0, Look(light=0.6)), depth_raw=None))
     again = detector.detect(shown)
     assert np.array_equal(first.pixel, again.pixel)
     assert np.array_equal(first.depth_m, again.depth_m)
@@ -352,8 +309,6 @@ def test_detector_keeps_no_memory() -> None:
 
 def test_settings_name_the_least_share_of_skin() -> None:
     """With no skin asked for, the disc on the table counts; the rule is the setting's, not hidden."""
-    rng = np.random.default_rng(23)
-    looks, _ = learnt(Look(), rng)
-    color = picture(PALM_PX, Look(), rng, extras=[Extra((30.0, 60.0), RADIUS_PX, PAPERS["blue"])])
-    easy = Detector(looks, CAMERA, replace(SETTINGS, skin_share=0.0))
-    assert len(easy.detect(frame(color, depth_picture(rng)), Region(0, 0, 320, 240))) == 7
+    looks, _ = learnt(BLUE, np.random.default_rng(23))
+    on_table = seen(23, extras=[Extra((30.0, 60.0), RADIUS_PX, PAPERS["blue"])])
+    assert len(Detector(looks, CAMERA, replace(SETTINGS, skin_share=0.0)).detect(on_table, WHOLE)) == 7

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import cv2
@@ -36,7 +37,7 @@ from carpus.core.calibration.camera.views import (
     view_of,
 )
 from carpus.core.camera import DEFAULT_CAMERA
-from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike
+from carpus.core.errors import BoardMissing, BoardUnfit, BoardViewsAlike, CarpusFault
 from carpus.core.simulation.practice_camera import (
     BOARD_DISTANCES_M,
     DIFFERENT,
@@ -48,7 +49,7 @@ from carpus.core.simulation.practice_camera import (
     texture_of,
 )
 from carpus.core.simulation.sensor import depth_scale
-from carpus.core.types import Frame
+from carpus.core.types import FloatArray, Frame
 from tests.calibration.camera.printed import ShownSheets
 
 
@@ -122,35 +123,28 @@ def test_it_is_said_in_words(made: CameraCalibration) -> None:
     assert "chessboard 10 x 7" in said
 
 
-def test_no_board_is_said(made: CameraCalibration) -> None:
-    with pytest.raises(BoardMissing):
-        calibrate_camera([], DEFAULT_CAMERA, "studio")
+def shifted(view: BoardView, pixel: FloatArray) -> BoardView:
+    return replace(view, found=replace(view.found, pixel=pixel))
 
 
-def test_too_few_views_are_refused(gathered: Gathering) -> None:
-    with pytest.raises(BoardViewsAlike, match=f"{FEWEST_VIEWS} needed"):
-        calibrate_camera(gathered.views[: FEWEST_VIEWS - 1], DEFAULT_CAMERA, "studio")
+def bent(view: BoardView) -> BoardView:
+    return shifted(view, view.found.pixel + 8.0 * np.sin(view.found.corner * 2.1)[:, None] * [1.0, -1.0])
 
 
-def test_views_that_are_not_tilted_are_refused(gathered: Gathering) -> None:
-    straight = [replace(view, nearer=None) for view in gathered.views]
-    with pytest.raises(BoardViewsAlike, match="tilted"):
-        calibrate_camera(straight, DEFAULT_CAMERA, "studio")
+UNFIT: dict[str, tuple[Callable[[list[BoardView]], list[BoardView]], type[CarpusFault], str | None]] = {
+    "no board": (lambda _: [], BoardMissing, None),
+    "too few": (lambda views: views[: FEWEST_VIEWS - 1], BoardViewsAlike, f"{FEWEST_VIEWS} needed"),
+    "not tilted": (lambda views: [replace(view, nearer=None) for view in views], BoardViewsAlike, "tilted"),
+    "one corner": (lambda views: [shifted(view, view.found.pixel * 0.4) for view in views], BoardViewsAlike, "fields"),
+    "bent": (lambda views: [bent(view) for view in views], BoardUnfit, None),
+}
 
 
-def test_views_of_one_part_of_the_picture_are_refused(gathered: Gathering) -> None:
-    corner = [replace(view, found=replace(view.found, pixel=view.found.pixel * 0.4)) for view in gathered.views]
-    with pytest.raises(BoardViewsAlike, match="fields"):
-        calibrate_camera(corner, DEFAULT_CAMERA, "studio")
-
-
-def test_a_bent_board_is_refused(gathered: Gathering) -> None:
-    def bent(view: BoardView) -> BoardView:
-        off = 8.0 * np.sin(view.found.corner * 2.1)[:, None] * [1.0, -1.0]
-        return replace(view, found=replace(view.found, pixel=view.found.pixel + off))
-
-    with pytest.raises(BoardUnfit):
-        calibrate_camera([bent(view) for view in gathered.views], DEFAULT_CAMERA, "studio")
+@pytest.mark.parametrize("case", UNFIT)
+def test_pictures_that_are_not_enough_are_refused(case: str, gathered: Gathering) -> None:
+    change, fault, said = UNFIT[case]
+    with pytest.raises(fault, match=said):
+        calibrate_camera(change(gathered.views), DEFAULT_CAMERA, "studio")
 
 
 def test_what_to_do_next_is_where_nothing_has_been_and_all_of_the_board_fits_there(gathered: Gathering) -> None:

@@ -1,0 +1,171 @@
+"""Wrong names and the wrong side, on hands of any size, side and shape: told name by name, and no right one doubted."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import combinations, permutations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from carpus.core.calibration.name_checks import (
+    FingerOrderSettings,
+    PalmNameSettings,
+    SideSettings,
+    looks_like_other_side,
+    misnamed,
+    plan_view,
+    shifted_names,
+)
+from carpus.core.hand.anatomy import anatomy_from_size
+from carpus.core.hand.kinematics import disc_centres
+from carpus.core.hand.protocols import HAND21, PALM_MARKERS, WRIST6, joint_angle_names
+from carpus.core.simulation.scene import Scene
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.truth import truth_of
+from carpus.core.types import FloatArray, Side
+
+SIDE, PALM, FINGERS = SideSettings(), PalmNameSettings(), FingerOrderSettings()
+SIDES: tuple[Side, Side] = ("right", "left")
+PROTOCOLS = {"wrist6": WRIST6, "hand21": HAND21}
+ROW = HAND21.markers.index
+
+
+@cache
+def _seen(seed: int, side: Side, protocol: str) -> FloatArray:
+    truth = truth_of(Scene(RecordingSpec(seed=seed, hand=side, protocol=protocol, motion="rest", seconds=0.2)))
+    return plan_view(truth.disc_position_cam_m[0])
+
+
+def seen_plan(seed: int, side: Side, protocol: str = "hand21") -> FloatArray:
+    """A patient's discs at the neutral pose as the camera has them."""
+    return _seen(seed, side, protocol).copy()
+
+
+# --- the side -------------------------------------------------------------------------------
+@pytest.mark.parametrize("protocol", PROTOCOLS)
+@pytest.mark.parametrize("side", SIDES)
+def test_the_other_side_is_seen_and_the_own_is_not_doubted(protocol: str, side: Side) -> None:
+    claimed: Side = "left" if side == "right" else "right"
+    for seed in range(12):
+        plan = seen_plan(seed, side, protocol)
+        assert not looks_like_other_side(PROTOCOLS[protocol], side, plan, SIDE)
+        assert looks_like_other_side(PROTOCOLS[protocol], claimed, plan, SIDE)
+
+
+def test_turn_size_and_place_of_the_hand_do_not_matter() -> None:
+    plan = seen_plan(0, "right", "wrist6")
+    turn = np.array([[0.0, -1.0], [1.0, 0.0]])
+    assert not looks_like_other_side(WRIST6, "right", 0.7 * plan @ turn.T - 0.1, SIDE)
+    assert looks_like_other_side(WRIST6, "left", 0.7 * plan @ turn.T - 0.1, SIDE)
+
+
+# --- the palm -------------------------------------------------------------------------------
+@pytest.mark.parametrize("side", SIDES)
+def test_right_names_are_not_doubted(side: Side) -> None:
+    for seed in range(8):
+        assert shifted_names(side, seen_plan(seed, side, "wrist6"), PALM) == ()
+        assert shifted_names(side, seen_plan(seed, side, "hand21")[list(HAND21.palm)], PALM) == ()
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_names_one_disc_further_on_are_told_with_the_wrist_first(side: Side) -> None:
+    for seed in range(6):
+        plan = seen_plan(seed, side, "wrist6")
+        assert shifted_names(side, np.roll(plan, 1, axis=0), PALM)[:2] == ("WRIST", "MCP5")
+        assert shifted_names(side, np.roll(plan, -1, axis=0), PALM)[:2] == ("WRIST", "CMC1")
+
+
+@pytest.mark.parametrize("side", SIDES)
+def test_every_wrong_order_is_told_name_by_name(side: Side) -> None:
+    for seed in range(2):
+        plan = seen_plan(seed, side, "wrist6")
+        for order in list(permutations(range(6)))[1:]:
+            wrong = shifted_names(side, plan[list(order)], PALM)
+            assert set(wrong) == {PALM_MARKERS[i] for i in range(6) if order[i] != i}
+            # The disc under a name is order[i]; what it should be called follows in the list.
+            first = PALM_MARKERS.index(wrong[0])
+            assert wrong[1] == PALM_MARKERS[order[first]]
+
+
+def test_the_other_hand_with_its_names_in_order_is_not_called_shifted() -> None:
+    for seed in range(6):
+        assert shifted_names("left", seen_plan(seed, "right", "wrist6"), PALM) == ()
+
+
+@pytest.mark.parametrize("tilt_deg", [-35.0, 35.0])
+@pytest.mark.parametrize("axis", ["x", "y"])
+def test_a_tilted_hand_is_not_doubted_and_a_shift_on_it_is_told(axis: str, tilt_deg: float) -> None:
+    for seed in range(6):
+        flat = np.column_stack((seen_plan(seed, "right", "wrist6"), np.zeros(6)))
+        plan = Rotation.from_euler(axis, tilt_deg, degrees=True).apply(flat - flat.mean(axis=0))[:, :2]
+        assert shifted_names("right", plan, PALM) == ()
+        assert shifted_names("right", np.roll(plan, 1, axis=0), PALM)[:2] == ("WRIST", "MCP5")
+
+
+# --- the whole hand -------------------------------------------------------------------------
+def bent_plan(rng: np.random.Generator, side: Side) -> FloatArray:
+    """A hand with every finger bent and spread by itself, as far as its tips stay in view, a little tilted."""
+    angle = dict.fromkeys(joint_angle_names(), 0.0)
+    for finger in "2345":
+        bend, curl = rng.uniform(-10.0, 50.0), rng.uniform(0.0, 60.0)
+        seen = min(1.0, 75.0 / max(bend + curl * 5.0 / 3.0, 1.0))
+        angle |= {f"MCP{finger}_flexion": seen * bend, f"PIP{finger}_flexion": seen * curl}
+        angle[f"MCP{finger}_abduction"] = rng.uniform(-8.0, 8.0)
+    angle |= {"CMC1_extension": rng.uniform(-10.0, 40.0), "CMC1_abduction": rng.uniform(0.0, 40.0)}
+    angle |= {"MCP1_flexion": rng.uniform(-10.0, 35.0), "IP1_flexion": rng.uniform(-20.0, 40.0)}
+    hand = anatomy_from_size(rng.uniform(0.13, 0.205), side=side, nail_discs=True)
+    discs = disc_centres(hand, np.radians([angle[name] for name in joint_angle_names()]))
+    tilt = np.radians(rng.uniform(-20.0, 20.0))
+    across = discs[:, 1] * np.cos(tilt) + discs[:, 2] * np.sin(tilt)
+    return np.stack((-across, discs[:, 0]), axis=1)
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_no_hand_is_doubted(side: Side) -> None:
+    for seed in range(12):
+        assert misnamed(HAND21, side, seen_plan(seed, side), FINGERS) is None
+    rng = np.random.default_rng(4)
+    assert [misnamed(HAND21, side, bent_plan(rng, side), FINGERS) for _ in range(80)] == [None] * 80
+
+
+def test_any_two_exchanged_names_are_found_and_named() -> None:
+    plan = seen_plan(3, "right")
+    for pair in list(combinations(range(21), 2))[::6]:
+        wrong = plan.copy()
+        wrong[list(pair)] = plan[list(pair)[::-1]]
+        found = misnamed(HAND21, "right", wrong, FINGERS)
+        assert found is not None, pair
+        assert set(sum(found.swapped, ())) == {HAND21.markers[i] for i in pair}
+
+
+@pytest.mark.parametrize(
+    "pair", [("TIP3", "TIP4"), ("TIP1", "IP1"), ("MCP3", "MCP4"), ("PIP2", "DIP2"), ("MCP1", "CMC1"), ("TIP4", "TIP5")]
+)
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_the_usual_mistakes_are_named_on_many_hands(pair: tuple[str, str], side: Side) -> None:
+    rows = [ROW(name) for name in pair]
+    for seed in range(4):
+        plan = seen_plan(seed, side)
+        plan[rows] = plan[rows[::-1]]
+        found = misnamed(HAND21, side, plan, FINGERS)
+        assert found is not None
+        assert {*found.swapped[0], *found.swapped[1]} == set(pair)
+
+
+def test_two_whole_fingers_that_stand_in_for_each_other_are_named() -> None:
+    plan = seen_plan(1, "right")
+    middle, ring = ([ROW(f"{joint}{k}") for joint in ("MCP", "PIP", "DIP", "TIP")] for k in (3, 4))
+    plan[middle + ring] = plan[ring + middle]
+    found = misnamed(HAND21, "right", plan, FINGERS)
+    assert found is not None
+    assert found.swapped == tuple(tuple(HAND21.markers[i] for i in rows) for rows in (middle, ring))
+
+
+def test_a_name_on_something_that_is_no_disc_of_the_hand_is_named_alone() -> None:
+    plan = seen_plan(2, "right")
+    plan[ROW("TIP5")] = plan[0] + [0.05, -0.06]  # a blue sleeve
+    found = misnamed(HAND21, "right", plan, FINGERS)
+    assert found is not None
+    assert found.alone == "TIP5"
