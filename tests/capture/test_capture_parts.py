@@ -44,9 +44,26 @@ def paired(events: list[tuple[str, int]], limit: int = 4, start_limit: int = 0) 
     return [(color.timestamp_us, depth.timestamp_us if depth else None) for color, depth in out]
 
 
-def test_streams_that_are_half_a_period_apart() -> None:
-    events = [event for i in range(5) for event in (("color", i * PERIOD_US), ("depth", i * PERIOD_US + 15_000))]
-    assert paired(events) == [(i * PERIOD_US, i * PERIOD_US + 15_000) for i in range(5)]
+PAIRED: dict[str, tuple[list[tuple[str, int]], list[tuple[int, int | None]]]] = {
+    "half a period apart": (
+        [event for i in range(5) for event in (("color", i * PERIOD_US), ("depth", i * PERIOD_US + 15_000))],
+        [(i * PERIOD_US, i * PERIOD_US + 15_000) for i in range(5)],
+    ),
+    "an early one waits for a nearer": (
+        [("depth", 82_000), ("color", 100_000), ("depth", 104_000)],
+        [(100_000, 104_000)],
+    ),
+    "a far one is none": (
+        [("color", 0), ("depth", TOLERANCE_US + 1), ("color", 90_000)],
+        [(0, None), (90_000, None)],
+    ),
+}
+
+
+@pytest.mark.parametrize("case", PAIRED)
+def test_each_colour_picture_has_the_depth_nearest_in_time(case: str) -> None:
+    events, pairs = PAIRED[case]
+    assert paired(events) == pairs
 
 
 def test_a_near_depth_is_not_waited_past() -> None:
@@ -55,30 +72,19 @@ def test_a_near_depth_is_not_waited_past() -> None:
     assert len(pairing.add_depth(Stamped(98_000, 1, ""))) == 1
 
 
-def test_an_early_depth_waits_for_a_nearer_one() -> None:
-    assert paired([("depth", 82_000), ("color", 100_000), ("depth", 104_000)]) == [(100_000, 104_000)]
-
-
-def test_far_depth_is_no_depth() -> None:
-    assert paired([("color", 0), ("depth", TOLERANCE_US + 1), ("color", 90_000)]) == [(0, None), (90_000, None)]
-
-
-def test_no_colour_picture_waits_longer_than_the_limit() -> None:
-    pairing = NearestPairing[str](PERIOD_US, limit=3)
-    out = [pair for i in range(10) for pair in pairing.add_color(Stamped(i * PERIOD_US, i, ""))]
-    assert [color.number for color, _ in out] == list(range(7))
+@pytest.mark.parametrize(("start_limit", "count", "shown"), [(0, 10, range(7)), (5, 20, range(5, 17))])
+def test_where_no_depth_comes_no_colour_picture_waits_longer_than_the_limit(
+    start_limit: int, count: int, shown: range
+) -> None:
+    pairing = NearestPairing[str](PERIOD_US, limit=3, start_limit=start_limit)
+    out = [pair for i in range(count) for pair in pairing.add_color(Stamped(i * PERIOD_US, i, ""))]
+    assert [color.number for color, _ in out] == list(shown)
 
 
 def test_colour_from_before_the_depth_began_is_left_out_at_the_start_only() -> None:
     events = [("color", 0), ("color", 33_000), ("depth", 66_000), ("color", 66_000), ("color", 99_000)]
     assert paired(events, start_limit=5) == [(66_000, 66_000), (99_000, None)]
     assert paired(events, start_limit=0)[0] == (0, None)
-
-
-def test_a_camera_whose_depth_never_comes_still_shows_pictures() -> None:
-    pairing = NearestPairing[str](PERIOD_US, limit=3, start_limit=5)
-    out = [pair for i in range(20) for pair in pairing.add_color(Stamped(i * PERIOD_US, i, ""))]
-    assert [color.number for color, _ in out] == list(range(5, 17))
 
 
 @given(
@@ -171,58 +177,33 @@ MODE = VideoMode(PixelFormat.RGB888, 64, 48, 30)
 
 
 def picture(**changes: int | bool) -> Picture:
-    values: dict[str, int | bool] = {
-        "sensor": Sensor.COLOR,
-        "index": 1,
-        "timestamp_us": 1,
-        "width_px": 64,
-        "height_px": 48,
-        "stride_bytes": 192,
-        "pixel_format": PixelFormat.RGB888,
-        "is_cropped": False,
-        "size_bytes": 9216,
-        "address": 4096,
-    }
-    return Picture(**{**values, **changes})  # type: ignore[arg-type]
-
-
-def test_a_whole_picture_may_be_read() -> None:
-    assert agreed_size(picture(), MODE) == 9216
+    whole = {
+        "sensor": Sensor.COLOR, "index": 1, "timestamp_us": 1, "width_px": 64, "height_px": 48, "stride_bytes": 192,
+        "pixel_format": PixelFormat.RGB888, "is_cropped": False, "size_bytes": 9216, "address": 4096,
+    }  # fmt: skip
+    return Picture(**{**whole, **changes})  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(
     "changes",
     [
-        {"size_bytes": 9215},
-        {"size_bytes": 614392},
-        {"width_px": 60000, "height_px": 60000},
-        {"stride_bytes": 64},
-        {"pixel_format": PixelFormat.YUV422},
-        {"pixel_format": 12345},
-        {"is_cropped": True},
-        {"address": 0},
+        {"size_bytes": 9215}, {"size_bytes": 614392}, {"width_px": 60000, "height_px": 60000}, {"stride_bytes": 64},
+        {"pixel_format": PixelFormat.YUV422}, {"pixel_format": 12345}, {"is_cropped": True}, {"address": 0},
         {"height_px": 47},
     ],
-)
-def test_memory_of_any_other_picture_is_not_touched(changes: dict[str, int]) -> None:
+)  # fmt: skip
+def test_a_whole_picture_may_be_read_and_memory_of_any_other_is_not_touched(changes: dict[str, int]) -> None:
+    assert agreed_size(picture(), MODE) == 9216
     assert agreed_size(picture(**changes), MODE) is None
-
-
-def test_a_stream_of_unknown_pixels_is_not_read() -> None:
     assert agreed_size(picture(pixel_format=999), VideoMode(999, 64, 48, 30)) is None
 
 
-def plugged_in(root: Path, product: str = "0601", *, mode: int = 0o666, driver: str | None = None) -> Path:
+def plugged_in(root: Path, product: str = "0601", *, driver: str | None = None) -> Path:
     """A made-up bus with one camera; the folder of device nodes."""
     device = root / "sys" / "1-2"
     (device / "1-2:1.0").mkdir(parents=True)
-    for name, text in (
-        ("idVendor", "1d27"),
-        ("idProduct", product),
-        ("busnum", "1"),
-        ("devnum", "7"),
-        ("speed", "480"),
-    ):
+    facts = {"idVendor": "1d27", "idProduct": product, "busnum": "1", "devnum": "7", "speed": "480"}
+    for name, text in facts.items():
         (device / name).write_text(text + "\n")
     if driver:
         target = root / "drivers" / driver
@@ -231,7 +212,7 @@ def plugged_in(root: Path, product: str = "0601", *, mode: int = 0o666, driver: 
     node = root / "dev" / "001" / "007"
     node.parent.mkdir(parents=True)
     node.touch()
-    node.chmod(mode)
+    node.chmod(0o666)
     other = root / "sys" / "usb1"
     other.mkdir()
     (other / "idVendor").write_text("1d6b\n")

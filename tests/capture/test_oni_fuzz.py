@@ -6,11 +6,9 @@
 from __future__ import annotations
 
 import os
-import time
 from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -84,35 +82,21 @@ MUTATIONS: tuple[Mutation, ...] = (
 PLACES: list[int] = []
 
 
-@dataclass(frozen=True)
-class Outcome:
-    number: int
-    mutation: str
-    kind: str
-    frames: int
-    took_s: float
-
-
-def play(number: int, sound: bytes, folder: Path) -> Outcome:
-    """Mutate, play to the end, and look at every frame."""
-    rng = np.random.default_rng(number)
-    mutation = MUTATIONS[number // 2 % len(MUTATIONS)]
+def play(number: int, sound: bytes, folder: Path) -> str:
+    """Mutate, play to the end, and look at every frame; what became of it."""
     data = bytearray(sound)
-    mutation(data, rng)
+    MUTATIONS[number // 2 % len(MUTATIONS)](data, np.random.default_rng(number))
     path = folder / f"mutated {number}.oni"
     path.write_bytes(data)
-    begin = time.monotonic()
-    kind, count = "played", 0
     try:
         for frame in OniSource(path).frames():
-            count += 1
             assert frame.color_rgb.shape == (HEIGHT, WIDTH, 3)
             assert frame.depth_raw is None or frame.depth_raw.shape == (HEIGHT, WIDTH)
     except CarpusFault as fault:
-        kind = type(fault).__name__
-    took_s = time.monotonic() - begin
-    path.unlink()
-    return Outcome(number, mutation.__name__, kind, count, took_s)
+        return type(fault).__name__
+    finally:
+        path.unlink()
+    return "played"
 
 
 @pytest.mark.timeout(900)
@@ -121,14 +105,13 @@ def test_no_mutated_file_takes_carpus_along(tmp_path: Path) -> None:
         write_sample(tmp_path / "raw.oni", 4).read_bytes(),
         write_sample(tmp_path / "jpeg.oni", 4, color="jpeg").read_bytes(),
     ]
-    outcomes: list[Outcome] = []
+    outcomes: list[str] = []
     with ThreadPoolExecutor(3) as pool:
         for half, data in enumerate(sound):
             PLACES[:] = structure(data)
             numbers = range(half, COUNT, len(sound))
             outcomes += pool.map(lambda number, data=data: play(number, data, tmp_path), numbers)
-    kinds = Counter(outcome.kind for outcome in outcomes)
-    print(dict(kinds), max(outcomes, key=lambda outcome: outcome.took_s))
+    kinds = Counter(outcomes)
     assert sum(kinds.values()) == COUNT
     assert kinds["played"] > COUNT // 10
     assert kinds["RecordingDamaged"] > COUNT // 4

@@ -34,11 +34,6 @@ PERIOD_S = 0.033
 
 
 @pytest.fixture
-def told() -> list[CarpusFault]:
-    return []
-
-
-@pytest.fixture
 def camera(told: list[CarpusFault]) -> Iterator[ProcessCamera]:
     source = open_openni2(models=MODELS, uri="Dummy", notice=told.append)
     yield source
@@ -160,10 +155,8 @@ def test_a_camera_lost_before_anyone_looked_comes_back_too(camera: ProcessCamera
     assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost, CameraReturned]
 
 
-def test_a_camera_that_stays_away_is_a_fault(
-    camera: ProcessCamera, told: list[CarpusFault], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("carpus.core.capture.devices.process_camera.RETRY_S", 0.05)
+@pytest.mark.usefixtures("soon_tried_again")
+def test_a_camera_that_stays_away_is_a_fault(camera: ProcessCamera, told: list[CarpusFault]) -> None:
     camera._patience_s = 0.1
     frames = camera.frames()
     next(frames)
@@ -174,15 +167,21 @@ def test_a_camera_that_stays_away_is_a_fault(
     assert [type(fault) for fault in told] == [DepthNotRegistered, CameraLost]
 
 
-def test_a_camera_that_only_crashes_is_given_up(camera: ProcessCamera, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("fault", [DriverFailed("Dummy", "SIGSEGV"), DriverMissing("libOpenNI2.so.0")])
+def test_a_camera_that_only_crashes_is_given_up_and_one_without_a_library_not_even_waited_for(
+    camera: ProcessCamera, fault: CarpusFault, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    waited: list[object] = []
+
     def crash() -> Iterator[Frame]:
-        raise DriverFailed("Dummy", "SIGSEGV")
+        raise fault
         yield
 
     monkeypatch.setattr(camera, "_run", crash)
-    monkeypatch.setattr(camera, "_wait_for_return", lambda lost: 0.0)
-    with pytest.raises(DriverFailed):
+    monkeypatch.setattr(camera, "_wait_for_return", lambda lost: waited.append(lost) or 0.0)
+    with pytest.raises(type(fault)):
         list(camera.frames())
+    assert bool(waited) == isinstance(fault, DriverFailed)
 
 
 def test_closing_ends_the_wait_for_a_lost_camera(camera: ProcessCamera) -> None:
@@ -202,16 +201,6 @@ def test_no_camera_is_a_fault() -> None:
         open_openni2(models=MODELS, uri="1d27/0601@9/9")
     with pytest.raises(CameraMissing):
         open_openni2(models=MODELS)
-
-
-def test_no_library_is_a_fault_and_not_waited_for(camera: ProcessCamera, monkeypatch: pytest.MonkeyPatch) -> None:
-    def without() -> Iterator[Frame]:
-        raise DriverMissing("libOpenNI2.so.0")
-        yield
-
-    monkeypatch.setattr(camera, "_run", without)
-    with pytest.raises(DriverMissing):
-        list(camera.frames())
 
 
 def test_exposure_that_cannot_be_held_is_told(camera: ProcessCamera, told: list[CarpusFault]) -> None:

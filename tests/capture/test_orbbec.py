@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from importlib.metadata import PackageNotFoundError
-from itertools import islice, pairwise
+from itertools import islice
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -33,9 +33,7 @@ from carpus.core.capture.doctor import opened_findings, rules_finding
 from carpus.core.depth_sensor import AZURE_KINECT
 from carpus.core.errors import (
     CameraBusy,
-    CameraLost,
     CameraMissing,
-    CameraReturned,
     CameraUnsuited,
     CarpusFault,
     DriverMissing,
@@ -44,6 +42,7 @@ from carpus.core.errors import (
 from carpus.core.installing import Finding
 from carpus.core.words import one_sentence
 from tests.capture import orbbec_stand_in
+from tests.capture.lost_and_back import assert_comes_back
 from tests.capture.orbbec_stand_in import BENT, DEPTH_FX, EDGE_PX, NEAR_MM, SERIAL, SHIFT_MM, StandInList
 
 
@@ -52,11 +51,6 @@ def bag(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("orbbec") / "plane.bag"
     orbbec_stand_in.record(path)
     return path
-
-
-@pytest.fixture
-def told() -> list[CarpusFault]:
-    return []
 
 
 @pytest.fixture
@@ -70,10 +64,10 @@ def camera(
     assert not (tmp_path / "Log").exists(), "the library keeps logs where the program was started"
 
 
+@pytest.mark.usefixtures("soon_tried_again")
 def test_a_camera_streams_is_lost_and_comes_back(
-    camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path
 ) -> None:
-    monkeypatch.setattr("carpus.core.capture.devices.process_camera.RETRY_S", 0.05)
     info = camera.info
     lens = info.camera
     assert (info.name, info.settings["serial"]) == ("Orbbec Femto Bolt(Playback)", SERIAL)
@@ -98,26 +92,8 @@ def test_a_camera_streams_is_lost_and_comes_back(
         for row in (90, 240, 400):
             seen = lens.undistort(np.array([[np.argmax(frame.depth_raw[row] > 0) - 0.5, row]]))
             assert lens.back_project(seen, np.array([depth_m]))[0, 0] == pytest.approx(edge_m, abs=2 * depth_m / 525.0)
-    for earlier, later in pairwise(first):
-        periods = (later.timestamp_s - earlier.timestamp_s) * 30.0
-        assert periods == pytest.approx(later.dropped_before + 1, abs=0.01)
-    (tmp_path / "unplugged").touch()
-
-    def plug_in_again(fault: CarpusFault) -> None:
-        told.append(fault)
-        (tmp_path / "unplugged").unlink(missing_ok=True)
-
-    camera._notice = plug_in_again
-    rest = []
-    for frame in frames:
-        rest.append(frame)
-        if told and isinstance(told[-1], CameraReturned):
-            break
-    assert [type(fault) for fault in told] == [CameraLost, CameraReturned]
+    assert_comes_back(camera, frames, first, told, tmp_path / "unplugged")
     assert told[0].detail == "unplugged"
-    times_s = [frame.timestamp_s for frame in [*first, *rest]]
-    assert all(later > earlier for earlier, later in pairwise(times_s))
-    assert sum(frame.dropped_before for frame in rest) > 0
 
 
 def test_the_doctor_opens_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

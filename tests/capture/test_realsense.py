@@ -9,7 +9,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from functools import partial
 from importlib.metadata import PackageNotFoundError
-from itertools import islice, pairwise
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -41,6 +41,7 @@ from carpus.core.errors import (
 )
 from carpus.core.words import one_sentence
 from tests.capture import realsense_stand_in
+from tests.capture.lost_and_back import assert_comes_back
 from tests.capture.realsense_stand_in import DEPTH_FX, EDGE_PX, FX, HEIGHT, NEAR_MM, SHIFT_M, WIDTH
 from tests.rendered import FLEXION, Rendered
 
@@ -108,21 +109,16 @@ def test_a_recording_cut_short_is_told(take: Path, tmp_path: Path) -> None:
 
 
 @pytest.fixture
-def told() -> list[CarpusFault]:
-    return []
-
-
-@pytest.fixture
 def camera(tmp_path: Path, told: list[CarpusFault]) -> Iterator[ProcessCamera]:
     source = open_realsense(notice=told.append, context=partial(realsense_stand_in.plugged_in, tmp_path))
     yield source
     source.close()
 
 
+@pytest.mark.usefixtures("soon_tried_again")
 def test_a_camera_streams_is_lost_and_comes_back(
-    camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path
 ) -> None:
-    monkeypatch.setattr("carpus.core.capture.devices.process_camera.RETRY_S", 0.05)
     info = camera.info
     assert (info.name, info.settings["preset"], info.settings["emitter"]) == (
         "Intel RealSense D435", "high accuracy", "on",
@@ -138,32 +134,13 @@ def test_a_camera_streams_is_lost_and_comes_back(
         edge_px = np.argmax(frame.depth_raw[HEIGHT // 2] > 0)
         assert edge_px == pytest.approx((WIDTH - 1) / 2 + FX * (EDGE_X + SHIFT_M / (NEAR_MM / 1000.0)), abs=1.0)
         assert frame.depth_unit_m == 1e-3
-    for earlier, later in pairwise(first):
-        periods = (later.timestamp_s - earlier.timestamp_s) * 30.0
-        assert periods == pytest.approx(later.dropped_before + 1, abs=0.01)
-    (tmp_path / "unplugged").touch()
-    (tmp_path / "crash").touch()
-
-    def plug_in_again(fault: CarpusFault) -> None:
-        told.append(fault)
-        (tmp_path / "unplugged").unlink(missing_ok=True)
-
-    camera._notice = plug_in_again
-    rest = []
-    for frame in frames:
-        rest.append(frame)
-        if told and isinstance(told[-1], CameraReturned):
-            break
-    assert [type(fault) for fault in told] == [CameraLost, CameraReturned]
-    times_s = [frame.timestamp_s for frame in [*first, *rest]]
-    assert all(later > earlier for earlier, later in pairwise(times_s))
-    assert sum(frame.dropped_before for frame in rest) > 0
+    assert_comes_back(camera, frames, first, told, tmp_path / "unplugged", tmp_path / "crash")
 
 
+@pytest.mark.usefixtures("soon_tried_again")
 def test_another_camera_of_the_kind_is_told_and_ours_waited_for(
-    camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    camera: ProcessCamera, told: list[CarpusFault], tmp_path: Path
 ) -> None:
-    monkeypatch.setattr("carpus.core.capture.devices.process_camera.RETRY_S", 0.05)
     frames = camera.frames()
     next(frames)
     (tmp_path / "other").touch()

@@ -61,13 +61,18 @@ def write_recording(folder: Path, times_s: list[float] = TIMES_S, depth_late_s: 
     return folder
 
 
+@pytest.fixture
+def take(tmp_path: Path) -> Path:
+    return write_recording(tmp_path / "take")
+
+
 def edit(path: Path, change: Callable[[list[str]], list[str]]) -> None:
     path.write_text("\n".join(change(path.read_text().splitlines())) + "\n")
 
 
 @pytest.mark.parametrize("read_ahead", [0, 3])
-def test_every_picture_comes_back_bit_for_bit(tmp_path: Path, read_ahead: int) -> None:
-    source: FrameSource = TumFolder(write_recording(tmp_path / "take"), read_ahead=read_ahead)
+def test_every_picture_comes_back_bit_for_bit(take: Path, read_ahead: int) -> None:
+    source: FrameSource = TumFolder(take, read_ahead=read_ahead)
     for _ in range(2):  # may be walked through again
         frames = list(source.frames())
         assert [frame.index for frame in frames] == [0, 1, 2, 3, 4]
@@ -84,173 +89,139 @@ def test_every_picture_comes_back_bit_for_bit(tmp_path: Path, read_ahead: int) -
     source.close()
 
 
-def test_facts_of_the_source(tmp_path: Path) -> None:
-    info = TumFolder(write_recording(tmp_path / "take")).info
+def test_facts_of_the_source(take: Path) -> None:
+    info = TumFolder(take).info
     assert (info.name, info.frame_count, info.has_depth) == ("take", 5, True)
     assert info.nominal_fps == pytest.approx(1 / 0.033, rel=1e-4)
     assert info.camera.origin == "default"
     assert info.camera.fx_px == pytest.approx(DEFAULT_CAMERA.fx_px * WIDTH / 640)
 
 
-def test_the_camera_file_is_taken(tmp_path: Path) -> None:
-    folder = write_recording(tmp_path / "take")
+def test_the_camera_file_is_taken(take: Path) -> None:
     camera = Camera(52.0, 53.0, 31.0, 24.0, WIDTH, HEIGHT, (0.1, 0.0, 0.0, 0.0, 0.0), origin="file")
-    write_camera_info(folder / "camera_info.yaml", camera)
-    assert TumFolder(folder).info.camera == camera
+    write_camera_info(take / "camera_info.yaml", camera)
+    assert TumFolder(take).info.camera == camera
 
 
-def test_a_colour_picture_without_depth_is_kept(tmp_path: Path) -> None:
-    folder = write_recording(tmp_path / "take")
-    edit(folder / "depth.txt", lambda lines: [*lines[:2], *lines[3:]])
-    frames = list(TumFolder(folder).frames())
+def test_a_colour_picture_without_depth_is_kept(take: Path) -> None:
+    edit(take / "depth.txt", lambda lines: [*lines[:2], *lines[3:]])
+    frames = list(TumFolder(take).frames())
     assert [frame.depth_raw is None for frame in frames] == [False, True, False, False, False]
     np.testing.assert_array_equal(frames[2].depth_raw, depth_picture(2))
 
 
-def test_lists_with_windows_line_ends_and_blank_lines_are_read(tmp_path: Path) -> None:
-    folder = write_recording(tmp_path / "take")
+def test_lists_with_windows_line_ends_and_blank_lines_are_read(take: Path) -> None:
     for name in ("rgb.txt", "depth.txt"):
-        text = (folder / name).read_text()
-        (folder / name).write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n\r\n").encode())
-    assert len(list(TumFolder(folder).frames())) == 5
+        text = (take / name).read_text()
+        (take / name).write_bytes(b"\xef\xbb\xbf" + text.replace("\n", "\r\n\r\n").encode())
+    assert len(list(TumFolder(take).frames())) == 5
 
 
-def test_a_folder_of_colour_only_is_read_when_depth_is_not_needed(tmp_path: Path) -> None:
-    folder = write_recording(tmp_path / "take")
-    (folder / "depth.txt").unlink()
-    source = TumFolder(folder, need_depth=False)
+def test_a_folder_of_colour_only_is_read_when_depth_is_not_needed(take: Path) -> None:
+    (take / "depth.txt").unlink()
+    source = TumFolder(take, need_depth=False)
     assert not source.info.has_depth
     assert all(frame.depth_raw is None for frame in source.frames())
 
 
-def test_an_abandoned_read_ahead_leaves_no_thread(tmp_path: Path) -> None:
-    frames = TumFolder(write_recording(tmp_path / "take"), read_ahead=2).frames()
+def test_an_abandoned_read_ahead_leaves_no_thread(take: Path) -> None:
+    frames = TumFolder(take, read_ahead=2).frames()
     next(frames)
     assert any(thread.name.startswith("read-ahead") for thread in threading.enumerate())
     frames.close()  # type: ignore[attr-defined]
     assert not any(thread.name.startswith("read-ahead") for thread in threading.enumerate())
 
 
-def replace_picture(folder: Path, kind: str, index: int, picture: np.ndarray) -> Path:
-    path = sorted((folder / kind).iterdir())[index]
-    cv2.imwrite(str(path), picture)
-    return path
+Spoiler = Callable[[Path], object]
 
 
-def cut(folder: Path, kind: str, keep: float) -> Path:
+def cut(folder: Path, kind: str, keep: float) -> None:
     path = sorted((folder / kind).iterdir())[2]
     data = path.read_bytes()
     path.write_bytes(data[: int(len(data) * keep)])
-    return path
 
 
-def flip_a_bit(folder: Path) -> Path:
+def flip_a_bit(folder: Path) -> None:
     path = sorted((folder / "rgb").iterdir())[2]
     data = bytearray(path.read_bytes())
     data[len(data) // 2] ^= 1
     path.write_bytes(bytes(data))
-    return path
 
 
-def swap_lines(lines: list[str]) -> list[str]:
-    return [*lines[:-2], lines[-1], lines[-2]]
+def swapped(name: str) -> Spoiler:
+    """The last two lines of a list in each other's place."""
+    return lambda folder: edit(folder / name, lambda lines: [*lines[:-2], lines[-1], lines[-2]])
 
 
-def repeat_last(lines: list[str]) -> list[str]:
-    return [*lines, lines[-1]]
+def more(name: str, line: str) -> Spoiler:
+    return lambda folder: edit(folder / name, lambda lines: [*lines, line or lines[-1]])
 
 
-BAD: dict[str, tuple[Callable[[Path], object], type[CarpusFault], str]] = {
+def picture(kind: str, index: int, value: np.ndarray) -> Spoiler:
+    return lambda folder: cv2.imwrite(str(sorted((folder / kind).iterdir())[index]), value)
+
+
+def camera_file(camera: Camera, **how: bool) -> Spoiler:
+    return lambda folder: write_camera_info(folder / "camera_info.yaml", camera, **how)
+
+
+def to_a_folder(path: Path) -> None:
+    path.unlink()
+    path.mkdir()
+
+
+GREY, SMALL = np.zeros((HEIGHT, WIDTH), np.uint8), np.zeros((24, 32, 3), np.uint8)
+OWN_CAMERA = Camera(52.0, 52.0, 31.5, 23.5, WIDTH, HEIGHT)
+BAD: dict[str, tuple[Spoiler, type[CarpusFault], str]] = {
     "no colour list": (lambda f: (f / "rgb.txt").unlink(), RecordingUnreadable, "missing"),
-    "colour list is a folder": (lambda f: ((f / "rgb.txt").unlink(), (f / "rgb.txt").mkdir()), RecordingUnreadable, ""),
+    "colour list is a folder": (lambda f: to_a_folder(f / "rgb.txt"), RecordingUnreadable, ""),
     "colour list is binary": (lambda f: (f / "rgb.txt").write_bytes(b"\xff\x00\xfe"), RecordingUnreadable, "text"),
     "colour list empty": (lambda f: (f / "rgb.txt").write_text("# nothing\n"), RecordingEmpty, "rgb.txt"),
     "no depth list": (lambda f: (f / "depth.txt").unlink(), DepthMissing, "depth.txt"),
     "depth list empty": (lambda f: (f / "depth.txt").write_text(""), DepthMissing, "depth.txt"),
-    "garbage line": (lambda f: edit(f / "rgb.txt", lambda t: [*t, "hello there"]), RecordingUnreadable, "line 8"),
-    "line without a name": (
-        lambda f: edit(f / "rgb.txt", lambda t: [*t, "1305031109.0"]),
-        RecordingUnreadable,
-        "line 8",
-    ),
-    "time not a number": (lambda f: edit(f / "depth.txt", lambda t: [*t, "nan x.png"]), RecordingUnreadable, "line 7"),
-    "times swapped": (lambda f: edit(f / "rgb.txt", swap_lines), TimesUnordered, "line 7"),
-    "a time twice": (lambda f: edit(f / "rgb.txt", repeat_last), TimesUnordered, "line 8"),
-    "depth times swapped": (lambda f: edit(f / "depth.txt", swap_lines), TimesUnordered, "line 6"),
+    "garbage line": (more("rgb.txt", "hello there"), RecordingUnreadable, "line 8"),
+    "line without a name": (more("rgb.txt", "1305031109.0"), RecordingUnreadable, "line 8"),
+    "time not a number": (more("depth.txt", "nan x.png"), RecordingUnreadable, "line 7"),
+    "times swapped": (swapped("rgb.txt"), TimesUnordered, "line 7"),
+    "a time twice": (more("rgb.txt", ""), TimesUnordered, "line 8"),
+    "depth times swapped": (swapped("depth.txt"), TimesUnordered, "line 6"),
     "colour picture gone": (lambda f: sorted((f / "rgb").iterdir())[3].unlink(), PictureDamaged, "missing"),
     "depth picture gone": (lambda f: sorted((f / "depth").iterdir())[3].unlink(), PictureDamaged, "missing"),
     "colour picture cut": (lambda f: cut(f, "rgb", 0.5), PictureDamaged, "cut off"),
     "depth picture cut": (lambda f: cut(f, "depth", 0.9), PictureDamaged, "cut off"),
     "picture empty": (lambda f: cut(f, "rgb", 0.0), PictureDamaged, "empty"),
-    "picture is text": (
-        lambda f: sorted((f / "rgb").iterdir())[1].write_text("a picture"),
-        PictureDamaged,
-        "not a picture",
-    ),
+    "picture is text": (lambda f: sorted((f / "rgb").iterdir())[1].write_text("a"), PictureDamaged, "not a picture"),
     "one bit altered": (flip_a_bit, PictureDamaged, "altered"),
-    "depth of 8 bits": (
-        lambda f: replace_picture(f, "depth", 2, np.zeros((HEIGHT, WIDTH), np.uint8)),
-        PictureDamaged,
-        "8 bits",
-    ),
-    "depth in colour": (lambda f: replace_picture(f, "depth", 2, color_picture(0)), PictureDamaged, "in colour"),
-    "colour of 16 bits": (
-        lambda f: replace_picture(f, "rgb", 2, np.zeros((HEIGHT, WIDTH, 3), np.uint16)),
-        PictureDamaged,
-        "16 bits",
-    ),
-    "colour is grey": (
-        lambda f: replace_picture(f, "rgb", 0, np.zeros((HEIGHT, WIDTH), np.uint8)),
-        FirstPictureDamaged,
-        "grey",
-    ),
-    "colour size changes": (
-        lambda f: replace_picture(f, "rgb", 2, np.zeros((24, 32, 3), np.uint8)),
-        PictureSizeChanged,
-        "32 x 24",
-    ),
-    "depth of another size": (
-        lambda f: replace_picture(f, "depth", 0, np.zeros((24, 32), np.uint16)),
-        PictureSizeChanged,
-        "32 x 24",
-    ),
-    "camera file of another size": (
-        lambda f: write_camera_info(f / "camera_info.yaml", DEFAULT_CAMERA),
-        CameraFileUnreadable,
-        "640 x 480",
-    ),
-    "mirrored": (
-        lambda f: write_camera_info(
-            f / "camera_info.yaml", Camera(52.0, 52.0, 31.5, 23.5, WIDTH, HEIGHT), mirrored=True
-        ),
-        CameraFileUnreadable,
-        "mirrored",
-    ),
+    "depth of 8 bits": (picture("depth", 2, GREY), PictureDamaged, "8 bits"),
+    "depth in colour": (picture("depth", 2, color_picture(0)), PictureDamaged, "in colour"),
+    "colour of 16 bits": (picture("rgb", 2, np.zeros((HEIGHT, WIDTH, 3), np.uint16)), PictureDamaged, "16 bits"),
+    "colour is grey": (picture("rgb", 0, GREY), FirstPictureDamaged, "grey"),
+    "colour size changes": (picture("rgb", 2, SMALL), PictureSizeChanged, "32 x 24"),
+    "depth of another size": (picture("depth", 0, np.zeros((24, 32), np.uint16)), PictureSizeChanged, "32 x 24"),
+    "camera file of another size": (camera_file(DEFAULT_CAMERA), CameraFileUnreadable, "640 x 480"),
+    "mirrored": (camera_file(OWN_CAMERA, mirrored=True), CameraFileUnreadable, "mirrored"),
     "depth at other times": (
         lambda f: edit(f / "depth.txt", lambda t: [line.replace("13050311", "14050311", 1) for line in t]),
-        DepthMissing,
-        "20 ms",
+        DepthMissing, "20 ms",
     ),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("read_ahead", [0, 2])
 @pytest.mark.parametrize("case", BAD)
-def test_bad_input_is_one_typed_fault(tmp_path: Path, case: str, read_ahead: int) -> None:
+def test_bad_input_is_one_typed_fault(take: Path, case: str, read_ahead: int) -> None:
     spoil, kind, fact = BAD[case]
-    folder = write_recording(tmp_path / "take")
-    spoil(folder)
+    spoil(take)
     with pytest.raises(kind) as caught:
-        list(TumFolder(folder, read_ahead=read_ahead).frames())
+        list(TumFolder(take, read_ahead=read_ahead).frames())
     assert type(caught.value) is kind
     assert fact in caught.value.detail
-    assert caught.value.subject.startswith(str(folder))
+    assert caught.value.subject.startswith(str(take))
 
 
-def test_the_pictures_before_a_damaged_one_are_still_yielded(tmp_path: Path) -> None:
-    folder = write_recording(tmp_path / "take")
-    cut(folder, "rgb", 0.5)
-    frames = TumFolder(folder, read_ahead=4).frames()
+def test_the_pictures_before_a_damaged_one_are_still_yielded(take: Path) -> None:
+    cut(take, "rgb", 0.5)
+    frames = TumFolder(take, read_ahead=4).frames()
     assert [next(frames).index for _ in range(2)] == [0, 1]
     with pytest.raises(PictureDamaged):
         next(frames)
@@ -301,23 +272,21 @@ def test_missing_frames_are_judged_by_the_median_period() -> None:
     assert missing_before(np.empty(0)) == []
 
 
-def test_a_simulated_recording_says_so_and_no_other_does(tmp_path: Path) -> None:
-    recording = write_recording(tmp_path / "take")
-    assert SIMULATED not in TumFolder(recording).info.settings
-    rgb = recording / "rgb.txt"
+def test_a_simulated_recording_says_so_and_no_other_does(take: Path) -> None:
+    assert SIMULATED not in TumFolder(take).info.settings
+    rgb = take / "rgb.txt"
     rgb.write_text(f"{SIMULATED_REMARK}\n{rgb.read_text()}")
-    assert TumFolder(recording).info.settings[SIMULATED] == "yes"
+    assert TumFolder(take).info.settings[SIMULATED] == "yes"
 
 
 @pytest.mark.parametrize("read_ahead", [0, 3])
-def test_damaged_and_missing_pictures_can_be_left_out_and_are_told(tmp_path: Path, read_ahead: int) -> None:
-    folder = write_recording(tmp_path / "take")
-    color, depth = (sorted((folder / kind).iterdir()) for kind in ("rgb", "depth"))
+def test_damaged_and_missing_pictures_can_be_left_out_and_are_told(take: Path, read_ahead: int) -> None:
+    color, depth = (sorted((take / kind).iterdir()) for kind in ("rgb", "depth"))
     color[1].write_text("no picture")
     color[3].unlink()
     depth[2].write_bytes(b"")
     told: list[CarpusFault] = []
-    source = TumFolder(folder, read_ahead=read_ahead, leave_out_damaged=True, notice=told.append)
+    source = TumFolder(take, read_ahead=read_ahead, leave_out_damaged=True, notice=told.append)
     frames = list(source.frames())
     assert [frame.index for frame in frames] == [0, 1, 2]
     assert [frame.timestamp_s for frame in frames] == [round(TIMES_S[k], 6) for k in (0, 2, 4)]

@@ -1,0 +1,19 @@
+"""What the tests of cameras share."""
+
+from __future__ import annotations
+
+import pytest
+
+from carpus.core.errors import CarpusFault
+
+
+@pytest.fixture
+def told() -> list[CarpusFault]:
+    """What a camera says of itself while it runs."""
+    return []
+
+
+@pytest.fixture
+def soon_tried_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A camera that was lost is looked for at once."""
+    monkeypatch.setattr("carpus.core.capture.devices.process_camera.RETRY_S", 0.05)
