@@ -107,13 +107,21 @@ class Gate:
     def open(self) -> None:
         self._open.set()
 
-    def shut(self) -> None:
-        self._open.clear()
-
     def pass_through(self) -> None:
         self.waiting = not self._open.is_set()
         assert self._open.wait(PATIENCE_S)
         self.waiting = False
+
+
+def held_by(gate: Gate, since: int = 0) -> Callable[[Frame], TrackedFrame]:
+    """A tracker that waits at a gate with the pictures from ``since`` on."""
+
+    def slow(of: Frame) -> TrackedFrame:
+        if of.index >= since:
+            gate.pass_through()
+        return tracked(of)
+
+    return slow
 
 
 class FakeSession:

@@ -16,7 +16,7 @@ from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.live_values import LiveEvent, LiveSettings
 from carpus.core.pipeline.recording import PREVIEW_WAITING
 from carpus.core.types import Frame, TrackedFrame
-from tests.pipeline.live_fakes import FakeSession, Gate, HeldSource, frame, tracked, wait_until
+from tests.pipeline.live_fakes import FakeSession, Gate, HeldSource, frame, held_by, tracked, wait_until
 
 OUT = Path("session.h5")
 
@@ -90,12 +90,8 @@ def test_history_holds_twelve_seconds_and_is_bounded() -> None:
 def test_beyond_the_room_new_pictures_are_left_out_and_each_is_counted_and_stored() -> None:
     source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
 
-    def slow(picture: Frame) -> TrackedFrame:
-        gate.pass_through()
-        return tracked(picture)
-
     with LiveSession(source, LiveSettings(tracking_waiting=8)) as live:
-        live.begin_tracking(slow)
+        live.begin_tracking(held_by(gate))
         live.start_recording(lambda: sink)
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
@@ -115,13 +111,9 @@ def test_a_computer_with_little_memory_lets_fewer_pictures_wait(monkeypatch: pyt
     monkeypatch.setattr(recording, "free_memory_bytes", lambda: 50 * frame(0).color_rgb.nbytes)
     source, gate = HeldSource(), Gate()
 
-    def slow(picture: Frame) -> TrackedFrame:
-        gate.pass_through()
-        return tracked(picture)
-
     with LiveSession(source) as live:
         deliver(live, source, 1)
-        live.begin_tracking(slow)
+        live.begin_tracking(held_by(gate))
         live.start_recording(lambda: FakeSession(OUT))
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
@@ -134,12 +126,8 @@ def test_a_computer_with_little_memory_lets_fewer_pictures_wait(monkeypatch: pyt
 def test_frames_missing_at_the_source_add_to_those_lost_here() -> None:
     source, gate, sink = HeldSource(dropped_before=2), Gate(), FakeSession(OUT)
 
-    def slow(picture: Frame) -> TrackedFrame:
-        gate.pass_through()
-        return tracked(picture)
-
     with LiveSession(source, LiveSettings(tracking_waiting=1)) as live:
-        live.begin_tracking(slow)
+        live.begin_tracking(held_by(gate))
         live.start_recording(lambda: sink)
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
@@ -195,13 +183,8 @@ def test_rows_that_were_tracked_are_stored_while_pictures_wait() -> None:
     """What waits for the tracker holds up nothing that is done: a program that is killed loses only what waits."""
     source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
 
-    def held_after_ten(picture: Frame) -> TrackedFrame:
-        if picture.index >= 10:
-            gate.pass_through()
-        return tracked(picture)
-
     with LiveSession(source) as live:
-        live.begin_tracking(held_after_ten)
+        live.begin_tracking(held_by(gate, since=10))
         live.start_recording(lambda: sink)
         deliver(live, source, 100)
         wait_until(lambda: live.counters().rows_written == 10)
@@ -213,12 +196,8 @@ def test_rows_that_were_tracked_are_stored_while_pictures_wait() -> None:
 def test_what_is_not_recorded_waits_for_half_a_second_at_most() -> None:
     source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
 
-    def slow(picture: Frame) -> TrackedFrame:
-        gate.pass_through()
-        return tracked(picture)
-
     with LiveSession(source) as live:
-        live.begin_tracking(slow)
+        live.begin_tracking(held_by(gate))
         deliver(live, source, 1)
         wait_until(lambda: gate.waiting)
         deliver(live, source, 40)
@@ -230,25 +209,6 @@ def test_what_is_not_recorded_waits_for_half_a_second_at_most() -> None:
         live.stop_recording()
     assert [row.index for row in sink.rows] == list(range(41, 61))
     assert [row.dropped_before for row in sink.rows] == [24, *[0] * 19]
-
-
-def test_a_recording_that_failed_does_not_wait_for_the_tracker() -> None:
-    source, gate = HeldSource(), Gate()
-
-    def slow(picture: Frame) -> TrackedFrame:
-        if picture.index > 0:
-            gate.pass_through()
-        return tracked(picture)
-
-    with LiveSession(source) as live:
-        live.begin_tracking(slow)
-        live.start_recording(lambda: FakeSession(OUT, fault_at=0))
-        deliver(live, source, 30)
-        wait_until(lambda: "recording_failed" in kinds(live.drain_events()))
-        with pytest.raises(OSError, match="space"):
-            live.stop_recording()
-        assert live.counters().waiting_tracking > 0
-        gate.open()
 
 
 def test_a_failing_tracker_is_told_and_the_pictures_go_on() -> None:
@@ -311,13 +271,9 @@ def test_what_the_end_waits_for_besides_is_no_time_of_the_disk() -> None:
 def test_stop_drains_from_source_to_sink() -> None:
     source, gate, sink = HeldSource(), Gate(), FakeSession(OUT)
 
-    def slow(picture: Frame) -> TrackedFrame:
-        gate.pass_through()
-        return tracked(picture)
-
     live = LiveSession(source)
     live.start()
-    live.begin_tracking(slow)
+    live.begin_tracking(held_by(gate))
     live.start_recording(lambda: sink)
     deliver(live, source, 1)
     wait_until(lambda: gate.waiting)
@@ -485,12 +441,8 @@ def test_raw_pictures_are_stored_before_they_are_tracked() -> None:
     source, gate = HeldSource(), Gate()
     rows, pictures = FakeSession(OUT), FakeSession(Path("pictures"))
 
-    def slow(picture: Frame) -> TrackedFrame:
-        gate.pass_through()
-        return tracked(picture)
-
     with LiveSession(source, LiveSettings(tracking_waiting=16, pictures_waiting=100)) as live:
-        live.begin_tracking(slow)
+        live.begin_tracking(held_by(gate))
         live.start_recording(lambda: rows, lambda: pictures)
         deliver(live, source, 60)
         assert live.counters().dropped > 0
@@ -508,12 +460,8 @@ def test_rows_and_pictures_begin_with_the_same_frame_however_far_behind_the_trac
     source, gate = HeldSource(), Gate()
     rows, pictures = FakeSession(OUT), FakeSession(Path("raw"))
 
-    def slow(frame: Frame) -> TrackedFrame:
-        gate.pass_through()
-        return tracked(frame)
-
     with LiveSession(source) as live:
-        live.begin_tracking(slow)
+        live.begin_tracking(held_by(gate))
         deliver(live, source, 3)  # captured, not yet tracked
         live.start_recording(lambda: rows, lambda: pictures)
         assert live.recorded_from is None
@@ -650,19 +598,13 @@ def test_nothing_of_a_file_is_lost_however_slow_the_tracker_and_the_disk() -> No
 
 
 def test_a_file_that_waits_can_be_stopped() -> None:
-    held = threading.Event()
-
-    def pipeline(frame: Frame) -> TrackedFrame:
-        held.wait(20.0)
-        return tracked(frame)
-
-    source = HeldSource(total=50)
+    source, gate = HeldSource(total=50), Gate()
     source.let(60)
     live = LiveSession(source, LiveSettings(tracking_waiting=2), source_waits=True)
-    live.begin_tracking(pipeline)
+    live.begin_tracking(held_by(gate))
     live.start()
     wait_until(lambda: live.counters().waiting_tracking == 2)
-    threading.Timer(0.1, held.set).start()
+    threading.Timer(0.1, gate.open).start()
     live.stop()
     assert not live.running
 
@@ -690,18 +632,14 @@ def test_what_waited_for_a_recording_that_failed_keeps_nobody_waiting() -> None:
     """The disk is full while the tracker is behind: it is at what is seen now again, and the next one has its room."""
     source, gate = HeldSource(), Gate()
 
-    def slow(picture: Frame) -> TrackedFrame:
-        if picture.index > 0:
-            gate.pass_through()
-        return tracked(picture)
-
     with LiveSession(source) as live:
-        live.begin_tracking(slow)
+        live.begin_tracking(held_by(gate, since=1))
         live.start_recording(lambda: FakeSession(OUT, fault_at=0))
         deliver(live, source, 200)
         wait_until(lambda: "recording_failed" in kinds(live.drain_events()))
-        gate.open()
         with pytest.raises(OSError, match="No space"):
             live.stop_recording()
+        assert live.counters().waiting_tracking > 0, "the end does not wait for the tracker"
+        gate.open()
         wait_until(lambda: live.newest() is not None and live.newest().frame.index == 199)
         assert live.counters().tracked == 2 + PREVIEW_WAITING

@@ -158,42 +158,30 @@ def test_steps_handed_over_one_by_one_are_looked_back_at_as_where_they_were_made
     assert_same(rest.motion, motion_of(there.smoothed()))
 
 
-def test_a_killed_process_is_told_at_the_end() -> None:
-    with begun() as running:
-        running.take(steps()[0])
-        assert running.pid is not None
-        os.kill(running.pid, signal.SIGKILL)
-        for kept in steps():
-            running.take(kept)
-        with pytest.raises(NotLookedBack) as told:
-            running.finish(times_s())
-    assert "SIGKILL" in told.value.detail
-
-
-def test_a_process_that_does_not_answer_holds_nobody_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(looking_back, "END_S", 0.2)
-    with begun() as running:
-        assert running.pid is not None
-        os.kill(running.pid, signal.SIGSTOP)
-        for kept in steps():
-            running.take(kept)
-        with pytest.raises(NotLookedBack) as told:
-            running.finish(times_s())
-    assert "0.2 s" in told.value.detail
-    assert not running._thread.is_alive()
-
-
-def test_what_waits_for_a_stuck_process_has_a_bound(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(looking_back, "MOST_WAITING", 50)
+@pytest.mark.parametrize(
+    ("blow", "limit", "said"),
+    [
+        (signal.SIGKILL, {}, "SIGKILL"),
+        (signal.SIGSTOP, {"END_S": 0.2}, "0.2 s"),
+        (signal.SIGSTOP, {"MOST_WAITING": 50}, "50 frames behind"),
+    ],
+    ids=["killed", "does not answer", "too much waits"],
+)
+def test_a_process_that_dies_or_hangs_holds_nobody_up_and_is_told_at_the_end(
+    blow: signal.Signals, limit: dict[str, float], said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name, value in limit.items():
+        monkeypatch.setattr(looking_back, name, value)
     with begun() as running:
         assert running.pid is not None
-        os.kill(running.pid, signal.SIGSTOP)
+        os.kill(running.pid, blow)
         for kept in steps():
             running.take(kept)
-        assert not running._waiting
-        with pytest.raises(NotLookedBack) as told:
+        assert len(running._waiting) <= looking_back.MOST_WAITING
+        assert not running._waiting or "MOST_WAITING" not in limit, "nothing is kept for it any more"
+        with pytest.raises(NotLookedBack, match=said):
             running.finish(times_s())
-    assert "50 frames behind" in told.value.detail
+        assert not running._thread.is_alive()
 
 
 def test_a_process_that_cannot_start_is_told_at_the_end(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -81,6 +81,7 @@ def digest(path: Path) -> str:
 def test_recording_becomes_a_complete_session(made: Made) -> None:
     count = len(made.truth.timestamp_s)
     assert made.report.frames == made.report.tracked == count
+    assert made.report.verdict.is_good
     with h5py.File(made.session) as file:
         assert file.attrs["complete"]
         assert file.attrs["hand"] == "left"
@@ -221,10 +222,6 @@ def test_a_poor_verdict_is_told_and_tracking_goes_on(made: Made, tmp_path: Path)
     assert [finding.kind for finding in verdicts[0].findings] == ["distance"]
     assert len(verdicts) == 1
     assert report.frames == len(made.truth.timestamp_s)
-
-
-def test_a_good_verdict_is_not_told(made: Made) -> None:
-    assert made.report.verdict.is_good
 
 
 def test_start_angles_are_added_and_marked(made: Made, tmp_path: Path) -> None:
