@@ -22,7 +22,6 @@ from carpus.core.session.values import Motion, motion_of
 from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import FloatArray, Moment, TrackedFrame, TrackStatus
@@ -253,7 +252,7 @@ def _scored(
     joint_deg = degrees_between(with_end_joints(live[0]), joint_true)[kept]
     joint_sd_deg = np.degrees(with_end_joints(live[1]))[kept]
     wrist_deg, wrist_sd_deg = degrees_between(live[2], truth.angles_rad)[kept], np.degrees(live[3])[kept]
-    seen, compared = seen_joints(present), _compared(truth, joint_true)[kept]
+    seen, compared = seen_joints(present), readable(joint_true)[kept]
     missed, shown = int((present & ~taken).sum()), int(present.sum())
     return HandRun(
         row.name,
@@ -289,7 +288,7 @@ def _scored(
     )
 
 
-def _compared(truth: Truth, joint_true: FloatArray) -> NDArray[np.bool_]:
+def readable(joint_true: FloatArray) -> NDArray[np.bool_]:
     """Abduction of a bent finger turns it about itself: no camera and no examiner can read it."""
     out = np.ones(joint_true.shape, dtype=bool)
     for k in (2, 3, 4, 5):

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import multiprocessing
-import sys
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 from threadpoolctl import threadpool_limits
-from tqdm import tqdm
 
 from carpus.core.types import FloatArray
 from tests.accuracy import readings_table
@@ -25,8 +21,10 @@ from tests.accuracy.hand21 import (
     run_on_pictures,
     tracked,
 )
+from tests.accuracy.readings import mean, rms
 from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
 from tests.accuracy.runs import Mode
+from tests.accuracy.side_by_side import side_by_side
 from tests.accuracy.targets import Verdict
 
 MOST_RMSE_DEG = {
@@ -89,10 +87,8 @@ def hand_jobs(rows: Sequence[HandScenario], seeds: int, pictures: int, first_see
 
 
 def all_hand_runs(jobs: Sequence[HandJob], processes: int) -> list[HandRun]:
-    """Runs of all jobs, in their order; progress goes to stderr."""
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, mp_context=context) as pool:
-        return list(tqdm(pool.map(hand_job_done, jobs), total=len(jobs), file=sys.stderr))
+    """Runs of all jobs, in their order."""
+    return side_by_side(hand_job_done, jobs, processes)
 
 
 def figures(runs: Sequence[HandRun], group: str) -> Figures:
@@ -110,24 +106,16 @@ def figures(runs: Sequence[HandRun], group: str) -> Figures:
     shown, hidden = known & seen, known & ~seen
     inside, back_inside = np.abs(error) <= 2.0 * sd, np.abs(back) <= 2.0 * back_sd
     return Figures(
-        _rms(error[shown]),
-        _mean(sd[shown]),
-        _mean(inside[shown]),
-        _rms(error[hidden]),
-        _mean(sd[hidden]),
-        _mean(inside[hidden]),
-        _mean(inside[known]),
-        _rms(back[shown]),
-        _mean(back_inside[known]),
+        rms(error[shown]),
+        mean(sd[shown]),
+        mean(inside[shown]),
+        rms(error[hidden]),
+        mean(sd[hidden]),
+        mean(inside[hidden]),
+        mean(inside[known]),
+        rms(back[shown]),
+        mean(back_inside[known]),
     )
-
-
-def _rms(values: FloatArray) -> float:
-    return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")
-
-
-def _mean(values: FloatArray) -> float:
-    return float(np.mean(values)) if values.size else float("nan")
 
 
 def wrist_rmse(runs: Sequence[HandRun]) -> FloatArray:
@@ -213,7 +201,7 @@ def markdown(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> str:
         )]  # fmt: skip
         cells = [row.name if mode == "blobs" else f"{row.name} (pictures)", str(len(mine))]
         cells += [f"{f.rmse:.1f}" for f in found]
-        cells.append(f"{_rms(hidden[0]):.0f}, {_mean(hidden[1]):.0f}")
+        cells.append(f"{rms(hidden[0]):.0f}, {mean(hidden[1]):.0f}")
         cells.append(f"{100 * min(f.all_inside for f in found):.0f} to {100 * max(f.all_inside for f in found):.0f}")
         cells.append(" / ".join(f"{v:.1f}" for v in wrist_rmse(mine)))
         cells.append(" / ".join(f"{v:.1f}" for v in disc_mm(mine)))

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import multiprocessing
-import sys
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 
 from threadpoolctl import threadpool_limits
-from tqdm import tqdm
 
 from tests.accuracy.carpus import run_on_blobs, run_on_pictures
 from tests.accuracy.informed import informed_run
 from tests.accuracy.runs import UNTROUBLED, Mode, Run
 from tests.accuracy.scenarios import REPORT_SEEDS, Scenario
 from tests.accuracy.sequences import without_false
+from tests.accuracy.side_by_side import side_by_side
 from tests.accuracy.simplest import simplest_run
 from tests.simulation.measurements import measurement_sequence
 
@@ -64,12 +61,5 @@ def jobs_for(scenarios: Sequence[Scenario], seeds: int, pictures: int, first: in
 
 
 def all_runs(jobs: Sequence[Job], processes: int) -> list[Run]:
-    """Runs of all jobs, in their order; progress goes to stderr."""
-    runs: dict[int, list[Run]] = {}
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, mp_context=context) as pool, tqdm(total=len(jobs), file=sys.stderr) as bar:
-        waiting = {pool.submit(done, job): place for place, job in enumerate(jobs)}
-        for future in as_completed(waiting):
-            runs[waiting[future]] = future.result()
-            bar.update()
-    return [run for place in sorted(runs) for run in runs[place]]
+    """Runs of all jobs, in their order."""
+    return [run for runs in side_by_side(done, jobs, processes) for run in runs]

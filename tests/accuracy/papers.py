@@ -5,17 +5,13 @@ Twice: as written, with the palm's discs in one plane, and with the palm as meas
 
 from __future__ import annotations
 
-import multiprocessing
-import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
-from tqdm import tqdm
 
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.papers.chain import PalmModel, PaperSettings, as_written
@@ -31,6 +27,7 @@ from tests.accuracy.readings import Reading, read_figures, reading_of, unused_sh
 from tests.accuracy.runs import degrees_between, longest_s
 from tests.accuracy.scenarios import TROUBLE, WRIST, Scenario
 from tests.accuracy.sequences import longest_untracked_s, scored_frames, true_names, wrongly_taken
+from tests.accuracy.side_by_side import side_by_side
 from tests.accuracy.soft import SOFT_HAND, SOFT_WRIST
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 
@@ -149,11 +146,8 @@ def _run(row: str, sequence: MeasurementSequence, palm: PalmModel) -> PaperRun:
 
 
 def all_paper_runs(jobs: Sequence[PaperJob], processes: int) -> list[PaperRun]:
-    """Runs of all jobs, in their order; progress goes to stderr."""
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, mp_context=context) as pool:
-        done = tqdm(pool.map(_one_thread, jobs), total=len(jobs), file=sys.stderr)
-        return [run for runs in done for run in runs]
+    """Runs of all jobs, in their order."""
+    return [run for runs in side_by_side(_one_thread, jobs, processes) for run in runs]
 
 
 def _one_thread(job: PaperJob) -> list[PaperRun]:

@@ -92,7 +92,7 @@ def reading_in(
         np.array(ranges).reshape(-1, width),
         np.array(at_end).reshape(-1, width),
         zero,
-        _longest_s(np.abs(error) > OUTSIDE_SD * sd_deg, time_s),
+        longest_each_s(np.abs(error) > OUTSIDE_SD * sd_deg, time_s),
         unused,
         shown,
     )
@@ -145,7 +145,7 @@ def _middle(values: FloatArray) -> FloatArray:
     return np.asarray(np.median(values, axis=0)) if len(values) else np.full(values.shape[1], np.nan)
 
 
-def _longest_s(outside: NDArray[np.bool_], time_s: FloatArray) -> FloatArray:
+def longest_each_s(outside: NDArray[np.bool_], time_s: FloatArray) -> FloatArray:
     """Longest time on end of each column (N, A), from its first to its last frame."""
     longest, since = np.zeros(outside.shape[1]), np.full(outside.shape[1], np.nan)
     for now_s, flags in zip(time_s, outside, strict=True):
@@ -185,14 +185,14 @@ def read_figures(readings: Sequence[Reading], columns: Sequence[int]) -> ReadFig
     ends = np.abs(pooled([reading.end_deg for reading in readings]))
     zeros = pooled([reading.zero_deg for reading in readings])
     return ReadFigures(
-        rmse=_rms(error),
+        rmse=rms(error),
         p95=float(np.quantile(np.abs(error), 0.95)) if error.size else float("nan"),
-        inside=_mean(ratio <= INSIDE_SD),
-        range_mean=_mean(spans),
+        inside=mean(ratio <= INSIDE_SD),
+        range_mean=mean(spans),
         range_worst=_most(spans),
-        end_rms=_rms(ends),
+        end_rms=rms(ends),
         end_worst=_most(ends),
-        zero_rms=_rms(zeros),
+        zero_rms=rms(zeros),
         outside_s=_most(pooled([reading.outside_s for reading in readings])),
     )
 
@@ -202,11 +202,11 @@ def unused_share(readings: Sequence[Reading]) -> float:
     return sum(reading.unused for reading in readings) / max(1, sum(reading.shown for reading in readings))
 
 
-def _rms(values: FloatArray) -> float:
+def rms(values: FloatArray) -> float:
     return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")
 
 
-def _mean(values: FloatArray | NDArray[np.bool_]) -> float:
+def mean(values: FloatArray | NDArray[np.bool_]) -> float:
     return float(np.mean(values)) if values.size else float("nan")
 
 

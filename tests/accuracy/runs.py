@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.types import FloatArray, TrackStatus
-from tests.accuracy.readings import Reading
+from tests.accuracy.readings import Reading, longest_each_s
 from tests.accuracy.speeds import StrokeSpeeds
 
 Mode = Literal["blobs", "pictures"]
@@ -64,10 +64,4 @@ def degrees_between(angles_rad: FloatArray, true_rad: FloatArray) -> FloatArray:
 
 def longest_s(wrong: NDArray[np.bool_], time_s: FloatArray) -> float:
     """Longest time on end that a marker (M) was wrong over frames (N, M), from its first to its last such frame."""
-    longest = 0.0
-    begin: FloatArray = np.full(wrong.shape[1], np.nan)
-    for now_s, flags in zip(time_s, wrong, strict=True):
-        begin = np.where(flags, np.where(np.isnan(begin), now_s, begin), np.nan)
-        if flags.any():
-            longest = max(longest, float(np.nanmax(now_s - begin)))
-    return longest
+    return float(longest_each_s(wrong, time_s).max())

@@ -5,19 +5,15 @@ Every row is rendered pictures tracked by the whole of Carpus, from folder to se
 
 from __future__ import annotations
 
-import multiprocessing
-import sys
 import tempfile
 import time
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
-from tqdm import tqdm
 
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
@@ -26,12 +22,13 @@ from carpus.core.pipeline.track import TrackSettings, learnt_in, track_recording
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.types import FloatArray, TrackStatus
 from tests.accuracy import readings_table
-from tests.accuracy.hand21 import ANGLES, BENT_RAD, JOINT_GROUPS, seen_joints, with_end_joints
+from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, readable, seen_joints, with_end_joints
 from tests.accuracy.pages import marked
 from tests.accuracy.readings import AT_NEUTRAL_RAD, Reading, reading_in
 from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
 from tests.accuracy.runs import degrees_between
 from tests.accuracy.sequences import LEAST_DISCS, markers_of, true_names
+from tests.accuracy.side_by_side import side_by_side
 from tests.second_patient.motions import ROWS, Row, motion_of
 from tests.second_patient.recording import CLICKS_FILE, clear_px, kept_recording, take_of
 from tests.second_patient.truth import Truth
@@ -64,6 +61,10 @@ def tracked_run(row: Row, seed: int, settings: TrackSettings | None = None) -> S
         return _tracked_run(row, seed, settings)
     except CarpusFault as fault:
         return f"second: {row.name}, seed {seed}: not tracked, {type(fault).__name__}: {fault}"
+
+
+def _tracked(job: tuple[Row, int]) -> SecondRun | str:
+    return tracked_run(*job)
 
 
 def _tracked_run(row: Row, seed: int, settings: TrackSettings | None) -> SecondRun:
@@ -106,7 +107,7 @@ def _tracked_run(row: Row, seed: int, settings: TrackSettings | None) -> SecondR
     joints = None
     if truth.protocol.has_fingers:
         found, sd = with_end_joints(motion.joint_angles_rad), with_end_joints(motion.joint_angles_sd_rad)
-        joints = reading(truth.joint_angles_rad, found, sd, seen_joints(present) & _readable(truth.joint_angles_rad))
+        joints = reading(truth.joint_angles_rad, found, sd, seen_joints(present) & readable(truth.joint_angles_rad))
     return SecondRun(
         row.name,
         reading(truth.angles_rad, motion.angles_rad, motion.angles_sd_rad),
@@ -126,14 +127,6 @@ def _enough_inside(truth: Truth, pixel: FloatArray) -> NDArray[np.bool_]:
     return np.asarray(inside.sum(axis=1) >= LEAST_DISCS)
 
 
-def _readable(joint_true: FloatArray) -> NDArray[np.bool_]:
-    """Abduction of a bent finger turns it about itself: no camera and no examiner can read it."""
-    out = np.ones(joint_true.shape, dtype=bool)
-    for k in (2, 3, 4, 5):
-        out[:, ANGLES.index(f"MCP{k}_abduction")] = joint_true[:, ANGLES.index(f"MCP{k}_flexion")] < BENT_RAD
-    return out
-
-
 def rows_named(only: str) -> list[Row]:
     """The rows whose name holds ``only``."""
     return [row for row in ROWS if only.lower() in f"second: {row.name}".lower()]
@@ -144,9 +137,7 @@ def report(rows: Sequence[Row], recordings: int, processes: int, *, as_markdown:
     jobs = [
         (row, _clickable_seed(row, SECOND_SEEDS + 50 * ROWS.index(row) + i)) for row in rows for i in range(recordings)
     ]
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, mp_context=context) as pool:
-        done = list(tqdm(pool.map(tracked_run, *zip(*jobs, strict=True)), total=len(jobs), file=sys.stderr))
+    done = side_by_side(_tracked, jobs, processes)
     runs, faults = [run for run in done if isinstance(run, SecondRun)], [run for run in done if isinstance(run, str)]
     read = list(_read_rows(runs, rows))
     if as_markdown:
