@@ -10,19 +10,12 @@ from scipy.stats import chi2
 from carpus.core.calibration.neutral_pose import pose_by_least_squares
 from carpus.core.camera import Camera
 from carpus.core.types import FloatArray
+from tests.tracking.hands import FROM_ABOVE
+from tests.tracking.hands import RIGHT_PALM_M as PALM_M
 
 CAMERA = Camera(520.0, 530.0, 318.0, 243.0)
-PALM_M = np.array(
-    [
-        [0.000, 0.000, 0.000],
-        [0.013, 0.021, -0.012],
-        [0.080, 0.022, -0.003],
-        [0.082, 0.000, 0.000],
-        [0.075, -0.017, -0.000],
-        [0.066, -0.033, -0.003],
-    ]
-)
-FROM_ABOVE = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
+
+
 PIXEL_SD, DEPTH_SD = 0.3, 0.002
 
 

@@ -8,24 +8,9 @@ import pytest
 from carpus.core import so3
 from carpus.core.hand.clinical_angles import wrist_axes, wrist_axes_sensitivity
 from carpus.core.types import FloatArray, Side
+from tests.tracking.hands import RIGHT_PALM_M, palm
 
-PALM_M = np.array(
-    [
-        [0.000, 0.000, 0.000],
-        [0.013, 0.022, -0.010],
-        [0.080, 0.022, -0.001],
-        [0.082, 0.000, 0.000],
-        [0.075, -0.017, -0.002],
-        [0.066, -0.033, -0.006],
-    ]
-)
-"""WRIST CMC1 MCP2 MCP3 MCP4 MCP5 of a right hand, X to the fingers, Z out of its back."""
-MIRROR = np.array([1.0, -1.0, 1.0])
 UP = np.array([0.0, 0.0, 1.0])
-
-
-def palm(side: Side) -> FloatArray:
-    return PALM_M if side == "right" else PALM_M * MIRROR
 
 
 def placed(side: Side, seed: int) -> tuple[FloatArray, FloatArray]:
@@ -74,19 +59,19 @@ def test_axes_turn_with_the_palm_and_batches_are_done_one_by_one() -> None:
     facing = (rotations @ UP) @ toward
     rotations, facing = rotations[np.abs(facing) > 0.2], facing[np.abs(facing) > 0.2]  # none edge-on
     assert {-1.0, 1.0} == set(np.sign(facing))
-    discs = PALM_M @ np.swapaxes(rotations, -1, -2)
+    discs = RIGHT_PALM_M @ np.swapaxes(rotations, -1, -2)
     for rotation, side, axes in zip(rotations, np.sign(facing), wrist_axes(discs, toward), strict=True):
         # Seen from the palm's side the frame is the same but for a half turn about X.
         flip = np.diag([1.0, side, side])
-        assert np.allclose(axes, rotation @ wrist_axes(PALM_M, UP) @ flip, atol=1e-12)
+        assert np.allclose(axes, rotation @ wrist_axes(RIGHT_PALM_M, UP) @ flip, atol=1e-12)
 
 
 def test_sensitivity_is_the_turn_of_the_axes_in_w() -> None:
     rng = np.random.default_rng(6)
-    axes, sensitivity = wrist_axes_sensitivity(PALM_M, UP)
-    assert np.allclose(axes, wrist_axes(PALM_M, UP))
+    axes, sensitivity = wrist_axes_sensitivity(RIGHT_PALM_M, UP)
+    assert np.allclose(axes, wrist_axes(RIGHT_PALM_M, UP))
     for _ in range(20):
         shift_m = 2e-5 * rng.normal(size=(6, 3))
-        turn = so3.log(axes.T @ wrist_axes(PALM_M + shift_m, UP))
+        turn = so3.log(axes.T @ wrist_axes(RIGHT_PALM_M + shift_m, UP))
         assert np.allclose(sensitivity @ shift_m.ravel(), turn, rtol=0.0, atol=1e-6)
         assert np.linalg.norm(turn) > 1e-5

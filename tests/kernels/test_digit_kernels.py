@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.result import Calibration
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.kernels import choice
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.digit_association import DigitAssignment, DigitScene, measured_as_named
@@ -33,11 +32,11 @@ from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import FrameResults
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import FloatArray, SurfaceSamples
-from tests.accuracy.carpus import measured_hand
 from tests.kernels.pairs import both
 from tests.kernels.test_filter_kernels import covariances
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M
+from tests.tracking.sequences import calibrated
 from tests.tracking.test_finger_depth import VIEW, readings, states
 from tests.tracking.test_palm_filter import moving
 
@@ -67,9 +66,7 @@ def sequence(side: str) -> MeasurementSequence:
 
 @cache
 def known(side: str) -> Calibration:
-    found, _ = measured_hand(sequence(side), CalibrationSettings())
-    assert found.calibration is not None
-    return found.calibration
+    return calibrated(sequence(side))
 
 
 @cache
@@ -184,8 +181,6 @@ def told(trial: FingerTrial) -> tuple[object, ...]:
 def test_rays_that_are_not_known_at_all_are_no_covariance() -> None:
     it = hand("right", 0)
     for how in ("numpy", "plain", "wide"):
-        from carpus.core.kernels import choice
-
         with choice.forced(how), pytest.raises(np.linalg.LinAlgError):
             spread_points(it.mean, -it.covariance, it.seat.palm.disc_m[1:], Spread())
 

@@ -12,6 +12,7 @@ import pytest
 from carpus.core import so3
 from carpus.core.depth_sensor import AZURE_KINECT, D435, PRIMESENSE, DepthSensor
 from carpus.core.hand.back_surface import BackSurface
+from carpus.core.kernels import choice
 from carpus.core.tracking import palm_association
 from carpus.core.tracking.association import AssociationSettings, log_odds
 from carpus.core.tracking.kernel import ModeMixture
@@ -38,7 +39,7 @@ from carpus.core.tracking.soft_tissue import (
 from carpus.core.tracking.surface_fit import SurfaceSettings, reset_and_levelled
 from carpus.core.tracking.unscented import Spread
 from carpus.core.types import Detections, FloatArray, Side, SurfaceSamples
-from tests.kernels.pairs import both
+from tests.kernels.pairs import LEVELS, both
 from tests.kernels.test_filter_kernels import covariances
 from tests.tracking.hands import CAMERA, FROM_ABOVE, MIDDLE_M, RIGHT_PALM_M, calibration
 from tests.tracking.test_palm_filter import moving
@@ -79,20 +80,12 @@ def test_sight_and_what_is_expected(seed: int, modes: int) -> None:
     both(lambda: reset_and_levelled(estimate, mixture, None, None, view, None, SurfaceSettings()))
 
 
-def test_a_palm_that_is_not_known_at_all_is_no_covariance() -> None:
-    estimate = moving()
+@pytest.mark.parametrize("level", [choice.NUMPY, *LEVELS])
+def test_a_palm_that_is_not_known_at_all_is_no_covariance(level: str) -> None:
+    rng, estimate = np.random.default_rng(0), moving()
     broken = replace(estimate, covariance=-estimate.covariance)
-    for level in ("numpy", "plain", "wide"):
-        with pytest.raises(np.linalg.LinAlgError):
-            _sight_by(level, broken)
-
-
-def _sight_by(level: str, estimate: PalmEstimate) -> None:
-    from carpus.core.kernels import choice
-
-    with choice.forced(level):
-        rng = np.random.default_rng(0)
-        predicted_measurement(estimate, mixture_about(estimate, rng, 2), view_of(rng), Spread())
+    with choice.forced(level), pytest.raises(np.linalg.LinAlgError):
+        predicted_measurement(broken, mixture_about(broken, rng, 2), view_of(rng), Spread())
 
 
 @pytest.mark.parametrize("blobs", [0, 1, 25])

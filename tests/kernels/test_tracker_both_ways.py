@@ -15,11 +15,12 @@ from carpus.core.capture.files.tum import TumFolder
 from carpus.core.kernels import choice
 from carpus.core.pipeline.frame_pipeline import FramePipeline
 from carpus.core.pipeline.track import TrackSettings, build_pipeline, learnt_from
-from carpus.core.simulation.recording import CLICKS_FILE, simulate
+from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import Frame, TrackStatus
 from tests.kernels.pairs import LEVELS, numbers
+from tests.rendered import Rendered
 
 NEAREST = 1e-6
 """Of each number's size, or of one: the steps agree to 1e-9, and what is passed on from frame to frame adds up."""
@@ -44,9 +45,8 @@ def damaged(frames: list[Frame]) -> list[Frame]:
     return [replace(frame, color_rgb=dark) if frame.index == 37 else frame for frame in kept]
 
 
-def made(spec: RecordingSpec, folder: Path) -> tuple[list[Frame], Pipeline]:
+def made(folder: Path) -> tuple[list[Frame], Pipeline]:
     """The frames to track, and walks of the hand calibrated in those before."""
-    simulate(spec, folder)
     frames = damaged(list(TumFolder(folder).frames()))
     camera, settings = TumFolder(folder).info.camera, TrackSettings()
     opening = [frame for frame in frames if frame.timestamp_s - frames[0].timestamp_s <= settings.calibration.still_s]
@@ -60,9 +60,9 @@ def made(spec: RecordingSpec, folder: Path) -> tuple[list[Frame], Pipeline]:
 
 
 @pytest.mark.parametrize("spec", [WRIST, HAND], ids=["wrist", "hand"])
-def test_the_same_hand(spec: RecordingSpec, tmp_path: Path) -> None:
+def test_the_same_hand(spec: RecordingSpec, rendered: Rendered) -> None:
+    frames, begun = made(rendered(spec))
     with choice.forced(choice.NUMPY):
-        frames, begun = made(spec, tmp_path / "made")
         pipeline = begun()
         expected = [pipeline(frame) for frame in frames]
         looked_back = pipeline.tracker.smoothed()

@@ -8,28 +8,16 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from carpus.core.calibration.result import Calibration, Clicks, Verdict
-from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import HandAnatomy, anatomy_from_size
 from carpus.core.hand.kinematics import joint_centres
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.papers.chain import PaperSettings
 from carpus.core.papers.tracker import PaperTracker
 from carpus.core.types import Detections, FloatArray, Side, TrackedFrame
+from tests.tracking.hands import FROM_ABOVE, palm, rotation_of
 
-CAMERA = Camera(525.0, 525.0, 319.5, 239.5)
-FROM_ABOVE = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
 MIDDLE_M = np.array([0.01, 0.07, 0.68])
-ARCHED_M = np.array(
-    [
-        [0.0, 0.0, 0.0],
-        [0.013, 0.021, -0.012],
-        [0.080, 0.022, -0.003],
-        [0.082, 0.0, 0.0],
-        [0.075, -0.017, -0.001],
-        [0.066, -0.033, -0.006],
-    ]
-)
-"""Discs of a right palm in W."""
+
 MEASURED = PaperSettings(palm="measured")
 
 
@@ -59,13 +47,6 @@ def tilted(degrees: float) -> FloatArray:
     return np.asarray(FROM_ABOVE @ Rotation.from_euler("y", degrees, degrees=True).as_matrix())
 
 
-def clinical(deviation: float, flexion: float, supination: float, side: Side = "right") -> FloatArray:
-    """R of W2 in W0 from degrees; the left hand is the mirrored right one."""
-    right = Rotation.from_euler("ZYX", [deviation, flexion, supination], degrees=True).as_matrix()
-    mirror = np.diag([1.0, 1.0 if side == "right" else -1.0, 1.0])
-    return np.asarray(mirror @ right @ mirror)
-
-
 def blobs(pixel: FloatArray, rng: np.random.Generator | None = None, sd_px: float = 0.1) -> Detections:
     """Blobs at pixels (D, 2), with noise and in any order if there is a generator; no depth, which nobody may need."""
     if rng is not None:
@@ -83,9 +64,8 @@ def palm_blobs(
 ) -> list[Detections]:
     """An arched palm that turns about its WRIST disc."""
     rng = np.random.default_rng(seed)
-    palm = ARCHED_M * [1.0, 1.0 if side == "right" else -1.0, 1.0]
-    places = [palm @ clinical(*angles_deg(i / 30.0), side=side).T @ FROM_ABOVE.T + MIDDLE_M for i in range(count)]
-    return [blobs(seen_px(place), rng) for place in places]
+    turns = [rotation_of(*angles_deg(i / 30.0), side=side) for i in range(count)]
+    return [blobs(seen_px(palm(side) @ turn.T @ FROM_ABOVE.T + MIDDLE_M), rng) for turn in turns]
 
 
 def finger_blobs(

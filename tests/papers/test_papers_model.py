@@ -11,7 +11,8 @@ from carpus.core.hand.kinematics import joint_centres
 from carpus.core.hand.protocols import HAND21, SITE_CHAINS, SITES
 from carpus.core.papers.chain import PaperSettings, as_written, by_the_discs, hand_measured, palm_modelled
 from carpus.core.papers.tracker import PaperMotion, body_turn_by_euler, euler_near, rotation_of
-from tests.papers.hands import ARCHED_M, CAMERA, FROM_ABOVE, MIDDLE_M, calibration, hand_calibration, straight_hand
+from tests.papers.hands import MIDDLE_M, calibration, hand_calibration, straight_hand
+from tests.tracking.hands import CAMERA, FROM_ABOVE, RIGHT_PALM_M
 
 DT_S = 1.0 / 30.0
 SETTINGS = PaperSettings(acceleration_m_s2=2.0, turn_rate_rad_s=1.5, joint_rate_rad_s=0.7)
@@ -58,7 +59,7 @@ def test_a_small_change_of_euler_angles_is_that_turn() -> None:
 
 @pytest.mark.parametrize("mirror", [1.0, -1.0])
 def test_the_flat_palm_keeps_lengths_and_angles(mirror: float) -> None:
-    palm = ARCHED_M * [1.0, mirror, 1.0]
+    palm = RIGHT_PALM_M * [1.0, mirror, 1.0]
     flat = palm_modelled(palm, "flat")
     assert not flat[:, 2].any()
     assert np.allclose(np.linalg.norm(flat, axis=1), np.linalg.norm(palm, axis=1))
@@ -105,10 +106,10 @@ def test_a_disc_without_depth_is_as_far_as_the_one_before() -> None:
 
 
 def test_the_neutral_pose_is_the_least_squares_one_of_the_palm_as_modelled() -> None:
-    before = calibration(ARCHED_M)
+    before = calibration(RIGHT_PALM_M)
     after = as_written(before, CAMERA, "flat")
-    flat = palm_modelled(ARCHED_M, "flat")
-    point = ARCHED_M @ FROM_ABOVE.T + MIDDLE_M
+    flat = palm_modelled(RIGHT_PALM_M, "flat")
+    point = RIGHT_PALM_M @ FROM_ABOVE.T + MIDDLE_M
     assert np.allclose(after.marker_position_w0_m @ after.rotation_w0_cam.T + after.translation_w0_cam_m, point)
 
     def cost(turn: np.ndarray, shift: np.ndarray) -> float:
@@ -123,12 +124,16 @@ def test_the_neutral_pose_is_the_least_squares_one_of_the_palm_as_modelled() -> 
             assert cost(sign * 1e-4 * axis, np.zeros(3)) > least
             assert cost(np.zeros(3), sign * 1e-5 * axis) > least
     again = by_the_discs(after)
-    assert np.allclose(again.marker_position_w0_m[[0, 3]], [[0.0, 0.0, 0.0], [np.linalg.norm(ARCHED_M[3]), 0.0, 0.0]])
+    assert np.allclose(
+        again.marker_position_w0_m[[0, 3]], [[0.0, 0.0, 0.0], [np.linalg.norm(RIGHT_PALM_M[3]), 0.0, 0.0]]
+    )
     assert np.allclose(again.marker_position_w0_m @ again.rotation_w0_cam.T + again.translation_w0_cam_m, point)
 
 
 def test_a_palm_taken_as_measured_lies_where_its_discs_are() -> None:
-    after = as_written(calibration(ARCHED_M), CAMERA, "measured")
+    after = as_written(calibration(RIGHT_PALM_M), CAMERA, "measured")
     place = CAMERA.project(after.marker_position_w0_m @ after.rotation_w0_cam.T + after.translation_w0_cam_m)
-    model = palm_modelled(ARCHED_M @ FROM_ABOVE.T @ by_the_discs(calibration(ARCHED_M)).rotation_w0_cam, "measured")
+    model = palm_modelled(
+        RIGHT_PALM_M @ FROM_ABOVE.T @ by_the_discs(calibration(RIGHT_PALM_M)).rotation_w0_cam, "measured"
+    )
     assert np.allclose(CAMERA.project(model @ after.rotation_w0_cam.T + after.translation_w0_cam_m), place, atol=1e-6)

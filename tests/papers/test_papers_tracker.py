@@ -10,8 +10,6 @@ import pytest
 from carpus.core.papers.tracker import PaperTracker
 from carpus.core.types import Detections, FloatArray, Side, TrackedFrame, TrackStatus
 from tests.papers.hands import (
-    ARCHED_M,
-    CAMERA,
     MEASURED,
     blobs,
     calibration,
@@ -21,6 +19,7 @@ from tests.papers.hands import (
     palm_blobs,
     tilted,
 )
+from tests.tracking.hands import CAMERA, RIGHT_PALM_M, palm
 
 FRAMES = 120
 NOTHING = blobs(np.empty((0, 2)))
@@ -34,8 +33,7 @@ def swing(which: int, amplitude_deg: float, hz: float = 0.4):  # type: ignore[no
 
 
 def wrist_tracker(side: Side = "right") -> PaperTracker:
-    palm = ARCHED_M * [1.0, 1.0 if side == "right" else -1.0, 1.0]
-    return PaperTracker(calibration(palm, side=side), CAMERA, MEASURED)
+    return PaperTracker(calibration(palm(side), side=side), CAMERA, MEASURED)
 
 
 def errors_deg(frames: list[TrackedFrame], at) -> FloatArray:  # type: ignore[no-untyped-def]
@@ -90,7 +88,7 @@ def test_a_hand_is_followed_where_nothing_hides() -> None:
 
 
 def test_the_wrist_disc_is_where_position_says() -> None:
-    made = calibration(ARCHED_M)
+    made = calibration(RIGHT_PALM_M)
     for frame in followed(wrist_tracker(), palm_blobs(swing(1, 30.0), 30)):
         place = made.rotation_w0_cam @ frame.moment.position_m + made.translation_w0_cam_m
         assert np.allclose(place, frame.marker_position_cam_m[0], atol=1e-9)

@@ -30,6 +30,7 @@ RIGHT_PALM_M = np.array(
 """Discs of a right hand in the axes of its own W (to a hundredth of a degree), as a calibration gives them."""
 WRIST, CMC1, MCP2, MCP3, MCP4, MCP5 = range(6)
 FROM_ABOVE = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
+"""W0 seen by a camera that looks straight down, fingers to the top of the picture (clinical reference 1.1)."""
 MIDDLE_M = np.array([0.01, 0.04, 0.7])
 """Where the WRIST disc lies before the camera at the neutral pose."""
 DISC_AREA_PX = np.pi * (525.0 * 0.006 / 0.7) ** 2

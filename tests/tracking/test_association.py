@@ -78,10 +78,15 @@ def scene(seed: int, markers: int = 3, clutter: int = 2) -> tuple[FloatArray, Fl
     return mean, covariance, blobs, noise
 
 
+def own_of(covariance: FloatArray) -> FloatArray:
+    """Each of three markers' own (3, 3, 3)."""
+    return np.stack([covariance[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(3)])
+
+
 @pytest.mark.parametrize("seed", range(30))
 def test_posterior_is_equation_12(seed: int) -> None:
     mean, covariance, blobs, noise = scene(seed)
-    own = np.stack([covariance[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(3)])
+    own = own_of(covariance)
     odds = log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
     found = posterior(odds.value)
     assert np.allclose(found.sum(axis=1), 1.0, atol=1e-12)
@@ -105,7 +110,7 @@ def test_posterior_is_equation_12(seed: int) -> None:
 
 def test_no_blobs_get_no_names() -> None:
     mean, covariance, _, _ = scene(0)
-    own = np.stack([covariance[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(3)])
+    own = own_of(covariance)
     odds = log_odds(mean.reshape(3, 3), own, np.empty((0, 3)), np.empty((0, 3)), RES_PX2, OUTLIER, SETTINGS)
     assert list(resolve(odds.value)) == [-1, -1, -1]
     assert posterior(odds.value).shape == (0, 4)
@@ -122,6 +127,17 @@ def test_clutter_density_decides_between_a_far_marker_and_nothing() -> None:
 
     assert taken_in(RES_PX2) == 0
     assert taken_in(2000.0) == -1
+
+
+@pytest.mark.parametrize(("off_sd", "taken"), [(4.8, 0), (5.2, -1)])
+def test_beyond_the_gate_a_blob_has_no_name_however_little_clutter_there_is(off_sd: float, taken: int) -> None:
+    """One by one and jointly: by its density alone a blob 5.2 standard deviations off a sure place would be its."""
+    mean, covariance = np.array([300.0, 200.0, 0.7]), np.diag([0.01, 0.01, 1e-8])
+    blob, noise = np.array([[300.0 + 0.1 * off_sd, 200.0, np.nan]]), np.array([[1e-9, 1e-9, 1e-12]])
+    odds = log_odds(mean[None], covariance[None], blob, noise, RES_PX2, OUTLIER, SETTINGS)
+    assert resolve(odds.value).tolist() == [taken]
+    jointly = associate_jointly(mean, covariance, blob, noise, RES_PX2, OUTLIER, SETTINGS)
+    assert jointly.assigned.tolist() == [taken]
 
 
 def joint_score(
@@ -227,7 +243,7 @@ def test_joint_names_see_what_single_ones_cannot() -> None:
     covariance = together + np.kron(np.eye(3), np.diag([0.04, 0.04, 1e-8]))
     blobs = np.concatenate((mean.reshape(3, 3) + [8.0, 0.0, 0.0], [[300.3, 200.0, 0.7]]))
     noise = np.tile([0.01, 0.01, 1e-7], (4, 1))
-    own = np.stack([covariance[3 * j : 3 * j + 3, 3 * j : 3 * j + 3] for j in range(3)])
+    own = own_of(covariance)
     single = resolve(log_odds(mean.reshape(3, 3), own, blobs, noise, RES_PX2, OUTLIER, SETTINGS).value)
     jointly = associate_jointly(mean, covariance, blobs, noise, RES_PX2, OUTLIER, SETTINGS)
     assert list(jointly.assigned) == [0, 1, 2]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from carpus.core.tracking.digit_filter import DIGIT_SIZE, DigitView
-from carpus.core.tracking.finger_depth import FLEXION, FingerDepthSettings, knuckle_bends, with_bends
+from carpus.core.tracking.finger_depth import FLEXION, FingerDepthSettings, KnuckleBends, knuckle_bends, with_bends
 from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
 from carpus.core.tracking.kernel import ModeMixture
 from carpus.core.types import FINGER_STEP_PX, FloatArray, SurfaceSamples
@@ -45,23 +45,28 @@ def readings(flexion_deg: float, breadth_m: float = 0.008) -> SurfaceSamples:
     return SurfaceSamples(pixel, MIDDLE_M[2] - height)
 
 
+def bends(samples: SurfaceSamples, settings: FingerDepthSettings | None = None) -> KnuckleBends:
+    """What the readings say of the index finger."""
+    return knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, samples, settings or FingerDepthSettings())
+
+
 @pytest.mark.parametrize("flexion_deg", [10.0, 30.0, 50.0, 70.0])
 def test_the_bend_of_a_finger_that_lies_bare_is_found(flexion_deg: float) -> None:
-    found = knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, readings(flexion_deg), FingerDepthSettings())
+    found = bends(readings(flexion_deg))
     assert math.degrees(found.value_rad[INDEX]) == pytest.approx(flexion_deg, abs=8.0)
     assert not np.isfinite(np.delete(found.value_rad, INDEX)).any(), "only who was asked for"
 
 
 def test_where_nothing_is_read_nothing_is_said() -> None:
     far = SurfaceSamples(np.array([[10.0, 10.0]]), np.array([0.7]))
-    found = knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, far, FingerDepthSettings())
+    found = bends(far)
     assert not found.is_any
 
 
 def test_one_picture_is_taken_for_little_and_the_other_rays_stay() -> None:
     covariance = np.broadcast_to(0.3**2 * np.eye(DIGIT_SIZE), (CHAINS, DIGIT_SIZE, DIGIT_SIZE))
     mixture = ModeMixture.alike(states(), covariance, 2)
-    found = knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, readings(60.0), FingerDepthSettings())
+    found = bends(readings(60.0))
     once = with_bends(mixture, found)
     many = once
     for _ in range(30):
@@ -76,10 +81,8 @@ def test_one_picture_is_taken_for_little_and_the_other_rays_stay() -> None:
 
 def test_what_is_said_is_never_surer_than_frames_that_err_alike() -> None:
     usual = FingerDepthSettings()
-    found = knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, readings(50.0), usual)
-    single = knuckle_bends(
-        [INDEX], states(), RIGHT_PALM_M[1:], VIEW, readings(50.0), replace(usual, alike=1.0, least_sd_rad=0.0)
-    )
+    found = bends(readings(50.0), usual)
+    single = bends(readings(50.0), replace(usual, alike=1.0, least_sd_rad=0.0))
     assert found.variance_rad2[INDEX] >= 0.99 * usual.alike * usual.least_sd_rad**2
     assert single.variance_rad2[INDEX] < usual.least_sd_rad**2
 
@@ -94,9 +97,6 @@ def covered(at: float, off_m: float) -> SurfaceSamples:
 
 
 def test_where_the_table_is_seen_past_its_place_a_finger_is_not_and_what_is_before_it_may_be_another() -> None:
-    past, before = (
-        knuckle_bends([INDEX], states(), RIGHT_PALM_M[1:], VIEW, covered(0.75, off_m), FingerDepthSettings())
-        for off_m in (0.03, -0.03)
-    )
+    past, before = (bends(covered(0.75, off_m)) for off_m in (0.03, -0.03))
     assert math.degrees(past.value_rad[INDEX]) > 70.0, "so it is bent out of the way"
     assert not before.is_any

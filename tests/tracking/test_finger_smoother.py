@@ -8,19 +8,16 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.protocols import joint_angle_names
-from carpus.core.pipeline.track import from_neutral, learnt_from
+from carpus.core.pipeline.track import from_neutral
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.digit_filter import ANATOMY, RATES
 from carpus.core.tracking.finger_smoother import FingerTrajectory, _Filtered
 from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
 from carpus.core.tracking.palm_smoother import Smoother
-from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import FloatArray
-from tests.accuracy.carpus import measured_hand
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
+from tests.tracking.sequences import learnt_tracker, tracker_of
 
 RECORDED_S, PIECE_S, LAG_S = 2.0, 2.0, 1.5
 SPEC = RecordingSpec(seed=77, protocol="hand21", motion="fist", seconds=9.0, range_share=0.5, hand_length_mm=185.0)
@@ -35,10 +32,7 @@ def smoothed(*, in_pieces: bool) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Times (N,), joint angles (N, 17) and their sds, of what is recorded from ``RECORDED_S`` on."""
     blobs = sequence()
     times = blobs.truth.timestamp_s - blobs.truth.timestamp_s[0]
-    hand, neutral_ends_s = measured_hand(blobs, CalibrationSettings())
-    assert hand.calibration is not None
-    settings = learnt_from(hand.noise, neutral_ends_s, TrackerSettings()).applied(TrackerSettings())
-    tracker = Tracker(hand.calibration, blobs.truth.camera, settings)
+    tracker, neutral_ends_s = learnt_tracker(blobs)
     rows: dict[float, tuple[FloatArray, FloatArray]] = {}
 
     def take(until_s: float) -> None:
@@ -78,9 +72,7 @@ def test_piece_by_piece_is_as_good_as_at_once() -> None:
 
 def test_what_is_forgotten_leaves_no_steps_of_the_fingers_behind() -> None:
     blobs = sequence()
-    hand, _ = measured_hand(blobs, CalibrationSettings())
-    assert hand.calibration is not None
-    tracker = Tracker(hand.calibration, blobs.truth.camera, TrackerSettings())
+    tracker = tracker_of(blobs)
     for i in range(40):
         tracker.hand_over()
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
@@ -89,9 +81,7 @@ def test_what_is_forgotten_leaves_no_steps_of_the_fingers_behind() -> None:
 
 def test_a_piece_goes_on_from_where_the_one_before_was_forgotten() -> None:
     blobs = sequence()
-    hand, _ = measured_hand(blobs, CalibrationSettings())
-    assert hand.calibration is not None
-    tracker, times_s = Tracker(hand.calibration, blobs.truth.camera, TrackerSettings()), blobs.truth.timestamp_s
+    tracker, times_s = tracker_of(blobs), blobs.truth.timestamp_s
     for i in range(6):
         tracker.step(i, float(times_s[i]), blobs.detections[i])
     assert len(tracker.smoothed()) == 6
@@ -108,9 +98,7 @@ def test_a_piece_goes_on_from_where_the_one_before_was_forgotten() -> None:
 
 def test_past_a_ray_found_anew_only_its_anatomy_is_carried_back_and_past_a_break_nothing() -> None:
     blobs = sequence()
-    hand, _ = measured_hand(blobs, CalibrationSettings())
-    assert hand.calibration is not None
-    tracker = Tracker(hand.calibration, blobs.truth.camera, TrackerSettings())
+    tracker = tracker_of(blobs)
     for i in range(3):
         tracker.step(i, float(blobs.truth.timestamp_s[i]), blobs.detections[i])
     tracker.smoothed()
@@ -158,10 +146,7 @@ def test_gaps_between_pictures_leave_every_joint_within_reach(gap_s: float) -> N
     """A busy computer measures few pictures: what a rate had done by then must not be taken for turns of a joint."""
     blobs = sequence()
     times = blobs.truth.timestamp_s
-    hand, neutral_ends_s = measured_hand(blobs, CalibrationSettings())
-    assert hand.calibration is not None
-    settings = learnt_from(hand.noise, neutral_ends_s, TrackerSettings()).applied(TrackerSettings())
-    tracker = Tracker(hand.calibration, blobs.truth.camera, settings)
+    tracker, _ = learnt_tracker(blobs)
     kept = [i for i in range(len(times)) if times[i] < times[0] + 2.0]
     while (after := int(np.searchsorted(times, times[kept[-1]] + gap_s))) < len(times) - 1:
         kept += [after, after + 1]

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.protocols import HAND21
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.digit_filter import ANATOMY, RATES
@@ -22,12 +21,11 @@ from carpus.core.tracking.palm_association import measurements_of
 from carpus.core.tracking.palm_state import InitialSd, resting_estimate
 from carpus.core.tracking.readout import Readout, ReadoutSettings
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import Detections, FloatArray, TrackedFrame, TrackStatus
-from tests.accuracy.carpus import measured_hand
+from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
 from tests.accuracy.hand21 import HandRun, HandScenario, run_on_blobs
 from tests.accuracy.hand21_table import JOINT_GROUPS, figures
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
+from tests.tracking.sequences import calibrated, tracker_of
 
 SPEC = RecordingSpec(
     seed=61, protocol="hand21", motion="fist", seconds=4.5, speed_hz=0.4, false_blobs=3.0, hidden_share=0.1
@@ -74,31 +72,18 @@ def test_hardly_a_blob_is_taken_for_a_wrong_disc() -> None:
     assert sum(run.missed for run in runs) < 0.01 * sum(run.shown for run in runs)
 
 
+@functools.cache
 def sequence() -> MeasurementSequence:
     return measurement_sequence(replace(SPEC, false_blobs=0.0, hidden_share=0.0))
-
-
-def without(detections: Detections, markers: np.ndarray, hidden: tuple[int, ...]) -> Detections:
-    """The blobs but for those of some markers."""
-    kept = ~np.isin(markers, hidden)
-    return Detections(
-        detections.pixel[kept],
-        detections.depth_m[kept],
-        detections.depth_sd_m[kept],
-        detections.area_px[kept],
-        detections.similarity[kept],
-    )
 
 
 def frames_of(hidden: dict[int, tuple[int, ...]], count: int = 60) -> tuple[list[TrackedFrame], MeasurementSequence]:
     """The hand tracked, with some markers taken away in some frames."""
     seen = sequence()
-    hand, _ = measured_hand(seen, CalibrationSettings())
-    assert hand.calibration is not None
-    tracker = Tracker(hand.calibration, seen.truth.camera, TrackerSettings())
+    tracker = tracker_of(seen)
     times = seen.truth.timestamp_s
     return [
-        tracker.step(i, float(times[i]), without(seen.detections[i], seen.marker[i], hidden.get(i, ())))
+        tracker.step(i, float(times[i]), seen.detections[i].only(~np.isin(seen.marker[i], hidden.get(i, ()))))
         for i in range(count)
     ], seen
 
@@ -122,20 +107,15 @@ def test_looked_for_anew_the_hand_is_found_and_its_fingers_are_as_long_as_was_le
 
 
 def test_fingers_that_rest_are_slow_and_fingers_out_of_sight_may_be_fast() -> None:
-    seen, settings = sequence(), TrackerSettings()
-    hand, _ = measured_hand(seen, CalibrationSettings())
-    assert hand.calibration is not None
-    fingers = Fingers(hand.calibration, seen.truth.camera, settings)
+    settings = TrackerSettings()
+    fingers = Fingers(calibrated(sequence()), sequence().truth.camera, settings)
     assert fingers.speeds == (0.0, 0.0)
     fingers.begin_anywhere()
     assert 0.5 < min(fingers.speeds) <= max(fingers.speeds) <= settings.tissue.fastest_rad_s
 
 
 def test_speeds_are_of_the_thumbs_base_and_the_fingers_knuckles_alone() -> None:
-    seen = sequence()
-    hand, _ = measured_hand(seen, CalibrationSettings())
-    assert hand.calibration is not None
-    fingers = Fingers(hand.calibration, seen.truth.camera, TrackerSettings())
+    fingers = Fingers(calibrated(sequence()), sequence().truth.camera, TrackerSettings())
     mean = fingers.known.mean.copy()
     mean[1:, :, RATES] = [3.0, 0.5, 3.0, 3.0, 3.0]
     mean[0, :, RATES] = [1.0, 0.8, 3.0, 3.0, 3.0]
@@ -147,14 +127,12 @@ def test_speeds_are_of_the_thumbs_base_and_the_fingers_knuckles_alone() -> None:
 def weighed(place_m: float, off_px: tuple[float, float], own: FingerSettings) -> tuple[FingerTrial, FloatArray]:
     """The fingers of the first picture on a palm known to ``place_m``, their discs off to the sides in turn, and how
     far they go on from neutral (5, n)."""
-    seen = sequence()
-    hand, _ = measured_hand(seen, CalibrationSettings())
-    assert hand.calibration is not None
-    settings = TrackerSettings(fingers=own)
-    fingers = Fingers(hand.calibration, seen.truth.camera, settings)
-    view = HandFilter(hand.calibration, seen.truth.camera, settings).view
+    seen, settings = sequence(), TrackerSettings(fingers=own)
+    known = calibrated(seen)
+    fingers = Fingers(known, seen.truth.camera, settings)
+    view = HandFilter(known, seen.truth.camera, settings).view
     estimate = resting_estimate(InitialSd(position_m=place_m, turn_rad=1e-4), 1e-8 * np.eye(21))
-    seat = seat_of(estimate, view, Readout(palm_of(hand.calibration), ReadoutSettings(), view.camera, 6e-3))
+    seat = seat_of(estimate, view, Readout(palm_of(known), ReadoutSettings(), view.camera, 6e-3))
     blobs, marker = seen.detections[0], seen.marker[0]
     pixel = blobs.pixel + np.column_stack((np.choose(marker % 2, off_px), np.zeros(marker.size)))
     found = measurements_of(replace(blobs, pixel=pixel), 5.0, settings, seen.truth.camera.sensor)
@@ -229,9 +207,7 @@ def test_looking_back_is_no_worse_than_live() -> None:
 def test_a_long_pause_without_pictures_bends_no_finger_further() -> None:
     """The camera stood still for twelve seconds while the fingers closed: their rates are not carried over them."""
     still = sequence()
-    hand, _ = measured_hand(still, CalibrationSettings())
-    assert hand.calibration is not None
-    tracker = Tracker(hand.calibration, still.truth.camera, TrackerSettings())
+    tracker = tracker_of(still)
     times = still.truth.timestamp_s
     rate = np.abs(still.truth.joint_velocity_rad_s).max(axis=1)
     pause = int(np.argmax(rate))

@@ -6,16 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.hand_filter import HandFilter
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.tracker import FrameResults, Tracker
+from carpus.core.tracking.tracker import FrameResults
 from carpus.core.types import Detections, TrackedFrame, TrackStatus
-from tests.accuracy.carpus import measured_hand
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
+from tests.tracking.sequences import tracker_of
 
 
 def test_a_disc_passed_over_is_doubted_for_as_long_as_the_hand_is_the_same() -> None:
@@ -46,9 +45,7 @@ def test_a_disc_passed_over_is_doubted_for_as_long_as_the_hand_is_the_same() -> 
 
 def test_a_picture_in_which_nothing_was_measured_has_no_nis() -> None:
     sequence = measurement_sequence(RecordingSpec(seed=3, protocol="hand21", motion="rest", seconds=1.5))
-    hand, _ = measured_hand(sequence, CalibrationSettings())
-    assert hand.calibration is not None
-    tracker = Tracker(hand.calibration, sequence.truth.camera, TrackerSettings())
+    tracker = tracker_of(sequence)
     times_s = sequence.truth.timestamp_s
     some = tracker.step(0, float(times_s[0]), sequence.detections[0])
     none = tracker.step(1, float(times_s[1]), Detections.none())

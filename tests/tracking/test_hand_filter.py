@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.back_surface import BackSurfaceSettings, back_surface_from
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import hand_filter
@@ -19,9 +18,9 @@ from carpus.core.tracking.reacquire import Facing, FoundPalm
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import NO_DIGITS, stationary_covariance
 from carpus.core.types import Detections
-from tests.accuracy.carpus import measured_hand
 from tests.simulation.measurements import measurement_sequence
 from tests.tracking.hands import CAMERA, CMC1, DT_S, MCP2, MCP3, MCP4, MCP5, WRIST, Pose, blobs, calibration, swing
+from tests.tracking.sequences import calibrated
 
 FOUND = FoundPalm(np.array([0.02, 0.01, -0.01]), np.eye(3), np.ones(6, dtype=bool))
 
@@ -110,15 +109,14 @@ def test_a_prediction_is_worked_out_once_and_of_another_time_anew() -> None:
 def with_fingers(use_surface: bool) -> tuple[HandFilter, Detections]:
     """The filter of a hand with fingers, all known as calibrated, and the blobs of its first picture."""
     seen = measurement_sequence(RecordingSpec(seed=61, protocol="hand21", motion="fist", seconds=1.0))
-    hand, _ = measured_hand(seen, CalibrationSettings())
-    assert hand.calibration is not None
-    corner = palm_of(hand.calibration).marker_position_w0_m[:4]
+    known = calibrated(seen)
+    corner = palm_of(known).marker_position_w0_m[:4]
     x, y = (grid.ravel() for grid in np.meshgrid(np.arange(-0.02, 0.11, 0.0015), np.arange(-0.05, 0.05, 0.0015)))
     level = np.full(x.size, np.median(corner[:, 2]))
     surface = back_surface_from(np.stack((x, y, level), axis=1), corner, BackSurfaceSettings())
     assert surface is not None
     settings = TrackerSettings(use_surface=use_surface)
-    return HandFilter(replace(hand.calibration, surface=surface), seen.truth.camera, settings), seen.detections[0]
+    return HandFilter(replace(known, surface=surface), seen.truth.camera, settings), seen.detections[0]
 
 
 def test_the_skin_moves_while_the_joints_beneath_it_do() -> None:

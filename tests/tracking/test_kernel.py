@@ -133,19 +133,6 @@ def test_residuals_are_standard_normal_where_the_model_is_right() -> None:
     assert np.mean(found, axis=0) == pytest.approx(0.0, abs=0.06)
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_mixing_keeps_mean_and_covariance_of_the_whole(seed: int) -> None:
-    """Interacting multiple model: what the modes are together does not change by mixing them."""
-    mixture = any_mixture(seed)
-    blend = mixed(mixture, switching(MODES, 0.5, 1.0 / 30.0))
-    for before, after in zip(mixture.merged(), blend.merged(), strict=True):
-        assert np.allclose(before, after, atol=1e-12)
-    assert np.allclose(blend.probability.sum(axis=1), 1.0)
-    stay = mixed(mixture, np.eye(MODES))
-    assert np.allclose(stay.mean, mixture.mean)
-    assert np.allclose(stay.covariance, mixture.covariance)
-
-
 def test_modes_mix_from_row_to_column() -> None:
     mixture, switch = any_mixture(2), np.array([[0.9, 0.1], [0.4, 0.6]])
     blend = mixed(mixture, switch)

@@ -10,7 +10,7 @@ import pytest
 
 from carpus.core import so3
 from carpus.core.tracking.palm_state import SKIN, View
-from carpus.core.tracking.reacquire import Facing, FindingSettings, find_palm
+from carpus.core.tracking.reacquire import Facing, FindingSettings, FoundPalm, find_palm
 from carpus.core.tracking.soft_tissue import SoftTissue, stationary_covariance
 from carpus.core.types import Detections, Side
 from tests.tracking.hands import CAMERA, CMC1, FROM_ABOVE, MCP5, MIDDLE_M, Pose, blobs, palm, rotation_of
@@ -33,12 +33,17 @@ def clutter(rng: np.random.Generator, count: int) -> list[tuple[float, float]]:
     return [(float(rng.uniform(20, 620)), float(rng.uniform(20, 460))) for _ in range(count)]
 
 
+def looked_for(seen: Detections, side: Side = "right", about: Facing = ANYHOW) -> FoundPalm | None:
+    """What is found among blobs of a palm of which nothing else is known."""
+    return find_palm(seen, view(side), STRAYS, about, FINDING)
+
+
 @pytest.mark.parametrize("side", SIDES)
 @pytest.mark.parametrize("seed", range(12))
 def test_palm_is_found_among_shuffled_blobs_and_clutter(side: Side, seed: int) -> None:
     rng = np.random.default_rng(seed)
     pose = some_pose(rng)
-    found = find_palm(blobs(pose, rng, side=side, false_px=clutter(rng, 8)), view(side), STRAYS, ANYHOW, FINDING)
+    found = looked_for(blobs(pose, rng, side=side, false_px=clutter(rng, 8)), side)
     assert found is not None
     position, rotation = found.position_m, found.rotation_w2_w0
     true = rotation_of(*pose.angles_deg, side=side)
@@ -54,16 +59,14 @@ def test_four_or_five_discs_are_enough(side: Side, hidden: tuple[int, ...]) -> N
     found_right = 0
     for _ in range(10):
         pose = some_pose(rng)
-        found = find_palm(blobs(pose, rng, side=side, hidden=hidden), view(side), STRAYS, ANYHOW, FINDING)
+        found = looked_for(blobs(pose, rng, side=side, hidden=hidden), side)
         if found is None:
             continue  # two poses explain the four discs: then none is taken
         assert found.count >= 6 - len(hidden)
         there = palm(side) @ rotation_of(*pose.angles_deg, side=side).T + pose.position_m
         shown = np.setdiff1d(np.arange(6), hidden)
-        assert (
-            np.linalg.norm((palm(side) @ found.rotation_w2_w0.T + found.position_m - there)[shown], axis=1).max()
-            < 0.006
-        )
+        discs = palm(side) @ found.rotation_w2_w0.T + found.position_m
+        assert np.linalg.norm((discs - there)[shown], axis=1).max() < 0.006
         found_right += 1
     assert found_right >= 8
 
@@ -73,18 +76,16 @@ def test_three_discs_are_not_enough(side: Side) -> None:
     rng = np.random.default_rng(30)
     for _ in range(20):
         hidden = rng.choice(6, 3, replace=False)
-        assert (
-            find_palm(blobs(some_pose(rng), rng, side=side, hidden=hidden), view(side), STRAYS, ANYHOW, FINDING) is None
-        )
+        assert looked_for(blobs(some_pose(rng), rng, side=side, hidden=hidden), side) is None
 
 
 def test_four_blobs_hardly_in_the_shape_of_the_palm_are_not_it() -> None:
     """Each lies within millimetres of its place, but across the finger no skin glides so far."""
     four = blobs(Pose(), hidden=(CMC1, MCP5))
-    assert find_palm(four, view("right"), STRAYS, ANYHOW, FINDING) is not None
+    assert looked_for(four) is not None
     pixel = four.pixel.copy()
     pixel[2, 0] += 525.0 * 0.005 / four.depth_m[2]  # MCP3
-    found = find_palm(replace(four, pixel=pixel), view("right"), STRAYS, ANYHOW, FINDING)
+    found = looked_for(replace(four, pixel=pixel))
     assert found is None
     loose = replace(FINDING, consistent=1.0 - 1e-12)
     assert find_palm(replace(four, pixel=pixel), view("right"), STRAYS, ANYHOW, loose) is not None
@@ -94,7 +95,7 @@ def test_three_discs_and_far_clutter_are_not_enough() -> None:
     rng = np.random.default_rng(31)
     for _ in range(20):
         seen = blobs(Pose(), rng, hidden=[0, 2, 4], false_px=[(50, 50), (600, 60), (40, 430), (600, 440)])
-        assert find_palm(seen, view("right"), STRAYS, ANYHOW, FINDING) is None
+        assert looked_for(seen) is None
 
 
 @pytest.mark.parametrize("side", SIDES)
@@ -105,7 +106,7 @@ def test_the_other_hand_is_never_taken_for_all_of_this_one(side: Side) -> None:
     refused = 0
     for _ in range(20):
         pose = Pose(rng.uniform(-1.0, 1.0, 3) * [30.0, 20.0, 20.0])
-        found = find_palm(blobs(pose, rng, side=other), view(side), STRAYS, ANYHOW, FINDING)
+        found = looked_for(blobs(pose, rng, side=other), side)
         refused += found is None
     assert refused == 20
 
@@ -130,9 +131,9 @@ def test_four_discs_are_named_rightly_or_not_at_all() -> None:
 def test_a_palm_turned_further_than_a_hand_can_be_is_none() -> None:
     backwards = blobs(Pose(np.array([170.0, 0.0, 0.0])))
     within = Facing(np.eye(3), 1.9)
-    assert find_palm(backwards, view("right"), STRAYS, ANYHOW, FINDING) is not None
-    assert find_palm(backwards, view("right"), STRAYS, within, FINDING) is None
-    assert find_palm(blobs(Pose(np.array([60.0, 0.0, 0.0]))), view("right"), STRAYS, within, FINDING) is not None
+    assert looked_for(backwards) is not None
+    assert looked_for(backwards, about=within) is None
+    assert looked_for(blobs(Pose(np.array([60.0, 0.0, 0.0]))), about=within) is not None
 
 
 def test_a_palm_that_shows_its_inside_is_not_taken() -> None:
@@ -140,15 +141,12 @@ def test_a_palm_that_shows_its_inside_is_not_taken() -> None:
     rng = np.random.default_rng(41)
     for _ in range(10):
         pose = Pose(np.array([rng.uniform(-40, 40), 0.0, 180.0]))
-        assert find_palm(blobs(pose, rng), view("right"), STRAYS, ANYHOW, FINDING) is None
+        assert looked_for(blobs(pose, rng)) is None
 
 
 def test_without_depth_nothing_is_found() -> None:
-    assert (
-        find_palm(blobs(Pose(), np.random.default_rng(1), with_depth=False), view("right"), STRAYS, ANYHOW, FINDING)
-        is None
-    )
-    assert find_palm(Detections.none(), view("right"), STRAYS, ANYHOW, FINDING) is None
+    assert looked_for(blobs(Pose(), np.random.default_rng(1), with_depth=False)) is None
+    assert looked_for(Detections.none()) is None
 
 
 def test_two_palms_are_one_too_many() -> None:
@@ -158,8 +156,8 @@ def test_two_palms_are_one_too_many() -> None:
         *(np.concatenate((getattr(one, f), getattr(other, f))) for f in ("pixel", "depth_m", "depth_sd_m", "area_px")),
         np.concatenate((one.similarity, other.similarity)),
     )
-    assert find_palm(both, view("right"), STRAYS, ANYHOW, FINDING) is None
-    assert find_palm(one, view("right"), STRAYS, ANYHOW, FINDING) is not None
+    assert looked_for(both) is None
+    assert looked_for(one) is not None
 
 
 def test_with_many_blobs_the_likest_are_searched() -> None:
@@ -168,7 +166,7 @@ def test_with_many_blobs_the_likest_are_searched() -> None:
     likeness = np.where(
         np.linalg.norm(seen.pixel[:, None] - blobs(Pose()).pixel[None], axis=-1).min(axis=1) < 1.0, 0.95, 0.6
     )
-    found = find_palm(replace(seen, similarity=likeness), view("right"), STRAYS, ANYHOW, FINDING)
+    found = looked_for(replace(seen, similarity=likeness))
     assert found is not None
     assert found.count == 6
 
@@ -181,7 +179,7 @@ def test_a_found_pose_says_how_sure_it_is(hidden: tuple[int, ...]) -> None:
     squared = []
     for _ in range(60):
         pose = Pose(rng.uniform(-1.0, 1.0, 3) * 15.0)
-        found = find_palm(blobs(pose, rng, hidden=hidden), view("right"), STRAYS, ANYHOW, FINDING)
+        found = looked_for(blobs(pose, rng, hidden=hidden))
         if found is None:
             continue
         true = rotation_of(*pose.angles_deg)
@@ -195,8 +193,8 @@ def test_a_found_pose_says_how_sure_it_is(hidden: tuple[int, ...]) -> None:
 
 
 def test_the_knuckles_alone_leave_the_turn_about_their_line_open() -> None:
-    knuckles = find_palm(blobs(Pose(), hidden=(0, 1)), view("right"), STRAYS, ANYHOW, FINDING)
-    whole = find_palm(blobs(Pose()), view("right"), STRAYS, ANYHOW, FINDING)
+    knuckles = looked_for(blobs(Pose(), hidden=(0, 1)))
+    whole = looked_for(blobs(Pose()))
     assert knuckles is not None
     assert whole is not None
     about_y = [np.sqrt(f.pose_covariance(palm("right"), FINDING)[4, 4]) for f in (knuckles, whole)]

@@ -64,14 +64,43 @@ def estimate_at(rotation: FloatArray, position: FloatArray) -> PalmEstimate:
     return PalmEstimate(rotation, value, np.eye(SIZE))
 
 
+def thinned(samples: SurfaceSamples, most: int = 800) -> SurfaceSamples:
+    """As many readings as a picture gives, from all over the surface."""
+    kept = np.random.default_rng(0).permutation(len(samples.depth_m))[:most]
+    return SurfaceSamples(samples.pixel[kept], samples.depth_m[kept])
+
+
+HERE = estimate_at(np.eye(3), np.zeros(3))
+ALL_READINGS = place_on(np.eye(3), np.zeros(3))
+READINGS = thinned(ALL_READINGS)
+"""Of the surface where it is believed to be."""
+
+
+def measured(
+    surface: BackSurface,
+    samples: SurfaceSamples = READINGS,
+    settings: SurfaceSettings | None = None,
+    believed: PalmEstimate = HERE,
+    view: View = VIEW,
+) -> SurfaceMeasurement:
+    found = surface_measurement(believed, samples, surface, view, settings or SurfaceSettings())
+    assert found is not None
+    return found
+
+
+def fitted(surface: BackSurface, samples: SurfaceSamples, settings: SurfaceSettings) -> SurfaceMeasurement:
+    """From a pose 3 degrees and a millimetre off."""
+    off = estimate_at(so3.exp(np.radians([2.0, -2.0, 0.0])), np.array([0.0, 0.0, 0.001]))
+    return measured(surface, samples, settings, off)
+
+
 @pytest.mark.parametrize("seed", range(5))
 def test_a_wrong_pose_is_measured_as_wrong_as_it_is(surface: BackSurface, seed: int) -> None:
     rng = np.random.default_rng(seed)
     rotation, position = so3.exp(rng.normal(0.0, 0.15, 3)), rng.normal(0.0, 0.01, 3)
     turn, shift = rng.normal(0.0, 0.03, 3) * [1.0, 1.0, 0.3], rng.normal(0.0, 0.001, 3)
     believed = estimate_at(rotation @ so3.exp(turn), position + shift)
-    found = surface_measurement(believed, place_on(rotation, position), surface, VIEW, SurfaceSettings())
-    assert found is not None
+    found = measured(surface, place_on(rotation, position), believed=believed)
     for part in (BACK, RELIEF):
         assert np.array_equal(found.slope[:, part], np.eye(3)), "what calibration was wrong by, or relief has changed"
     error = believed.error_to(estimate_at(rotation, position))
@@ -90,8 +119,7 @@ def test_a_back_that_stays_deformed_does_not_go_on_turning_the_hand(surface: Bac
     covariance[TURN, TURN], covariance[RELIEF, RELIEF] = turn_sd**2 * np.eye(3), relief_sd**2 * np.eye(3)
     mixture = ModeMixture.alike(np.zeros((1, SIZE)), covariance[None], 2)
     for _ in range(300):
-        found = surface_measurement(estimate, seen, surface, VIEW, SurfaceSettings())
-        assert found is not None
+        found = measured(surface, seen, believed=estimate)
         levelled = levelled_mixture(mixture, found, shape_partial_update(0.1), SurfaceSettings())
         assert levelled is not None
         estimate, mixture = error_reset(estimate, levelled)
@@ -103,7 +131,7 @@ def test_a_back_that_stays_deformed_does_not_go_on_turning_the_hand(surface: Bac
 def test_a_calibrated_back_is_as_unsure_as_a_part_of_one_picture(surface: BackSurface) -> None:
     settings = SurfaceSettings()
     found = calibrated_covariance(surface, VIEW, settings)
-    one = fitted(surface, thinned(place_on(np.eye(3), np.zeros(3))), replace(settings, turn_sd_rad=0.0, up_sd_m=0.0))
+    one = fitted(surface, READINGS, replace(settings, turn_sd_rad=0.0, up_sd_m=0.0))
     ratio = np.diag(found) / (np.diag(one.covariance) / settings.goes_on)
     assert (ratio < 2.0 * settings.stays**2).all()
     assert (ratio > 0.5 * settings.stays**2).all()
@@ -111,29 +139,20 @@ def test_a_calibrated_back_is_as_unsure_as_a_part_of_one_picture(surface: BackSu
     assert (np.diag(calibrated_covariance(surface, further, settings)) > 2.0 * np.diag(found)).all()
 
 
-def thinned(samples: SurfaceSamples, most: int = 800) -> SurfaceSamples:
-    """As many readings as a picture gives, from all over the surface."""
-    kept = np.random.default_rng(0).permutation(len(samples.depth_m))[:most]
-    return SurfaceSamples(samples.pixel[kept], samples.depth_m[kept])
-
-
 @pytest.mark.parametrize("shared", [0.0, 1.0])
 def test_depth_noise_scatters_as_stated(surface: BackSurface, shared: float) -> None:
     """With errors that are each pixel's own, or shared by those of one matching window, the stated covariance is that
     of the scatter."""
     settings = SurfaceSettings(shared=shared, turn_sd_rad=0.0, up_sd_m=0.0, goes_on=1.0, reading_per_m=0.0014)
-    rng, here = np.random.default_rng(0), estimate_at(np.eye(3), np.zeros(3))
-    clean = thinned(place_on(np.eye(3), np.zeros(3)))
-    sd_m = 0.0014 * float(np.median(clean.depth_m)) ** 2
+    rng, sd_m = np.random.default_rng(0), 0.0014 * float(np.median(READINGS.depth_m)) ** 2
     found, stated = [], []
     for _ in range(120):
         noise = rng.standard_normal((480, 640))
         if shared:
             noise = cv2.blur(noise, (9, 9)) * 9.0
-        column, row = np.round(clean.pixel).astype(int).T
-        noisy = SurfaceSamples(clean.pixel, clean.depth_m + sd_m * noise[row, column])
-        one = surface_measurement(here, noisy, surface, VIEW, settings)
-        assert one is not None
+        column, row = np.round(READINGS.pixel).astype(int).T
+        noisy = SurfaceSamples(READINGS.pixel, READINGS.depth_m + sd_m * noise[row, column])
+        one = measured(surface, noisy, settings)
         found.append(one.value)
         stated.append(np.sqrt(np.diag(one.covariance)))
     assert np.std(found, axis=0) == pytest.approx(np.mean(stated, axis=0), rel=0.25)
@@ -141,15 +160,13 @@ def test_depth_noise_scatters_as_stated(surface: BackSurface, shared: float) -> 
 
 def test_the_surface_is_as_sure_as_its_sensor(surface: BackSurface) -> None:
     """Errors alike over 80 pixels tilt all of it; those of a wide window average less than those of a narrow one."""
-    here, clean = estimate_at(np.eye(3), np.zeros(3)), thinned(place_on(np.eye(3), np.zeros(3)))
 
     def stated(sensor: DepthSensor) -> FloatArray:
         view = replace(VIEW, camera=replace(VIEW.camera, sensor=sensor))
-        found = surface_measurement(here, clean, surface, view, SurfaceSettings(turn_sd_rad=0.0, up_sd_m=0.0))
-        assert found is not None
+        found = measured(surface, settings=SurfaceSettings(turn_sd_rad=0.0, up_sd_m=0.0), view=view)
         return np.sqrt(np.diag(found.covariance))
 
-    depth_m = float(np.median(clean.depth_m))
+    depth_m = float(np.median(READINGS.depth_m))
     stays_m = float(AZURE_KINECT.stays_sd_m(np.array(depth_m)))
     even = replace(AZURE_KINECT, stays_px=0.0)
     tilt_rad = stays_m / (80.0 * depth_m / VIEW.camera.fx_px)
@@ -159,37 +176,22 @@ def test_the_surface_is_as_sure_as_its_sensor(surface: BackSurface) -> None:
 
 
 def test_a_finger_over_the_hand_does_not_tilt_it(surface: BackSurface) -> None:
-    clean = place_on(np.eye(3), np.zeros(3))
-    depth = clean.depth_m.copy()
-    depth[(clean.pixel[:, 0] > 300) & (clean.pixel[:, 0] < 315)] -= 0.03
-    found = surface_measurement(
-        estimate_at(np.eye(3), np.zeros(3)), SurfaceSamples(clean.pixel, depth), surface, VIEW, SurfaceSettings()
-    )
-    assert found is not None
+    column = ALL_READINGS.pixel[:, 0]
+    depth = np.where((column > 300) & (column < 315), ALL_READINGS.depth_m - 0.03, ALL_READINGS.depth_m)
+    found = measured(surface, SurfaceSamples(ALL_READINGS.pixel, depth))
     assert np.abs(np.degrees(found.value[:2])).max() < 0.3
 
 
 def test_a_covered_hand_is_not_asked(surface: BackSurface) -> None:
-    clean = place_on(np.eye(3), np.zeros(3))
-    here = estimate_at(np.eye(3), np.zeros(3))
-    covered = SurfaceSamples(clean.pixel, clean.depth_m - 0.05)
-    assert surface_measurement(here, covered, surface, VIEW, SurfaceSettings()) is None
-    nothing = SurfaceSamples(np.empty((0, 2)), np.empty(0))
-    assert surface_measurement(here, nothing, surface, VIEW, SurfaceSettings()) is None
-
-
-def fitted(surface: BackSurface, samples: SurfaceSamples, settings: SurfaceSettings) -> SurfaceMeasurement:
-    """From a pose 3 degrees and a millimetre off."""
-    believed = estimate_at(so3.exp(np.radians([2.0, -2.0, 0.0])), np.array([0.0, 0.0, 0.001]))
-    found = surface_measurement(believed, samples, surface, VIEW, settings)
-    assert found is not None
-    return found
+    covered = SurfaceSamples(ALL_READINGS.pixel, ALL_READINGS.depth_m - 0.05)
+    for samples in (covered, SurfaceSamples(np.empty((0, 2)), np.empty(0))):
+        assert surface_measurement(HERE, samples, surface, VIEW, SurfaceSettings()) is None
 
 
 def test_what_is_far_from_the_surface_counts_for_nothing_and_what_is_a_little_off_for_less(
     surface: BackSurface,
 ) -> None:
-    clean, settings = thinned(place_on(np.eye(3), np.zeros(3))), SurfaceSettings()
+    clean, settings = READINGS, SurfaceSettings()
     one_side = clean.pixel[:, 1] > np.quantile(clean.pixel[:, 1], 0.85)
     without = fitted(surface, SurfaceSamples(clean.pixel[~one_side], clean.depth_m[~one_side]), settings)
     far = fitted(surface, SurfaceSamples(clean.pixel, clean.depth_m - 0.03 * one_side), settings)
@@ -202,7 +204,7 @@ def test_what_is_far_from_the_surface_counts_for_nothing_and_what_is_a_little_of
 
 
 def test_the_steps_arrive_and_the_stated_floor_is_kept(surface: BackSurface) -> None:
-    clean, settings = thinned(place_on(np.eye(3), np.zeros(3))), SurfaceSettings()
+    clean, settings = READINGS, SurfaceSettings()
     found, further = fitted(surface, clean, settings), fitted(surface, clean, replace(settings, steps=8))
     assert found.value == pytest.approx(further.value, abs=5e-5)
     bare = replace(settings, turn_sd_rad=0.0, up_sd_m=0.0)
@@ -214,11 +216,10 @@ def test_the_steps_arrive_and_the_stated_floor_is_kept(surface: BackSurface) -> 
 
 
 def test_too_few_readings_say_nothing(surface: BackSurface) -> None:
-    settings, here = SurfaceSettings(), estimate_at(np.eye(3), np.zeros(3))
-    clean = thinned(place_on(np.eye(3), np.zeros(3)))
+    settings = SurfaceSettings()
     for first in range(1, 800):
-        some = SurfaceSamples(clean.pixel[:first], clean.depth_m[:first])
-        found = surface_measurement(here, some, surface, VIEW, settings)
+        some = SurfaceSamples(READINGS.pixel[:first], READINGS.depth_m[:first])
+        found = surface_measurement(HERE, some, surface, VIEW, settings)
         if found is not None:
             break
     assert found is not None
@@ -228,9 +229,7 @@ def test_too_few_readings_say_nothing(surface: BackSurface) -> None:
 @pytest.mark.parametrize(("off_sd", "heard"), [(1.0, True), (5.5, True), (7.0, False), (20.0, False)])
 def test_a_surface_far_from_what_was_believed_is_another(surface: BackSurface, off_sd: float, heard: bool) -> None:
     """Tilted by so many standard deviations of what was expected; the limit of 40 for the squares lies at 6.3."""
-    settings, here = SurfaceSettings(), estimate_at(np.eye(3), np.zeros(3))
-    found = surface_measurement(here, thinned(place_on(np.eye(3), np.zeros(3))), surface, VIEW, settings)
-    assert found is not None
+    settings, found = SurfaceSettings(), measured(surface)
     covariance = 1e-12 * np.eye(SIZE)
     covariance[TURN, TURN] = 0.01**2 * np.eye(3)
     expected = np.linalg.inv(found.slope @ covariance @ found.slope.T + found.covariance)
