@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from carpus.core.errors import SettingsInvalid
-from carpus.core.hand.clinical_angles import angles_from_rotation
 from carpus.core.hand.protocols import HAND21, PALM_MARKERS
 from carpus.core.simulation.hand_motion import STILL_S, StrokePath
 from carpus.core.simulation.motions import MOTIONS, motion_of
@@ -107,25 +106,6 @@ def test_coupled_and_free_end_joints() -> None:
 def test_stroke_path_holds_and_passes_through_its_postures() -> None:
     path = StrokePath(np.array([0.0, 1.0, 2.0, 3.0]), np.array([[0.0], [2.0], [2.0], [-1.0]]))
     np.testing.assert_allclose(path.at(np.array([-1.0, 1.0, 1.5, 2.0, 2.5, 3.0, 9.0]))[:, 0], [0, 2, 2, 2, 0.5, -1, -1])
-
-
-@pytest.mark.parametrize("hand", ["right", "left"])
-def test_wrist_frame_follows_the_reference_from_the_discs_alone(hand: str) -> None:
-    truth = truth_of(Scene(RecordingSpec(seed=4, hand=hand, motion="mixed")))  # type: ignore[arg-type]
-    wrist, _, mcp2, mcp3, _, mcp5 = truth.disc_position_cam_m[0]
-    x = (mcp3 - wrist) / np.linalg.norm(mcp3 - wrist)
-    plane = np.delete(truth.disc_position_cam_m[0], 1, axis=0)
-    normal = np.linalg.svd(plane - plane.mean(axis=0))[2][2]
-    normal = normal * np.sign(-normal[2])  # towards the camera
-    z = normal - (normal @ x) * x
-    z = z / np.linalg.norm(z)
-    np.testing.assert_allclose(truth.rotation_w0_cam, np.column_stack((x, np.cross(z, x), z)), atol=1e-9)
-    np.testing.assert_allclose(truth.translation_w0_cam_m, wrist, atol=1e-12)
-    side = float(normal @ np.cross(mcp3 - wrist, mcp2 - mcp5))
-    assert side > 0.0 if hand == "right" else side < 0.0
-    np.testing.assert_allclose(truth.rotation_w2_w0[0], np.eye(3), atol=1e-12)
-    np.testing.assert_allclose(truth.position_m[0], 0.0, atol=1e-12)
-    np.testing.assert_allclose(truth.angles_rad, angles_from_rotation(truth.rotation_w2_w0, truth.spec.hand), atol=1e-9)
 
 
 def test_palm_discs_are_one_rigid_body_in_every_frame() -> None:

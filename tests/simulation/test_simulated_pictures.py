@@ -10,12 +10,10 @@ from carpus.core.hand.protocols import HAND21
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.render import corner_light
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.skin import skin_distance
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.trace import Box, TracedSurface
 from carpus.core.types import ByteImage, FloatArray
-
-ALL_PALM = [HAND21.markers.index(name) for name in ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")]
+from tests.simulation.skin_shown import discs_found_on_the_surface, gaps_m
 
 
 def blue_centroid(rgb: ByteImage, near_px: FloatArray, radius_px: float) -> FloatArray:
@@ -77,21 +75,7 @@ def test_sensor_adds_little_to_the_discs_places() -> None:
 @pytest.mark.parametrize("motion", ["mixed", "fist", "abduction"])
 def test_discs_lie_on_the_rendered_surface(motion: str) -> None:
     spec = RecordingSpec(seed=11, protocol="hand21", motion=motion, depth_delay_s=0.0, sensor_noise=False)
-    pictures = SimulatedPictures(spec)
-    checked = 0
-    for frame in (0, 35, 60):
-        clean = pictures.clean(frame)
-        truth = pictures.truth
-        pose = pictures.scene.pose(truth.time_s[frame : frame + 1])
-        normals = pictures.scene.disc_normals_w0(pose)[0] @ truth.rotation_w0_cam.T
-        rays = truth.disc_position_cam_m[frame] / np.linalg.norm(truth.disc_position_cam_m[frame], axis=1)[:, None]
-        is_flat_on = -np.sum(normals * rays, axis=1) > 0.4
-        for m in np.flatnonzero((clean.visible_share > 0.8) & is_flat_on):
-            u, v = truth.disc_pixel[frame, m]
-            patch = cv2.getRectSubPix(clean.depth_m, (1, 1), (float(u), float(v)))
-            assert float(patch[0, 0]) == pytest.approx(truth.disc_position_cam_m[frame, m, 2], abs=5e-4), (frame, m)
-            checked += 1
-    assert checked > 25
+    assert discs_found_on_the_surface(SimulatedPictures(spec), (0, 35, 60), least_facing=0.4) > 25
 
 
 @pytest.mark.parametrize("skin_offsets", [True, False])
@@ -99,11 +83,7 @@ def test_discs_lie_on_the_rendered_surface(motion: str) -> None:
 def test_palm_discs_stay_on_the_skin_while_wrist_and_fingers_bend(hand: str, skin_offsets: bool) -> None:
     for motion in ("flexion", "fist", "pronosupination"):
         scene = Scene(RecordingSpec(seed=2, hand=hand, motion=motion, protocol="hand21", skin_offsets=skin_offsets))
-        pose = scene.pose(np.linspace(0.0, 6.0, 13))
-        discs = scene.to_camera(scene.discs_w0_m(pose))
-        for i in range(13):
-            gap = skin_distance(discs[i, ALL_PALM], scene.cones_cam(pose, i))
-            assert np.abs(gap).max() < 6e-4
+        assert np.abs(gaps_m(scene, np.linspace(0.0, 6.0, 13), HAND21.palm)).max() < 6e-4
 
 
 def test_hidden_discs_are_not_in_the_picture() -> None:

@@ -12,7 +12,7 @@ from carpus.core.depth_sensor import D455
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import SimulatedPictures, simulate
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.sensor import SimulatedDepth, depth_pictures
+from carpus.core.simulation.sensor import DepthPictures, SimulatedDepth, depth_pictures
 from carpus.core.simulation.spec import RecordingSpec
 
 SHAPE = (480, 640)
@@ -26,20 +26,36 @@ def slope(z_m: float) -> np.ndarray:
     return (z_m * (1.0 + 3e-5 * (columns - 320) + 2e-5 * (rows - 240))).astype(np.float32)
 
 
+def errors_on(wall: np.ndarray, sensor: DepthPictures, count: int) -> np.ndarray:
+    """Of so many pictures of a wall, NaN where a picture has a hole."""
+    stack = np.stack([sensor.measure(wall, i) * UNIT_M for i in range(count)])
+    return np.where(stack > 0.0, stack - wall, np.nan)
+
+
+def shared(one: np.ndarray, apart: int) -> float:
+    """The share of its variance that a picture's error has in common with that so many pixels further on."""
+    return float((one[:, :-apart] * one[:, apart:]).mean() / (one * one).mean())
+
+
+def block() -> np.ndarray:
+    """A block before a wall."""
+    depth = np.full(SHAPE, 0.80, dtype=np.float32)
+    depth[100:380, 200:400] = 0.70
+    return depth
+
+
 @pytest.mark.parametrize("z_m", [0.6, 0.7, 0.9])
 def test_depth_noise_is_that_of_the_reference(z_m: float) -> None:
     sensor, wall = SimulatedDepth(RecordingSpec(seed=1, depth_scale_error=0.0), SHAPE), slope(z_m)
-    stack = np.stack([sensor.measure(wall, i) * UNIT_M for i in range(12)])
-    error = np.where(stack > 0.0, stack - wall, np.nan)
+    error = errors_on(wall, sensor, 12)
     sigma = 1.425e-3 * z_m**2
     assert np.nanstd(error) == pytest.approx(sigma, rel=0.15)
     assert abs(np.nanmean(error)) < 0.2 * sigma
     assert np.isnan(error).mean() < 0.005
     # Noise of one frame is shared over the matching window, and not beyond it.
     one = np.nan_to_num(error[0] - error[1])
-    variance = (one * one).mean()
-    assert (one[:, :-2] * one[:, 2:]).mean() > 0.4 * variance
-    assert abs((one[:, :-16] * one[:, 16:]).mean()) < 0.1 * variance
+    assert shared(one, 2) > 0.4
+    assert abs(shared(one, 16)) < 0.1
     # A part of the error stays from frame to frame.
     fixed = np.nanmean(error, axis=0)
     assert np.nanstd(fixed) > 1.3 * sigma / np.sqrt(12)
@@ -52,8 +68,7 @@ def test_other_sensors_scatter_by_their_own_law(name: str, z_m: float) -> None:
     spec = RecordingSpec(seed=1, depth_scale_error=0.0, sensor=name)
     camera = Scene(spec).camera
     sensor, wall, count = depth_pictures(spec, camera), slope(z_m), 8
-    stack = np.stack([sensor.measure(wall, i) * UNIT_M for i in range(count)])
-    error = np.where(stack > 0.0, stack - wall, np.nan)
+    error = errors_on(wall, sensor, count)
     stays = np.nanmean(error, axis=0)
     passing = error - stays
     passing_m = float(np.nanstd(passing)) * np.sqrt(count / (count - 1))
@@ -65,18 +80,15 @@ def test_other_sensors_scatter_by_their_own_law(name: str, z_m: float) -> None:
     assert np.sqrt(np.nanvar(stays) - passing_m**2 / count) == pytest.approx(said_stays_m, rel=0.15)
     assert np.isnan(error).mean() < 0.002
     one, apart = np.nan_to_num(passing[0]), round(camera.sensor.patch_px)
-    variance = (one * one).mean()
-    assert (one[:, : -apart // 2] * one[:, -(-apart // 2) :]).mean() > 0.2 * variance
-    assert abs((one[:, : -3 * apart] * one[:, 3 * apart :]).mean()) < 0.1 * variance
+    assert shared(one, -(-apart // 2)) > 0.2
+    assert abs(shared(one, 3 * apart)) < 0.1
 
 
 def test_edges_are_thick_for_two_eyes_and_fly_for_time_of_flight() -> None:
-    depth = np.full(SHAPE, 0.80, dtype=np.float32)
-    depth[100:380, 200:400] = 0.70
     found = {}
     for name in ("d435", "azure"):
         spec = RecordingSpec(seed=3, depth_scale_error=0.0, sensor=name)
-        raw = depth_pictures(spec, Scene(spec).camera).measure(depth, 0)[150:330] * UNIT_M
+        raw = depth_pictures(spec, Scene(spec).camera).measure(block(), 0)[150:330] * UNIT_M
         found[name] = raw
         holes = (raw == 0.0).mean(axis=0)
         assert holes[212:388].max() < 0.1
@@ -118,9 +130,7 @@ def test_depth_comes_in_steps_of_an_eighth_of_a_pixel() -> None:
 
 
 def test_edges_have_holes_and_a_shadow_on_one_side() -> None:
-    depth = np.full(SHAPE, 0.80, dtype=np.float32)
-    depth[100:380, 200:400] = 0.70
-    raw = SimulatedDepth(RecordingSpec(seed=3), SHAPE).measure(depth, 0)[150:330] > 0
+    raw = SimulatedDepth(RecordingSpec(seed=3), SHAPE).measure(block(), 0)[150:330] > 0
     holes = 1.0 - raw.mean(axis=0)
     assert holes[206:394].max() < 0.1
     assert holes[:180].max() < 0.1

@@ -12,10 +12,10 @@ from carpus.core.hand.protocols import HAND21
 from carpus.core.simulation.patient import MOST_OFF_M
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.scene import Scene
-from carpus.core.simulation.skin import skin_distance
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.simulation.truth import truth_of
 from tests.simulation.measurements import measurement_sequence
+from tests.simulation.skin_shown import gaps_m
 
 PALM = list(HAND21.palm)
 
@@ -72,11 +72,7 @@ def test_truth_counts_from_the_frame_that_the_discs_span(hand: str) -> None:
 def test_discs_lie_on_the_skin_wherever_they_were_stuck() -> None:
     for seed in (2, 7, 24):
         scene = Scene(RecordingSpec(seed=seed, protocol="hand21", motion="fist", anatomy="wide", seconds=4.0))
-        pose = scene.pose(np.linspace(0.0, 4.0, 5))
-        discs = scene.to_camera(scene.discs_w0_m(pose))
-        for i in range(5):
-            gap = skin_distance(discs[i, PALM], scene.cones_cam(pose, i))
-            assert np.abs(gap).max() < 6e-4
+        assert np.abs(gaps_m(scene, np.linspace(0.0, 4.0, 5), PALM)).max() < 6e-4
 
 
 def test_what_is_worn_shows_and_pen_marks_are_too_small_to_be_found() -> None:
