@@ -146,7 +146,7 @@ def test_any_two_exchanged_names_are_found_and_named() -> None:
 @pytest.mark.parametrize("side", ["right", "left"])
 def test_the_usual_mistakes_are_named_on_many_hands(pair: tuple[str, str], side: Side) -> None:
     rows = [ROW(name) for name in pair]
-    for seed in range(4):
+    for seed in range(2):
         plan = seen_plan(seed, side)
         plan[rows] = plan[rows[::-1]]
         found = misnamed(HAND21, side, plan, FINGERS)

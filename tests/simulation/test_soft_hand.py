@@ -97,9 +97,10 @@ def test_the_fixed_unit_does_not_move_while_the_hand_grips(hand: str) -> None:
 
 def height_m(place_m: np.ndarray, cones: Any) -> float:
     """Height of the back of the hand over a place, from above."""
-    place = place_m.copy()
-    for _ in range(200):
-        place[2] -= float(skin_distance(place, cones))
+    place, gap_m = place_m.copy(), np.inf
+    while abs(gap_m) > 1e-8:
+        gap_m = float(skin_distance(place, cones))
+        place[2] -= gap_m
     return float(place[2])
 
 

@@ -119,6 +119,14 @@ def with_fingers(use_surface: bool) -> tuple[HandFilter, Detections]:
     return HandFilter(replace(known, surface=surface), seen.truth.camera, settings), seen.detections[0]
 
 
+def test_of_a_lost_hand_the_fingers_may_be_anywhere() -> None:
+    own, _ = with_fingers(use_surface=False)
+    assert own.fingers is not None
+    assert own.fingers.speeds == (0.0, 0.0)
+    own.lose()
+    assert min(own.fingers.speeds) > 0.5
+
+
 def test_the_skin_moves_while_the_joints_beneath_it_do() -> None:
     own, _ = with_fingers(use_surface=True)
     assert own.fingers is not None

@@ -50,6 +50,8 @@ def test_no_picture_for_so_long_ends_a_track_and_nothing_shorter_does() -> None:
     assert track.since_last_s(5.25) == 0.25
     assert not track.next_frame(5.25)
     assert track.next_frame(5.5)
+    track.lose(6.0)
+    assert track.since_last_s(6.25) == 0.25, "a loss is of its own moment"
 
 
 @pytest.mark.parametrize(("count", "stage"), [(4, TrackStage.TENTATIVE), (5, TrackStage.CONFIRMED)])
