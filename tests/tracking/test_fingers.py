@@ -90,9 +90,7 @@ def frames_of(hidden: dict[int, tuple[int, ...]], count: int = 60) -> tuple[list
 
 def test_looked_for_anew_the_hand_is_found_and_its_fingers_are_as_long_as_was_learnt() -> None:
     seen = sequence()
-    hand, _ = measured_hand(seen, CalibrationSettings())
-    assert hand.calibration is not None
-    tracker, times_s = Tracker(hand.calibration, seen.truth.camera, TrackerSettings()), seen.truth.timestamp_s
+    tracker, times_s = tracker_of(seen), seen.truth.timestamp_s
     for row in range(60):
         before = tracker.step(row, float(times_s[row]), seen.detections[row])
     fingers = tracker._filter.fingers
