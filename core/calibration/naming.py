@@ -61,10 +61,6 @@ class NameProposal:
     is_sure: NDArray[np.bool_]
     misfit_m: FloatArray
 
-    @property
-    def is_complete(self) -> bool:
-        return bool((self.blob >= 0).all())
-
 
 def propose_names(
     blobs: Detections,

@@ -56,7 +56,7 @@ def test_all_discs_of_a_whole_hand_are_found_and_named_before_any_click(seed: in
     color, depth = pictures.sensed(0, pictures.clean(0))
     found = marker_candidates(Frame(0, 0.0, color, depth, 1.0 / 5000.0), pictures.truth.camera, SETTINGS, OWN)
     proposal = propose_names(found, pictures.truth.camera, side, HAND21, NamingSettings())
-    assert proposal.is_complete
+    assert (proposal.blob >= 0).all()
     assert np.linalg.norm(found.pixel[proposal.blob] - pictures.truth.disc_pixel[0], axis=1).max() < 3.0  # under a disc
 
 
