@@ -6,15 +6,13 @@ import os
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
-from PySide6.QtCore import QLocale
-from PySide6.QtWidgets import QApplication
 
-from carpus.app.compose import Desktop, application, compose
+from carpus.app.compose import Desktop, application
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.pipeline import looking_back
 from carpus.ui.live import recording as live_recording
@@ -26,7 +24,7 @@ from tests.rendered import Rendered
 SPEED = 1.5
 """How much faster than recorded everything plays."""
 DRAWN_EVERY_MS = 200
-Open = Callable[[], Desktop]
+Open = Callable[..., Desktop]
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -60,22 +58,12 @@ def data(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def open_desktop(qapp: QApplication, take: Path, data: Path, tmp_path: Path) -> Iterator[Open]:
-    """Puts the application together; may be called again after closing. Whatever is open is closed at the end."""
-    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
-    settings = replace(
-        Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(data), keep_pictures=False)
-    )
-    opened: list[Desktop] = []
+def open_desktop(open_desktop: Open, take: Path) -> Open:
+    """As that of all tests, with the take in the simulated patient's place; may be called again after closing."""
+    application([])
+    usual = Settings(screen=ScreenSettings("light"), recording=RecordingSettings(keep_pictures=False))
 
-    def open_one() -> Desktop:
-        desktop = compose(
-            application([]), settings, take=take_of(take), speed=SPEED, settings_folder=tmp_path / "settings"
-        )
-        opened.append(desktop)
-        desktop.show()
-        return desktop
+    def open_one(settings: Settings = usual, **options: Any) -> Desktop:
+        return open_desktop(settings, **{"take": take_of(take), "speed": SPEED} | options)
 
-    yield open_one
-    for desktop in opened:
-        desktop.close()
+    return open_one

@@ -28,7 +28,6 @@ def test_the_first_session_is_led_from_control_to_control(
 ) -> None:
     desktop = open_desktop()
     journey, tour, panel = desktop.journey, desktop.tour, desktop.welcome.panel
-    assert panel is not None
     qtbot.waitUntil(panel.isVisible)
     assert desktop.shell.focusWidget() in (journey.patients.screen.search, None), "the search keeps the keyboard"
     qtbot.waitUntil(lambda: len(panel.checks) >= 5)
@@ -45,7 +44,7 @@ def test_the_first_session_is_led_from_control_to_control(
         click(qtbot, view.next_button)
 
     go_on("patient")
-    at(qtbot, desktop, "markers")
+    at(qtbot, desktop.journey, "markers")
     still_hand(qtbot, desktop)
     go_on("aim")
     qtbot.waitUntil(lambda: shown(desktop, "click"))
@@ -79,14 +78,14 @@ def test_escape_leaves_the_guide_and_not_the_screen(qtbot: QtBot, open_desktop: 
     desktop = open_desktop()
     journey, tour = desktop.journey, desktop.tour
     desktop.shell.key.emit("help")
-    at(qtbot, desktop, "help")
+    at(qtbot, desktop.journey, "help")
     click(qtbot, journey.help.screen.tour_button)
-    at(qtbot, desktop, "patients")
+    at(qtbot, desktop.journey, "patients")
     qtbot.waitUntil(lambda: shown(desktop, "patient"))
     desktop.shell.key.emit("settings")
     qtbot.waitUntil(lambda: tour.bubble is None)
     desktop.shell.key.emit("back")
-    at(qtbot, desktop, "patients")
+    at(qtbot, desktop.journey, "patients")
     qtbot.waitUntil(lambda: shown(desktop, "patient"))
     journey.patients.screen.new_patient()
     qtbot.waitUntil(lambda: tour.bubble is None)
@@ -123,7 +122,6 @@ def test_another_folder_is_looked_at_and_counts_from_the_next_start(
 ) -> None:
     desktop = open_desktop()
     panel = desktop.welcome.panel
-    assert panel is not None
     qtbot.waitUntil(lambda: bool(panel.checks))
     other = tmp_path / "elsewhere" / "Carpus"
     monkeypatch.setattr("carpus.ui.settings.screen.QFileDialog.getExistingDirectory", lambda *_: str(other))
@@ -147,7 +145,6 @@ def test_what_cannot_be_looked_at_is_told_and_stops_nothing(
     desktop = open_desktop()
     qtbot.waitUntil(lambda: desktop.journey.messages.busy)
     panel = desktop.welcome.panel
-    assert panel is not None
     assert panel.again_button.isEnabled()
 
 

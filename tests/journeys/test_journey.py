@@ -6,7 +6,6 @@ import json
 import math
 import re
 import shutil
-import subprocess
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -21,6 +20,7 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app.compose import Desktop
 from carpus.app.desktop.care_cameras import CareCameras
+from carpus.app.desktop.journey import Journey
 from carpus.app.desktop.sources import RECENT_FRAMES
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.capture.camera_info import sidecar_path
@@ -38,6 +38,7 @@ from carpus.ui.now_open import SourceChoice
 from tests.journeys.conftest import SPEED, Open
 from tests.journeys.takes import RANGE_DEG, SPEC, clicks_of
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+from tests.ui.printed import words_of
 
 PATIENCE_MS = 60_000
 """Only a failing test ever waits that long."""
@@ -55,15 +56,14 @@ def click(qtbot: QtBot, widget: QWidget, spot: QPoint | None = None) -> None:
     qtbot.mouseClick(widget, Qt.MouseButton.LeftButton, pos=spot or widget.rect().center())
 
 
-def at(qtbot: QtBot, desktop: Desktop, place: str) -> None:
-    wait(qtbot, lambda: desktop.journey.place == place)
+def at(qtbot: QtBot, journey: Journey, place: str) -> None:
+    wait(qtbot, lambda: journey.place == place)
 
 
 def still_hand(qtbot: QtBot, desktop: Desktop) -> None:
     """Half a second of the still hand has been seen."""
-    at(qtbot, desktop, "markers")
+    at(qtbot, desktop.journey, "markers")
     source = desktop.journey.now.source
-    assert source is not None
     wait(qtbot, lambda: len(source.measuring.feed.recent_frames(RECENT_FRAMES)) == RECENT_FRAMES)
     wait(qtbot, lambda: desktop.journey.markers.screen.picture.image is not None)
 
@@ -78,7 +78,7 @@ def click_discs(qtbot: QtBot, desktop: Desktop, take: Path) -> None:
 
 def reviewed(qtbot: QtBot, desktop: Desktop) -> Path:
     """The session file of the review that is shown."""
-    at(qtbot, desktop, "review")
+    at(qtbot, desktop.journey, "review")
     wait(qtbot, lambda: desktop.journey.review.screen.shown)
     return desktop.library.entry(desktop.journey.now.session_id).path
 
@@ -100,17 +100,10 @@ def check_file(path: Path, subject: str) -> None:
         assert angles.min() == pytest.approx(-0.97 * RANGE_DEG, abs=4.0)
 
 
-def words_of_pdf(path: Path) -> str:
-    tool = shutil.which("pdftotext")
-    assert tool is not None, "pdftotext (poppler-utils) is needed to read the report back"
-    return subprocess.run([tool, "-layout", str(path), "-"], capture_output=True, text=True, check=True).stdout
-
-
 def test_the_whole_journey_by_mouse(
     qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    desktop = open_desktop()
-    journey = desktop.journey
+    journey = (desktop := open_desktop()).journey
     click(qtbot, journey.patients.screen.new_button)
     for chips in (journey.patients.screen.form.side, journey.patients.screen.form.dominance):
         click(qtbot, chips.buttons()[0])
@@ -118,10 +111,10 @@ def test_the_whole_journey_by_mouse(
     name = journey.patients.screen.list.rows.row(0).pseudonym
     wait(qtbot, lambda: journey.patients.screen.card.start_button.isVisible())
     click(qtbot, journey.patients.screen.card.start_button)
-    at(qtbot, desktop, "exercise")
+    at(qtbot, desktop.journey, "exercise")
     click(qtbot, journey.exercise.screen.exercises.option("WRIST_FE"))
     click(qtbot, journey.exercise.screen.primary)
-    at(qtbot, desktop, "camera")
+    at(qtbot, desktop.journey, "camera")
     click(qtbot, journey.camera.screen.sources.option("practice"))
     click(qtbot, journey.camera.screen.primary)
     still_hand(qtbot, desktop)
@@ -129,10 +122,9 @@ def test_the_whole_journey_by_mouse(
     click_discs(qtbot, desktop, take)
     assert journey.markers.screen.guidance.panel.states()[0] == "good"
     click(qtbot, journey.markers.screen.primary)
-    at(qtbot, desktop, "live")
+    at(qtbot, desktop.journey, "live")
     assert desktop.shell.sign.text == f"Simulated hand: this is not {name}, and does not count."
     source = journey.now.source
-    assert source is not None
     journey.now.source = replace(source, rests=lambda: True)
     wait(qtbot, lambda: "drawn" in desktop.shell.bar.camera.text())
     assert not journey.messages.busy, "a card would take Space from the recording"
@@ -150,34 +142,30 @@ def test_the_whole_journey_by_mouse(
     assert path.is_relative_to(desktop.library.store.sessions_folder)
     assert desktop.shell.bar.pill.state == "off"
     click(qtbot, desktop.shell.bar.way()[2])
-    at(qtbot, desktop, "progress")
+    at(qtbot, desktop.journey, "progress")
     click(qtbot, desktop.shell.bar.way()[1])
     reviewed(qtbot, desktop)
     click(qtbot, desktop.shell.bar.way()[2])
-    at(qtbot, desktop, "progress")
+    at(qtbot, desktop.journey, "progress")
     wait(qtbot, lambda: bool(journey.progress.screen.chart.points()))
     spot = journey.progress.screen.chart.points()[0][2].toPoint()
     qtbot.mouseClick(journey.progress.screen.chart.face, Qt.MouseButton.LeftButton, pos=spot)
     reviewed(qtbot, desktop)
     click(qtbot, journey.review.screen.card.report_button)
-    at(qtbot, desktop, "report")
+    at(qtbot, desktop.journey, "report")
     pdf = tmp_path / "report.pdf"
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(pdf), ""))
     with qtbot.waitSignal(journey.report.screen.saved, timeout=PATIENCE_MS):
         click(qtbot, journey.report.screen.save_button)
-    assert name in words_of_pdf(pdf)
+    assert name in words_of(pdf)
     click(qtbot, desktop.shell.bar.back_button)
-    at(qtbot, desktop, "review")
+    at(qtbot, desktop.journey, "review")
     click(qtbot, desktop.shell.bar.back_button)
-    at(qtbot, desktop, "patients")
+    at(qtbot, desktop.journey, "patients")
     row = journey.patients.screen.list.rows.row(0)
     assert (row.pseudonym, row.session_count) == (name, 0), "a simulated hand counts nowhere"
     assert journey.patients.screen._store.card(row.patient_id).has_sessions
-    assert (data_mode(desktop.library.folder), data_mode(path.parent)) == (0o700, 0o700)
-
-
-def data_mode(folder: Path) -> int:
-    return folder.stat().st_mode & 0o777
+    assert [folder.stat().st_mode & 0o777 for folder in (desktop.library.folder, path.parent)] == [0o700, 0o700]
 
 
 def test_the_whole_journey_by_keyboard(
@@ -211,7 +199,7 @@ def test_the_whole_journey_by_keyboard(
         press(Qt.Key.Key_Space)
     wait(qtbot, journey.markers.screen.primary.isEnabled)
     press(Qt.Key.Key_Return)
-    at(qtbot, desktop, "live")
+    at(qtbot, desktop.journey, "live")
     press(Qt.Key.Key_Space)
     wait(qtbot, lambda: journey.live.screen.recording.state == "recording")
     press(Qt.Key.Key_F5)
@@ -228,33 +216,32 @@ def test_the_whole_journey_by_keyboard(
     pdf = tmp_path / "report.pdf"
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(pdf), ""))
     press(Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier)
-    at(qtbot, desktop, "report")
+    at(qtbot, desktop.journey, "report")
     with qtbot.waitSignal(journey.report.screen.saved, timeout=PATIENCE_MS):
         press(Qt.Key.Key_P, Qt.KeyboardModifier.ControlModifier)
-    assert "strap loose" in words_of_pdf(pdf)
+    assert "strap loose" in words_of(pdf)
     press(Qt.Key.Key_Escape)
-    at(qtbot, desktop, "review")
+    at(qtbot, desktop.journey, "review")
     press(Qt.Key.Key_Escape)
-    at(qtbot, desktop, "patients")
+    at(qtbot, desktop.journey, "patients")
     assert desktop.library.patients.listed() == []  # practice never counts
 
 
 def test_a_recording_is_measured_from_its_first_picture_to_its_last(
     qtbot: QtBot, open_desktop: Open, take: Path
 ) -> None:
-    desktop = open_desktop()
-    journey = desktop.journey
+    journey = (desktop := open_desktop()).journey
     journey.camera.show(PRACTICE_PATIENT)
-    at(qtbot, desktop, "markers")
+    at(qtbot, desktop.journey, "markers")
     journey.way.back()
-    at(qtbot, desktop, "camera")
+    at(qtbot, desktop.journey, "camera")
     journey.camera.screen.set_path(str(take))
     click(qtbot, journey.camera.screen.primary)
-    at(qtbot, desktop, "markers")
+    at(qtbot, desktop.journey, "markers")
     assert not journey.markers.screen.new_picture.isVisible()
     click_discs(qtbot, desktop, take)
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
-    at(qtbot, desktop, "live")
+    at(qtbot, desktop.journey, "live")
     assert journey.live.screen.recording.state == "off", "it waits for the key, as every source does"
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Space)
     path = reviewed(qtbot, desktop)  # recorded, played to its end and stopped by itself
@@ -275,18 +262,17 @@ def test_a_recording_of_the_camera_plays_through_its_own_library_in_real_time(
     write_oni(recording, in_millimetres(source.frames()), source.info.camera, fps=round(SPEC.fps))
     camera_info = sidecar_path(recording)
     camera_info.write_text(re.sub("registered: .*\n", "", camera_info.read_text()))
-    desktop = open_desktop()
-    journey = desktop.journey
+    journey = (desktop := open_desktop()).journey
     journey.camera.show(PRACTICE_PATIENT)
-    at(qtbot, desktop, "markers")
+    at(qtbot, desktop.journey, "markers")
     journey.way.back()
     journey.camera.screen.set_path(str(recording))
     click(qtbot, journey.camera.screen.primary)
-    at(qtbot, desktop, "markers")  # nothing says that depth lies on colour: it is measured, nobody is asked
+    at(qtbot, desktop.journey, "markers")  # nothing says that depth lies on colour: it is measured, nobody is asked
     click_discs(qtbot, desktop, take)
     assert not journey.messages.busy
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
-    at(qtbot, desktop, "live")
+    at(qtbot, desktop.journey, "live")
     journey.live.screen.recording.toggle()
     begun_s = time.monotonic()
     path = reviewed(qtbot, desktop)
@@ -301,10 +287,9 @@ def test_a_recording_of_the_camera_plays_through_its_own_library_in_real_time(
 def test_depth_that_is_measured_beside_the_colours_is_opened_again_the_other_way(
     qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    desktop = open_desktop()
-    journey = desktop.journey
+    journey = (desktop := open_desktop()).journey
     journey.camera.show(PRACTICE_PATIENT)
-    at(qtbot, desktop, "markers")
+    at(qtbot, desktop.journey, "markers")
     assert journey.now.source is not None
     verdict = make_calibration().verdict
     off = replace(verdict, findings=(CalibrationFinding("depth_off", (), 11.0, 3.0, "px"),))
@@ -325,38 +310,25 @@ def test_depth_that_is_measured_beside_the_colours_is_opened_again_the_other_way
 def test_a_recording_that_is_being_stored_is_not_stopped_again_by_closing(
     qtbot: QtBot, open_desktop: Open, take: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    desktop = open_desktop()
-    to_live(qtbot, desktop, take)
-    desktop.journey.live.screen.recording.toggle()
-    wait(qtbot, lambda: desktop.journey.live.screen.recording.recorded_s > 0.5)
-    desktop.journey.live.screen.recording.stop()
-    assert desktop.journey.live.screen.recording.storing
+    desktop, journey = to_live(qtbot, open_desktop(), take)
+    journey.live.screen.recording.toggle()
+    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.5)
+    journey.live.screen.recording.stop()
+    assert journey.live.screen.recording.storing
     desktop.shell.close_surely()
     assert not [record for record in caplog.records if record.name != "carpus.core.pipeline.measuring"]
     (entry,) = open_desktop().library.sessions(PRACTICE_PATIENT)
     assert entry.complete
 
 
-def test_a_second_set_needs_no_new_markers(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
-    desktop = open_desktop()
-    journey = desktop.journey
-    to_live(qtbot, desktop, take)
-    first = one_set(qtbot, desktop)
-    click(qtbot, journey.review.screen.card.again_button)
-    at(qtbot, desktop, "live")
-    second = one_set(qtbot, desktop)
-    assert first != second
-    rows = desktop.library.sessions(PRACTICE_PATIENT)
-    assert {row.path for row in rows} == {first, second}
-
-
-def to_live(qtbot: QtBot, desktop: Desktop, take: Path) -> None:
+def to_live(qtbot: QtBot, desktop: Desktop, take: Path) -> tuple[Desktop, Journey]:
     desktop.journey.camera.show(PRACTICE_PATIENT)
     still_hand(qtbot, desktop)
     desktop.journey.markers.screen.accept()
     click_discs(qtbot, desktop, take)
     click(qtbot, desktop.journey.markers.screen.primary)
-    at(qtbot, desktop, "live")
+    at(qtbot, desktop.journey, "live")
+    return desktop, desktop.journey
 
 
 def one_set(qtbot: QtBot, desktop: Desktop) -> Path:
@@ -368,16 +340,15 @@ def one_set(qtbot: QtBot, desktop: Desktop) -> Path:
 
 
 def test_a_window_closed_while_recording_keeps_the_session(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
-    desktop = open_desktop()
-    to_live(qtbot, desktop, take)
-    desktop.journey.live.screen.recording.toggle()
-    wait(qtbot, lambda: desktop.journey.live.screen.recording.recorded_s > 1.0)
+    desktop, journey = to_live(qtbot, open_desktop(), take)
+    journey.live.screen.recording.toggle()
+    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 1.0)
     desktop.shell.close()
     card = desktop.journey.messages.card
     assert card.isVisible(), "it asks first"
     assert desktop.shell.isVisible()
     click(qtbot, card.answers[1])
-    assert desktop.journey.live.screen.recording.state == "recording"
+    assert journey.live.screen.recording.state == "recording"
     desktop.shell.close()
     click(qtbot, card.answers[0])
     assert not desktop.shell.isVisible()
@@ -420,96 +391,82 @@ def test_a_card_takes_every_key_and_its_first_button_does_what_it_says(
     assert journey.live.screen.recording.state == "recording"
     shell.close()
     journey.live.screen.recording.stop()  # as the end of the source does
-    at(qtbot, desktop, "review")
+    at(qtbot, desktop.journey, "review")
     assert not journey.messages.busy, "the question has answered itself"
     wait(qtbot, lambda: journey.review.screen.shown)
     qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Escape)
-    at(qtbot, desktop, "patients")
+    at(qtbot, desktop.journey, "patients")
 
 
-def test_a_message_moves_with_the_screen(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
-    desktop = open_desktop()
-    journey = desktop.journey
-    to_live(qtbot, desktop, take)
+def test_a_hasty_end_asks_and_the_recording_goes_on_and_a_message_moves_with_the_screen(
+    qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, journey = to_live(qtbot, open_desktop(), take)
+    monkeypatch.setattr("carpus.ui.live.recording.HASTY_S", 3600.0)
+    recording, card = journey.live.screen.recording, journey.messages.card
+    recording.toggle()
+    wait(qtbot, lambda: recording.recorded_s > 0.5)
+    recording.toggle()
+    assert (card.isVisible(), recording.state) == (True, "recording")
+    qtbot.keyClick(card.answers[-1], Qt.Key.Key_Return)
+    assert (card.isVisible(), recording.state) == (False, "recording")
+    recording.toggle()
+    card.answers[0].click()
+    assert journey.place == "live"
     journey.messages.fault(DiskFull("x"))
-    journey.live.screen.recording.toggle()
-    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.5)
-    journey.live.screen.recording.stop()
-    at(qtbot, desktop, "review")
-    assert journey.messages.card.isVisible()
-    assert "disk" in journey.messages.card.what.text()
-    journey.messages.card.answers[-1].click()
+    at(qtbot, journey, "review")
+    card = journey.messages.card
+    assert card.isVisible()
+    assert "disk" in card.what.text()
+    card.answers[-1].click()
     assert not journey.messages.busy
 
 
-def test_a_hasty_end_asks_and_the_recording_goes_on(
+def test_neither_a_full_disk_nor_a_stop_at_once_leaves_a_file_and_both_are_told(
     qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    desktop = open_desktop()
-    monkeypatch.setattr("carpus.ui.live.recording.HASTY_S", 3600.0)
-    journey = desktop.journey
-    to_live(qtbot, desktop, take)
-    journey.live.screen.recording.toggle()
-    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.3)
-    journey.live.screen.recording.toggle()
-    card = journey.messages.card
-    assert card.isVisible()
-    assert journey.live.screen.recording.state == "recording"
-    qtbot.keyClick(card.answers[-1], Qt.Key.Key_Return)
-    assert not card.isVisible()
-    assert journey.live.screen.recording.state == "recording"
-    journey.live.screen.recording.toggle()
-    card.answers[0].click()
-    at(qtbot, desktop, "review")
+    desktop, journey = to_live(qtbot, open_desktop(), take)
+    recording, card, folder = journey.live.screen.recording, journey.messages.card, desktop.library.folder
+    usage = shutil.disk_usage(folder)
+    with monkeypatch.context() as full:
+        full.setattr(measuring.shutil, "disk_usage", lambda _: usage._replace(free=20_000_000))
+        recording.toggle()
+        wait(qtbot, card.isVisible)
+    assert "20 MB free" in card.what.text()
+    assert recording.state == "off"
+    assert list(folder.rglob("*.h5*")) == []
+    click(qtbot, card.answers[-1])
+    feed = journey.now.source.measuring.feed
+    feed.end_tracking()
+    wait(qtbot, lambda: feed.counters().waiting_tracking == 0)
+    recording.toggle()
+    wait(qtbot, lambda: recording.count is not None)
+    recording.toggle()
+    wait(qtbot, card.isVisible)
+    assert desktop.library.sessions(PRACTICE_PATIENT) == []
+    assert list(folder.rglob("*.h5*")) == []
+    click(qtbot, card.answers[0])
+    at(qtbot, journey, "patients")
 
 
-def test_a_recording_does_not_begin_on_a_full_disk(
-    qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    desktop = open_desktop()
-    journey = desktop.journey
-    to_live(qtbot, desktop, take)
-    usage = shutil.disk_usage(desktop.library.folder)
-    monkeypatch.setattr(measuring.shutil, "disk_usage", lambda _: usage._replace(free=20_000_000))
-    journey.live.screen.recording.toggle()
-    wait(qtbot, journey.messages.card.isVisible)
-    assert "20 MB free" in journey.messages.card.what.text()
-    assert journey.live.screen.recording.state == "off"
-    assert list(desktop.library.folder.rglob("*.h5*")) == []
-
-
-def test_a_session_rescued_later_is_in_the_list_as_soon_as_the_list_is_shown(open_desktop: Open) -> None:
-    desktop = open_desktop()
-    journey, library = desktop.journey, desktop.library
-    linden = library.patients.add(PatientEntry("Linden 42", "right"))
-    journey.patients.show()
-    folder = library.store.sessions_folder / "Linden-42"
+def cut_short(folder: Path) -> Path:
+    """What is left of a session when the program is killed, or the disk was too full to finish it."""
     folder.mkdir()
     writer = SessionWriter.create(folder / "cut.h5", make_header(), CAMERA, make_calibration())
     for row in range(60):
         writer.append(make_frame(row))
-    writer.abandon()  # and the disk was too full to finish it
+    writer.abandon()
+    return writer.path
+
+
+def test_a_session_rescued_later_is_in_the_list_as_soon_as_the_list_is_shown(open_desktop: Open) -> None:
+    journey = (desktop := open_desktop()).journey
+    linden = desktop.library.patients.add(PatientEntry("Linden 42", "right"))
+    journey.patients.show()
+    cut_short(desktop.library.store.sessions_folder / "Linden-42")
     journey.patients.show(linden)
     row = journey.patients.screen.list.rows.row(0)
     assert (row.pseudonym, row.session_count) == ("Linden 42", 1)
-
-
-def test_stopping_at_once_stores_nothing_and_says_so(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
-    desktop = open_desktop()
-    journey = desktop.journey
-    to_live(qtbot, desktop, take)
-    source = journey.now.source
-    assert source is not None
-    source.measuring.feed.end_tracking()
-    wait(qtbot, lambda: source.measuring.feed.counters().waiting_tracking == 0)
-    journey.live.screen.recording.toggle()
-    wait(qtbot, lambda: journey.live.screen.recording.count is not None)
-    journey.live.screen.recording.toggle()
-    wait(qtbot, journey.messages.card.isVisible)
-    assert desktop.library.sessions(PRACTICE_PATIENT) == []
-    assert list(desktop.library.folder.rglob("*.h5*")) == []
-    click(qtbot, journey.messages.card.answers[0])
-    at(qtbot, desktop, "patients")
 
 
 @pytest.mark.parametrize("demo", [False, True])
@@ -517,8 +474,7 @@ def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
     qtbot: QtBot, open_desktop: Open, take: Path, demo: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(CareCameras, "name", lambda _: None)
-    desktop = open_desktop()
-    journey = desktop.journey
+    journey = (desktop := open_desktop()).journey
     if demo:
         journey.now.choice = SourceChoice("practice")
     to_live(qtbot, desktop, take)
@@ -527,12 +483,12 @@ def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
     for _ in range(2):
         journey.exercise.show(linden)
         click(qtbot, journey.exercise.screen.primary)
-        at(qtbot, desktop, "camera")
+        at(qtbot, desktop.journey, "camera")
         assert journey.camera.screen.sources.value() == "camera"
         assert not journey.camera.screen.primary.isEnabled()
         click(qtbot, journey.camera.screen.sources.option("practice"))  # by hand, each time
         click(qtbot, journey.camera.screen.primary)
-        at(qtbot, desktop, "markers")
+        at(qtbot, desktop.journey, "markers")
         journey.patients.show()
 
 
@@ -540,33 +496,27 @@ def test_an_interrupted_session_is_told_at_the_next_start_and_can_be_reviewed(qt
     first = open_desktop()
     folder = first.library.store.sessions_folder / "Heron"
     first.close()
-    folder.mkdir()
-    writer = SessionWriter.create(folder / "cut.h5", make_header(), CAMERA, make_calibration())
-    for row in range(60):
-        writer.append(make_frame(row))
-    writer.abandon()
+    path = cut_short(folder)
     second = open_desktop()
     (strip,) = second.journey.patients.screen.findChildren(NoticeStrip)
     assert make_header().subject_id in strip.words.happened
     assert "safe" in strip.words.safe
     click(qtbot, strip.button)
-    assert reviewed(qtbot, second) == folder / "cut.h5"
-    assert second.journey.now.patient is not None
+    assert reviewed(qtbot, second) == path
     assert second.journey.now.patient.pseudonym == make_header().subject_id
 
 
 def test_a_camera_that_is_not_there_is_told_with_what_to_do(
     qtbot: QtBot, open_desktop: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    desktop = open_desktop()
-    journey = desktop.journey
+    journey = (desktop := open_desktop()).journey
 
     def missing(**_: object) -> None:
         raise CameraMissing("", "no device")
 
     monkeypatch.setattr(xtion, "KIND", replace(xtion.KIND, open=missing))
     journey.camera.show(PRACTICE_PATIENT)
-    at(qtbot, desktop, "markers")
+    at(qtbot, desktop.journey, "markers")
     journey.way.back()
     journey.camera.screen.set_camera_ready(True)
     click(qtbot, journey.camera.screen.sources.option("camera"))
@@ -582,11 +532,8 @@ def test_a_camera_that_is_not_there_is_told_with_what_to_do(
 def test_a_lost_camera_stops_the_eye_and_goes_by_itself_when_it_is_back(
     qtbot: QtBot, open_desktop: Open, take: Path
 ) -> None:
-    desktop = open_desktop()
-    journey = desktop.journey
-    to_live(qtbot, desktop, take)
+    desktop, journey = to_live(qtbot, open_desktop(), take)
     source = journey.now.source
-    assert source is not None
     journey.live.screen.recording.toggle()
     wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.5)
     source.measuring.feed.notice(CameraLost("Xtion", "unplugged"))
@@ -601,43 +548,44 @@ def test_a_lost_camera_stops_the_eye_and_goes_by_itself_when_it_is_back(
         assert {"camera_lost", "camera_back"} <= set(file["events/kind"].asstr()[:])
 
 
-def test_raw_pictures_are_kept_on_request_and_shown_in_the_review(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
-    desktop = open_desktop()
-    journey = desktop.journey
+def test_raw_pictures_are_kept_on_request_and_shown_in_the_review_and_a_second_set_needs_no_new_markers(
+    qtbot: QtBot, open_desktop: Open, take: Path
+) -> None:
+    journey = (desktop := open_desktop()).journey
     journey.exercise.show(PRACTICE_PATIENT)
     journey.exercise.screen.pictures.choose(True)
     click(qtbot, journey.exercise.screen.primary)
-    at(qtbot, desktop, "camera")
+    at(qtbot, desktop.journey, "camera")
     click(qtbot, journey.camera.screen.primary)
     still_hand(qtbot, desktop)
     journey.markers.screen.accept()
     click_discs(qtbot, desktop, take)
     click(qtbot, journey.markers.screen.primary)
-    at(qtbot, desktop, "live")
+    at(qtbot, desktop.journey, "live")
     path = one_set(qtbot, desktop)
     session = desktop.library.session(journey.now.session_id)
     assert path.with_suffix(".carpusraw").exists()
     for row in (0, len(session) - 1):
         picture = desktop.library.picture(journey.now.session_id, row)
-        assert picture is not None
         assert picture.shape == (480, 640, 3)
         known = np.isfinite(session.markers.measured_px[row, :, 0])
         u, v = np.round(session.markers.measured_px[row][known][0]).astype(int)
         red, _, blue = picture[v, u].astype(int)
         assert blue > red + 30  # the disc is where the session says
+    click(qtbot, journey.review.screen.card.again_button)
+    at(qtbot, journey, "live")
+    second = one_set(qtbot, desktop)
+    assert {row.path for row in desktop.library.sessions(PRACTICE_PATIENT)} == {path, second} != {path}
 
 
 def test_what_was_left_out_is_stored_beside_the_session(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
-    desktop = open_desktop()
-    journey = desktop.journey
-    to_live(qtbot, desktop, take)
+    desktop, journey = to_live(qtbot, open_desktop(), take)
     journey.live.screen.recording.toggle()
     wait(qtbot, lambda: journey.live.screen.recording.repetitions >= 2)
     journey.live.screen.recording.toggle()
     path = reviewed(qtbot, desktop)
     before = path.read_bytes()
     figures = journey.review.screen.figures
-    assert figures is not None
     counted = figures.counted
     journey.review.screen._leave_out("pain")
     wait(qtbot, lambda: not journey.background.busy)

@@ -74,24 +74,24 @@ def test_a_folder_that_cannot_be_used_is_told_in_a_window(
     assert "cannot be written" in window.card.what.text()
 
 
+@pytest.fixture
+def quiet(qapp: QApplication, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A window with a display, which takes no signals and changes no language of this process."""
+    monkeypatch.setattr(desktop, "has_display", lambda: True)
+    for name in ("write_log", "end_on_signals", "speak_in_the_window"):
+        monkeypatch.setattr(compose, name, lambda *_: None)
+
+
+@pytest.mark.usefixtures("quiet")
 def test_the_window_opens_on_the_folder_that_was_chosen_instead(
-    qapp: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     blocked, good = tmp_path / "blocked", tmp_path / "good"
     blocked.write_text("a file where the folder should be")
     monkeypatch.setenv("CARPUS_DATA", str(blocked))
-    monkeypatch.setattr(desktop, "has_display", lambda: True)
-    monkeypatch.setattr(compose, "write_log", lambda: None)
-    monkeypatch.setattr(compose, "end_on_signals", lambda _: None)
-    monkeypatch.setattr(compose, "speak_in_the_window", lambda _: None)
     monkeypatch.setattr(QApplication, "exec", lambda *_: 0)
     asked: list[str] = []
-
-    def choose(*arguments: object) -> Path:
-        asked.append(type(arguments[-1]).__name__)
-        return good
-
-    monkeypatch.setattr(compose, "ask_for_folder", choose)
+    monkeypatch.setattr(compose, "ask_for_folder", lambda *given: asked.append(type(given[-1]).__name__) or good)
     assert desktop.open_window(None, is_demo=False) == 0
     assert asked == ["OutputNotWritable"]
     assert "blocked" in capsys.readouterr().err
@@ -99,24 +99,20 @@ def test_the_window_opens_on_the_folder_that_was_chosen_instead(
     assert load_settings().data_folder == good, "also from the next start on"
 
 
+@pytest.mark.usefixtures("quiet")
 def test_nobody_chooses_and_it_ends_with_a_sentence(
-    qapp: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "blocked").write_text("")
-    monkeypatch.setattr(desktop, "has_display", lambda: True)
-    monkeypatch.setattr(compose, "write_log", lambda: None)
     monkeypatch.setattr(compose, "ask_for_folder", lambda *_: None)
     assert desktop.open_window(tmp_path / "blocked", is_demo=False) == 1
     assert capsys.readouterr().err.count("\n") == 1
 
 
+@pytest.mark.usefixtures("quiet")
 def test_a_window_that_is_closed_while_it_comes_up_ends_in_peace(
-    qapp: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(desktop, "has_display", lambda: True)
-    monkeypatch.setattr(compose, "write_log", lambda: None)
-    monkeypatch.setattr(compose, "end_on_signals", lambda _: None)
-    monkeypatch.setattr(compose, "speak_in_the_window", lambda _: None)
     monkeypatch.setattr(QApplication, "exec", lambda *_: pytest.fail("a closed window waits for nobody"))
     close_early = compose.Desktop.close
 

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import multiprocessing
-from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop, application, compose
-from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.app.compose import Desktop
+from carpus.app.settings import ScreenSettings, Settings
 from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.pipeline.frame_pipeline import NOT_LOOKED_BACK
 from carpus.core.pipeline.track import retrack_session
@@ -23,6 +20,7 @@ from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import TRUTH_FILE
 from carpus.core.simulation.spec import RecordingSpec
+from tests.journeys.conftest import Open
 from tests.journeys.takes import clicks_of, take_of
 from tests.journeys.test_journey import at, click, reviewed, still_hand, wait
 from tests.rendered import Rendered
@@ -39,31 +37,23 @@ def hand_take(rendered: Rendered) -> Path:
 
 
 @pytest.fixture
-def desktop(qapp: QApplication, hand_take: Path, tmp_path: Path) -> Iterator[Desktop]:
-    folder = RecordingSettings(folder=str(tmp_path / "data"))
-    settings = replace(Settings(), screen=ScreenSettings("light"), recording=folder)
-    composed = compose(
-        application([]), settings, take=take_of(hand_take, SPEC.fps), settings_folder=tmp_path / "settings"
-    )
-    composed.show()
-    yield composed
-    composed.close()
+def desktop(open_desktop: Open, hand_take: Path) -> Desktop:
+    return open_desktop(Settings(screen=ScreenSettings("light")), take=take_of(hand_take, SPEC.fps), speed=1.0)
 
 
 def record(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
     """From the practice patient's exercise to a running recording."""
     journey = desktop.journey
     journey.exercise.show(PRACTICE_PATIENT)
-    at(qtbot, desktop, "exercise")
+    at(qtbot, desktop.journey, "exercise")
     click(qtbot, journey.exercise.screen.protocol.buttons()[1])
     click(qtbot, journey.exercise.screen.exercises.option("FIST_COMPOSITE"))
     click(qtbot, journey.exercise.screen.primary)
-    at(qtbot, desktop, "camera")
+    at(qtbot, desktop.journey, "camera")
     click(qtbot, journey.camera.screen.sources.option("practice"))
     click(qtbot, journey.camera.screen.primary)
     still_hand(qtbot, desktop)
     click(qtbot, journey.markers.screen.primary)
-    assert journey.markers.screen.clicking is not None
     assert journey.markers.screen.clicking.order == HAND21.markers
     wait(qtbot, lambda: bool(journey.markers.screen.clicking and journey.markers.screen.clicking.proposed))
     assert not journey.markers.screen.clicking.unnamed
@@ -71,7 +61,7 @@ def record(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
     np.testing.assert_allclose(journey.markers.screen.clicking.clicks().pixel, clicks_of(hand_take), atol=4.0)
     wait(qtbot, lambda: journey.markers.screen.naming.outcome is not None)
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
-    at(qtbot, desktop, "live")
+    at(qtbot, desktop.journey, "live")
     wait(qtbot, lambda: len(journey.live.screen.history) > 5)
     assert "seen" in journey.live.screen.hand_map.seen.values()
     qtbot.keyClick(journey.live.screen, Qt.Key.Key_Space)

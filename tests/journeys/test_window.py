@@ -70,7 +70,6 @@ class Person:
             self._lines.put(line.strip())
 
     def _read_faults(self) -> None:
-        assert self.process.stderr is not None
         self.faults = self.process.stderr.read()
 
     def sees(self, wanted: str) -> str:

@@ -58,7 +58,6 @@ class Reporter:
     def _look_at_markers(self) -> None:
         journey, markers = self._desktop.journey, self._desktop.journey.markers.screen
         source = journey.now.source
-        assert source is not None
         if markers.clicking is None:
             seen = len(source.measuring.feed.recent_frames(RECENT_FRAMES)) == RECENT_FRAMES
             if seen and markers.picture.image is not None:

@@ -110,7 +110,6 @@ def live_lines(minutes: float, folder: Path) -> Iterator[str]:
     folder.mkdir()
     command = [sys.executable, "-m", "tests.torture.recorder", str(folder), "--seconds", str(60.0 * minutes)]
     with subprocess.Popen(command, cwd=kills.ROOT, stdout=subprocess.PIPE, text=True) as program:
-        assert program.stdout is not None
         assert program.stdout.readline() == "begun\n"
         seen: list[tuple[float, float, int]] = []
         begin = time.monotonic()

@@ -48,8 +48,6 @@ def kill_once(kind: str, number: int, folder: Path) -> Killed:
     if kind == "looking back":
         told += ["--seconds", "4"]
     with subprocess.Popen(told, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
-        assert program.stdout is not None
-        assert program.stderr is not None
         assert program.stdout.readline() == "begun\n", program.stderr.read()
         time.sleep(after_s)
         if kind == "two programs":

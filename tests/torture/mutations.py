@@ -31,19 +31,8 @@ from tests.session.samples import CAMERA, CREATED, make_calibration, make_frame,
 KINDS = ("session", "part", "raw", "tum", "clicks", "settings", "register", "oni")
 NUMBERS = (0, 1, 2, 255, 65_535, 65_536, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 1 << 40, 1 << 63, (1 << 64) - 1)
 WORDS = (
-    "nan",
-    "inf",
-    "-1",
-    "1e999",
-    "9" * 400,
-    "../../../etc/passwd",
-    "/dev/zero",
-    "\\u0000",
-    "[" * 300,
-    "=1+1",
-    " ",
-    "",
-)
+    "nan", "inf", "-1", "1e999", "9" * 400, "../../../etc/passwd", "/dev/zero", "\\u0000", "[" * 300, "=1+1", " ", "",
+)  # fmt: skip
 
 
 def sound(kind: str, folder: Path) -> Path:
@@ -211,105 +200,65 @@ def _line(data: bytearray, rng: np.random.Generator) -> None:
 
 
 BYTE_CHANGES = (
-    flip,
-    _early,
-    _early,
-    _number,
-    _number,
-    _swap,
-    _swap,
-    _pointer,
-    _pointer,
-    noise,
-    zeros,
-    cut,
-    remove,
-    repeat,
-)
+    flip, _early, _early, _number, _number, _swap, _swap, _pointer, _pointer, noise, zeros, cut, remove, repeat,
+)  # fmt: skip
 TEXT_CHANGES = (_word, _word, _line)
 
 
 def _structure(path: Path, rng: np.random.Generator) -> None:
-    """Another thing in the place of a dataset or an attribute, by way of the library."""
+    """Another thing in the place of a dataset, a value or an attribute, by way of the library."""
     with h5py.File(path, "r+") as file:
         places: list[str] = []
         file.visit(places.append)
         place = "/" + places[int(rng.integers(len(places)))]
-        change: Callable[[h5py.File, str, np.random.Generator], None] = STRUCTURES[int(rng.integers(len(STRUCTURES)))]
-        change(file, place, rng)
-
-
-def _gone(file: h5py.File, place: str, _: np.random.Generator) -> None:
-    del file[place]
-
-
-def _group(file: h5py.File, place: str, _: np.random.Generator) -> None:
-    del file[place]
-    file.create_group(place)
-
-
-def _scalar(file: h5py.File, place: str, _: np.random.Generator) -> None:
-    del file[place]
-    file[place] = 1.0
+        kind = int(rng.integers(len(INSTEAD) + 5))
+        if kind < len(INSTEAD):
+            del file[place]
+            INSTEAD[kind](file, place, rng)
+        elif kind < len(INSTEAD) + 2:
+            _values(file[place], rng)
+        else:
+            _attribute(file if rng.random() < 0.7 else file[place], rng)
 
 
 def _huge(file: h5py.File, place: str, rng: np.random.Generator) -> None:
-    del file[place]
     file.create_dataset(place, (1 << int(rng.integers(20, 50)), 3), "f8", maxshape=(None, 3), chunks=(1024, 3))
 
 
 def _other_type(file: h5py.File, place: str, rng: np.random.Generator) -> None:
-    del file[place]
     file[place] = np.zeros((30, 3), ("i1", "f2", "S5", "c16", "?")[int(rng.integers(5))])
 
 
 def _external(file: h5py.File, place: str, _: np.random.Generator) -> None:
-    del file[place]
     file.create_dataset(place, (30, 3), "f8", external=[("/etc/passwd", 0, 720)])
 
 
-def _link(file: h5py.File, place: str, _: np.random.Generator) -> None:
-    del file[place]
-    file[place] = h5py.ExternalLink("/dev/zero", place)
-
-
 def _loop(file: h5py.File, place: str, _: np.random.Generator) -> None:
-    del file[place]
     file[place] = file["/"]
 
 
-def _values(file: h5py.File, place: str, rng: np.random.Generator) -> None:
-    dataset = file[place]
-    if isinstance(dataset, h5py.Dataset) and dataset.dtype.kind in "fiu" and dataset.size:
+def _values(thing: h5py.Dataset | h5py.Group, rng: np.random.Generator) -> None:
+    if isinstance(thing, h5py.Dataset) and thing.dtype.kind in "fiu" and thing.size:
         value = (np.inf, np.nan, -1.0, 1e300, 2.0**31)[int(rng.integers(5))]
-        kind = dataset.dtype
         with np.errstate(invalid="ignore"):
-            dataset[int(rng.integers(dataset.shape[0]))] = np.float64(value).astype(kind)
+            thing[int(rng.integers(thing.shape[0]))] = np.float64(value).astype(thing.dtype)
 
 
-def _attribute(file: h5py.File, place: str, rng: np.random.Generator) -> None:
-    thing = file if rng.random() < 0.7 else file[place]
+def _attribute(thing: h5py.Dataset | h5py.Group, rng: np.random.Generator) -> None:
     names = list(thing.attrs)
     if names:
         values = ("", " ", "\n", -1, np.nan, 1 << 62, "x" * 60_000, "[" * 5000, np.zeros(100), json.dumps({"a": 1}))
         thing.attrs[names[int(rng.integers(len(names)))]] = values[int(rng.integers(len(values)))]
 
 
-STRUCTURES = (
-    _gone,
-    _group,
-    _scalar,
-    _huge,
-    _other_type,
-    _external,
-    _link,
-    _loop,
-    _values,
-    _values,
-    _attribute,
-    _attribute,
-    _attribute,
-)
+INSTEAD: tuple[Callable[[h5py.File, str, np.random.Generator], object], ...] = (
+    lambda *_: None,
+    lambda file, place, _: file.create_group(place),
+    lambda file, place, _: file.create_dataset(place, data=1.0),
+    lambda file, place, _: file.__setitem__(place, h5py.ExternalLink("/dev/zero", place)),
+    _huge, _other_type, _external, _loop,
+)  # fmt: skip
+"""What is put where something was."""
 
 
 def _rows(path: Path, rng: np.random.Generator) -> None:

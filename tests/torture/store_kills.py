@@ -64,7 +64,6 @@ def _kill(kind: str, number: int, folder: Path, cluster: Cluster | None) -> bool
         session_id, other = measure(house, linden, T0), measure(house, heron, T0)
     command = [sys.executable, "-c", CHILD, kind, str(folder), session_id, url]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as child:
-        assert child.stdout is not None
         assert child.stdout.readline() == "begun\n"
         time.sleep(np.random.default_rng(number).uniform(0.0, 0.1 if kind == "erasure" else LONGEST_S))
         child.kill()

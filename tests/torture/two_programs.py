@@ -206,11 +206,9 @@ def _run(
     trouble = Trouble(cluster, wire, longest_s)
     try:
         for one in running:
-            assert one.stdout is not None
             assert one.stdout.readline() == "begun\n"
         trouble.start()
         for one in running:
-            assert one.stdout is not None
             assert one.stdout.readline() == "made\n"
         trouble.end()
         said = [one.communicate("\n", timeout=20 * SETTLE_S)[0] for one in running]

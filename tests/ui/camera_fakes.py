@@ -31,7 +31,6 @@ def board_progress() -> tuple[Frame, BoardProgress]:
     frames = [studio.frame([one], k, float(k)) for k, one in enumerate(placed)]
     looks = [gathering.look(frame) for frame in frames]
     look, judgement = looks[-1], gathering.judgement
-    assert look is not None
     step = next_step(judgement, look.found)
     target = target_outline(step, CHESSBOARD, DEFAULT_CAMERA)
     return frames[-1], BoardProgress(look, judgement, step, target, CHESSBOARD.corner_count, 30, frames[-1])
@@ -76,5 +75,4 @@ def card_progress() -> tuple[Frame, CardProgress]:
     """The card under the simulated camera, some seconds in."""
     frame = Studio(seed=2, depth_scale_error=0.0).frame(card_scene(), 0, 0.0)
     look = CardWatch(LENS, steady=True).look(frame)
-    assert look is not None
     return replace(frame), CardProgress(look.pixel, look.blue, 8.4)

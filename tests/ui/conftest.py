@@ -6,14 +6,29 @@ import os
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
+from collections.abc import Callable, Iterator
+from typing import TypeVar
+
 import pytest
 from PySide6.QtCore import QLocale
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
+from pytestqt.qtbot import QtBot
 
+from carpus.ui.background import Background
+from carpus.ui.controls.sheet import Sheet
 from carpus.ui.fonts import load_fonts
+from carpus.ui.keys import Keys
+from carpus.ui.live.screen import LiveScreen
 from carpus.ui.style import apply_style
 from carpus.ui.theme import Theme
-from tests.ui.fakes import figures_once
+from tests.ui.fakes import FakeFeed, figures_once, set_up
+from tests.ui.live_tried import TriedLive
+
+WidgetT = TypeVar("WidgetT", bound=QWidget)
+Show = Callable[..., WidgetT]
+"""What :func:`show` gives: a widget, and whether it is ``active``."""
+Live = Callable[..., TriedLive]
+"""What :func:`live` gives: a feed, and seconds of it."""
 
 
 @pytest.fixture(autouse=True)
@@ -37,3 +52,50 @@ def theme(qapp: QApplication) -> Theme:
     chosen = Theme("light")
     apply_style(qapp, chosen)
     return chosen
+
+
+@pytest.fixture
+def background(qtbot: QtBot) -> Iterator[Background]:
+    """Idle before the screens go, as the program waits before it ends."""
+    background = Background()
+    yield background
+    qtbot.waitUntil(lambda: not background.busy)
+
+
+@pytest.fixture
+def show(qtbot: QtBot) -> Show[WidgetT]:
+    """Shows a screen as large as a window of 1280x800 leaves it; ``active``, it has the keyboard."""
+
+    def show_one(widget: WidgetT, *, active: bool = False) -> WidgetT:
+        qtbot.addWidget(widget)
+        widget.resize(1280, 744)
+        widget.show()
+        if active:
+            widget.activateWindow()
+            qtbot.waitUntil(widget.isActiveWindow)
+        return widget
+
+    return show_one
+
+
+@pytest.fixture
+def host(show: Show[QWidget]) -> Iterator[QWidget]:
+    """What sheets lie over, which go with it."""
+    widget = show(QWidget(), active=True)
+    yield widget
+    for sheet in widget.findChildren(Sheet):
+        sheet.close_sheet()
+
+
+@pytest.fixture
+def live(qtbot: QtBot, theme: Theme, show: Show[LiveScreen]) -> Live:
+    """The live screen on a feed of which some seconds have passed: flexion, or a full fist of the whole hand."""
+
+    def one(feed: FakeFeed, seconds: float = 0.0) -> TriedLive:
+        screen = show(LiveScreen(theme, Keys(), Background()), active=True)
+        whole_hand = feed.pictures.spec.protocol == "hand21"
+        tried = TriedLive(qtbot, screen, feed, set_up("FIST_COMPOSITE", 90.0) if whole_hand else set_up())
+        tried.run(seconds)
+        return tried
+
+    return one

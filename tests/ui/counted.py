@@ -56,7 +56,7 @@ def main() -> None:
     gallery = Gallery(application, "light", (1280, 800))
     print("| screen | words | controls | asked |\n|---|---|---|---|")
     for name, state in STATES.items():
-        getattr(gallery, state)()
+        gallery.show_state(state)
         for screen in gallery.shell.findChildren(QWidget):
             if hasattr(screen, "show_research"):
                 screen.show_research(on=False)  # as the window opens it

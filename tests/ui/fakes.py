@@ -30,7 +30,7 @@ from carpus.core.results.camera_said import CameraSaid, camera_said
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.progress import Comparison
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.session.values import Event, MarkerSeries, QualitySeries, Session, SessionHeader, motion_of
+from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader, motion_of
 from carpus.core.simulation.recording import SimulatedPictures
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import (
@@ -73,23 +73,11 @@ def simulated(
     protocol: str = "wrist6",
 ) -> SimulatedPictures:
     """A bright, near, large hand: pictures by their number and the true motion."""
-    return SimulatedPictures(
-        RecordingSpec(
-            seed=5,
-            hand=side,
-            motion=motion,
-            seconds=seconds,
-            speed_hz=speed_hz,
-            light="bright",
-            skin_tone=1,  # type: ignore[arg-type]
-            distance_m=0.62,
-            hand_length_mm=196.0,
-            yaw_deg=3.0,
-            tilt_deg=4.0,
-            sleeve="none",
-            protocol=protocol,
-        )
-    )
+    spec = RecordingSpec(
+        seed=5, hand=side, motion=motion, seconds=seconds, speed_hz=speed_hz, protocol=protocol, light="bright",  # type: ignore[arg-type]
+        skin_tone=1, distance_m=0.62, hand_length_mm=196.0, yaw_deg=3.0, tilt_deg=4.0, sleeve="none",
+    )  # fmt: skip
+    return SimulatedPictures(spec)
 
 
 @lru_cache(maxsize=32)
@@ -187,18 +175,15 @@ def calibration(pictures: SimulatedPictures) -> Calibration:
     truth, spec = pictures.truth, pictures.spec
     count = len(spec.marker_protocol.markers)
     verdict = Verdict(np.full(count, 0.4), 184.0, 4.0, 0.66, 15, ())
-    fields = dict.fromkeys(Calibration.__dataclass_fields__)
-    known = {
-        "clicks": Clicks(spec.hand, spec.marker_protocol, truth.disc_pixel[0]),
-        "marker_position_w0_m": truth.marker_position_w0_m,
-        "rotation_w0_cam": truth.rotation_w0_cam,
-        "translation_w0_cam_m": truth.translation_w0_cam_m,
-        "neutral_cov_rad2": np.eye(3) * math.radians(1.0) ** 2,
-        "marker_covariance_w0_m2": np.tile(np.eye(3) * 1e-6, (count, 1, 1)),
-        "start_angles_rad": np.zeros(3),
-        "verdict": verdict,
-    }
-    return Calibration(**{name: known[name] for name in fields if name in known})
+    return Calibration(
+        clicks=Clicks(spec.hand, spec.marker_protocol, truth.disc_pixel[0]),
+        marker_position_w0_m=truth.marker_position_w0_m,
+        rotation_w0_cam=truth.rotation_w0_cam,
+        translation_w0_cam_m=truth.translation_w0_cam_m,
+        marker_covariance_w0_m2=np.tile(np.eye(3) * 1e-6, (count, 1, 1)),
+        start_angles_rad=np.zeros(3),
+        verdict=verdict,
+    )
 
 
 def set_up(exercise: str = "WRIST_FE", target_deg: float = 60.0) -> SetUp:
@@ -256,22 +241,10 @@ class FakeFeed:
 
     def counters(self) -> LiveCounters:
         return LiveCounters(
-            captured=self.place,
-            tracked=self.place,
-            dropped=0,
-            missing=0,
-            fps=30.0,
-            latency_p50_ms=6.0,
-            latency_p95_ms=11.0,
-            waiting_tracking=0,
-            catching_up_s=0.0,
-            rows_written=self.place,
-            pictures_written=0,
-            recording=self.recording,
-            paused=self.paused,
-            disk_free_bytes=2 * 10**10,
-            disk_minutes_left=212.0,
-        )
+            captured=self.place, tracked=self.place, dropped=0, missing=0, fps=30.0, latency_p50_ms=6.0,
+            latency_p95_ms=11.0, waiting_tracking=0, catching_up_s=0.0, rows_written=self.place, pictures_written=0,
+            recording=self.recording, paused=self.paused, disk_free_bytes=2 * 10**10, disk_minutes_left=212.0,
+        )  # fmt: skip
 
     def add_event(self, kind: str, text: str = "") -> bool:
         self.noted.append((kind, text))
@@ -377,6 +350,23 @@ def made_once(make: Callable[..., Session]) -> Callable[..., Session]:
     return lambda *values, **named: one(*map(hashable, values), **{key: hashable(v) for key, v in named.items()})
 
 
+def stored(
+    pictures: SimulatedPictures, when: datetime, exercise: str, session_id: str, events: tuple[Event, ...], *,
+    status: np.ndarray, motion: Motion, markers: MarkerSeries, quality: QualitySeries,
+) -> Session:  # fmt: skip
+    """A complete session of Linden 42 with what was measured in it."""
+    header = SessionHeader(
+        session_id=session_id, subject_id="Linden 42", created=when.isoformat(timespec="seconds"),
+        hand=pictures.spec.hand, protocol=pictures.spec.marker_protocol, exercise=exercise, software_version="1.0.0",
+        parameters="{}", joint_names=pictures.truth.joint_names, recording_id=f"{session_id} {when}",
+    )  # fmt: skip
+    return Session(
+        path=Path("none.h5"), header=header, camera=pictures.truth.camera, calibration=calibration(pictures),
+        timestamp_s=pictures.truth.timestamp_s, status=status, motion=motion, markers=markers, quality=quality,
+        events=events, smoothed=None, complete=True, recovered="",
+    )  # fmt: skip
+
+
 @made_once
 def session(
     when: datetime = NOW,
@@ -397,24 +387,8 @@ def session(
         with_moment(frame, angles_rad=frame.moment.angles_rad * scale)
         for frame in tracked_frames(pictures, tuple(hidden), tuple(lost))
     ]
-    header = SessionHeader(
-        session_id=session_id,
-        subject_id="Linden 42",
-        created=when.isoformat(timespec="seconds"),
-        hand=pictures.spec.hand,
-        protocol=pictures.spec.marker_protocol,
-        exercise=exercise,
-        software_version="1.0.0",
-        parameters="{}",
-        recording_id=f"{session_id} {when}",
-    )
-    cal = calibration(pictures)
-    return Session(
-        path=Path("none.h5"),
-        header=header,
-        camera=pictures.truth.camera,
-        calibration=cal,
-        timestamp_s=np.array([frame.timestamp_s for frame in frames]),
+    return stored(
+        pictures, when, exercise, session_id, tuple(events),
         status=np.array([int(frame.status) for frame in frames]),
         motion=motion_of(frames),
         markers=MarkerSeries(
@@ -426,11 +400,7 @@ def session(
         quality=QualitySeries(
             np.zeros(len(frames), int), np.ones((len(frames), 3)), np.full(len(frames), 6.0), np.full(len(frames), 12)
         ),
-        events=tuple(events),
-        smoothed=None,
-        complete=True,
-        recovered="",
-    )
+    )  # fmt: skip
 
 
 _FIGURES: dict[tuple[int, str, str], tuple[Session, SessionFigures]] = {}
@@ -509,20 +479,11 @@ class FakeStore:
     def add(self, entry: PatientEntry) -> str:
         self.added.append(entry)
         key = f"new-{len(self.added)}"
-        self.rows.insert(
-            0,
-            PatientRow(
-                key,
-                entry.pseudonym,
-                entry.side,
-                entry.dominance,
-                note=entry.note,
-                name=entry.name,
-                diagnosis=entry.diagnosis,
-                onset=entry.onset,
-                onset_day=entry.onset_day,
-            ),
-        )
+        row = PatientRow(
+            key, entry.pseudonym, entry.side, entry.dominance, note=entry.note, name=entry.name,
+            diagnosis=entry.diagnosis, onset=entry.onset, onset_day=entry.onset_day,
+        )  # fmt: skip
+        self.rows.insert(0, row)
         return key
 
     def change(self, patient_id: str, entry: PatientEntry) -> None:
@@ -615,18 +576,11 @@ class FakeSessions:
         for number, (day, scale) in enumerate(zip(days, scales, strict=True), 1):
             when = NOW - timedelta(days=day)
             hidden = [(44.0, 45.2, "CMC1"), (44.3, 45.0, "WRIST")] if day == 0 else ()
-            notes = [
-                Event(
-                    simulated(seconds=62.0, speed_hz=0.165).truth.timestamp_s[0] + 41.0,
-                    "note",
-                    "Repetition 7 stopped for pain.",
-                )
-            ]
-            pain = [Event(notes[0].time_s - 40, "pain", "2"), Event(notes[0].time_s + 20, "pain", "3")]
-            made = session(
-                when, scale, session_id=f"session-{number}", hidden=hidden, events=(*pain, *notes) if day == 0 else ()
-            )
-            self.sessions[f"session-{number}"] = made
+            start_s = float(self.pictures_of("right").truth.timestamp_s[0])
+            said = ((1.0, "pain", "2"), (61.0, "pain", "3"), (41.0, "note", "Repetition 7 stopped for pain."))
+            events = tuple(Event(start_s + time_s, kind, text) for time_s, kind, text in said) if day == 0 else ()
+            key = f"session-{number}"
+            self.sessions[key] = session(when, scale, session_id=key, hidden=hidden, events=events)
         left = session(NOW - timedelta(days=49), 1.25, session_id="session-left", side="left")
         self.sessions["session-left"] = left
         far = self.sessions["session-4"]
@@ -635,6 +589,9 @@ class FakeSessions:
         self.kept: dict[str, RepetitionChoices] = {}
         self.results: list[SessionEntry] = []
         self.pictures = pictures
+
+    def pictures_of(self, side: str) -> SimulatedPictures:
+        return simulated(seconds=62.0, speed_hz=0.165, side=side)
 
     def session(self, session_id: str) -> Session:
         return self.sessions[session_id]
@@ -645,8 +602,7 @@ class FakeSessions:
     def picture(self, session_id: str, row: int) -> ByteImage | None:
         if not self.pictures:
             return None
-        side = self.sessions[session_id].header.hand
-        pictures = simulated(seconds=62.0, speed_hz=0.165, side=side)
+        pictures = self.pictures_of(self.sessions[session_id].header.hand)
         return pictures.sensed(row, pictures.clean(row))[0]
 
     def results_of(self, session_id: str) -> list[SessionEntry]:

@@ -6,35 +6,21 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import datetime, timedelta
-from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 
 from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.records.values import SessionEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session, SessionHeader
+from carpus.core.session.values import Event, MarkerSeries, Motion, QualitySeries, Session
 from carpus.core.simulation.recording import SimulatedPictures
-from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import ByteImage
-from tests.ui.fakes import FPS, NOW, FakeSessions, calibration, made_once
+from tests.ui.fakes import FPS, NOW, FakeSessions, made_once, simulated, stored
 
-SECONDS = 40.0
+SECONDS, SPEED_HZ = 40.0, 0.2
 JOINT_SD_DEG = 2.0
 SD_GROWS_DEG_S = 12.0
 HIDES_BEYOND_DEG = 55.0
 """Bending of the middle joint beyond which the finger's outer discs are not seen."""
-
-
-@lru_cache(maxsize=4)
-def simulated_hand(motion: str = "fist", seconds: float = SECONDS, side: str = "right") -> SimulatedPictures:
-    """A bright, near, large hand with 21 discs."""
-    spec = RecordingSpec(
-        seed=5, protocol="hand21", hand=side, motion=motion, seconds=seconds, speed_hz=0.2, light="bright",  # type: ignore[arg-type]
-        skin_tone=1, distance_m=0.62, hand_length_mm=196.0, yaw_deg=3.0, tilt_deg=4.0, sleeve="none",
-    )  # fmt: skip
-    return SimulatedPictures(spec)
 
 
 @made_once
@@ -53,7 +39,7 @@ def hand_session(
 
     ``hidden`` (start_s, end_s, marker) and ``lost`` (start_s, end_s) in seconds after the first frame.
     """
-    pictures = simulated_hand(motion, side=side)
+    pictures = simulated(motion, SECONDS, SPEED_HZ, side, "hand21")
     truth = pictures.truth
     names = joint_angle_names(False)
     time_s = truth.timestamp_s - truth.timestamp_s[0]
@@ -83,7 +69,6 @@ def hand_session(
     status[gone] = 2
     measured[gone] = math.nan
     known = np.where(gone, math.nan, 1.0)
-    cal = calibration(pictures)
     motion_values = Motion(
         position_m=truth.position_m * known[:, None],
         velocity_m_s=truth.velocity_m_s * known[:, None],
@@ -98,18 +83,10 @@ def hand_session(
         joint_velocity_rad_s=truth.joint_velocity_rad_s * known[:, None],
         joint_position_m=truth.joint_position_w0_m * known[:, None, None],
     )
-    return Session(
-        path=Path("none.h5"),
-        header=SessionHeader(
-            session_id=session_id, subject_id="Linden 42", created=when.isoformat(timespec="seconds"), hand=side,  # type: ignore[arg-type]
-            protocol=HAND21, exercise=exercise, software_version="1.0.0", parameters="{}", joint_names=names,
-            recording_id=f"{session_id} {when}",
-        ),
-        camera=truth.camera,
-        calibration=cal,
-        timestamp_s=truth.timestamp_s,
-        status=status,
-        motion=motion_values,
+    return stored(
+        pictures, when, exercise, session_id,
+        (Event(float(truth.timestamp_s[300]), "note", "Swelling less than last week."),),
+        status=status, motion=motion_values,
         markers=MarkerSeries(
             truth.disc_position_cam_m * known[:, None, None],
             measured,
@@ -119,10 +96,6 @@ def hand_session(
         quality=QualitySeries(
             np.zeros(count, int), np.ones((count, len(names))), np.full(count, 30.0), np.full(count, 60)
         ),
-        events=(Event(float(truth.timestamp_s[300]), "note", "Swelling less than last week."),),
-        smoothed=None,
-        complete=True,
-        recovered="",
     )  # fmt: skip
 
 
@@ -142,11 +115,8 @@ class FakeHandSessions(FakeSessions):
         self.results: list[SessionEntry] = []
         self.pictures = pictures
 
-    def picture(self, session_id: str, row: int) -> ByteImage | None:
-        if not self.pictures:
-            return None
-        pictures = simulated_hand(side=self.sessions[session_id].header.hand)
-        return pictures.sensed(row, pictures.clean(row))[0]
+    def pictures_of(self, side: str) -> SimulatedPictures:
+        return simulated("fist", SECONDS, SPEED_HZ, side, "hand21")
 
 
 def without_hidden(session: Session) -> Session:

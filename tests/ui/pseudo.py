@@ -72,8 +72,7 @@ def main() -> None:
         for name in STATES:
             if len(sys.argv) > 3 and name not in sys.argv[3:]:
                 continue
-            getattr(gallery, name)()
-            gallery.settle()
+            gallery.show_state(name)
             for line in complaints(gallery.shell, may_elide=True):
                 print(f"{name}: {line}")
             if code == CODE:

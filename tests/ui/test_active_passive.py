@@ -20,7 +20,7 @@ from carpus.ui.report.pdf import write_session_report
 from carpus.ui.report.tables import repetition_words
 from tests.ui.fakes import figures_once, hand_values_today, session
 from tests.ui.hand_fakes import FakeHandSessions
-from tests.ui.test_report_pdf import words_of
+from tests.ui.printed import words_of
 
 HELPED_S = 35.0
 
@@ -36,16 +36,13 @@ def helped_session(*events: tuple[float, str]) -> Session:
 
 
 def mean_of(figures: SessionFigures | None) -> float:
-    assert figures is not None
     row = figures.row("flexion", 1)
-    assert row is not None
     return row.mean_deg
 
 
 def test_what_was_said_to_be_passive_counts_apart_and_never_as_active() -> None:
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     helped = [number for number, one in enumerate(figures.repetitions) if one.helped]
-    assert figures.passive is not None
     assert figures.counted >= 3
     assert figures.passive.counted == len(helped) >= 3
     assert figures.counted + len(helped) == len([one for one in figures.repetitions if not one.unmeasured])
@@ -63,8 +60,6 @@ def test_where_no_repetitions_are_counted_what_was_helped_is_not_measured(exerci
         return figures_once(replace(made, header=replace(made.header, exercise=exercise)))
 
     row, whole = free((HELPED_S, PASSIVE)).row("flexion", 1), free().row("flexion", 1)
-    assert row is not None
-    assert whole is not None
     assert row.best_deg < 0.75 * whole.best_deg
     assert not free((0.0, PASSIVE)).rows, "nothing was active"
     assert repetition_words(free((HELPED_S, PASSIVE))).endswith("without what was passive")
@@ -121,7 +116,6 @@ def test_a_person_has_the_last_word_and_active_again_ends_a_stretch() -> None:
 def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     found = active_passive(figures, hand_values_today())
-    assert found is not None
     flexion = next(row for row in found.rows if row[0] == "Flexion")
     assert flexion[4] == f"{BY_HAND} 48° / 60°"
     assert f"{mean_of(figures):.0f}°" in flexion[1]
@@ -133,7 +127,6 @@ def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
 
 def test_where_passive_went_less_far_the_table_says_so() -> None:
     found = active_passive(figures_once(helped_session((0.0, PASSIVE), (HELPED_S, ACTIVE))), ())
-    assert found is not None
     arc = next(row for row in found.rows if row[0] == "Whole arc")
     assert arc[3].startswith("\N{MINUS SIGN}")
     assert "error" in arc[3]
@@ -145,14 +138,12 @@ def test_the_sentence_keeps_the_sign_of_what_does_not_reach_neutral() -> None:
     assert row is not None
     made = replace(figures, rows=tuple(replace(one, mean_deg=-12.0) if one is row else one for one in figures.rows))
     found = active_passive(made, ())
-    assert found is not None
     assert "\N{MINUS SIGN}12° by itself" in found.said
 
 
 def test_beside_at_least_stands_what_the_goniometer_said() -> None:
     figures = figures_once(FakeHandSessions().session("hand-7"))
     found = active_passive(figures, hand_values_today())
-    assert found is not None
     ring = next(row for row in found.rows if row[0] == "Ring")
     assert f"{BY_HAND} 70° / 90°" in ring
     assert any(cell.startswith("≥") for row in found.rows for cell in row)

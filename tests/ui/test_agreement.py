@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QRectF
-from pytestqt.qtbot import QtBot
 
 from carpus.core.agreement.compare import Compared, Pairs
 from carpus.core.agreement.statistics import agreement, judged
@@ -21,6 +21,7 @@ from carpus.ui.plot.style import screen_style
 from carpus.ui.ports import Preferences
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.fakes import compared
 
 
@@ -97,16 +98,12 @@ def test_what_lies_within_the_plot_is_where_its_axis_says(theme: Theme) -> None:
     assert not any("-" in text for text in words)
 
 
-def test_the_screen_shows_one_angle_and_both_views(qtbot: QtBot, theme: Theme) -> None:
-    screen = AgreementScreen(theme, Keys())
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
+def test_the_screen_shows_one_angle_and_both_views(theme: Theme, show: Show[AgreementScreen]) -> None:
+    screen = show(AgreementScreen(theme, Keys()))
     assert not screen.save_button.isEnabled()
     found = compared()
     screen.show_compared(found, "optical.c3d", 5.0, may_map=True)
     assert screen.angle.currentData() == "flexion"
-    assert screen.chart.plot is not None
     assert screen.chart.plot.view == "differences"
     screen.next_view()
     assert screen.chart.plot.view == "curves"
@@ -120,23 +117,23 @@ def test_the_screen_shows_one_angle_and_both_views(qtbot: QtBot, theme: Theme) -
     assert not screen.save_button.isEnabled()
 
 
-def test_what_must_be_said_before_comparing() -> None:
-    class Told:
-        kind = "points"
-
-    outline = Told()
-    palm = {"WRIST": "a", "MCP2": "b", "MCP5": "c"}
-    assert missing(outline, palm) == ""  # type: ignore[arg-type]
-    assert missing(outline, dict(list(palm.items())[:2]) | {"TIP2": "d"}) == "discs"  # type: ignore[arg-type]
-    outline.kind = "angles"
-    assert missing(outline, {"flexion": "x"}) == "time"  # type: ignore[arg-type]
-    assert missing(outline, {"time": "t"}) == "angle"  # type: ignore[arg-type]
-    assert missing(outline, {"time": "t", "flexion": "x"}) == ""  # type: ignore[arg-type]
+PALM = {"WRIST": "a", "MCP2": "b", "MCP5": "c"}
 
 
-def test_the_limit_is_set_in_the_settings(qtbot: QtBot, theme: Theme) -> None:
-    screen = SettingsScreen(theme, Preferences())
-    qtbot.addWidget(screen)
+@pytest.mark.parametrize(
+    ("kind", "named", "said"),
+    [
+        ("points", PALM, ""), ("points", {"WRIST": "a", "MCP2": "b", "TIP2": "d"}, "discs"),
+        ("angles", {"flexion": "x"}, "time"), ("angles", {"time": "t"}, "angle"),
+        ("angles", {"time": "t", "flexion": "x"}, ""),
+    ],
+)  # fmt: skip
+def test_what_must_be_said_before_comparing(kind: str, named: dict[str, str], said: str) -> None:
+    assert missing(SimpleNamespace(kind=kind), named) == said
+
+
+def test_the_limit_is_set_in_the_settings(theme: Theme, show: Show[SettingsScreen]) -> None:
+    screen = show(SettingsScreen(theme, Preferences()))
     told: list[Preferences] = []
     screen.changed.connect(told.append)
     for text in ("5", "200", ""):

@@ -18,6 +18,7 @@ from carpus.ui.beside.words import facts_words, headline, table_rows, unfair_wor
 from carpus.ui.keys import Keys
 from carpus.ui.report.hand_rows import followed_keys
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.fakes import NOW, FakeSessions, session
 from tests.ui.hand_fakes import hand_session
 
@@ -84,11 +85,10 @@ def test_an_unfair_pair_has_its_reason_once_and_no_judgement(right: SessionFigur
     assert rows[0].difference == "23° less", "the figures are shown"
 
 
-def test_the_left_hand_is_mirrored_and_says_so_until_m(qtbot: QtBot, theme: Theme) -> None:
-    store = FakeSessions(pictures=False)
-    screen = BesideScreen(theme, Keys(), Background(), store)
-    qtbot.addWidget(screen)
-    screen.show()
+def test_the_left_hand_is_mirrored_and_says_so_until_m(
+    qtbot: QtBot, theme: Theme, show: Show[BesideScreen], background: Background
+) -> None:
+    screen = show(BesideScreen(theme, Keys(), background, FakeSessions(pictures=False)))
     screen.begin(("session-left", "session-7"), "right")
     qtbot.waitUntil(lambda: screen.shown is not None)
     assert screen.ids == ("session-7", "session-left"), "the affected hand first"
@@ -99,7 +99,6 @@ def test_the_left_hand_is_mirrored_and_says_so_until_m(qtbot: QtBot, theme: Them
     qtbot.keyClick(screen, Qt.Key.Key_M)
     assert not second.mirrored
     assert "mirrored" not in second.name
-    assert screen.together is not None
     screen.player.tracks[1].sought.emit(30.0)  # pointed at in the second one's track
     assert screen.together.step.at(screen.playing.time_s)[1] == pytest.approx(30.0, abs=1e-6)
     screen.begin(("session-7", "session-6"))

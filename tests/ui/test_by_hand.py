@@ -27,21 +27,18 @@ from carpus.ui.progress.flow import write_tables
 from carpus.ui.report.pdf import progress_report, session_report, write_progress_report, write_session_report
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import NOW, FakeSessions, hand_values
-from tests.ui.test_report_pdf import words_of
+from tests.ui.printed import words_of
 
 TODAY = NOW.date()
 
 
 @pytest.fixture
-def screen(theme: Theme, qtbot: QtBot) -> ByHandScreen:
+def screen(theme: Theme, show: Show[ByHandScreen]) -> ByHandScreen:
     days = iter((TODAY - timedelta(days=1),))
-    made = ByHandScreen(theme, lambda: next(days, TODAY))  # made yesterday, it stood open over night
-    qtbot.addWidget(made)
-    made.resize(1280, 740)
-    made.show()
-    return made
+    return show(ByHandScreen(theme, lambda: next(days, TODAY)))  # made yesterday, it stood open over night
 
 
 def typed(screen: ByHandScreen, name: str, *texts: str) -> None:
@@ -121,13 +118,6 @@ def test_enter_goes_on_nonsense_is_refused_and_the_unusual_is_asked_about(screen
 
 
 @pytest.fixture
-def background() -> Iterator[Background]:
-    made = Background()
-    yield made
-    made.wait()
-
-
-@pytest.fixture
 def library(tmp_path: Path) -> Iterator[Library]:
     opened = Library(tmp_path / "data")
     yield opened
@@ -135,14 +125,13 @@ def library(tmp_path: Path) -> Iterator[Library]:
 
 
 def test_what_is_saved_is_in_the_register_and_in_the_log(
-    theme: Theme, library: Library, background: Background, qtbot: QtBot
+    theme: Theme, host: QWidget, library: Library, background: Background, qtbot: QtBot
 ) -> None:
     patient = library.patients.add(PatientEntry("Linden 42", "left"))
-    told, window = Told("progress", answer=0), QWidget()
-    qtbot.addWidget(window)
+    told = Told("progress", answer=0)
     closed: list[str] = []
     shell = SimpleNamespace(close_surely=lambda: closed.append("closed"))
-    context = a_context(theme, window, told, background, library=library)
+    context = a_context(theme, host, told, background, library=library)
     now = context.now
     now.patient = PatientRow(patient, "Linden 42", "left")
     flow = ByHandFlow(context)
@@ -151,16 +140,16 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     qtbot.addWidget(screen)
     screen.show()
     flow.show()
-    qtbot.waitUntil(lambda: told.place == "by_hand", timeout=60_000)
+    qtbot.waitUntil(lambda: told.place == "by_hand")
     assert screen.side == "left"
     typed(screen, "FLEXION", "170")
     screen.save_button.click()
-    qtbot.waitUntil(lambda: screen.state.text() == "Kept.", timeout=60_000)
+    qtbot.waitUntil(lambda: screen.state.text() == "Kept.")
     (kept,) = library.by_hand(patient)
     assert (kept.value, kept.by, kept.side, kept.day) == (170.0, "MK", "left", TODAY)
     typed(screen, "FLEXION", "71")
     screen.save_button.click()
-    qtbot.waitUntil(lambda: len(library.by_hand(patient)) == 2 and not background.busy, timeout=60_000)
+    qtbot.waitUntil(lambda: len(library.by_hand(patient)) == 2 and not background.busy)
     assert screen.form.rows["FLEXION"].last.text() == "changed"
     assert "170° active · MK" in screen.form.rows["FLEXION"].last.toolTip()
     assert told.asked == ["Unusual: check, or keep it"]
@@ -171,7 +160,7 @@ def test_what_is_saved_is_in_the_register_and_in_the_log(
     for person, name, written in ((heron, "Heron 17", ""), (patient, "Linden 42", "70")):
         now.patient = PatientRow(person, name, "left")
         flow.show()
-        qtbot.waitUntil(lambda person=person: screen.record.patient_id == person, timeout=60_000)
+        qtbot.waitUntil(lambda person=person: screen.record.patient_id == person)
         assert screen.form.rows["FLEXION"].fields[0][1].text() == written, name
     assert flow.asks_before_closing(), "what is written would be lost with the window"
     assert told.asked[1:] == ["Leave without saving?"]

@@ -2,33 +2,31 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Callable
 from dataclasses import replace
 from datetime import timedelta
 from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from carpus.app import compose
-from carpus.app.settings import RecordingSettings, Settings
+from carpus.app.compose import Desktop
 from carpus.core.records.library import Library
 from carpus.ui.clinic.screen import ClinicScreen, write_clinic_page
 from carpus.ui.keys import Keys
 from carpus.ui.last_places import LastPlaces
 from carpus.ui.theme import Theme
 from tests.records.samples import LINDEN, T0, record
+from tests.ui.conftest import Show
 from tests.ui.fakes import clinic
-from tests.ui.test_report_pdf import tool, words_of
+from tests.ui.printed import reach_of, words_of
 
 
-def test_a_patient_is_opened_from_the_list_and_weeks_are_turned(qtbot: QtBot, theme: Theme) -> None:
-    screen = ClinicScreen(theme, Keys())
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
+def test_a_patient_is_opened_from_the_list_and_weeks_are_turned(
+    qtbot: QtBot, theme: Theme, show: Show[ClinicScreen]
+) -> None:
+    screen = show(ClinicScreen(theme, Keys()))
     week = clinic()
     screen.show_week(week)
     patients, weeks, pages = [], [], []
@@ -39,7 +37,8 @@ def test_a_patient_is_opened_from_the_list_and_weeks_are_turned(qtbot: QtBot, th
     qtbot.keyClick(screen.due.buttons[0], Qt.Key.Key_Return)
     assert patients == [week.due[1].patient_id, week.due[0].patient_id]
     qtbot.mouseClick(screen.before, Qt.MouseButton.LeftButton)
-    assert weeks == [week.monday - timedelta(days=7)]
+    screen.before.click()  # though the first is still read
+    assert weeks == [week.monday - timedelta(days=7), week.monday - timedelta(days=14)]
     screen.save.click()
     assert pages
     (everybody, first, *_) = screen.sessions.rows
@@ -68,49 +67,29 @@ def test_the_page_says_how_many_it_has_no_room_for(tmp_path: Path) -> None:
     shown = words.count("Aspen ")
     assert shown > 10
     assert f"{90 - shown} more on the screen" in words
-    edges = [float(one) for one in re.findall(r'yMax="([-\d.]+)"', tool("pdftotext", "-bbox", str(path), "-"))]
-    assert max(edges) < 842 - 28
-
-
-def test_two_presses_go_two_weeks_back_though_the_first_is_still_read(qtbot: QtBot, theme: Theme) -> None:
-    screen = ClinicScreen(theme, Keys())
-    qtbot.addWidget(screen)
-    week = clinic()
-    screen.show_week(week)
-    weeks: list[object] = []
-    screen.week.connect(weeks.append)
-    screen.before.click()
-    screen.before.click()
-    assert weeks == [week.monday - timedelta(days=7), week.monday - timedelta(days=14)]
+    assert reach_of(path)[3] < 842 - 28
 
 
 def test_in_the_window_from_the_patients_to_who_is_due_and_back(
-    qtbot: QtBot, qapp: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    qtbot: QtBot, open_desktop: Callable[..., Desktop], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     library = Library(tmp_path / "data")
     linden = library.patients.add(LINDEN)
     path = library.index.new_path(linden, LINDEN.pseudonym, "WRIST_FE", "right", T0)
     library.index.enter(record(path, LINDEN.pseudonym, T0), linden, "AB")
     library.close()
-    settings = Settings(recording=RecordingSettings(folder=str(tmp_path / "data")))
-    today = (T0 + timedelta(days=30)).date()
-    desktop = compose.compose(qapp, settings, settings_folder=tmp_path / "settings", today=today)
+    desktop = open_desktop(today=(T0 + timedelta(days=30)).date())
     journey = desktop.journey
-    try:
-        desktop.show()
-        qtbot.mouseClick(journey.patients.screen.clinic_button, Qt.MouseButton.LeftButton)
-        qtbot.waitUntil(lambda: journey.place == "clinic", timeout=60_000)
-        assert journey.clinic.screen.due.rows[0][-1] == "2 days overdue"
-        page = tmp_path / "clinic.pdf"
-        monkeypatch.setattr(LastPlaces, "ask_where_to_save", lambda *_: page)
-        journey.clinic.screen.save.click()
-        qtbot.waitUntil(lambda: journey.messages.busy, timeout=60_000)
-        assert page.is_file(), "and it is said"
-        qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
-        assert not journey.messages.busy
-        qtbot.keyClick(journey.clinic.screen.due.buttons[0], Qt.Key.Key_Return)
-        assert journey.place == "patients"
-        assert journey.patients.screen.card.isVisible()
-    finally:
-        desktop.close()
-        qtbot.waitUntil(lambda: not journey.background.busy, timeout=60_000)
+    qtbot.mouseClick(journey.patients.screen.clinic_button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: journey.place == "clinic")
+    assert journey.clinic.screen.due.rows[0][-1] == "2 days overdue"
+    page = tmp_path / "clinic.pdf"
+    monkeypatch.setattr(LastPlaces, "ask_where_to_save", lambda *_: page)
+    journey.clinic.screen.save.click()
+    qtbot.waitUntil(lambda: journey.messages.busy)
+    assert page.is_file(), "and it is said"
+    qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
+    assert not journey.messages.busy
+    qtbot.keyClick(journey.clinic.screen.due.buttons[0], Qt.Key.Key_Return)
+    assert journey.place == "patients"
+    assert journey.patients.screen.card.isVisible()

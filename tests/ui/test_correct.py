@@ -14,6 +14,7 @@ from carpus.ui.correct.places import Places
 from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.keys import Keys
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.fakes import FakeCorrections, FakeSessions
 from tests.ui.hand_fakes import hand_session
 
@@ -26,12 +27,10 @@ def sessions() -> FakeSessions:
 
 
 @pytest.fixture
-def screen(qtbot: QtBot, theme: Theme, sessions: FakeSessions, request: pytest.FixtureRequest) -> CorrectScreen:
-    background = Background()
-    shown = CorrectScreen(theme, Keys(), background, FakeCorrections(sessions, pictures=False))
-    qtbot.addWidget(shown)
-    shown.resize(1280, 744)
-    shown.show()
+def screen(
+    qtbot: QtBot, theme: Theme, show: Show[CorrectScreen], sessions: FakeSessions, background: Background
+) -> CorrectScreen:
+    shown = show(CorrectScreen(theme, Keys(), background, FakeCorrections(sessions, pictures=False)))
     shown.begin("session-7", sessions.session("session-7"), ROW)
     qtbot.waitUntil(lambda: not background.busy and shown.picture.image is not None)
     return shown
@@ -49,12 +48,10 @@ def drag(qtbot: QtBot, screen: CorrectScreen, start: np.ndarray, end: np.ndarray
 
 
 def corrections(screen: CorrectScreen) -> tuple[Correction, ...]:
-    assert screen.places is not None
     return screen.places.corrections()
 
 
 def test_dragging_a_name_to_a_spot_puts_it_on_the_middle_of_the_spot(qtbot: QtBot, screen: CorrectScreen) -> None:
-    assert screen.places is not None
     start = screen.places.before(ROW)[3]
     assert not screen.primary.isEnabled()
     drag(qtbot, screen, start, np.array([423.0, 118.0]))
@@ -71,7 +68,6 @@ def test_dragging_a_name_to_a_spot_puts_it_on_the_middle_of_the_spot(qtbot: QtBo
 
 
 def test_dragging_a_name_onto_another_disc_swaps_the_two(qtbot: QtBot, screen: CorrectScreen) -> None:
-    assert screen.places is not None
     before = screen.places.before(ROW).copy()
     drag(qtbot, screen, before[2], before[4])
     now = screen.places.now(ROW)
@@ -80,7 +76,6 @@ def test_dragging_a_name_onto_another_disc_swaps_the_two(qtbot: QtBot, screen: C
 
 
 def test_exchanged_names_are_told_before_and_enter_mends_them(qtbot: QtBot, screen: CorrectScreen) -> None:
-    assert screen.places is not None
     before = screen.places.before(ROW).copy()
     asked: list[object] = []
     screen.wanted.connect(lambda _, said: asked.append(said))
@@ -97,7 +92,6 @@ def test_exchanged_names_are_told_before_and_enter_mends_them(qtbot: QtBot, scre
 
 
 def test_a_name_far_from_its_place_is_told_before(qtbot: QtBot, screen: CorrectScreen) -> None:
-    assert screen.places is not None
     asked: list[object] = []
     screen.wanted.connect(lambda _, said: asked.append(said))
     drag(qtbot, screen, screen.places.before(ROW)[5], np.array([600.0, 60.0]))
@@ -117,13 +111,11 @@ def test_names_on_crossed_fingers_are_told() -> None:
         wrong, pair = places.copy(), [markers.index(one), markers.index(other)]
         wrong[pair] = places[pair[::-1]]
         told = name_doubt(session, row, wrong, [one, other])
-        assert told is not None
         assert told.exchanged == (one, other)
 
 
 def test_a_name_stands_nearest_its_own_disc_or_has_a_line_to_it(screen: CorrectScreen) -> None:
     """Discs so near to each other that there is no room beside each: at the worst a name goes further off."""
-    assert screen.places is not None
     screen.grab()
     now = screen.places.now(ROW)
     rings = {name: on_screen(screen, now[number]) for number, name in enumerate(screen.places.markers)}
@@ -141,7 +133,6 @@ def test_a_name_stands_nearest_its_own_disc_or_has_a_line_to_it(screen: CorrectS
 
 
 def test_a_name_is_dragged_by_its_words_too(qtbot: QtBot, screen: CorrectScreen) -> None:
-    assert screen.places is not None
     screen.grab()
     before = screen.places.before(ROW).copy()
     left, picture = Qt.MouseButton.LeftButton, screen.picture
@@ -158,7 +149,6 @@ def test_a_name_is_dragged_by_its_words_too(qtbot: QtBot, screen: CorrectScreen)
 
 
 def test_keys_do_the_same(qtbot: QtBot, screen: CorrectScreen) -> None:
-    assert screen.places is not None
     before = screen.places.before(ROW).copy()
     screen.rows["MCP4"].click()
     qtbot.keyClick(screen.rows["MCP4"], Qt.Key.Key_Right)
@@ -172,7 +162,6 @@ def test_keys_do_the_same(qtbot: QtBot, screen: CorrectScreen) -> None:
 
 
 def test_a_click_without_a_drag_only_chooses(qtbot: QtBot, screen: CorrectScreen) -> None:
-    assert screen.places is not None
     qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=on_screen(screen, screen.places.before(ROW)[5]))
     assert screen.current == "MCP5"
     assert corrections(screen) == ()
@@ -196,7 +185,6 @@ def test_without_stored_pictures_the_spots_are_shown_and_said(screen: CorrectScr
 
 
 def test_each_picture_is_corrected_by_itself(qtbot: QtBot, screen: CorrectScreen) -> None:
-    assert screen.places is not None
     screen.put("MCP3", screen.places.before(ROW)[3])
     screen.go_on(5)
     qtbot.waitUntil(lambda: screen.picture.row == ROW + 5)

@@ -89,7 +89,6 @@ def test_time_is_to_scale_and_can_be_looked_into(qtbot: QtBot, chart: ProgressCh
         chart.zoom_in()
     start, end = chart.shown()
     whole = chart.extent()
-    assert whole is not None
     assert end - start == pytest.approx((whole[1] - whole[0]) / 1.25**3)
     assert place(chart, 6).x() > chart.panels()[0][0].box.right()
     drag(qtbot, chart.face, QPointF(chart.panels()[0][0].box.center().toPoint()), -2000)

@@ -151,19 +151,6 @@ def test_no_sheet_is_forgotten() -> None:
     assert _all_sheets() == set(SHEETS)
 
 
-@pytest.fixture
-def host(qtbot: QtBot) -> Iterator[QWidget]:
-    widget = QWidget()
-    qtbot.addWidget(widget)
-    widget.resize(1280, 800)
-    widget.show()
-    qtbot.waitExposed(widget)
-    widget.activateWindow()
-    yield widget
-    for sheet in widget.findChildren(Sheet):
-        sheet.close_sheet()
-
-
 def _pressed(sheet: Sheet) -> list[str]:
     """What is pressed from now on."""
     said: list[str] = []
@@ -178,7 +165,6 @@ def test_enter_is_the_answer_that_says_so_and_loses_nothing(
 ) -> None:
     sheet, answer = SHEETS[kind](host, theme)
     focused = host.focusWidget()
-    assert sheet.default is not None
     if answer:
         assert sheet.default.text() == answer
     assert focused is sheet.default or isinstance(focused, FIELDS) or not takes_enter(focused)

@@ -16,44 +16,41 @@ from tests.ui.gallery import ERASED_SESSION
 
 
 @pytest.fixture
-def sheet(qtbot: QtBot, theme: Theme) -> EraseSheet:
-    host = QWidget()
-    qtbot.addWidget(host)
-    host.resize(1280, 744)
-    host.show()
+def sheet(host: QWidget, theme: Theme) -> EraseSheet:
     sheet = EraseSheet(host, theme)
-    sheet.host = host  # type: ignore[attr-defined]
-    sheet.done = []  # type: ignore[attr-defined]
-    sheet.erase.connect(lambda: sheet.done.append("erase"))  # type: ignore[attr-defined]
-    sheet.archive.connect(lambda: sheet.done.append("archive"))  # type: ignore[attr-defined]
     sheet.begin(ERASED_SESSION)
     return sheet
 
 
+@pytest.fixture
 def done(sheet: EraseSheet) -> list[str]:
-    return sheet.done  # type: ignore[attr-defined, no-any-return]
+    """What was answered."""
+    answers: list[str] = []
+    sheet.erase.connect(lambda: answers.append("erase"))
+    sheet.archive.connect(lambda: answers.append("archive"))
+    return answers
 
 
-def test_enter_archives(qtbot: QtBot, sheet: EraseSheet) -> None:
+def test_enter_archives(qtbot: QtBot, sheet: EraseSheet, done: list[str]) -> None:
     qtbot.keyClick(sheet.instead, Qt.Key.Key_Return)
-    assert done(sheet) == ["archive"]
+    assert done == ["archive"]
     assert not sheet.isVisible()
 
 
-def test_the_name_typed_as_asked_presses_nothing(qtbot: QtBot, sheet: EraseSheet) -> None:
+def test_the_name_typed_as_asked_presses_nothing(qtbot: QtBot, sheet: EraseSheet, done: list[str]) -> None:
     """Keys go to whatever has the keyboard, as a person's do: the space of the name is a letter."""
     for letter in "Linden 42":
         focused = sheet.window().focusWidget()
         assert focused is sheet.line
         qtbot.keyClicks(focused, letter)
-    assert done(sheet) == []
+    assert done == []
     assert sheet.isVisible()
     assert sheet.for_good.isEnabled()
     qtbot.keyClick(sheet.line, Qt.Key.Key_Return)
-    assert done(sheet) == ["archive"], "Enter is what the button that bears it says"
+    assert done == ["archive"], "Enter is what the button that bears it says"
 
 
-def test_only_the_pseudonym_lets_it_be_erased_and_never_enter(qtbot: QtBot, sheet: EraseSheet) -> None:
+def test_only_the_pseudonym_lets_it_be_erased_and_never_enter(qtbot: QtBot, sheet: EraseSheet, done: list[str]) -> None:
     assert not sheet.for_good.isEnabled()
     qtbot.keyClicks(sheet.line, "Linden 4")
     assert not sheet.for_good.isEnabled()
@@ -61,17 +58,17 @@ def test_only_the_pseudonym_lets_it_be_erased_and_never_enter(qtbot: QtBot, shee
     assert sheet.for_good.isEnabled()
     sheet.for_good.setFocus()
     qtbot.keyClick(sheet.for_good, Qt.Key.Key_Return)
-    assert done(sheet) == []
+    assert done == []
     sheet.for_good.click()
-    assert done(sheet) == ["erase"]
+    assert done == ["erase"]
     sheet.begin(ERASED_SESSION)
     assert not sheet.for_good.isEnabled(), "the next one is asked anew"
 
 
-def test_esc_does_nothing(qtbot: QtBot, sheet: EraseSheet) -> None:
+def test_esc_does_nothing(qtbot: QtBot, sheet: EraseSheet, done: list[str]) -> None:
     qtbot.keyClick(sheet.instead, Qt.Key.Key_Escape)
     assert not sheet.isVisible()
-    assert done(sheet) == []
+    assert done == []
 
 
 def test_it_says_what_goes_what_stays_and_what_comes_too_early(sheet: EraseSheet) -> None:
@@ -83,10 +80,7 @@ def test_it_says_what_goes_what_stays_and_what_comes_too_early(sheet: EraseSheet
     sheet.begin(replace(ERASED_SESSION, kept_until=date(2026, 11, 19), made=tuple(map(str, range(5)))))
     assert "before that day" not in sheet.ends.text()
     assert "(5): 0, 1, 2, …" in sheet.stays.text()
-    sheet.begin(replace(ERASED_SESSION, when=None, kept_until=None, sessions=9, files=31))
-    assert "9 sessions" in sheet.goes.text()
-    sheet.begin(replace(ERASED_SESSION, when=None, kept_until=None, sessions=1, files=31))
-    assert "1 session with" in sheet.goes.text()
-    sheet.begin(replace(ERASED_SESSION, when=None, kept_until=None, sessions=9, files=31))
-    assert "real name" in sheet.goes.text()
+    for sessions, said in ((1, "1 session with"), (9, "9 sessions"), (9, "real name")):
+        sheet.begin(replace(ERASED_SESSION, when=None, kept_until=None, sessions=sessions, files=31))
+        assert said in sheet.goes.text()
     assert sheet.ends.text() == "Nobody can bring it back."

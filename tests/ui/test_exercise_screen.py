@@ -14,19 +14,17 @@ from carpus.ui.ports import PatientRow
 from carpus.ui.setup.camera import CameraScreen
 from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.fakes import set_up
 
 LINDEN = PatientRow("linden", "Linden 42", "right")
 
 
 @pytest.fixture
-def screen(qtbot: QtBot) -> ExerciseScreen:
-    shown = ExerciseScreen(Theme())
-    qtbot.addWidget(shown)
-    shown.resize(1280, 740)
-    shown.begin(LINDEN, None, "right", False)
-    shown.show()
-    return shown
+def screen(show: Show[ExerciseScreen]) -> ExerciseScreen:
+    screen = ExerciseScreen(Theme())
+    screen.begin(LINDEN, None, "right", False)
+    return show(screen)
 
 
 @pytest.mark.parametrize(
@@ -88,17 +86,13 @@ def test_enter_goes_on_from_every_field_and_after_the_targets_were_taken(qtbot: 
         assert len(sent) == before + 1, field
 
 
-def test_while_a_source_is_opened_the_keyboard_leads_nowhere_else(qtbot: QtBot, theme: Theme) -> None:
+def test_while_a_source_is_opened_the_keyboard_leads_nowhere_else(theme: Theme, show: Show[QWidget]) -> None:
     """The button that was pressed can no longer be: Qt would go on to what comes next, the way back."""
-    host = QWidget()
-    qtbot.addWidget(host)
-    column, before = QVBoxLayout(host), QPushButton("Exercise")
-    screen = CameraScreen(theme)
-    column.addWidget(before)
-    column.addWidget(screen)
-    host.show()
-    with qtbot.waitActive(host, timeout=60_000):
-        host.activateWindow()
+    host, screen = QWidget(), CameraScreen(theme)
+    column = QVBoxLayout(host)
+    for part in (QPushButton("Exercise"), screen):
+        column.addWidget(part)
+    show(host, active=True)
     screen.begin(set_up(), "practice")
     screen.primary.setFocus()
     screen.show_opening(True, "The simulated patient is being drawn.")

@@ -38,12 +38,8 @@ from carpus.ui.theme import Theme
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import FakeFeed, FakeMeasuring, FakeStore, session, set_up
 
-OWN = ExerciseSet(
-    "own",
-    "Short",
-    "wrist6",
-    (CoursePart(exercise_named("WRIST_FE"), 2, 0, 20), CoursePart(exercise_named("FREE"), 0, 8, 0)),
-)
+PARTS = (CoursePart(exercise_named("WRIST_FE"), 2, 0, 20), CoursePart(exercise_named("FREE"), 0, 8, 0))
+OWN = ExerciseSet("own", "Short", "wrist6", PARTS)
 
 
 def test_sets_are_read_as_they_were_kept_and_a_second_person_s_change_is_told(tmp_path: Path) -> None:
@@ -73,9 +69,6 @@ def test_the_next_session_begins_with_the_set_of_the_last_one(tmp_path: Path) ->
     assert next_part(second) is None
     keep_set_up(library.store, second)
     again = last_set_up(library.store, patient)
-    assert again is not None
-    assert again.course is not None
-    assert first.course is not None
     assert (again.exercise.id, again.repetitions, again.for_child) == ("WRIST_FE", 2, True)
     assert again.course.run_id != first.course.run_id
     keep_sets(library.store, USUAL_SETS, (OWN,))
@@ -151,7 +144,6 @@ def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) ->
         assert run.goes_on()
     assert measuring.chosen.exercise.id == "FREE"
     patient.toggle()
-    assert patient.window is not None
     qtbot.addWidget(patient.window)
     run._second()
     assert patient.window.view.scene.phase == "rest"
@@ -199,7 +191,6 @@ def test_a_therapist_makes_names_and_chooses_a_set(qtbot: QtBot, theme: Theme) -
     sheet._judge()
     sheet.keep.click()
     chosen = screen.set_up()
-    assert chosen.course is not None
     assert [part.exercise.id for part in chosen.course.parts] == ["FREE", "WRIST_FE"]
     assert chosen.exercise.id == "FREE"
     assert chosen.course.name == "Mine"

@@ -19,6 +19,8 @@ from carpus.ui.last_places import LastPlaces
 from carpus.ui.theme import Theme
 from tests.ui.contexts import Told, a_context
 
+Parts = tuple[Exporting, "Stored", Told]
+
 
 class Stored:
     """Writes nothing, and waits where it is told to until it is stopped."""
@@ -43,22 +45,18 @@ class Stored:
 
 @pytest.fixture
 def parts(
-    qtbot: QtBot, theme: Theme, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[tuple[Exporting, Stored, Told, Background]]:
-    window = QWidget()
-    qtbot.addWidget(window)
-    window.resize(1280, 800)
-    background, stored, told = Background(), Stored(), Told()
+    theme: Theme, host: QWidget, background: Background, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Parts]:
+    stored, told = Stored(), Told()
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(tmp_path))
     store = Store(tmp_path)
-    exporting = Exporting(a_context(theme, window, told, background, library=stored, places=LastPlaces(store)))
-    window.show()
-    yield exporting, stored, told, background
+    exporting = Exporting(a_context(theme, host, told, background, library=stored, places=LastPlaces(store)))
+    yield exporting, stored, told
     store.close()
 
 
-def test_every_format_is_offered_and_what_is_ticked_is_written(qtbot: QtBot, parts: tuple) -> None:  # type: ignore[type-arg]
-    exporting, stored, told, _ = parts
+def test_every_format_is_offered_and_what_is_ticked_is_written(qtbot: QtBot, parts: Parts) -> None:
+    exporting, stored, told = parts
     exporting.ask("s1")
     assert set(exporting.formats.boxes) == set(FORMATS)
     assert exporting.formats.formats == ["csv"]
@@ -73,8 +71,8 @@ def test_every_format_is_offered_and_what_is_ticked_is_written(qtbot: QtBot, par
     assert not told.faults
 
 
-def test_enter_goes_on_and_changes_no_choice(qtbot: QtBot, parts: tuple) -> None:  # type: ignore[type-arg]
-    exporting, stored, told, _ = parts
+def test_enter_goes_on_and_changes_no_choice(qtbot: QtBot, parts: Parts) -> None:
+    exporting, stored, told = parts
     exporting.ask("s1")
     exporting.formats.boxes["trc"].click()
     qtbot.keyClick(exporting.formats.boxes["trc"], Qt.Key.Key_Return)
@@ -82,8 +80,8 @@ def test_enter_goes_on_and_changes_no_choice(qtbot: QtBot, parts: tuple) -> None
     assert stored.calls == [(["csv", "trc"], False)]
 
 
-def test_it_shows_how_far_it_is_and_stops(qtbot: QtBot, parts: tuple) -> None:  # type: ignore[type-arg]
-    exporting, stored, told, background = parts
+def test_it_shows_how_far_it_is_and_stops(qtbot: QtBot, parts: Parts, background: Background) -> None:
+    exporting, stored, told = parts
     stored.waits.clear()
     exporting.ask("s1")
     exporting.formats.take.click()

@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import cv2
 import numpy as np
@@ -29,6 +29,7 @@ from carpus.ui.review.film import STILL, FilmWanted, film_pictures
 from carpus.ui.review.flow import ReviewFlow
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import FakeSessions, session
 
@@ -71,7 +72,6 @@ def test_the_angle_on_the_picture_is_the_one_that_was_measured(side: Session) ->
     exercise = exercise_named("WRIST_RU")
     for row in ROWS[::7]:
         drawn = drawn_angle(side, row, exercise)
-        assert drawn is not None
         zero, hand = drawn.zero - drawn.vertex, drawn.hand - drawn.vertex
         shown = math.degrees(math.atan2(zero[0] * hand[1] - zero[1] * hand[0], float(zero @ hand)))
         assert abs(abs(shown) - abs(math.degrees(side.motion.angles_rad[row][0]))) < 4.0
@@ -102,30 +102,27 @@ def test_the_film_is_opened_by_another_reader(qapp: QApplication, side: Session,
     assert not list(within.iterdir())
 
 
-@pytest.fixture
-def background(qtbot: QtBot) -> Iterator[Background]:
-    background = Background()
-    yield background
-    qtbot.waitUntil(lambda: not background.busy, timeout=60_000)
+def test_without_agreement_or_pictures_there_is_no_film(
+    qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], background: Background
+) -> None:
+    def shown(*, pictures: bool) -> ReviewScreen:
+        screen = show(ReviewScreen(theme, Keys(), background, FakeSessions(pictures)))
+        screen.begin("linden", "session-7")
+        qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
+        return screen
 
+    def take() -> FilmWanted:
+        """With agreement; what is wanted then."""
+        qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
+        qtbot.keyClick(sheet, Qt.Key.Key_Return)
+        return wanted[-1]
 
-def shown(qtbot: QtBot, theme: Theme, background: Background, *, pictures: bool) -> ReviewScreen:
-    screen = ReviewScreen(theme, Keys(), background, FakeSessions(pictures))
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
-    screen.begin("linden", "session-7")
-    qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None, timeout=60_000)
-    return screen
-
-
-def test_without_agreement_or_pictures_there_is_no_film(qtbot: QtBot, theme: Theme, background: Background) -> None:
-    screen = shown(qtbot, theme, background, pictures=False)
+    screen = shown(pictures=False)
     assert screen.picture.film_button.isHidden()
     screen.ask_film()
     assert not screen.film_sheet.isVisible()
     screen.playing.stop()
-    screen = shown(qtbot, theme, background, pictures=True)
+    screen = shown(pictures=True)
     wanted: list[FilmWanted] = []
     screen.film.connect(wanted.append)
     screen.go_to_repetition(3)
@@ -136,9 +133,7 @@ def test_without_agreement_or_pictures_there_is_no_film(qtbot: QtBot, theme: The
     qtbot.keyClick(sheet, Qt.Key.Key_Return)
     assert not wanted
     screen.ask_film()
-    qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
-    qtbot.keyClick(sheet, Qt.Key.Key_Return)
-    (film,) = wanted
+    film = take()
     assert film.number == 4
     one = screen.figures.repetitions[3]  # type: ignore[union-attr]
     assert len(film.rows) == pytest.approx(30 * (one.end_s - one.start_s), abs=2)
@@ -146,19 +141,16 @@ def test_without_agreement_or_pictures_there_is_no_film(qtbot: QtBot, theme: The
     assert "°" in film.words(film.rows[len(film.rows) // 2])
     screen.ask_film()
     sheet.speed.choose(STILL)
-    qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
-    qtbot.keyClick(sheet, Qt.Key.Key_Return)
-    assert (wanted[-1].rate_hz, len(wanted[-1].rows)) == (0.0, 1)
-    assert "passive" not in wanted[-1].words(wanted[-1].rows[0])
+    film = take()
+    assert (film.rate_hz, len(film.rows)) == (0.0, 1)
+    assert "passive" not in film.words(film.rows[0])
     screen._leave_out(PASSIVE)
-    qtbot.waitUntil(lambda: screen.figures.repetitions[3].helped, timeout=60_000)  # type: ignore[union-attr]
+    qtbot.waitUntil(lambda: screen.figures.repetitions[3].helped)  # type: ignore[union-attr]
     screen.ask_film()
     sheet.speed.choose(STILL)
-    qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
-    qtbot.keyClick(sheet, Qt.Key.Key_Return)
-    assert wanted[-1].words(wanted[-1].rows[0]).endswith("°, passive"), "no figure passes for the patient's own"
+    film = take()
+    assert film.words(film.rows[0]).endswith("°, passive"), "no figure passes for the patient's own"
     reviewed = screen.reviewed
-    assert reviewed is not None
     header = replace(reviewed.session.header, parameters=json.dumps({"source": {SIMULATED: "yes"}}))
     screen.reviewed = replace(reviewed, session=replace(reviewed.session, header=header))
     screen._film(STILL)
@@ -171,22 +163,11 @@ def test_without_agreement_or_pictures_there_is_no_film(qtbot: QtBot, theme: The
     sheet.close_sheet()
     screen.picture.angle_button.click()
     screen.playing.stop()
-    qtbot.waitUntil(lambda: not screen.picture.reader.busy, timeout=60_000)
-
-
-class Places:
-    """Says where to, without a dialog."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-
-    def ask_where_to_save(self, *given: object) -> Path:
-        self.asked = given
-        return self.path
+    qtbot.waitUntil(lambda: not screen.picture.reader.busy)
 
 
 def test_a_saved_film_is_told_and_noted(
-    qtbot: QtBot, theme: Theme, background: Background, side: Session, tmp_path: Path
+    qtbot: QtBot, theme: Theme, host: QWidget, background: Background, side: Session, tmp_path: Path
 ) -> None:
     made: list[tuple[str, object]] = []
 
@@ -203,19 +184,19 @@ def test_a_saved_film_is_told_and_noted(
             made.extend((str(path), sessions) for path in paths)
 
     Pictures.folder.mkdir()
-    places = Places(tmp_path / "x")
-    told, window = Told(), QWidget()
-    qtbot.addWidget(window)
-    flow = ReviewFlow(a_context(theme, window, told, background, library=Pictures(), places=places))
+    asked: list[tuple[object, ...]] = []
+    places = SimpleNamespace(ask_where_to_save=lambda *given: asked.append(given) or tmp_path / "x")
+    told = Told()
+    flow = ReviewFlow(a_context(theme, host, told, background, library=Pictures(), places=places))
     qtbot.addWidget(flow.screen)
     flow.save_film(FilmWanted(side, "s7", 4, ROWS[:6], 30.0, exercise_named("WRIST_RU"), lambda _: ""))
-    qtbot.waitUntil(lambda: bool(made), timeout=60_000)
-    assert re.search(r"_\d{4}-\d\d-\d\d_\d\d-\d\d_wrist-ru_right_4.mp4$", str(places.asked[2]))
+    qtbot.waitUntil(lambda: bool(made))
+    assert re.search(r"_\d{4}-\d\d-\d\d_\d\d-\d\d_wrist-ru_right_4.mp4$", str(asked[0][2]))
     assert made == [(str(tmp_path / "x.mp4"), ["s7"])]
     assert (tmp_path / "x.mp4").stat().st_mode & 0o077 == 0
     assert told.asked
     flow.save_film(FilmWanted(side, "s7", 4, ROWS[:1], 0.0, exercise_named("WRIST_RU"), lambda _: "24°"))
-    qtbot.waitUntil(lambda: len(made) == 2, timeout=60_000)
+    qtbot.waitUntil(lambda: len(made) == 2)
     picture = cv2.imread(str(tmp_path / "x.png"))
     assert picture is not None
     assert (picture == FLAT).all(axis=2).mean() > 0.2, "room is cut away"

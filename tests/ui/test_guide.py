@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
@@ -21,6 +19,8 @@ from carpus.ui.help.screen import HelpScreen
 from carpus.ui.keys import Keys
 from carpus.ui.language import LANGUAGES, speaking
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
+from tests.ui.printed import pages_of, words_of
 
 GUIDE = Path(__file__).parents[2] / "resources" / "guide"
 ASKED = ("discs", "camera", "calibration", "exercises", "figures", "limits", "trouble")
@@ -60,11 +60,8 @@ def test_every_picture_is_there_and_none_is_left_over() -> None:
         assert QImage(guide.picture_path(name)).width() >= 1000
 
 
-def test_f1_opens_the_page_links_lead_on_and_pictures_are_shown(qtbot: QtBot, theme: Theme) -> None:
-    screen = HelpScreen(theme, Keys())
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
+def test_f1_opens_the_page_links_lead_on_and_pictures_are_shown(theme: Theme, show: Show[HelpScreen]) -> None:
+    screen = show(HelpScreen(theme, Keys()))
     screen.show_page("camera")
     assert screen.pages["camera"].isChecked()
     assert "70 to 80 cm" in screen.text.toPlainText()
@@ -93,12 +90,8 @@ def test_the_drawing_has_a_place_for_every_disc() -> None:
 
 def test_the_cards_are_two_pages_with_their_words(qtbot: QtBot, tmp_path: Path) -> None:
     write_cards(tmp_path / "cards.pdf")
-    tool = shutil.which("pdftotext")
-    assert tool is not None, "pdftotext (poppler-utils) is needed to read the cards back"
-    text = subprocess.run([tool, str(tmp_path / "cards.pdf"), "-"], capture_output=True, text=True, check=True).stdout
-    pages = text.split("\f")
-    assert len([page for page in pages if page.strip()]) == 2
-    assert "Thumb base" in pages[0]
-    assert "70 to 80 cm" in pages[1]
+    assert pages_of(tmp_path / "cards.pdf") == 2
+    assert "Thumb base" in words_of(tmp_path / "cards.pdf", 1)
+    assert "70 to 80 cm" in words_of(tmp_path / "cards.pdf", 2)
     with pytest.raises(OutputNotWritable):
         write_cards(tmp_path / "no folder" / "cards.pdf")

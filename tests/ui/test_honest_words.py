@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import math
-from collections.abc import Iterator
 from dataclasses import replace
-from datetime import timedelta
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -16,20 +16,28 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core import so3
+from carpus.core.agreement.limits_file import LIMITS_FILE, store_limits
 from carpus.core.calibration.card.chart import CardCheck, add_check, chart_path
+from carpus.core.errors import SettingsInvalid
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.protocols import WRIST6
+from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.measures.repetitions import Uncounted
+from carpus.core.records.library import Library
+from carpus.core.records.new_sessions import recover
 from carpus.core.results.camera_said import camera_of
 from carpus.core.results.figures import SessionFigures, StrokeSpread, with_trust
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.progress import progress
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.types import TrackedFrame
+from carpus.ui import numbers
 from carpus.ui.background import Background
 from carpus.ui.check_card.standing_words import unsure_name
 from carpus.ui.controls.text import StateText, Text
-from carpus.ui.figures import spread_labels
+from carpus.ui.figures import figure_of, spread_labels
 from carpus.ui.keys import Keys
+from carpus.ui.live.number_card import speed_words
 from carpus.ui.patients.card import PatientCardView
 from carpus.ui.plot.course import place_panels
 from carpus.ui.plot.history import History
@@ -38,28 +46,24 @@ from carpus.ui.plot.style import screen_style
 from carpus.ui.ports import PatientCard, Preferences, ResultLine
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.progress.words import before_after, doubt_words
-from carpus.ui.report.hand_rows import column_heads, limits_words
+from carpus.ui.report.hand_rows import column_heads, compared_figures, limits_words
+from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.pdf import session_report
+from carpus.ui.report.screen import suggested_name
 from carpus.ui.report.tables import repetition_words, table_rows
 from carpus.ui.report.words import method, other_lines, warnings
 from carpus.ui.sessions.listing import SessionLine, cells
 from carpus.ui.settings.limits import limit_lines
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme
-from carpus.ui.verdicts import limit_words
+from carpus.ui.verdicts import change_since_first, difference, limit_words, no_change_words, verdict_word
 from tests.moments import with_moment
+from tests.sources import SOURCES, modules, nodes
 from tests.ui.fakes import NOW, FakeFeed, FakeSessions, FakeStore, figures_once, session
 from tests.ui.hand_fakes import hand_session
 
 BOX = QRectF(0.0, 0.0, 800.0, 500.0)
 ONCE = "counts once, by its newest result"
-
-
-@pytest.fixture
-def background(qtbot: QtBot) -> Iterator[Background]:
-    background = Background()
-    yield background
-    qtbot.waitUntil(lambda: not background.busy, timeout=120_000)
 
 
 def said(widget: QWidget) -> str:
@@ -130,7 +134,7 @@ def test_progress_and_report_say_it_too(
     store = kind()
     screen = ProgressScreen(theme, Keys(), background, store)
     screen.begin("linden")
-    qtbot.waitUntil(lambda: not background.busy, timeout=120_000)
+    qtbot.waitUntil(lambda: not background.busy)
     again = kind is TrackedAgain
     assert (ONCE in said(screen)) is again
     history = store.history("linden")
@@ -209,7 +213,7 @@ def test_error_limits_are_nobody_s_published_figures_and_those_of_arcs_are_large
     assert words in method(figures_once(session()), 6, compared=True)
     screen = ProgressScreen(theme, Keys(), background, FakeSessions())
     screen.begin("linden")
-    qtbot.waitUntil(lambda: not background.busy, timeout=120_000)
+    qtbot.waitUntil(lambda: not background.busy)
     assert words in said(screen)
     assert words in said(SettingsScreen(theme, Preferences()))
     limits = dict(limit_lines())
@@ -265,3 +269,88 @@ def test_a_speed_lost_in_noise_is_too_slow_to_judge() -> None:
     )
     assert dict(other_lines(slow))["Peak speed, mean ± sd"] == "too slow to judge"
     assert "too slow" not in dict(other_lines(made))["Peak speed, mean ± sd"]
+
+
+# --- what is not beyond the error ------------------------------------------------------------------------
+@SOURCES
+def test_no_change_is_never_claimed() -> None:
+    assert verdict_word("no_change") == change_since_first("no_change", 2.0) == no_change_words() == "no change proven"
+    assert difference(0.2) == "0°"
+    said = []
+    for path in modules("ui", "app", "core"):
+        for node in nodes(path):
+            if isinstance(node, ast.Call) and getattr(node.func, "attr", getattr(node.func, "id", "")) in ("tr",):
+                said += [one.value for one in node.args if isinstance(one, ast.Constant)]
+    claims = [words for words in said if isinstance(words, str) and "no change" in words.casefold()]
+    assert claims
+    assert all("no change proven" in words.casefold() for words in claims), claims
+
+
+@pytest.mark.parametrize(("speed", "words"), [(2.0, "<\N{NO-BREAK SPACE}10°/s"), (38.0, "38°/s"), (math.nan, "–")])
+def test_a_still_hand_has_no_speed(speed: float, words: str) -> None:
+    assert speed_words(speed) == words
+
+
+def test_the_list_s_figure_is_of_the_joint_that_is_trained_and_says_at_least() -> None:
+    figures = figures_once(hand_session())
+    trained = figure_of(figures.exercise.joint).finger
+    rows = {figure.finger: figures.row("arc", -1, figure.joint) for figure in compared_figures(figures)}
+    row = rows[trained]
+    words = main_figure(figures)
+    assert words.startswith(next(one.long_name for one in compared_figures(figures) if one.finger == trained))
+    assert ("≥" in words) == row.limited
+    assert exercise_named(figures.exercise.id).joint == figures.exercise.joint
+
+
+def test_two_sessions_of_one_day_have_names_of_their_own() -> None:
+    fist = session_report(hand_session())
+    wrist = replace(fist, figures=replace(fist.figures, exercise=exercise_named("WRIST_FE")))
+    later = replace(fist, figures=replace(fist.figures, when=fist.figures.when + timedelta(hours=1)))
+    assert len({suggested_name(one) for one in (fist, wrist, later)}) == 3
+
+
+def test_the_head_of_a_column_is_short_on_one_day_too() -> None:
+    now = datetime(2026, 11, 20, 15, 29)
+    assert numbers.since(now.replace(hour=9), now) == "09:29"
+    assert numbers.since(now.replace(day=13), now) == "13 Nov"
+
+
+# --- the clinic's own error limits -----------------------------------------------------------------------
+ARC = MeasuredLimit("flexion", "arc", 12, 2.4, (1.7, 3.9), 6.6, (4.7, 10.8))
+STUDY = RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-27", 12, 24, 2, (ARC, replace(ARC, movement="extension")))
+
+
+def test_they_are_named_with_their_date_and_people(theme: Theme) -> None:
+    words = limit_words(STUDY)
+    assert "measured by this clinic on 27 Nov 2026 with 12 people" in words
+    assert words in method(figures_once(session(), None, ErrorLimits((STUDY,))), 6, compared=True)
+    few = replace(STUDY, limits=(replace(ARC, people=9),))
+    assert limit_words() in method(figures_once(session(), None, ErrorLimits((few,))), 6, compared=True)
+    shown = said(SettingsScreen(theme, Preferences(), "1", ErrorLimits((STUDY,))))
+    for piece in (
+        "On 27 Nov 2026 with 12 people in 24 sessions",
+        "In force",
+        "SEM 2.4°",
+        "7° (4.7° – 10.8°)",
+        "Extension",
+    ):
+        assert piece in shown
+    assert "Not in force: 10 people" in said(SettingsScreen(theme, Preferences(), "1", ErrorLimits((few,))))
+    assert "Measured by this clinic" not in said(SettingsScreen(theme, Preferences()))
+
+
+def test_the_window_reads_them_from_the_data_folder(tmp_path: Path) -> None:
+    store_limits(tmp_path, [STUDY])
+    library = Library(tmp_path)
+    assert library.error_limits.study("wrist6", "WRIST_FE", "zyx") == STUDY
+    library.close()
+
+
+@pytest.mark.parametrize("text", ["", "{}"])
+def test_a_damaged_file_is_told_and_the_default_limits_hold(tmp_path: Path, text: str) -> None:
+    (tmp_path / LIMITS_FILE).write_text(text, encoding="utf-8")
+    library = Library(tmp_path)
+    assert library.error_limits == ErrorLimits()
+    _, faults = recover(library)
+    assert [type(fault) for fault in faults] == [SettingsInvalid]
+    library.close()

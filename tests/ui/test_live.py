@@ -6,227 +6,172 @@ import math
 import threading
 import time
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import DiskFull
-from carpus.core.hand.protocols import WRIST6
-from carpus.core.types import Detections, TrackStatus
-from carpus.ui.background import Background
-from carpus.ui.keys import Keys
+from carpus.core.hand.exercises import FLEXION, exercise_named
+from carpus.core.hand.protocols import WRIST6, WRIST_ANGLES
+from carpus.core.measures.repetitions import find_repetitions
+from carpus.core.measures.signals import even_signal
+from carpus.core.pipeline.live_values import StartMode
+from carpus.core.types import Detections, TrackedFrame, TrackStatus
 from carpus.ui.live import recording as live_recording
+from carpus.ui.live.counting import RunningCount
 from carpus.ui.live.doubt import Doubt, SteadyDoubt, doubt_lamp, doubt_of
 from carpus.ui.live.light import Lamp, SteadyLight, lamp_for
 from carpus.ui.live.number_card import NumberCard, Reading
-from carpus.ui.live.screen import LiveScreen
+from carpus.ui.live.recording import COUNT_S, STILL_DEG, STILL_S, Beginning
 from carpus.ui.picture.overlay import axis_pixels, ellipse, within
 from carpus.ui.plot.history import KEPT_S, History
 from carpus.ui.plot.live_curves import LiveCurves
 from carpus.ui.theme import Theme
 from tests.moments import with_moment
-from tests.ui.fakes import FakeFeed, FakeMeasuring, LateFeed, set_up, with_other_spot
+from tests.ui.conftest import Live
+from tests.ui.fakes import FakeFeed, FakeMeasuring, LateFeed, with_other_spot
+from tests.ui.live_tried import TriedLive
 
 MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
 
 
-def live(qtbot: QtBot, theme: Theme, feed: FakeFeed) -> tuple[LiveScreen, FakeMeasuring]:
-    screen = LiveScreen(theme, Keys(), Background())
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
-    screen.activateWindow()
-    qtbot.waitUntil(screen.isActiveWindow)
-    measuring = FakeMeasuring(feed)
-    screen.begin(measuring, set_up())
-    screen._timer.stop()
-    feed.picture_number = 0
-    return screen, measuring
+def test_the_number_is_that_of_the_picture_shown(live: Live) -> None:
+    tried = live(FakeFeed(), 5.0)
+    shown = math.degrees(float(tried.feed.newest().tracked.moment.angles_rad[1]))
+    assert tried.reading().value_deg == pytest.approx(shown)
+    assert tried.screen.number.movement() == ("Flexion" if shown > 0 else "Extension")
+    assert tried.screen.controls.light.lamp.rank == "good"
 
 
-def run(screen: LiveScreen, feed: FakeFeed, seconds: float) -> None:
-    for _ in range(round(seconds * 30 / 2)):
-        feed.step(2)
-        screen.tick()
-
-
-KEYS = {
-    "Space": Qt.Key.Key_Space,
-    "F4": Qt.Key.Key_F4,
-    "F5": Qt.Key.Key_F5,
-    "F6": Qt.Key.Key_F6,
-    "F7": Qt.Key.Key_F7,
-}
-
-
-def key(qtbot: QtBot, screen: QWidget, name: str) -> None:
-    qtbot.keyClick(screen, KEYS[name])
-
-
-def record(qtbot: QtBot, screen: LiveScreen, measuring: FakeMeasuring) -> None:
-    key(qtbot, screen, "Space")
-    qtbot.waitUntil(lambda: screen.recording.count is not None)
-    screen.recording._begun_at_s -= live_recording.HASTY_S  # a moment ago
-    assert measuring.feed.recording
-
-
-def test_the_number_is_that_of_the_picture_shown(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    screen, _ = live(qtbot, theme, feed)
-    run(screen, feed, 5.0)
-    shown = math.degrees(float(feed.newest().tracked.moment.angles_rad[1]))  # type: ignore[union-attr]
-    screen._show_values()
-    assert screen.number.reading.value_deg == pytest.approx(shown)
-    assert screen.number.movement() == ("Flexion" if shown > 0 else "Extension")
-    assert screen.controls.light.lamp.rank == "good"
-
-
-def test_space_records_and_space_stops_and_leads_to_the_session(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    screen, measuring = live(qtbot, theme, feed)
-    run(screen, feed, 1.0)
-    record(qtbot, screen, measuring)
-    assert screen.recording.state == "recording"
-    run(screen, feed, 4.0)
-    assert screen.recording.recorded_s == pytest.approx(4.0, abs=0.2)
-    with qtbot.waitSignal(screen.recording.stopped) as stopped:
-        key(qtbot, screen, "Space")
+def test_space_records_and_space_stops_and_leads_to_the_session(qtbot: QtBot, live: Live) -> None:
+    tried = live(FakeFeed(), 1.0)
+    tried.record()
+    recording = tried.screen.recording
+    assert recording.state == "recording"
+    tried.run(4.0)
+    assert recording.recorded_s == pytest.approx(4.0, abs=0.2)
+    with qtbot.waitSignal(recording.stopped) as stopped:
+        tried.press(Qt.Key.Key_Space)
     assert stopped.args == ["session-7"]
-    assert screen.recording.state == "off"
+    assert recording.state == "off"
 
 
-def test_the_large_view_leaves_the_figure_the_light_and_the_keys(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    screen, measuring = live(qtbot, theme, feed)
-    run(screen, feed, 1.0)
-    record(qtbot, screen, measuring)
+def test_the_large_view_leaves_the_figure_the_light_and_the_keys(qtbot: QtBot, live: Live) -> None:
+    tried = live(FakeFeed(), 1.0)
+    tried.record()
+    screen = tried.screen
     height_px = screen.number.height()
-    qtbot.keyClick(screen, Qt.Key.Key_F11)
+    tried.press(Qt.Key.Key_F11)
     qtbot.waitUntil(lambda: screen.number.height() > 2 * height_px)
-    run(screen, feed, 0.5)
+    tried.run(0.5)
     assert screen.controls.light.isVisible()
     assert not any(part.isVisible() for part in (screen.picture, screen.curves, screen.path, screen.controls.note))
-    key(qtbot, screen, "F5")
+    tried.press(Qt.Key.Key_F5)
     assert screen.note_sheet.isVisible()
     screen.note_sheet.close_sheet()
-    qtbot.keyClick(screen, Qt.Key.Key_F11)
+    tried.press(Qt.Key.Key_F11)
     qtbot.waitUntil(lambda: screen.number.height() == height_px)
     assert screen.picture.isVisible()
 
 
-def test_repetitions_and_best_are_counted_from_recorded_frames_only(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed(seconds=32.0)
-    screen, measuring = live(qtbot, theme, feed)
-    run(screen, feed, 6.0)
-    record(qtbot, screen, measuring)
-    run(screen, feed, 24.0)
-    count = screen.recording.count
-    assert count is not None
+def test_repetitions_and_best_are_counted_from_recorded_frames_only(live: Live) -> None:
+    tried = live(FakeFeed(seconds=32.0), 6.0)
+    tried.record()
+    tried.run(24.0)
+    count, feed = tried.screen.recording.count, tried.feed
     assert count.count() in (3, 4)
     assert 1 <= len(feed.told) <= count.repetitions, "each that is counted is told to the network, at its end"
     assert {kind for kind, _ in feed.told} == {"repetition"}
     assert all(count._times[0] < at_s <= count._times[-1] for _, at_s in feed.told)
-    recorded = np.degrees(
-        [
-            f.moment.angles_rad[1]
-            for f in feed.frames
-            if f.timestamp_s >= screen.recording.count._times[0] - 1e-9 and f.index <= feed.place
-        ]
-    )
-    screen._show_values()
-    assert screen.number.reading.best_positive_deg == pytest.approx(recorded.max())
-    assert screen.number.reading.best_negative_deg == pytest.approx(recorded.min())
+    since = [one for one in feed.frames[: feed.place + 1] if one.timestamp_s >= count._times[0] - 1e-9]
+    recorded_deg = np.degrees([one.moment.angles_rad[1] for one in since])
+    reading = tried.reading()
+    best_deg = reading.best_positive_deg, reading.best_negative_deg
+    assert best_deg == pytest.approx((recorded_deg.max(), recorded_deg.min()))
 
 
-def test_frames_from_before_the_recording_that_are_drawn_late_do_not_count(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    screen, measuring = live(qtbot, theme, feed)
-    feed.step(90)
-    feed.first_recorded = 80
-    record(qtbot, screen, measuring)
-    screen.tick()
-    assert screen.recording.recorded_s == pytest.approx(10 / 30, abs=0.05)
+def test_frames_from_before_the_recording_that_are_drawn_late_do_not_count(live: Live) -> None:
+    tried = live(FakeFeed())
+    tried.feed.step(90)
+    tried.feed.first_recorded = 80
+    tried.record()
+    tried.screen.tick()
+    assert tried.screen.recording.recorded_s == pytest.approx(10 / 30, abs=0.05)
 
 
-def test_a_pause_is_not_recorded_time(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    screen, measuring = live(qtbot, theme, feed)
-    run(screen, feed, 1.0)
-    record(qtbot, screen, measuring)
-    run(screen, feed, 2.0)
-    key(qtbot, screen, "F7")
-    assert screen.recording.state == "paused"
-    run(screen, feed, 3.0)
-    key(qtbot, screen, "F7")
-    run(screen, feed, 2.0)
-    assert screen.recording.recorded_s == pytest.approx(4.0, abs=0.4)
+def test_a_pause_is_not_recorded_time(live: Live) -> None:
+    tried = live(FakeFeed(), 1.0)
+    tried.record()
+    tried.run(2.0)
+    tried.press(Qt.Key.Key_F7)
+    assert tried.screen.recording.state == "paused"
+    tried.run(3.0)
+    tried.press(Qt.Key.Key_F7)
+    tried.run(2.0)
+    assert tried.screen.recording.recorded_s == pytest.approx(4.0, abs=0.4)
 
 
-def test_note_and_pain_are_stored_by_keyboard(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    screen, measuring = live(qtbot, theme, feed)
-    run(screen, feed, 1.0)
-    record(qtbot, screen, measuring)
+def test_note_and_pain_are_stored_by_keyboard(qtbot: QtBot, live: Live) -> None:
+    tried = live(FakeFeed(), 1.0)
+    tried.record()
+    screen = tried.screen
     screen.controls.refresh()
-    key(qtbot, screen, "F5")
+    tried.press(Qt.Key.Key_F5)
     assert screen.note_sheet.isVisible()
     qtbot.keyClicks(screen.note_sheet.line, "strap loose")
     qtbot.keyClick(screen.note_sheet.line, Qt.Key.Key_Return)
-    key(qtbot, screen, "F6")
+    tried.press(Qt.Key.Key_F6)
     qtbot.keyClick(screen.pain_sheet.buttons[0], Qt.Key.Key_3)
-    assert feed.noted == [("note", "strap loose"), ("pain", "3")]
+    assert tried.feed.noted == [("note", "strap loose"), ("pain", "3")]
     assert not screen.pain_sheet.isVisible()
 
 
-def test_a_recording_that_cannot_start_tells_its_fault_and_shows_no_recording(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    screen, measuring = live(qtbot, theme, feed)
-    run(screen, feed, 1.0)
-    measuring.fault = DiskFull("disk")
-    with qtbot.waitSignal(screen.told) as told:
-        key(qtbot, screen, "Space")
+def test_a_recording_that_cannot_start_tells_its_fault_and_shows_no_recording(qtbot: QtBot, live: Live) -> None:
+    tried = live(FakeFeed(), 1.0)
+    tried.measuring.fault = DiskFull("disk")
+    with qtbot.waitSignal(tried.screen.told) as told:
+        tried.press(Qt.Key.Key_Space)
     assert isinstance(told.args[0], DiskFull)
-    assert screen.recording.state == "off"
+    assert tried.screen.recording.state == "off"
 
 
-def test_lost_frames_show_no_number_and_a_red_light(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed(lost=[(3.0, 20.0)])
-    screen, _ = live(qtbot, theme, feed)
-    run(screen, feed, 5.0)
-    screen._show_values()
-    assert math.isnan(screen.number.reading.value_deg)
-    assert screen.controls.light.lamp.rank == "bad"
-    assert screen.history.angle(1).gaps_s()
+def test_lost_frames_show_no_number_and_a_red_light(live: Live) -> None:
+    tried = live(FakeFeed(lost=[(3.0, 20.0)]), 5.0)
+    assert math.isnan(tried.reading().value_deg)
+    assert tried.screen.controls.light.lamp.rank == "bad"
+    assert tried.screen.history.angle(1).gaps_s()
 
 
-def test_predicted_frames_are_marked_and_do_not_count_as_best(qtbot: QtBot, theme: Theme) -> None:
-    hidden = [(2.0, 20.0, name) for name in MARKERS[:4]]
-    feed = FakeFeed(hidden=hidden)
-    screen, measuring = live(qtbot, theme, feed)
-    run(screen, feed, 3.0)
-    record(qtbot, screen, measuring)
-    run(screen, feed, 6.0)
-    screen._show_values()
-    assert screen.number.reading.predicted
-    assert math.isnan(screen.number.reading.best_positive_deg)
-    assert screen.controls.light.lamp.rank == "warn"
+def test_predicted_frames_are_marked_and_do_not_count_as_best(live: Live) -> None:
+    tried = live(FakeFeed(hidden=[(2.0, 20.0, name) for name in MARKERS[:4]]), 3.0)
+    tried.record()
+    tried.run(6.0)
+    reading = tried.reading()
+    assert reading.predicted
+    assert math.isnan(reading.best_positive_deg)
+    assert tried.screen.controls.light.lamp.rank == "warn"
 
 
-def test_a_lost_camera_leaves_no_old_picture_and_no_old_number(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    screen, measuring = live(qtbot, theme, feed)
-    run(screen, feed, 2.0)
-    record(qtbot, screen, measuring)
+def test_a_lost_camera_leaves_no_old_picture_and_no_old_number_and_nothing_offers_to_go_on(live: Live) -> None:
+    tried = live(FakeFeed(), 2.0)
+    tried.record()
+    screen = tried.screen
     screen.set_camera_lost(True)
     screen.tick()
-    screen._show_values()
+    assert math.isnan(tried.reading().value_deg)
     assert screen.picture.image is None
-    assert math.isnan(screen.number.reading.value_deg)
     assert screen.controls.light.lamp.state == "No picture"
     assert screen.recording.state == "paused"
+    assert (screen.controls.pause.isEnabled(), screen.controls.pause.text()) == (False, "Pause")
+    screen.recording.toggle_pause()
+    assert not tried.feed.paused
+    screen.set_camera_lost(False)
+    assert screen.controls.pause.isEnabled()
 
 
 @pytest.mark.parametrize(
@@ -238,40 +183,35 @@ def test_a_lost_camera_leaves_no_old_picture_and_no_old_number(qtbot: QtBot, the
     ],
 )
 def test_a_new_picture_is_drawn_at_once_but_drawing_never_takes_all_the_time(
-    qtbot: QtBot, theme: Theme, since_s: float, drawing_ms: float, drawn: bool
+    live: Live, since_s: float, drawing_ms: float, drawn: bool
 ) -> None:
-    feed = FakeFeed()
-    screen, _ = live(qtbot, theme, feed)
-    run(screen, feed, 0.5)
-    feed.step(2)
-    screen._ticked_at_s, screen._drawing_ms = time.monotonic() - since_s, drawing_ms
-    screen.look()
-    assert (screen.history.last_index == feed.place) == drawn
+    tried = live(FakeFeed(), 0.5)
+    tried.feed.step(2)
+    tried.screen._ticked_at_s, tried.screen._drawing_ms = time.monotonic() - since_s, drawing_ms
+    tried.screen.look()
+    assert (tried.screen.history.last_index == tried.feed.place) == drawn
 
 
-def test_f4_changes_between_angles_and_speeds(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    screen, _ = live(qtbot, theme, feed)
-    run(screen, feed, 2.0)
-    key(qtbot, screen, "F4")
-    assert screen.curves.shows_speeds
-    assert len(screen.curves.panels()) == 2
-    key(qtbot, screen, "F4")
-    assert len(screen.curves.panels()) == 3
+def test_f4_changes_between_angles_and_speeds(live: Live) -> None:
+    tried = live(FakeFeed(), 2.0)
+    tried.press(Qt.Key.Key_F4)
+    assert tried.screen.curves.shows_speeds
+    assert len(tried.screen.curves.panels()) == 2
+    tried.press(Qt.Key.Key_F4)
+    assert len(tried.screen.curves.panels()) == 3
 
 
-def test_large_text_on_a_small_screen_keeps_what_is_read_from_afar(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    screen, _ = live(qtbot, theme, feed)
+def test_large_text_on_a_small_screen_keeps_what_is_read_from_afar(live: Live, theme: Theme) -> None:
+    tried = live(FakeFeed())
     theme.choose(text_scale=1.5)
-    run(screen, feed, 1.0)
-    assert not screen.path.isVisible()
-    assert screen.number.isVisible()
-    assert screen.controls.light.isVisible()
+    tried.run(1.0)
+    screen = tried.screen
+    shown = [part.isVisible() for part in (screen.path, screen.number, screen.controls.light)]
+    assert shown == [False, True, True]
 
 
-def test_pain_of_ten_is_typed_and_escape_closes_the_card(qtbot: QtBot, theme: Theme) -> None:
-    screen, _ = live(qtbot, theme, FakeFeed())
+def test_pain_of_ten_is_typed_and_escape_closes_the_card(qtbot: QtBot, live: Live) -> None:
+    screen = live(FakeFeed()).screen
     kept: list[int] = []
     screen.pain_sheet.kept.connect(kept.append)
     for typed, score in (("10", 10), ("7", 7), ("13", 3), ("0", 0)):
@@ -288,20 +228,6 @@ def test_pain_of_ten_is_typed_and_escape_closes_the_card(qtbot: QtBot, theme: Th
     assert kept == [10, 7, 3, 0, 1]
 
 
-def test_nothing_offers_to_go_on_while_there_is_no_camera(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    screen, measuring = live(qtbot, theme, feed)
-    run(screen, feed, 1.0)
-    record(qtbot, screen, measuring)
-    screen.set_camera_lost(True)
-    assert not screen.controls.pause.isEnabled()
-    assert screen.controls.pause.text() == "Pause"
-    screen.recording.toggle_pause()
-    assert not feed.paused
-    screen.set_camera_lost(False)
-    assert screen.controls.pause.isEnabled()
-
-
 @pytest.mark.parametrize(
     ("value_deg", "word"), [(0.4, "Straight"), (-0.4, "Straight"), (0.6, "Flexion"), (-0.6, "Extension")]
 )
@@ -310,6 +236,159 @@ def test_zero_degrees_name_no_side(qtbot: QtBot, theme: Theme, value_deg: float,
     qtbot.addWidget(card)
     card.show_reading(Reading(angle=1, value_deg=value_deg, sd_deg=1.0))
     assert card.movement() == word
+
+
+@pytest.mark.parametrize("stored", [False, True])
+def test_one_key_starts_and_stops_on_every_source_and_a_hasty_end_asks(
+    qtbot: QtBot, live: Live, monkeypatch: pytest.MonkeyPatch, stored: bool
+) -> None:
+    tried = live(FakeFeed())
+    feed, recording = tried.feed, tried.screen.recording
+    tried.measuring.starts_with_recording = stored
+    asked: list[bool] = []
+    recording.hasty.connect(lambda: asked.append(True))
+    clock_s = [100.0]
+    monkeypatch.setattr(live_recording.time, "monotonic", lambda: clock_s[0])
+    tried.press(Qt.Key.Key_Space)
+    qtbot.waitUntil(lambda: feed.recording and not recording.under_way)
+    clock_s[0] += 2.9
+    tried.press(Qt.Key.Key_Space)
+    assert asked == [True]
+    assert feed.recording
+    assert not recording.under_way
+    clock_s[0] += 0.2
+    tried.press(Qt.Key.Key_Space)
+    qtbot.waitUntil(lambda: not feed.recording)
+    assert asked == [True]
+
+
+def test_a_spot_in_plain_sight_is_asked_about_before_its_marker_is_called_hidden() -> None:
+    feed = FakeFeed()
+    frame, camera = feed.frames[30], feed.pictures.truth.camera
+    measured = frame.marker_measured_px.copy()
+    measured[3] = np.nan
+    hidden = replace(frame, marker_measured_px=measured)
+    beside = hidden.marker_predicted_px[3] + [0.0, 15.0]
+    pixel = np.vstack((measured[np.isfinite(measured[:, 0])], beside))
+    spots = Detections(pixel, *(np.ones((4, len(pixel)))))
+    doubt = doubt_of(replace(hidden, detections=spots), MARKERS, camera)
+    assert (doubt.marker, doubt.hidden, doubt.has_spot) == ("MCP3", True, True)
+    np.testing.assert_allclose(doubt.spot_px, beside)
+    assert doubt_lamp(doubt).state == "Another blue spot is here"
+    assert "middle knuckle" in doubt_lamp(doubt).remedy
+    far = replace(spots, pixel=np.vstack((spots.pixel[:-1], beside + 80.0)))
+    assert doubt_of(replace(hidden, detections=far), MARKERS, camera) is None
+    questioned = replace(frame, doubted=np.arange(6) == 3, status=TrackStatus.DOUBTFUL)
+    doubt = doubt_of(replace(questioned, detections=Detections.none()), MARKERS, camera)
+    assert (doubt.marker, doubt.hidden, doubt.has_spot) == ("MCP3", False, False)
+
+
+def test_a_question_about_a_spot_is_answered_while_measuring_goes_on(qtbot: QtBot, live: Live) -> None:
+    feed = FakeFeed()
+    with_other_spot(feed, 3, 1.5, taken=False, off_px=(20.0, 0.0))
+    tried = live(feed)
+    screen, measuring = tried.screen, tried.measuring
+    tried.record()
+    tried.run(1.5)
+    parts = (screen.picture, screen.path, screen.number, screen.curves, screen.controls.light)
+    places = [widget.geometry() for widget in parts]
+    assert screen.question.isHidden()
+    angle = screen.number.reading.angle
+    for _ in range(12):  # whatever the rhythm in which values are shown
+        tried.run(0.1)
+        if screen.question.isVisible():
+            break
+    assert screen.question.words.text() == "Is this blue spot the middle knuckle?"
+    assert [button.text() for button in screen.question.buttons.values() if button.isVisible()] == ["Yes", "No"]
+    assert screen.controls.light.lamp == Lamp("warn", "Another blue spot is here", "Is it the middle knuckle?")
+    tried.press(Qt.Key.Key_F2)
+    assert not measuring.answers, "a key that was meant for something else a moment ago"
+    tried.run(0.6)
+    tried.press(Qt.Key.Key_F2)
+    shown = feed.newest()
+    (answer,) = measuring.answers
+    assert (answer.marker, answer.not_px) == ("MCP3", ())
+    told = feed.frames[answer.index]
+    np.testing.assert_allclose(answer.place_px or (), told.detections.pixel[-1])
+    assert shown.tracked.index - answer.index <= 6, "of a picture shown a moment ago"
+    assert screen.question.isHidden()
+    assert feed.recording
+    assert screen.number.reading.angle == angle
+    assert [widget.geometry() for widget in parts] == places, "nothing jumps"
+    tried.run(1.2)
+    qtbot.mouseClick(screen.question.buttons["none"], Qt.MouseButton.LeftButton)
+    assert measuring.answers[-1].place_px is None
+    assert len(measuring.answers[-1].not_px) == 1
+    feed.frames[feed.place + 1 :] = feed.frames[:10]
+    tried.press(Qt.Key.Key_F2)
+    assert screen.number.reading.angle != angle, "without a question the key does what it did"
+
+
+def test_a_question_stands_only_after_it_has_lasted() -> None:
+    steady, unknown = SteadyDoubt(), np.full(2, np.nan)
+    doubt = Doubt("MCP3", unknown, np.array([1.0, 2.0]))
+    shown = [steady.show(doubt if 0.1 <= t < 0.3 or t >= 1.0 else None, t) is not None for t in np.arange(0, 2, 0.05)]
+    assert not any(shown[:25])
+    assert all(shown[27:])
+    gone = [steady.show(None, t) is not None for t in np.arange(2, 2.6, 0.05)]
+    assert gone[:5] == [True] * 5
+    assert not gone[-1]
+
+
+def test_a_busy_computer_shows_the_newest_picture_and_says_how_late_the_figures_are(live: Live) -> None:
+    tried = live(LateFeed(), 1.0)
+    tried.record()
+    feed, screen = tried.feed, tried.screen
+    shown: list[object] = []
+    feed.ahead_s, feed.dropped = 4.0, 3  # dropped before it was recorded
+    screen._show_slow()
+    tried.run(0.5)
+    screen._show_values()
+    late = Lamp("idle", "The figures are 4 s late", "The computer is busy; every picture is kept")
+    assert screen.controls.light.lamp == late
+    assert math.isnan(screen.glance().value_deg)
+    newest = feed.newest_frame()
+    feed.newest_frame = lambda: newest  # type: ignore[method-assign]
+    screen.picture.show_frame = shown.append  # type: ignore[method-assign, assignment]
+    screen.tick()
+    assert shown[-1] is newest.color_rgb
+    del feed.newest_frame
+    del screen.picture.show_frame
+    feed.dropped = 8
+    screen._show_slow()
+    screen.tick()
+    screen._show_values()
+    assert screen.controls.light.lamp.rank == "warn"
+    assert screen.controls.light.lamp.remedy.startswith("5 pictures are missing")
+    feed.ahead_s = 0.0
+    tried.run(0.5)
+    screen._show_values()
+    assert "late" not in screen.controls.light.lamp.state
+
+
+def test_a_stop_says_how_long_catching_up_takes(qtbot: QtBot, live: Live) -> None:
+    tried = live(LateFeed(), 1.0)
+    tried.record()
+    feed, screen = tried.feed, tried.screen
+    caught_up = threading.Event()
+    tried.measuring.stop_recording = lambda: "session-7" if caught_up.wait(60.0) else ""  # type: ignore[method-assign]
+    feed.waiting = 1200
+    with qtbot.waitSignal(screen.recording.stopped):
+        screen.recording.stop()
+        screen._show_values()
+        assert screen.controls.main.text() == "Catching up: 12 s left"
+        assert screen.catching_up.isVisible()
+        assert not screen.controls.note.isEnabled()
+        assert not screen.controls.pause.isEnabled()
+        feed.waiting = 300
+        screen._show_values()
+        assert screen.controls.main.text() == "Catching up: 3 s left"
+        assert (screen.catching_up.value(), screen.catching_up.maximum()) == (900, 1200)
+        feed.waiting = 0
+        screen._show_values()
+        assert screen.controls.main.text() == "Storing…"
+        caught_up.set()
+    assert not screen.catching_up.isVisible()
 
 
 # --- pieces -----------------------------------------------------------------------------------------------
@@ -380,7 +459,6 @@ def test_curves_scroll_on_fixed_scales(qtbot: QtBot, theme: Theme) -> None:
 def test_axes_point_along_the_hand_in_the_picture() -> None:
     measuring = FakeMeasuring(FakeFeed())
     frame = measuring.feed.frames[0]
-    assert measuring.calibration is not None
     origin, x_end, y_end, _ = axis_pixels(frame, measuring.calibration, measuring.camera)
     discs = measuring.calibration.clicks.pixel
     along = (discs[3] - discs[0]) / np.linalg.norm(discs[3] - discs[0])
@@ -408,163 +486,189 @@ def test_a_letter_outside_the_picture_moves_to_the_nearest_place_inside() -> Non
     assert within(QPointF(0, 500), box) == QPointF(16, 66)
 
 
-@pytest.mark.parametrize("stored", [False, True])
-def test_one_key_starts_and_stops_on_every_source_and_a_hasty_end_asks(
-    qtbot: QtBot, theme: Theme, monkeypatch: pytest.MonkeyPatch, stored: bool
+# --- begun with no hand at the keyboard: over a still hand, counted down, taken back by one key ----------
+FPS = 30.0
+
+
+def begun(beginning: Beginning, angle_deg, until_s: float, from_s: float = 0.0) -> float:  # type: ignore[no-untyped-def]
+    """When it says that the recording begins; NaN for never."""
+    for number in range(round(from_s * FPS), round(until_s * FPS)):
+        now_s = number / FPS
+        value = angle_deg(now_s)
+        if beginning.take(None if value is None else np.array([value, 1.0, math.nan]), now_s):
+            return now_s
+    return math.nan
+
+
+def test_a_hand_begins_only_once_it_lies_still_and_is_counted_down() -> None:
+    beginning = Beginning()
+    assert math.isnan(begun(beginning, lambda _: 0.0, 60.0)), "nobody asked for it"
+    noise = np.random.default_rng(7).normal(0.0, 0.5, 2000)
+    beginning.wait()
+    at_s = begun(beginning, lambda t: 30.0 * math.sin(t) if t < 10.0 else 20.0 + noise[round(t * FPS)], 60.0)
+    assert at_s == pytest.approx(10.0 + STILL_S + COUNT_S, abs=0.5)
+    assert (beginning.waits, beginning.counts, beginning.left_s(at_s)) == (False, False, 0)
+
+
+@pytest.mark.parametrize("what", ["moves", "lost"])
+def test_a_hand_that_moves_or_goes_while_it_is_counted_waits_again(what: str) -> None:
+    beginning = Beginning()
+    beginning.wait()
+    assert math.isnan(begun(beginning, lambda _: 0.0, STILL_S + 1.0))
+    assert beginning.left_s(STILL_S + 1.0) == 3 - 1
+    disturbed = 4.0 * STILL_DEG if what == "moves" else None
+    assert math.isnan(begun(beginning, lambda _: disturbed, STILL_S + 1.2, STILL_S + 1.0))
+    assert (beginning.waits, beginning.counts) == (True, False)
+    assert begun(beginning, lambda _: 0.0, 60.0, STILL_S + 1.2) >= 2.0 * STILL_S + COUNT_S
+
+
+def test_after_the_key_it_is_counted_whatever_the_hand_does() -> None:
+    beginning = Beginning()
+    beginning.count(5.0)
+    assert [beginning.left_s(time_s) for time_s in (5.0, 6.5, 7.9)] == [3, 2, 1]
+    assert begun(beginning, lambda t: 40.0 * math.sin(3.0 * t), 60.0, 5.0) == pytest.approx(5.0 + COUNT_S, abs=0.05)
+
+
+def waiting(live: Live, mode: StartMode) -> TriedLive:
+    tried = live(FakeFeed(speed_hz=0.01))  # all but still
+    tried.screen.recording.start_mode = mode
+    tried.begin(tried.screen.recording.set_up)
+    return tried
+
+
+@pytest.mark.parametrize("key", [Qt.Key.Key_Space, Qt.Key.Key_PageDown])
+def test_the_key_or_a_pedal_counts_down_and_takes_back(qtbot: QtBot, live: Live, key: Qt.Key) -> None:
+    tried = waiting(live, "countdown")
+    screen, feed = tried.screen, tried.feed
+    tried.run(1.0)
+    tried.press(key)
+    assert screen.controls.main.text() == "Starts in 3: not yet"
+    tried.run(1.5)
+    assert (screen.controls.main.text(), screen.glance().starts_s) == ("Starts in 2: not yet", 2)
+    tried.press(key)
+    tried.run(6.0)
+    assert (screen.controls.main.text(), feed.recording) == ("Record", False)
+    tried.press(key)
+    tried.run(COUNT_S + 0.2)
+    qtbot.waitUntil(lambda: feed.recording)
+
+
+def test_over_a_still_hand_a_recording_begins_by_itself_but_in_no_rest(qtbot: QtBot, live: Live) -> None:
+    tried = waiting(live, "still")
+    screen, feed = tried.screen, tried.feed
+    screen.recording.rest(on=True)
+    tried.run(6.0)
+    assert not screen.recording.beginning.waits
+    screen.recording.rest(on=False)
+    tried.run(1.0)
+    assert "Starts by itself when the hand lies still" in screen.controls.light.lamp.remedy
+    tried.run(STILL_S + COUNT_S)
+    qtbot.waitUntil(lambda: feed.recording and screen.recording.count is not None)
+    assert screen.controls.main.text() == "Stop and review"
+
+
+def test_a_stored_recording_is_played_at_once(qtbot: QtBot, live: Live, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(FakeMeasuring, "starts_with_recording", True)
+    tried = waiting(live, "countdown")
+    tried.run(1.0)
+    tried.press(Qt.Key.Key_Space)
+    qtbot.waitUntil(lambda: tried.feed.recording)
+
+
+# --- the live count: whenever it is asked for, what the measures find in all that was recorded -----------
+RATE_HZ = 30.0
+
+
+@lru_cache(maxsize=1)
+def any_frame() -> TrackedFrame:
+    return FakeFeed(seconds=1.0).frames[20]
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    amplitude_deg=st.floats(3.0, 60.0),
+    frequency_hz=st.floats(0.2, 1.5),
+    offset_deg=st.floats(-40.0, 40.0),
+    lengths=st.lists(st.integers(1, 70), min_size=3, max_size=12),
+    hidden=st.lists(st.integers(0, 600), max_size=4),
+    seed=st.integers(0, 1000),
+)
+def test_counted_piece_by_piece_is_counted_as_a_whole(
+    amplitude_deg: float, frequency_hz: float, offset_deg: float, lengths: list[int], hidden: list[int], seed: int
 ) -> None:
-    feed = FakeFeed()
-    screen, measuring = live(qtbot, theme, feed)
-    measuring.starts_with_recording = stored
-    asked: list[bool] = []
-    screen.recording.hasty.connect(lambda: asked.append(True))
-    clock_s = [100.0]
-    monkeypatch.setattr(live_recording.time, "monotonic", lambda: clock_s[0])
-    key(qtbot, screen, "Space")
-    qtbot.waitUntil(lambda: feed.recording and not screen.recording.under_way)
-    clock_s[0] += 2.9
-    key(qtbot, screen, "Space")
-    assert asked == [True]
-    assert feed.recording
-    assert not screen.recording.under_way
-    clock_s[0] += 0.2
-    key(qtbot, screen, "Space")
-    qtbot.waitUntil(lambda: not feed.recording)
-    assert asked == [True]
+    random = np.random.default_rng(seed)
+    count = sum(lengths)
+    time_s = 3.0 + np.cumsum(random.uniform(0.9, 1.1, count)) / RATE_HZ
+    angle_deg = (
+        offset_deg + amplitude_deg * np.sin(2.0 * np.pi * frequency_hz * time_s) + random.normal(0.0, 0.3, count)
+    )
+    seen = np.ones(count, dtype=bool)
+    for start in hidden:
+        seen[start : start + 12] = False
+    frame, flexion = any_frame(), np.arange(len(WRIST_ANGLES)) == FLEXION
+    frames = [
+        replace(
+            with_moment(frame, angles_rad=np.where(flexion, np.radians(angle_deg[k]), frame.moment.angles_rad)),
+            timestamp_s=float(time_s[k]),
+            status=TrackStatus.TRACKED if seen[k] else TrackStatus.PREDICTED,
+        )
+        for k in range(count)
+    ]
+    running, end, most = RunningCount(exercise_named("WRIST_FE")), 0, 0
+    for length in lengths:
+        running.append(frames[end : end + length])
+        end += length
+        whole = even_signal(time_s[:end], np.radians(angle_deg[:end]), seen[:end])
+        expected = len(find_repetitions(whole).repetitions) if len(whole.time_s) else 0
+        most = max(most, expected)  # what was counted is never unmade
+        if end > 2:
+            assert running.count() == most
 
 
-def test_a_spot_in_plain_sight_is_asked_about_before_its_marker_is_called_hidden(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    screen, measuring = live(qtbot, theme, feed)
-    run(screen, feed, 1.0)
-    view = feed.newest()
-    assert view is not None
-    frame = view.tracked
-    measured = frame.marker_measured_px.copy()
-    measured[3] = np.nan
-    hidden = replace(frame, marker_measured_px=measured)
-    beside = hidden.marker_predicted_px[3] + [0.0, 15.0]
-    pixel = np.vstack((measured[np.isfinite(measured[:, 0])], beside))
-    spots = Detections(pixel, *(np.ones((4, len(pixel)))))
-    doubt = doubt_of(replace(hidden, detections=spots), MARKERS, measuring.camera)
-    assert doubt is not None
-    assert (doubt.marker, doubt.hidden, doubt.has_spot) == ("MCP3", True, True)
-    np.testing.assert_allclose(doubt.spot_px, beside)
-    assert doubt_lamp(doubt).state == "Another blue spot is here"
-    assert "middle knuckle" in doubt_lamp(doubt).remedy
-    far = replace(spots, pixel=np.vstack((spots.pixel[:-1], beside + 80.0)))
-    assert doubt_of(replace(hidden, detections=far), MARKERS, measuring.camera) is None
-    questioned = replace(frame, doubted=np.arange(6) == 3, status=TrackStatus.DOUBTFUL)
-    doubt = doubt_of(replace(questioned, detections=Detections.none()), MARKERS, measuring.camera)
-    assert doubt is not None
-    assert (doubt.marker, doubt.hidden, doubt.has_spot) == ("MCP3", False, False)
+def test_what_somebody_else_moved_neither_counts_nor_is_a_best() -> None:
+    frame, time_s = any_frame(), np.arange(0.0, 30.0, 1.0 / RATE_HZ)
+    angle_deg = np.where(time_s < 15.0, 30.0, 60.0) * np.sin(2.0 * np.pi * 0.4 * time_s)
+    frames = [
+        replace(
+            with_moment(frame, angles_rad=np.radians([0.0, angle, 0.0]), angles_sd_rad=np.radians([0.5, 0.7, 1.2])),
+            timestamp_s=float(at_s),
+            status=TrackStatus.TRACKED,
+        )
+        for at_s, angle in zip(time_s, angle_deg, strict=True)
+    ]
+    half, running = len(frames) // 2, RunningCount(exercise_named("WRIST_FE"))
+    running.append(frames[:half])
+    by_itself = running.count()
+    running.say_way(frames[half - 1].timestamp_s, passive=True)
+    running.append(frames[half:-60])
+    assert running.count() <= by_itself + 1, "the one that had begun"
+    assert running.best_positive_deg < 31.0
+    running.say_way(frames[-60].timestamp_s, passive=False)
+    running.append(frames[-60:])
+    assert running.best_positive_deg > 31.0, "by itself again"
 
 
-def test_a_question_about_a_spot_is_answered_while_measuring_goes_on(qtbot: QtBot, theme: Theme) -> None:
-    feed = FakeFeed()
-    with_other_spot(feed, 3, 1.5, taken=False, off_px=(20.0, 0.0))
-    screen, measuring = live(qtbot, theme, feed)
-    record(qtbot, screen, measuring)
-    run(screen, feed, 1.5)
-    parts = (screen.picture, screen.path, screen.number, screen.curves, screen.controls.light)
-    places = [widget.geometry() for widget in parts]
-    assert screen.question.isHidden()
-    angle = screen.number.reading.angle
-    for _ in range(12):  # whatever the rhythm in which values are shown
-        run(screen, feed, 0.1)
-        if screen.question.isVisible():
-            break
-    assert screen.question.words.text() == "Is this blue spot the middle knuckle?"
-    assert [button.text() for button in screen.question.buttons.values() if button.isVisible()] == ["Yes", "No"]
-    assert screen.controls.light.lamp == Lamp("warn", "Another blue spot is here", "Is it the middle knuckle?")
-    qtbot.keyClick(screen, Qt.Key.Key_F2)
-    assert not measuring.answers, "a key that was meant for something else a moment ago"
-    run(screen, feed, 0.6)
-    qtbot.keyClick(screen, Qt.Key.Key_F2)
-    shown = feed.newest()
-    assert shown is not None
-    (answer,) = measuring.answers
-    assert (answer.marker, answer.not_px) == ("MCP3", ())
-    told = feed.frames[answer.index]
-    np.testing.assert_allclose(answer.place_px or (), told.detections.pixel[-1])
-    assert shown.tracked.index - answer.index <= 6, "of a picture shown a moment ago"
-    assert screen.question.isHidden()
-    assert feed.recording
-    assert screen.number.reading.angle == angle
-    assert [widget.geometry() for widget in parts] == places, "nothing jumps"
-    run(screen, feed, 1.2)
-    qtbot.mouseClick(screen.question.buttons["none"], Qt.MouseButton.LeftButton)
-    assert measuring.answers[-1].place_px is None
-    assert len(measuring.answers[-1].not_px) == 1
-    feed.frames[feed.place + 1 :] = feed.frames[:10]
-    qtbot.keyClick(screen, Qt.Key.Key_F2)
-    assert screen.number.reading.angle != angle, "without a question the key does what it did"
-
-
-def test_a_question_stands_only_after_it_has_lasted() -> None:
-    steady, unknown = SteadyDoubt(), np.full(2, np.nan)
-    doubt = Doubt("MCP3", unknown, np.array([1.0, 2.0]))
-    shown = [steady.show(doubt if 0.1 <= t < 0.3 or t >= 1.0 else None, t) is not None for t in np.arange(0, 2, 0.05)]
-    assert not any(shown[:25])
-    assert all(shown[27:])
-    gone = [steady.show(None, t) is not None for t in np.arange(2, 2.6, 0.05)]
-    assert gone[:5] == [True] * 5
-    assert not gone[-1]
-
-
-def test_a_busy_computer_shows_the_newest_picture_and_says_how_late_the_figures_are(qtbot: QtBot, theme: Theme) -> None:
-    feed = LateFeed()
-    screen, measuring = live(qtbot, theme, feed)
-    shown: list[object] = []
-    run(screen, feed, 1.0)
-    record(qtbot, screen, measuring)
-    feed.ahead_s, feed.dropped = 4.0, 3  # dropped before it was recorded
-    screen._show_slow()
-    run(screen, feed, 0.5)
-    screen._show_values()
-    late = Lamp("idle", "The figures are 4 s late", "The computer is busy; every picture is kept")
-    assert screen.controls.light.lamp == late
-    assert math.isnan(screen.glance().value_deg)
-    newest = feed.newest_frame()
-    feed.newest_frame = lambda: newest  # type: ignore[method-assign]
-    screen.picture.show_frame = shown.append  # type: ignore[method-assign, assignment]
-    screen.tick()
-    assert newest is not None
-    assert shown[-1] is newest.color_rgb
-    del feed.newest_frame
-    del screen.picture.show_frame
-    feed.dropped = 8
-    screen._show_slow()
-    screen.tick()
-    screen._show_values()
-    assert screen.controls.light.lamp.rank == "warn"
-    assert screen.controls.light.lamp.remedy.startswith("5 pictures are missing")
-    feed.ahead_s = 0.0
-    run(screen, feed, 0.5)
-    screen._show_values()
-    assert "late" not in screen.controls.light.lamp.state
-
-
-def test_a_stop_says_how_long_catching_up_takes(qtbot: QtBot, theme: Theme) -> None:
-    feed = LateFeed()
-    screen, measuring = live(qtbot, theme, feed)
-    run(screen, feed, 1.0)
-    record(qtbot, screen, measuring)
-    caught_up = threading.Event()
-    measuring.stop_recording = lambda: "session-7" if caught_up.wait(60.0) else ""  # type: ignore[method-assign]
-    feed.waiting = 1200
-    with qtbot.waitSignal(screen.recording.stopped, timeout=60_000):
-        screen.recording.stop()
-        screen._show_values()
-        assert screen.controls.main.text() == "Catching up: 12 s left"
-        assert screen.catching_up.isVisible()
-        assert not screen.controls.note.isEnabled()
-        assert not screen.controls.pause.isEnabled()
-        feed.waiting = 300
-        screen._show_values()
-        assert screen.controls.main.text() == "Catching up: 3 s left"
-        assert (screen.catching_up.value(), screen.catching_up.maximum()) == (900, 1200)
-        feed.waiting = 0
-        screen._show_values()
-        assert screen.controls.main.text() == "Storing…"
-        caught_up.set()
-    assert not screen.catching_up.isVisible()
+def test_frames_just_after_a_hand_came_back_give_no_best() -> None:
+    frame = any_frame()
+    count = 90
+    angle_deg = np.full(count, 20.0)
+    angle_deg[60:62] = 60.0  # found again in a wrong pose for two pictures
+    angle_deg[80] = 30.0
+    frames = [
+        replace(
+            with_moment(
+                frame,
+                angles_rad=np.radians([0.0, angle_deg[k], 0.0]),
+                angles_sd_rad=np.radians([0.5, 0.7, 1.2]),
+            ),
+            timestamp_s=3.0 + k / RATE_HZ,
+            status=TrackStatus.PREDICTED if 40 <= k < 60 else TrackStatus.TRACKED,
+        )
+        for k in range(count)
+    ]
+    running = RunningCount(exercise_named("WRIST_FE"))
+    running.append(frames)
+    assert abs(running.best_positive_deg - 30.0) < 1e-9
+    at_once = RunningCount(exercise_named("WRIST_FE"))
+    at_once.append(frames[:3])
+    assert abs(at_once.best_positive_deg - 20.0) < 1e-9, "the first frames of a recording count"

@@ -17,20 +17,17 @@ from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Session
 from carpus.core.types import TrackedFrame, TrackStatus
-from carpus.ui.background import Background
 from carpus.ui.figures import FIGURES, Figure, figure_of
-from carpus.ui.help import guide
 from carpus.ui.joint_figures import figures_of
-from carpus.ui.keys import Keys
 from carpus.ui.live.counting import RunningCount
 from carpus.ui.live.light import hand_lamp, map_words
 from carpus.ui.live.number_card import NumberCard, Reading
-from carpus.ui.live.screen import LiveScreen
 from carpus.ui.picture.skeleton import side_points_m
 from carpus.ui.plot.finger_curves import cell_word
 from carpus.ui.plot.history import History
 from carpus.ui.theme import Theme
 from tests.moments import with_moment
+from tests.ui.conftest import Live
 from tests.ui.fakes import FakeFeed, FakeMeasuring, set_up
 from tests.ui.hand_fakes import hand_session
 
@@ -40,23 +37,6 @@ CLOSED_S, OPEN_S = 3.0, 0.2
 
 def feed_of(hidden: Sequence[tuple[float, float, str]] = (), lost: Sequence[tuple[float, float]] = ()) -> FakeFeed:
     return FakeFeed("fist", 8.0, hidden, lost, protocol="hand21")
-
-
-def live(qtbot: QtBot, theme: Theme, feed: FakeFeed) -> LiveScreen:
-    screen = LiveScreen(theme, Keys(), Background())
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
-    feed.picture_number = 0
-    screen.begin(FakeMeasuring(feed), set_up("FIST_COMPOSITE", target_deg=90.0))
-    screen._timer.stop()
-    return screen
-
-
-def run(screen: LiveScreen, feed: FakeFeed, seconds: float) -> None:
-    for _ in range(round(15 * seconds)):
-        feed.step(2)
-        screen.tick()
 
 
 def frames_of(session: Session) -> list[TrackedFrame]:
@@ -78,12 +58,12 @@ def frames_of(session: Session) -> list[TrackedFrame]:
     ]
 
 
-def at(feed: FakeFeed, time_s: float) -> int:
-    return round(30 * time_s)
+def frame_at(time_s: float) -> TrackedFrame:
+    return feed_of().frames[round(30 * time_s)]
 
 
 def test_every_figure_is_the_angle_of_its_name_and_spreading_is_away_from_the_middle_finger() -> None:
-    frame = feed_of().frames[at(feed_of(), CLOSED_S)]
+    frame = frame_at(CLOSED_S)
     names = joint_angle_names()
     angle = dict(zip(names, np.degrees(frame.moment.joint_angles_rad), strict=True))
     _, value, sd, _, _ = figures_of(HAND21, [frame])
@@ -151,35 +131,30 @@ def test_the_band_of_a_hidden_joint_grows() -> None:
     history = History(HAND21)
     history.append(feed_of([(1.0, 9.0, "DIP2"), (1.0, 9.0, "TIP2")]).frames[:90])
     sd = history.block().series(FIGURES.index(Figure(2, "middle"))).sd
-    assert sd is not None
     assert sd[-1] > 3.0 * sd[0]
     assert np.all(np.diff(sd[len(sd) // 2 :]) >= 0.0)
 
 
-def test_a_hidden_trained_joint_has_no_number_and_does_not_count_as_best(qtbot: QtBot, theme: Theme) -> None:
-    feed = feed_of([(1.0, 9.0, "PIP3"), (1.0, 9.0, "DIP3")])
-    screen = live(qtbot, theme, feed)
-    screen.recording.toggle()
-    qtbot.waitUntil(lambda: feed.recording and screen.recording.count is not None)
-    run(screen, feed, 0.8)
-    screen._show_values()
-    assert screen.number.reading.best_positive_deg < 10.0
-    assert math.isfinite(screen.number.reading.value_deg)
-    run(screen, feed, 2.4)
-    screen._show_values()
-    assert math.isnan(screen.number.reading.value_deg)
-    assert screen.number.reading.best_positive_deg < 10.0  # by then the finger is bent by 75 degrees
-    assert screen.recording.count is not None
+def test_a_hidden_trained_joint_has_no_number_and_does_not_count_as_best(live: Live) -> None:
+    tried = live(feed_of([(1.0, 9.0, "PIP3"), (1.0, 9.0, "DIP3")]))
+    tried.record()
+    tried.run(0.8)
+    reading = tried.reading()
+    assert reading.best_positive_deg < 10.0
+    assert math.isfinite(reading.value_deg)
+    tried.run(2.4)
+    reading, screen = tried.reading(), tried.screen
+    assert math.isnan(reading.value_deg)
+    assert reading.best_positive_deg < 10.0  # by then the finger is bent by 75 degrees
     screen.recording.count.best_negative_deg = -4.0
     assert math.isnan(screen.readings.now(screen.number.reading).best_negative_deg), "no mark for a finger laid flat"
     assert screen.number.reading.best_at_least
     assert "no value" not in screen.number.movement()
 
 
-def test_the_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, theme: Theme) -> None:
-    feed = feed_of()
-    screen = live(qtbot, theme, feed)
-    run(screen, feed, CLOSED_S)
+def test_the_large_number_is_chosen_by_click_and_by_key(qtbot: QtBot, live: Live) -> None:
+    tried = live(feed_of(), CLOSED_S)
+    feed, screen = tried.feed, tried.screen
     assert screen.number.movement() == "Middle finger, knuckle"
     assert screen.number.reading.target_positive_deg == 90.0
     spot = screen.fingers.cell(Figure(4, "knuckle")).center().toPoint()
@@ -213,27 +188,20 @@ def test_spreading_says_its_side_and_the_thumbs_lift_runs_from_the_palms_plane(q
     assert cell_word(lift, 20.0) == "lift"
 
 
-def test_a_lost_hand_leaves_no_number_anywhere(qtbot: QtBot, theme: Theme) -> None:
-    feed = feed_of(lost=[(1.0, 9.0)])
-    screen = live(qtbot, theme, feed)
-    run(screen, feed, 2.0)
-    screen._show_values()
-    assert math.isnan(screen.number.reading.value_deg)
-    assert all(math.isnan(value) for value, _, _ in screen.fingers._values.values())
-    assert screen.controls.light.lamp.rank == "bad"
+def test_a_lost_hand_leaves_no_number_anywhere(live: Live) -> None:
+    tried = live(feed_of(lost=[(1.0, 9.0)]), 2.0)
+    assert math.isnan(tried.reading().value_deg)
+    assert all(math.isnan(value) for value, _, _ in tried.screen.fingers._values.values())
+    assert tried.screen.controls.light.lamp.rank == "bad"
 
 
-def test_the_wrist_keeps_its_own_screen(qtbot: QtBot, theme: Theme) -> None:
-    screen = live(qtbot, theme, feed_of())
-    assert screen.fingers.isVisible()
-    assert screen.hand_map.isVisible()
-    assert not screen.curves.isVisible()
+def test_the_wrist_keeps_its_own_screen(live: Live) -> None:
+    screen = live(feed_of()).screen
+    parts = (screen.fingers, screen.hand_map, screen.curves, screen.path)
+    assert [part.isVisible() for part in parts] == [True, True, False, False]
     screen.begin(FakeMeasuring(FakeFeed(seconds=8.0)), set_up())
     screen._timer.stop()
-    assert screen.curves.isVisible()
-    assert screen.path.isVisible()
-    assert not screen.fingers.isVisible()
-    assert not screen.hand_map.isVisible()
+    assert [part.isVisible() for part in parts] == [False, False, True, True]
 
 
 @pytest.mark.parametrize(
@@ -266,8 +234,7 @@ def test_the_map_says_it_in_one_sentence() -> None:
 
 
 def test_a_bent_finger_goes_below_the_back_of_the_hand_in_the_side_view() -> None:
-    feed = feed_of()
-    straight, bent = (side_points_m(feed.frames[at(feed, time_s)], HAND21, 3) for time_s in (OPEN_S, CLOSED_S))
+    straight, bent = (side_points_m(frame_at(time_s), HAND21, 3) for time_s in (OPEN_S, CLOSED_S))
     assert np.all(np.diff(straight[:, 0]) > 0.0)
     assert abs(straight[3, 1]) < 0.03
     assert bent[3, 1] < -0.03
@@ -290,20 +257,18 @@ def test_what_is_counted_live_is_what_the_review_counts_though_the_joint_hides(e
     found = session_figures(session, RepetitionChoices({}))
     assert count.count() == len(found.repetitions) >= 5
     row = found.row("flexion", -1, chosen.joint)
-    assert row is not None
     assert count.best_positive_deg == pytest.approx(row.best_deg, abs=3.0)
     assert count.best_at_least == row.limited
 
 
-def test_light_map_cells_and_large_number_say_the_same_at_every_moment(qtbot: QtBot, theme: Theme) -> None:
-    feed = feed_of([(0.5, 0.6, "PIP4"), (1.0, 2.0, "TIP2"), (1.5, 3.0, "PIP3"), (2.2, 2.5, "MCP1")])
-    screen = live(qtbot, theme, feed)
+def test_light_map_cells_and_large_number_say_the_same_at_every_moment(live: Live) -> None:
+    tried = live(feed_of([(0.5, 0.6, "PIP4"), (1.0, 2.0, "TIP2"), (1.5, 3.0, "PIP3"), (2.2, 2.5, "MCP1")]))
+    screen = tried.screen
     screen.choose(Reading(figure=Figure(3, "knuckle")))
     ranks = set()
     for _ in range(round(15 * 4.0)):
-        feed.step(2)
-        screen.tick()
-        screen._show_values()
+        tried.run(1 / 15)
+        reading = tried.reading()
         seen = screen.hand_map.seen
         hidden = {name for name, state in seen.items() if state == "hidden"}
         lamp = screen.controls.light.lamp
@@ -311,14 +276,7 @@ def test_light_map_cells_and_large_number_say_the_same_at_every_moment(qtbot: Qt
         assert (lamp.rank == "good") == (set(seen.values()) == {"seen"})
         for k, figure in enumerate(FIGURES):
             if figure.row == "knuckle" and figure.finger > 1:
-                assert screen.history.figure_value(k)[2] != bool(
-                    hidden & {f"MCP{figure.finger}", f"PIP{figure.finger}"}
-                )
-        assert math.isfinite(screen.number.reading.value_deg) != bool(hidden & {"MCP3", "PIP3"})
+                of_it = hidden & {f"MCP{figure.finger}", f"PIP{figure.finger}"}
+                assert screen.history.figure_value(k)[2] != bool(of_it)
+        assert math.isfinite(reading.value_deg) != bool(hidden & {"MCP3", "PIP3"})
     assert ranks == {"good", "warn"}
-
-
-def test_the_help_covers_what_the_whole_hand_shows() -> None:
-    text = " ".join(guide.source(page) for page in guide.PAGES)
-    for word in ("21", "≥", "TAM", "hide", "inferred", "straight finger", "F2", "F3", "Shift+F8", "nail", "zoom"):
-        assert word in text, word

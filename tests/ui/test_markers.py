@@ -23,6 +23,71 @@ from tests.ui.fakes import FakeCalibrator
 from tests.ui.geometry import painted_texts
 
 
+class Marking:
+    """The markers screen as a person uses it."""
+
+    def __init__(self, qtbot: QtBot, screen: MarkersScreen) -> None:
+        self.screen, self._qtbot = screen, qtbot
+        self.started: list[bool] = []
+        screen.naming.started.connect(lambda: self.started.append(True))
+
+    @property
+    def clicking(self) -> Clicking:
+        return self.screen.clicking
+
+    def begin(self, *findings: CalibrationFinding, is_live: bool = False) -> FakeCalibrator:
+        """Six discs that a person names: nothing is proposed."""
+        self.calibrator = FakeCalibrator(is_live=is_live)
+        self.calibrator.findings = findings
+        self.screen.begin(self.calibrator)
+        self._qtbot.waitUntil(lambda: not self.screen.naming._background.busy)
+        return self.calibrator
+
+    def propose(
+        self, protocol: str = "hand21", *, doubtful: tuple[str, ...] = (), not_found: tuple[str, ...] = ()
+    ) -> FakeCalibrator:
+        """Discs that are proposed with their names."""
+        self.calibrator = FakeCalibrator("fist" if protocol == "hand21" else "flexion", protocol=protocol)
+        self.calibrator.doubtful, self.calibrator.not_found = doubtful, not_found
+        self.screen.begin(self.calibrator)
+        self._qtbot.waitUntil(lambda: self.clicking is not None and bool(self.clicking.proposed))
+        return self.calibrator
+
+    def disc_px(self, name: str) -> np.ndarray:
+        return self.calibrator.disc_px[self.calibrator.protocol.markers.index(name)]
+
+    def at(self, pixel: np.ndarray) -> QPoint:
+        return self.screen.picture.to_screen(*map(float, pixel)).toPoint()
+
+    def click(self, *pixels: np.ndarray) -> None:
+        for pixel in pixels:
+            self._qtbot.mouseMove(self.screen.picture, self.at(pixel))
+            self._qtbot.mouseClick(self.screen.picture, Qt.MouseButton.LeftButton, pos=self.at(pixel))
+
+    def drag(self, start: np.ndarray, end: np.ndarray) -> None:
+        self._qtbot.mousePress(self.screen.picture, Qt.MouseButton.LeftButton, pos=self.at(start))
+        self._qtbot.mouseRelease(self.screen.picture, Qt.MouseButton.LeftButton, pos=self.at(end))
+
+    def press(self, key: Qt.Key) -> None:
+        """On the picture, as while it is clicked in."""
+        self._qtbot.keyClick(self.screen.picture, key)
+
+    def enter(self) -> None:
+        self._qtbot.keyClick(self.screen.focusWidget(), Qt.Key.Key_Return)
+
+    def judge(self) -> Clicks:
+        """Wait for the verdict; what was judged."""
+        self._qtbot.waitUntil(
+            lambda: self.clicking is not None and self.clicking.complete and self.screen.primary.isEnabled()
+        )
+        return self.calibrator.judged[-1]
+
+    def judge_all(self, off_px: float = 2.0) -> Clicks:
+        """Click every disc, and wait."""
+        self.click(*(self.calibrator.disc_px + off_px))
+        return self.judge()
+
+
 @pytest.fixture
 def screen(qtbot: QtBot, theme: Theme) -> MarkersScreen:
     screen = MarkersScreen(theme, Keys(), Background())
@@ -32,92 +97,73 @@ def screen(qtbot: QtBot, theme: Theme) -> MarkersScreen:
     return screen
 
 
-def place_of(screen: MarkersScreen, pixel: np.ndarray) -> QPoint:
-    return screen.picture.to_screen(*map(float, pixel)).toPoint()
+@pytest.fixture
+def marking(qtbot: QtBot, screen: MarkersScreen) -> Marking:
+    return Marking(qtbot, screen)
 
 
-def click_all(qtbot: QtBot, screen: MarkersScreen, calibrator: FakeCalibrator, off_px: float = 2.0) -> None:
-    for pixel in calibrator.disc_px:
-        spot = place_of(screen, pixel + off_px)
-        qtbot.mouseMove(screen.picture, spot)
-        qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=spot)
+TILT = CalibrationFinding("tilt", (), 19.0, 15.0, "deg")
 
 
-def wait_for_verdict(qtbot: QtBot, screen: MarkersScreen) -> None:
-    qtbot.waitUntil(lambda: screen.clicking is not None and screen.clicking.complete and screen.primary.isEnabled())
-
-
-def test_clicks_snap_to_the_discs_in_the_order_of_the_protocol(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    screen.begin(calibrator)
-    click_all(qtbot, screen, calibrator)
-    wait_for_verdict(qtbot, screen)
-    np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
-    assert calibrator.judged[-1].protocol.markers == WRIST6.markers
-    with qtbot.waitSignal(screen.naming.started):
-        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+def test_clicks_snap_to_the_discs_in_the_order_of_the_protocol(marking: Marking) -> None:
+    calibrator = marking.begin()
+    judged = marking.judge_all()
+    np.testing.assert_allclose(judged.pixel, calibrator.disc_px)
+    assert judged.protocol.markers == WRIST6.markers
+    assert not marking.screen.guidance.straight.isVisible(), "a wrist is not asked for its fingers"
+    marking.enter()
+    assert marking.started
     assert calibrator.begun is not None
 
 
-def test_the_whole_way_by_keyboard_alone(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    screen.begin(calibrator)
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Left)
+def test_the_whole_way_by_keyboard_alone(qtbot: QtBot, marking: Marking) -> None:
+    calibrator, picture = marking.begin(), marking.screen.picture
+    marking.press(Qt.Key.Key_Left)
     for pixel in calibrator.disc_px:
-        cursor = screen.picture.cursor_px
-        assert cursor is not None
+        cursor = picture.cursor_px
         steps = np.round(pixel - cursor).astype(int)
-        for axis, (less, more) in enumerate(((Qt.Key.Key_Left, Qt.Key.Key_Right), (Qt.Key.Key_Up, Qt.Key.Key_Down))):
-            tens, ones = divmod(abs(int(steps[axis])), 10)
-            key = more if steps[axis] > 0 else less
+        for step, (less, more) in zip(
+            steps, ((Qt.Key.Key_Left, Qt.Key.Key_Right), (Qt.Key.Key_Up, Qt.Key.Key_Down)), strict=True
+        ):
+            tens, ones = divmod(abs(int(step)), 10)
+            key = more if step > 0 else less
             for _ in range(tens):
-                qtbot.keyClick(screen.picture, key, Qt.KeyboardModifier.ShiftModifier)
+                qtbot.keyClick(picture, key, Qt.KeyboardModifier.ShiftModifier)
             for _ in range(ones):
-                qtbot.keyClick(screen.picture, key)
-        np.testing.assert_allclose(screen.picture.cursor_px, cursor + steps)
-        qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
-    wait_for_verdict(qtbot, screen)
-    np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
-    with qtbot.waitSignal(screen.naming.started):
-        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+                marking.press(key)
+        np.testing.assert_allclose(picture.cursor_px, cursor + steps)
+        marking.press(Qt.Key.Key_Space)
+    np.testing.assert_allclose(marking.judge().pixel, calibrator.disc_px)
+    marking.enter()
+    assert marking.started
 
 
-def test_a_disc_that_has_a_name_is_refused_at_once(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    screen.begin(calibrator)
-    spot = place_of(screen, calibrator.disc_px[0])
-    qtbot.mouseMove(screen.picture, spot)
-    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=spot)
+def test_a_disc_that_has_a_name_is_refused_at_once(marking: Marking) -> None:
+    marking.click(marking.begin().disc_px[0])
     for _ in range(3):
-        qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
-        assert screen.clicking is not None
-        assert set(screen.clicking.pixel) == {"WRIST"}
-        assert screen.clicking.current == "CMC1"
-        assert screen.picture.no_marker_words == "Already the wrist"
+        marking.press(Qt.Key.Key_Space)
+        assert set(marking.clicking.pixel) == {"WRIST"}
+        assert marking.clicking.current == "CMC1"
+        assert marking.screen.picture.no_marker_words == "Already the wrist"
 
 
-def test_the_cursor_of_the_last_picture_is_forgotten(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    screen.begin(calibrator)
-    qtbot.mouseMove(screen.picture, place_of(screen, calibrator.disc_px[0]))
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Right)
-    assert screen.picture.cursor_px is not None
-    screen.begin(FakeCalibrator())
-    assert screen.picture.cursor_px is None
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
-    assert screen.clicking is not None
-    assert not screen.clicking.pixel
+def test_the_cursor_of_the_last_picture_is_forgotten(qtbot: QtBot, marking: Marking) -> None:
+    picture = marking.screen.picture
+    qtbot.mouseMove(picture, marking.at(marking.begin().disc_px[0]))
+    marking.press(Qt.Key.Key_Right)
+    assert picture.cursor_px is not None
+    marking.begin()
+    assert picture.cursor_px is None
+    marking.press(Qt.Key.Key_Space)
+    assert not marking.clicking.pixel
 
 
-def test_markers_of_the_last_source_are_not_judged_on_the_next(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    screen.begin(calibrator)
-    click_all(qtbot, screen, calibrator)
-    wait_for_verdict(qtbot, screen)
-    screen.end()
-    following = FakeCalibrator()
-    screen.begin(following)
-    assert screen.clicking is None or not screen.clicking.pixel
+def test_markers_of_the_last_source_are_not_judged_on_the_next(qtbot: QtBot, marking: Marking) -> None:
+    marking.begin()
+    marking.judge_all()
+    marking.screen.end()
+    following = marking.begin()
+    assert marking.clicking is None or not marking.clicking.pixel
     qtbot.wait(50)
     assert not following.judged
 
@@ -146,10 +192,10 @@ def test_what_is_still_worked_out_of_one_picture_measures_no_other(
     assert calibrator.begun is None
 
 
-def test_a_click_beside_every_disc_sets_nothing_and_says_so(qtbot: QtBot, screen: MarkersScreen) -> None:
-    screen.begin(FakeCalibrator())
+def test_a_click_beside_every_disc_sets_nothing_and_says_so(qtbot: QtBot, marking: Marking) -> None:
+    marking.begin()
+    screen = marking.screen
     qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=QPoint(30, 30))
-    assert screen.clicking is not None
     assert not screen.clicking.pixel
     assert "No blue marker" in screen.picture.no_marker_words
     with painted_texts(screen) as painted:
@@ -160,129 +206,97 @@ def test_a_click_beside_every_disc_sets_nothing_and_says_so(qtbot: QtBot, screen
     assert all(loupe.translated(shift).contains(one.box) for one in told), "within the loupe"
 
 
-def test_backspace_takes_back_one_marker_and_asks_for_it_again(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    screen.begin(calibrator)
-    for pixel in calibrator.disc_px[:3]:
-        qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, pixel))
-    assert screen.clicking is not None
-    assert screen.clicking.current == WRIST6.markers[3]
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Backspace)
-    assert screen.clicking.current == WRIST6.markers[2]
-    assert set(screen.clicking.pixel) == set(WRIST6.markers[:2])
-    assert "index knuckle" in screen.guidance.title.text()
+def test_backspace_takes_back_one_marker_and_asks_for_it_again(marking: Marking) -> None:
+    marking.click(*marking.begin().disc_px[:3])
+    assert marking.clicking.current == WRIST6.markers[3]
+    marking.press(Qt.Key.Key_Backspace)
+    assert marking.clicking.current == WRIST6.markers[2]
+    assert set(marking.clicking.pixel) == set(WRIST6.markers[:2])
+    assert "index knuckle" in marking.screen.guidance.title.text()
 
 
-def test_tab_chooses_which_marker_is_clicked_next(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    screen.begin(calibrator)
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Tab)
-    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, calibrator.disc_px[1]))
-    assert screen.clicking is not None
-    assert list(screen.clicking.pixel) == ["CMC1"]
-    assert screen.clicking.missing[0] == "WRIST"
+def test_tab_chooses_which_marker_is_clicked_next(marking: Marking) -> None:
+    calibrator = marking.begin()
+    marking.press(Qt.Key.Key_Tab)
+    marking.click(calibrator.disc_px[1])
+    assert list(marking.clicking.pixel) == ["CMC1"]
+    assert marking.clicking.missing[0] == "WRIST"
 
 
-def test_a_marker_can_be_dragged_to_another_disc(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    screen.begin(calibrator)
-    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, calibrator.disc_px[1]))
-    assert screen.clicking is not None
-    np.testing.assert_allclose(screen.clicking.pixel["WRIST"], calibrator.disc_px[1])
-    qtbot.mousePress(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, calibrator.disc_px[1]))
-    qtbot.mouseRelease(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, calibrator.disc_px[0]))
-    np.testing.assert_allclose(screen.clicking.pixel["WRIST"], calibrator.disc_px[0])
+def test_a_marker_can_be_dragged_to_another_disc(marking: Marking) -> None:
+    calibrator = marking.begin()
+    marking.click(calibrator.disc_px[1])
+    np.testing.assert_allclose(marking.clicking.pixel["WRIST"], calibrator.disc_px[1])
+    marking.drag(calibrator.disc_px[1], calibrator.disc_px[0])
+    np.testing.assert_allclose(marking.clicking.pixel["WRIST"], calibrator.disc_px[0])
 
 
-def test_swapped_markers_are_exchanged_by_enter_and_judged_again(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    calibrator.findings = (CalibrationFinding("swapped", ("MCP2", "MCP3")),)
-    screen.begin(calibrator)
-    click_all(qtbot, screen, calibrator)
-    wait_for_verdict(qtbot, screen)
-    assert screen.guidance.panel.states()[0] == "bad"
-    assert screen.picture.wrong == {"MCP2", "MCP3"}
+def test_swapped_markers_are_exchanged_by_enter_and_judged_again(marking: Marking) -> None:
+    calibrator = marking.begin(CalibrationFinding("swapped", ("MCP2", "MCP3")))
+    marking.judge_all()
+    assert marking.screen.guidance.panel.states()[0] == "bad"
+    assert marking.screen.picture.wrong == {"MCP2", "MCP3"}
     calibrator.findings = ()
-    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
-    wait_for_verdict(qtbot, screen)
-    np.testing.assert_allclose(calibrator.judged[-1].pixel[2:4], calibrator.disc_px[[3, 2]])
+    marking.enter()
+    np.testing.assert_allclose(marking.judge().pixel[2:4], calibrator.disc_px[[3, 2]])
     assert calibrator.begun is None
 
 
-def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    names = calibrator.protocol.markers
-    calibrator.findings = (CalibrationFinding("shifted", names),)
-    screen.begin(calibrator)
-    click_all(qtbot, screen, calibrator)
-    wait_for_verdict(qtbot, screen)
+def test_shifted_names_are_clicked_again_and_nothing_starts_from_them(marking: Marking) -> None:
+    marking.begin(CalibrationFinding("shifted", WRIST6.markers))
+    marking.judge_all()
+    screen = marking.screen
     assert screen.guidance.panel.states()[0] == "bad"
     assert screen.guidance.step.text() == "Cannot start yet"
     assert not screen.second.isVisible()
-    started: list[bool] = []
-    screen.naming.started.connect(lambda: started.append(True))
     screen.start_doubtful()
-    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
-    assert not started
-    assert screen.clicking is not None
-    assert screen.clicking.missing == names
+    marking.enter()
+    assert not marking.started
+    assert marking.clicking.missing == WRIST6.markers
 
 
-def test_a_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    calibrator.findings = (CalibrationFinding("tilt", (), 19.0, 15.0, "deg"),)
-    screen.begin(calibrator)
-    click_all(qtbot, screen, calibrator)
-    wait_for_verdict(qtbot, screen)
-    assert screen.second.isVisible()
-    started: list[bool] = []
-    screen.naming.started.connect(lambda: started.append(True))
+def test_a_doubtful_calibration_starts_only_by_its_own_button(qtbot: QtBot, marking: Marking) -> None:
+    calibrator = marking.begin(TILT)
+    marking.judge_all()
+    assert marking.screen.second.isVisible()
     for _ in range(3):
-        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
-    assert not started
-    assert screen.clicking is not None
-    assert screen.clicking.complete, "Enter wipes no name"
-    qtbot.mouseClick(screen.second, Qt.MouseButton.LeftButton)
-    assert started
+        marking.enter()
+    assert not marking.started
+    assert marking.clicking.complete, "Enter wipes no name"
+    qtbot.mouseClick(marking.screen.second, Qt.MouseButton.LeftButton)
+    assert marking.started
     assert calibrator.begun is not None
 
 
-def test_what_blocks_cannot_be_started_at_all(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    calibrator.findings = (CalibrationFinding("no_depth", ("CMC1",), blocks=True),)
-    screen.begin(calibrator)
-    click_all(qtbot, screen, calibrator)
-    wait_for_verdict(qtbot, screen)
-    assert not screen.second.isVisible()
-    qtbot.mouseClick(screen.primary, Qt.MouseButton.LeftButton)
+def test_what_blocks_cannot_be_started_at_all(qtbot: QtBot, marking: Marking) -> None:
+    calibrator = marking.begin(CalibrationFinding("no_depth", ("CMC1",), blocks=True))
+    marking.judge_all()
+    assert not marking.screen.second.isVisible()
+    qtbot.mouseClick(marking.screen.primary, Qt.MouseButton.LeftButton)
     assert calibrator.begun is None
-    assert screen.clicking is not None
-    assert screen.clicking.missing == ("CMC1",)
+    assert marking.clicking.missing == ("CMC1",)
 
 
-def test_a_given_start_angle_reaches_the_calibration_with_its_sign(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    screen.begin(calibrator)
+def test_a_given_start_angle_reaches_the_calibration_with_its_sign(qtbot: QtBot, marking: Marking) -> None:
+    calibrator, screen = marking.begin(), marking.screen
     qtbot.mouseClick(screen.start_angle, Qt.MouseButton.LeftButton)
     direction, value = screen.angle_sheet.fields[1]
     direction.buttons()[1].click()
     value.setValue(20)
     screen.angle_sheet.kept.emit(screen.angle_sheet.angles_rad())
     screen.angle_sheet.close_sheet()
-    click_all(qtbot, screen, calibrator)
-    wait_for_verdict(qtbot, screen)
+    marking.judge_all()
     np.testing.assert_allclose(calibrator.angles[-1], [0.0, math.radians(-20.0), 0.0])
     assert "Extension 20°" in screen.start_angle.text()
 
 
-def test_a_live_camera_shows_pictures_until_one_is_taken(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator(is_live=True)
-    screen.begin(calibrator)
-    assert screen.clicking is None
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
-    assert screen.clicking is not None
-    qtbot.mouseClick(screen.new_picture, Qt.MouseButton.LeftButton)
-    assert screen.clicking is None
+def test_a_live_camera_shows_pictures_until_one_is_taken(qtbot: QtBot, marking: Marking) -> None:
+    marking.begin(is_live=True)
+    assert marking.clicking is None
+    marking.press(Qt.Key.Key_Space)
+    assert marking.clicking is not None
+    qtbot.mouseClick(marking.screen.new_picture, Qt.MouseButton.LeftButton)
+    assert marking.clicking is None
 
 
 def test_undo_walks_back_through_any_order() -> None:
@@ -294,80 +308,55 @@ def test_undo_walks_back_through_any_order() -> None:
 
 
 # --- names proposed by the program ------------------------------------------------------------------------
-def proposed(
-    qtbot: QtBot, screen: MarkersScreen, *, doubtful: tuple[str, ...] = (), not_found: tuple[str, ...] = ()
-) -> FakeCalibrator:
-    calibrator = FakeCalibrator("fist", protocol="hand21")
-    calibrator.doubtful, calibrator.not_found = doubtful, not_found
-    screen.begin(calibrator)
-    qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed))
-    return calibrator
-
-
-def drag(qtbot: QtBot, screen: MarkersScreen, start: np.ndarray, end: np.ndarray) -> None:
-    qtbot.mousePress(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, start))
-    qtbot.mouseRelease(screen.picture, Qt.MouseButton.LeftButton, pos=place_of(screen, end))
-
-
-def test_enter_takes_all_proposed_names_and_enter_starts(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = proposed(qtbot, screen)
+def test_enter_takes_all_proposed_names_and_enter_starts(marking: Marking) -> None:
+    calibrator = marking.propose()
+    assert "21 of 21 found" in [cells[2].text() for cells in marking.screen.guidance.panel._lines]
+    assert marking.screen.guidance.panel.states()[0] == "open", "what is proposed is not said to be done"
     assert not calibrator.judged
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
-    wait_for_verdict(qtbot, screen)
-    np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
-    with qtbot.waitSignal(screen.naming.started):
-        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+    marking.press(Qt.Key.Key_Return)
+    np.testing.assert_allclose(marking.judge().pixel, calibrator.disc_px)
+    marking.enter()
+    assert marking.started
 
 
-def test_doubtful_names_are_said_in_words_and_one_click_settles_each(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = proposed(qtbot, screen, doubtful=("TIP4", "DIP4"))
-    assert screen.clicking is not None
-    assert "Ring finger end joint, ring tip" in screen.guidance.place.text()
-    markers = screen.clicking.order
-    for name in ("DIP4", "TIP4"):
-        spot = place_of(screen, calibrator.disc_px[markers.index(name)])
-        qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=spot)
-    assert set(screen.clicking.pixel) == {"DIP4", "TIP4"}
-    assert not screen.clicking.doubtful
+def test_doubtful_names_are_said_in_words_and_one_click_settles_each(marking: Marking) -> None:
+    marking.propose(doubtful=("TIP4", "DIP4"))
+    assert "Ring finger end joint, ring tip" in marking.screen.guidance.place.text()
+    marking.click(marking.disc_px("DIP4"), marking.disc_px("TIP4"))
+    assert set(marking.clicking.pixel) == {"DIP4", "TIP4"}
+    assert not marking.clicking.doubtful
 
 
-def test_a_wrong_proposal_is_dragged_to_its_disc_and_names_change_places(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = proposed(qtbot, screen)
-    assert screen.clicking is not None
-    markers = screen.clicking.order
-    tip, other = (calibrator.disc_px[markers.index(name)] for name in ("TIP2", "TIP3"))
-    drag(qtbot, screen, tip, other)
-    np.testing.assert_allclose(screen.clicking.pixel["TIP2"], other)
-    screen.clicking.current = "TIP3"
-    screen.clicking.place(tip, 10.0)
-    assert {"TIP2", "TIP3"} <= set(screen.clicking.pixel)
-    screen.clicking.current = "TIP2"
-    screen.clicking.place(tip, 10.0)  # onto a disc that has a name: the two change places
-    np.testing.assert_allclose(screen.clicking.pixel["TIP3"], other)
+def test_a_wrong_proposal_is_dragged_to_its_disc_and_names_change_places(marking: Marking) -> None:
+    marking.propose()
+    clicking, tip, other = marking.clicking, marking.disc_px("TIP2"), marking.disc_px("TIP3")
+    marking.drag(tip, other)
+    np.testing.assert_allclose(clicking.pixel["TIP2"], other)
+    clicking.current = "TIP3"
+    clicking.place(tip, 10.0)
+    assert {"TIP2", "TIP3"} <= set(clicking.pixel)
+    clicking.current = "TIP2"
+    clicking.place(tip, 10.0)  # onto a disc that has a name: the two change places
+    np.testing.assert_allclose(clicking.pixel["TIP3"], other)
 
 
-def test_a_marker_that_was_not_found_is_asked_for(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = proposed(qtbot, screen, not_found=("TIP1",))
-    assert screen.clicking is not None
-    assert "thumb tip" in screen.guidance.title.text()
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
-    assert screen.clicking.missing == ("TIP1",)
-    spot = place_of(screen, calibrator.disc_px[screen.clicking.order.index("TIP1")])
-    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=spot)
-    wait_for_verdict(qtbot, screen)
-    np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
+def test_a_marker_that_was_not_found_is_asked_for(marking: Marking) -> None:
+    calibrator = marking.propose(not_found=("TIP1",))
+    assert "thumb tip" in marking.screen.guidance.title.text()
+    marking.press(Qt.Key.Key_Return)
+    assert marking.clicking.missing == ("TIP1",)
+    marking.click(marking.disc_px("TIP1"))
+    np.testing.assert_allclose(marking.judge().pixel, calibrator.disc_px)
 
 
-def test_six_discs_are_proposed_as_twenty_one_are_and_one_enter_takes_them(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    calibrator.not_found = ()
-    screen.begin(calibrator)
-    qtbot.waitUntil(lambda: screen.clicking is not None and len(screen.clicking.proposed) == 6)
+def test_six_discs_are_proposed_as_twenty_one_are_and_one_enter_takes_them(marking: Marking) -> None:
+    calibrator, screen = marking.propose("wrist6"), marking.screen
+    assert not screen.has_names, "proposals come back by themselves: only what a person named is missed"
     assert screen.primary.text() == "Names are right"
     assert screen.primary.shown_key == "Enter"
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
-    wait_for_verdict(qtbot, screen)
-    np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
+    marking.press(Qt.Key.Key_Return)
+    assert screen.has_names
+    np.testing.assert_allclose(marking.judge().pixel, calibrator.disc_px)
     assert screen.primary.text() == "Start measuring"
 
 
@@ -382,7 +371,6 @@ def test_no_name_covers_a_disc_that_is_to_be_clicked(
     picture = screen.picture
     qtbot.waitUntil(lambda: picture.width() > 400)
     discs = [picture.to_screen(*map(float, pixel)) for pixel in calibrator.disc_px]
-    assert screen.clicking is not None
     rings = []
     for name, pixel, at in zip(calibrator.protocol.markers[:named], calibrator.disc_px, discs, strict=False):
         screen.clicking.pixel[name], screen.clicking.widths_px[name] = pixel, 10.0
@@ -401,7 +389,7 @@ def test_where_the_names_are_long_a_knuckle_has_its_fingers_name(
     calibrator = FakeCalibrator()
     screen.begin(calibrator)
     picture = screen.picture
-    qtbot.waitUntil(lambda: picture.width() > 400, timeout=60_000)
+    qtbot.waitUntil(lambda: picture.width() > 400)
     picture.resize(560, 452)
     picture.discs_px = np.empty((0, 2))
     # the hand as the simulated camera shows it enlarged, from wrist and thumb to the little finger
@@ -413,62 +401,53 @@ def test_where_the_names_are_long_a_knuckle_has_its_fingers_name(
     assert plates[-1].words == "Kleinfinger"
 
 
-def test_all_markers_can_still_be_clicked_by_hand(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = proposed(qtbot, screen)
-    qtbot.mouseClick(screen.second, Qt.MouseButton.LeftButton)
-    assert screen.clicking is not None
-    assert not screen.clicking.proposed
-    click_all(qtbot, screen, calibrator, off_px=1.0)
-    wait_for_verdict(qtbot, screen)
-    np.testing.assert_allclose(calibrator.judged[-1].pixel, calibrator.disc_px)
+def test_all_markers_can_still_be_clicked_by_hand(qtbot: QtBot, marking: Marking) -> None:
+    calibrator = marking.propose()
+    qtbot.mouseClick(marking.screen.second, Qt.MouseButton.LeftButton)
+    assert not marking.clicking.proposed
+    np.testing.assert_allclose(marking.judge_all(off_px=1.0).pixel, calibrator.disc_px)
 
 
-def test_a_bad_picture_is_taken_again_by_enter_and_wrong_names_are_not(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator(is_live=True)
-    calibrator.findings = (CalibrationFinding("tilt", (), 19.0, 15.0, "deg"),)
-    screen.begin(calibrator)
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
-    click_all(qtbot, screen, calibrator)
-    wait_for_verdict(qtbot, screen)
+def test_a_bad_picture_is_taken_again_by_enter_and_wrong_names_are_not(marking: Marking) -> None:
+    calibrator, screen = marking.begin(TILT, is_live=True), marking.screen
+    marking.press(Qt.Key.Key_Space)
+    marking.judge_all()
     assert screen.primary.text() == "New picture"
     assert screen.click_all.isVisible()
-    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+    marking.enter()
     assert screen.clicking is None
     calibrator.findings = (CalibrationFinding("misnamed", ("MCP4",)),)
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Space)
-    click_all(qtbot, screen, calibrator)
-    wait_for_verdict(qtbot, screen)
+    marking.press(Qt.Key.Key_Space)
+    marking.judge_all()
     assert screen.primary.text() == "Correct names"
     assert screen.picture.wrong == {"MCP4"}
-    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
+    marking.enter()
     assert screen.picture.hasFocus()
-    assert screen.clicking is not None
     assert screen.clicking.complete
 
 
-def test_two_fingers_named_for_each_other_change_places_by_one_key(qtbot: QtBot, screen: MarkersScreen) -> None:
-    fingers = [tuple(f"{joint}{k}" for joint in ("MCP", "PIP", "DIP", "TIP")) for k in (3, 4)]
-    calibrator = proposed(qtbot, screen)
-    calibrator.findings = (CalibrationFinding("swapped", (*fingers[0], *fingers[1])),)
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
-    wait_for_verdict(qtbot, screen)
+def test_two_fingers_named_for_each_other_change_places_by_one_key(qtbot: QtBot, marking: Marking) -> None:
+    names = [f"{joint}{k}" for k in (3, 4) for joint in ("MCP", "PIP", "DIP", "TIP")]
+    calibrator = marking.propose()
+    calibrator.findings = (CalibrationFinding("swapped", tuple(names)),)
+    marking.press(Qt.Key.Key_Return)
+    marking.judge()
     calibrator.findings = ()
-    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_S)
-    wait_for_verdict(qtbot, screen)
-    rows = [screen.clicking.order.index(name) for finger in fingers for name in finger]  # type: ignore[union-attr]
-    np.testing.assert_allclose(calibrator.judged[-1].pixel[rows], calibrator.disc_px[[*rows[4:], *rows[:4]]])
+    qtbot.keyClick(marking.screen.focusWidget(), Qt.Key.Key_S)
+    judged = marking.judge().pixel
+    rows = [marking.clicking.order.index(name) for name in names]
+    np.testing.assert_allclose(judged[rows], calibrator.disc_px[[*rows[4:], *rows[:4]]])
 
 
-def test_enter_never_takes_a_doubtful_name_unseen(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = proposed(qtbot, screen, doubtful=("TIP4", "DIP4"))
-    assert screen.clicking is not None
+def test_enter_never_takes_a_doubtful_name_unseen(marking: Marking) -> None:
+    marking.propose(doubtful=("TIP4", "DIP4"))
+    screen = marking.screen
     assert screen.primary.text() != "Names are right"
     for name in ("DIP4", "TIP4"):
-        at = calibrator.disc_px[screen.clicking.order.index(name)]
-        np.testing.assert_allclose(screen.picture.cursor_px, at)  # in the loupe
-        qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
-        np.testing.assert_allclose(screen.clicking.pixel[name], at)
-        assert len(screen.clicking.pixel) <= 2
+        np.testing.assert_allclose(screen.picture.cursor_px, marking.disc_px(name))  # in the loupe
+        marking.press(Qt.Key.Key_Return)
+        np.testing.assert_allclose(marking.clicking.pixel[name], marking.disc_px(name))
+        assert len(marking.clicking.pixel) <= 2
     assert screen.primary.text() == "Names are right"
     assert not screen.take_rest.isVisible()
 
@@ -488,99 +467,60 @@ def test_a_proposed_name_dropped_on_a_taken_disc_changes_places_with_it() -> Non
     assert clicking.complete
 
 
-def test_what_is_proposed_is_not_said_to_be_done(qtbot: QtBot, screen: MarkersScreen) -> None:
-    proposed(qtbot, screen)
-    assert "21 of 21 found" in [cells[2].text() for cells in screen.guidance.panel._lines]
-    assert screen.guidance.panel.states()[0] == "open"
+def test_the_loupe_keeps_off_the_discs(marking: Marking) -> None:
+    picture = marking.screen.picture
+    for pixel in marking.propose().disc_px:
+        picture.set_cursor(pixel)
+        assert not picture.loupe_box().adjusted(-30, -20, 30, 20).contains(picture.to_screen(*map(float, pixel)))
 
 
-def test_the_loupe_keeps_off_the_discs(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = proposed(qtbot, screen)
-    assert screen.clicking is not None
-    for pixel in calibrator.disc_px:
-        screen.picture.set_cursor(pixel)
-        at = screen.picture.to_screen(*map(float, pixel))
-        assert not screen.picture.loupe_box().adjusted(-30, -20, 30, 20).contains(at)
-
-
-def test_another_spot_that_may_be_the_disc_is_shown_and_enter_takes_it(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    spot = tuple(map(float, calibrator.disc_px[3] + 25.0))
-    calibrator.findings = (CalibrationFinding("other_spot", ("MCP3",), spot_px=spot),)
-    screen.begin(calibrator)
-    click_all(qtbot, screen, calibrator)
-    wait_for_verdict(qtbot, screen)
+def test_another_spot_that_may_be_the_disc_is_shown_and_enter_takes_it(qtbot: QtBot, marking: Marking) -> None:
+    spot = tuple(map(float, FakeCalibrator().disc_px[3] + 25.0))
+    calibrator = marking.begin(CalibrationFinding("other_spot", ("MCP3",), spot_px=spot))
+    marking.judge_all()
+    screen = marking.screen
     assert screen.guidance.step.text().startswith("Doubtful")
     assert screen.picture.spots == [(spot, "MCP3")]
     assert "Take that spot" in screen.primary.text()
     calibrator.findings = ()
     qtbot.keyClick(screen.primary, Qt.Key.Key_Return)
-    wait_for_verdict(qtbot, screen)
-    assert tuple(calibrator.judged[-1].pixel[3]) == spot
+    assert tuple(marking.judge().pixel[3]) == spot
     assert screen.picture.spots == []
 
 
 def test_a_picture_without_discs_says_so(screen: MarkersScreen, monkeypatch: pytest.MonkeyPatch) -> None:
     calibrator = FakeCalibrator()
-    monkeypatch.setattr(calibrator, "discs_seen", lambda: 0)
-    screen.begin(calibrator)
-    assert "No blue disc" in screen.guidance.title.text()
-    monkeypatch.setattr(calibrator, "discs_seen", lambda: 6)
-    screen.hold()
-    assert "No blue disc" not in screen.guidance.title.text()
+    for seen, said in ((0, True), (6, False)):
+        monkeypatch.setattr(calibrator, "discs_seen", lambda seen=seen: seen)
+        screen.begin(calibrator) if said else screen.hold()
+        assert ("No blue disc" in screen.guidance.title.text()) is said
 
 
-def test_names_that_are_right_lead_straight_to_measuring_where_all_is_good(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    calibrator.not_found = ()
-    screen.begin(calibrator)
-    qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed), timeout=60_000)
-    with qtbot.waitSignal(screen.naming.started, timeout=60_000):
-        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
-    calibrator.findings = (CalibrationFinding("tilt", (), 19.0, 15.0, "deg"),)
-    started: list[bool] = []
-    screen.naming.started.connect(lambda: started.append(True))
-    screen.begin(calibrator)
-    qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed), timeout=60_000)
-    qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
-    wait_for_verdict(qtbot, screen)
-    assert not started, "what is doubtful is looked at first"
+def test_names_that_are_right_lead_straight_to_measuring_where_all_is_good(qtbot: QtBot, marking: Marking) -> None:
+    calibrator = marking.propose("wrist6")
+    marking.enter()
+    qtbot.waitUntil(lambda: marking.started == [True])
+    calibrator.findings = (TILT,)
+    marking.screen.begin(calibrator)
+    qtbot.waitUntil(lambda: marking.clicking is not None and bool(marking.clicking.proposed))
+    marking.enter()
+    marking.judge()
+    assert marking.started == [True], "what is doubtful is looked at first"
 
 
-def test_fingers_lie_straight_until_one_is_said_not_to(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator("fist", protocol="hand21")
-    screen.begin(calibrator)
-    qtbot.waitUntil(lambda: screen.clicking is not None and bool(screen.clicking.proposed))
-    assert not screen.guidance.straight.isVisible()
+def test_fingers_lie_straight_until_one_is_said_not_to(qtbot: QtBot, marking: Marking) -> None:
+    calibrator, screen = marking.propose(), marking.screen
+    straight = screen.guidance.straight
+    assert not straight.isVisible()
     screen.naming.take_all()
-    wait_for_verdict(qtbot, screen)
-    assert screen.guidance.straight.isVisible()
-    assert calibrator.judged[-1].straight_fingers == (True,) * 5
-    qtbot.mouseClick(screen.guidance.straight.buttons[3], Qt.MouseButton.LeftButton)
-    wait_for_verdict(qtbot, screen)
-    assert calibrator.judged[-1].straight_fingers == (True, True, True, False, True)
+    assert marking.judge().straight_fingers == (True,) * 5
+    assert straight.isVisible()
+    qtbot.mouseClick(straight.buttons[3], Qt.MouseButton.LeftButton)
+    assert marking.judge().straight_fingers == (True, True, True, False, True)
     screen.activateWindow()
     qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_5)
     qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_4)
     qtbot.waitUntil(lambda: calibrator.judged[-1].straight_fingers == (True, True, True, True, False))
-    wait_for_verdict(qtbot, screen)
-    with qtbot.waitSignal(screen.naming.started):
-        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Return)
-
-
-def test_a_wrist_is_not_asked_for_its_fingers(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    screen.begin(calibrator)
-    click_all(qtbot, screen, calibrator)
-    wait_for_verdict(qtbot, screen)
-    assert not screen.guidance.straight.isVisible()
-
-
-def test_only_what_a_person_named_is_missed(qtbot: QtBot, screen: MarkersScreen) -> None:
-    calibrator = FakeCalibrator()
-    calibrator.not_found = ()
-    screen.begin(calibrator)
-    qtbot.waitUntil(lambda: screen.clicking is not None and len(screen.clicking.proposed) == 6)
-    assert not screen.has_names, "proposals come back by themselves"
-    qtbot.keyClick(screen.picture, Qt.Key.Key_Return)
-    assert screen.has_names
+    marking.judge()
+    marking.enter()
+    assert marking.started

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import subprocess
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from datetime import timedelta
 from pathlib import Path
 
@@ -31,17 +30,13 @@ from carpus.ui.report.pdf import write_session_report
 from carpus.ui.review.charts import WRIST
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.fakes import NOW, FakeSessions, FakeStore, figures_once, session
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
+from tests.ui.printed import words_of
 
+Shown = Callable[[FakeSessions, str], ReviewScreen]
 BOX = QRectF(0.0, 0.0, 720.0, 300.0)
-
-
-@pytest.fixture
-def background(qtbot: QtBot) -> Iterator[Background]:
-    background = Background()
-    yield background
-    qtbot.waitUntil(lambda: not background.busy, timeout=120_000)
 
 
 # --- ways -------------------------------------------------------------------------------------------------
@@ -125,18 +120,24 @@ def test_speeds_and_zyz_are_read_at_the_cursor() -> None:
 
 
 # --- review -----------------------------------------------------------------------------------------------
-def shown(qtbot: QtBot, theme: Theme, background: Background, store: object, session_id: str) -> ReviewScreen:
-    screen = ReviewScreen(theme, Keys(), background, store)  # type: ignore[arg-type]
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
-    screen.begin("linden", session_id)
-    qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None, timeout=120_000)
-    return screen
+@pytest.fixture
+def shown(qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], background: Background) -> Iterator[Shown]:
+    """The review of a session, stopped at the end."""
+    screens: list[ReviewScreen] = []
+
+    def one(store: FakeSessions, session_id: str) -> ReviewScreen:
+        screens.append(screen := show(ReviewScreen(theme, Keys(), background, store)))
+        screen.begin("linden", session_id)
+        qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
+        return screen
+
+    yield one
+    for screen in screens:
+        screen.playing.stop()
 
 
-def test_the_review_shows_path_speeds_and_zyz_in_turn(qtbot: QtBot, theme: Theme, background: Background) -> None:
-    screen = shown(qtbot, theme, background, FakeSessions(), "session-7")
+def test_the_review_shows_path_speeds_and_zyz_in_turn(shown: Shown) -> None:
+    screen = shown(FakeSessions(), "session-7")
     assert screen.charts.curves.isVisible()
     screen.player.next_view()
     assert screen.charts.ways.isVisible()
@@ -150,16 +151,13 @@ def test_the_review_shows_path_speeds_and_zyz_in_turn(qtbot: QtBot, theme: Theme
     assert {"zyz_beta_deg", "zyz_beta_sd_deg"} <= set(screen.charts.curves.table()[0])
     screen.player.next_view()
     assert not isinstance(screen.charts.curves._plot, MotionPlot)
-    screen.playing.stop()
 
 
-def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(
-    qtbot: QtBot, theme: Theme, background: Background
-) -> None:
+def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(shown: Shown) -> None:
     store = FakeHandSessions(pictures=False)
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     store.sessions = {"hand-7": made}
-    screen = shown(qtbot, theme, background, store, "hand-7")
+    screen = shown(store, "hand-7")
     names = {row.name for row in screen.card.tables.further.rows}
     assert {
         "Movement time, out",
@@ -172,9 +170,7 @@ def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(
     for finger, joints in ((0, 5), (1, 4), (3, 4), (WRIST, 1)):
         screen.charts.finger.choose(finger)
         screen._refresh()
-        assert screen.charts.ways._plot is not None
         assert len(screen.charts.ways._plot.ways) == joints
-    screen.playing.stop()
 
 
 # --- words ------------------------------------------------------------------------------------------------
@@ -215,7 +211,6 @@ def test_totals_are_graded_beside_their_share() -> None:
     rows = finger_rows(whole, None)
     assert all(row.share.main.endswith("%") for row in rows)
     index = whole.row("arc", -1, "TAM2")
-    assert index is not None
     assert rows[1].share.main.split("\N{NO-BREAK SPACE}")[0] == f"{100.0 * index.mean_deg / 260.0:.0f}"
     assert rows[1].share.small in ("good", "fair")
     hidden = finger_rows(figures_once(hand_session()), None)
@@ -230,7 +225,7 @@ def test_totals_are_graded_beside_their_share() -> None:
 def test_the_second_page_has_the_papers_figures(tmp_path: Path) -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     path = write_session_report(made, tmp_path / "reach.pdf")
-    first, second = words_on(path, 1), words_on(path, 2)
+    first, second = (words_of(path, page) for page in (1, 2))
     for words in (
         "page 2", "Path of the wrist", "Ways of the finger tips", "Place, speed, turning", "ZYZ angles", "XY", "ZX",
         "ZY", "Movement time, out", "mm/s", "Peaks of speed, back", "Not a medical device",
@@ -240,15 +235,8 @@ def test_the_second_page_has_the_papers_figures(tmp_path: Path) -> None:
     assert "TAM" not in first
 
 
-def words_on(path: Path, page: int) -> str:
-    command = ["pdftotext", "-f", str(page), "-l", str(page), str(path), "-"]
-    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
-
-
-def test_what_explains_the_table_of_the_fingers_stands_right_under_it(
-    qtbot: QtBot, theme: Theme, background: Background
-) -> None:
-    screen = shown(qtbot, theme, background, FakeHandSessions(pictures=False), "hand-7")
+def test_what_explains_the_table_of_the_fingers_stands_right_under_it(shown: Shown) -> None:
+    screen = shown(FakeHandSessions(pictures=False), "hand-7")
     tops = [
         widget.y()
         for widget in (
@@ -260,12 +248,9 @@ def test_what_explains_the_table_of_the_fingers_stands_right_under_it(
     ]
     assert tops == sorted(tops)
     assert screen.card.tables.further.rows
-    screen.playing.stop()
 
 
-def test_a_pain_score_is_in_the_review(qtbot: QtBot, theme: Theme, background: Background) -> None:
-    screen = shown(qtbot, theme, background, FakeSessions(), "session-7")
-    assert screen.figures is not None
+def test_a_pain_score_is_in_the_review(shown: Shown) -> None:
+    screen = shown(FakeSessions(), "session-7")
     assert screen.figures.pain
     assert f"Pain (0–10): {', '.join(map(str, screen.figures.pain))}" in screen.card.tables.notes.text()
-    screen.playing.stop()

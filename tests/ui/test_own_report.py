@@ -34,7 +34,7 @@ from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.theme import Theme
 from tests.ui.fakes import FakeSessions, home_report
 from tests.ui.hand_fakes import FakeHandSessions
-from tests.ui.test_report_pdf import tool, words_of
+from tests.ui.printed import pages_of, reach_of, tool, words_of
 
 LONG = "\n".join(f"Line {number} of what the therapist says." for number in range(120))
 
@@ -56,23 +56,14 @@ def test_nothing_is_cut_on_either_paper_whatever_stands_on_it(paper: Paper, tmp_
     logo = logo_png(picture(tmp_path / "logo.png"))
     head = Letterhead("W" * 60, ("12 Riverside Road", "Y" * 80, "Vienna", "Phone 12 34 56"), logo)
     path = write_session_report(report(form=ReportForm(head, paper), comment=LONG), tmp_path / "x.pdf")
-    info = tool("pdfinfo", str(path))
     width, height = PAPER_PT[paper]
-    found = re.search(r"Page size:\s+([\d.]+) x ([\d.]+)", info)
-    assert found is not None
-    assert (float(found[1]), float(found[2])) == pytest.approx((width, height), abs=1.0)
-    pages = int(re.search(r"Pages:\s+(\d+)", info)[1])  # type: ignore[index]
+    (size,) = re.findall(r"Page size:\s+([\d.]+) x ([\d.]+)", tool("pdfinfo", str(path)))
+    assert tuple(map(float, size)) == pytest.approx((width, height), abs=1.0)
+    left, top, right, foot = reach_of(path)
+    assert min(left, width - right, height - foot) >= 28.0
+    assert top >= 20.0
+    words, pages = words_of(path), pages_of(path)
     assert pages >= 4
-    boxes = tool("pdftotext", "-bbox", str(path), "-")
-    edges = {
-        name: [float(one) for one in re.findall(rf'{name}="([-\d.]+)"', boxes)]
-        for name in ("xMin", "xMax", "yMin", "yMax")
-    }
-    assert min(edges["xMin"]) >= 28.0
-    assert max(edges["xMax"]) <= width - 28.0
-    assert min(edges["yMin"]) >= 20.0
-    assert max(edges["yMax"]) <= height - 28.0
-    words = words_of(path)
     assert words.count("12 Riverside Road") == words.count(LEGAL_SENTENCE) == pages
     assert f"page {pages} of {pages}" in words
     for number in range(120):
@@ -88,9 +79,8 @@ def test_a_printer_with_other_paper_cuts_nothing(printed: Paper, tmp_path: Path)
     printer.setOutputFileName(str(tmp_path / "p.pdf"))
     printer.setPageSize(QPageSize(SIZES[printed]))
     print_on(printer, made)
-    assert re.search(r"Pages:\s+2\n", tool("pdfinfo", str(tmp_path / "p.pdf")))
-    boxes = tool("pdftotext", "-bbox", str(tmp_path / "p.pdf"), "-")
-    assert max(float(y) for y in re.findall(r'yMax="([\d.]+)"', boxes)) <= PAPER_PT[printed][1] - 25.0
+    assert pages_of(tmp_path / "p.pdf") == 2
+    assert reach_of(tmp_path / "p.pdf")[3] <= PAPER_PT[printed][1] - 25.0
     assert "as measured live" in words_of(tmp_path / "p.pdf")
 
 
@@ -98,14 +88,8 @@ def test_what_may_never_be_left_out_stays(tmp_path: Path) -> None:
     made = report(form=ReportForm(left_out=frozenset(SECTIONS)))
     doubtful = replace(made, figures=replace(made.figures, simulated=True))
     words = words_of(write_session_report(doubtful, tmp_path / "x.pdf"))
-    for kept in (
-        LEGAL_SENTENCE,
-        "Simulated hand",
-        "How sure are these figures?",
-        "Method: 6 markers",
-        "known to about",
-        "Carpus 1",
-    ):
+    sure = "How sure are these figures?"
+    for kept in (LEGAL_SENTENCE, "Simulated hand", sure, "Method: 6 markers", "known to about", "Carpus 1"):
         assert kept in words
     for gone in ("Range of motion", "Angles over time", "Range today", "Speed, pain, note", "ZYZ angles"):
         assert gone not in words
@@ -127,30 +111,26 @@ def test_the_form_is_kept_with_its_logo_and_a_second_person_s_change_is_told(tmp
     assert form_in(tmp_path / "nowhere") == ReportForm()
 
 
-@pytest.mark.parametrize("content", [b"", b"no picture", b"<svg"])
-def test_a_file_that_is_no_logo_gets_one_sentence(content: bytes, tmp_path: Path) -> None:
-    for name in ("logo.png", "logo.svg"):
-        (tmp_path / name).write_bytes(content)
-        with pytest.raises(LogoRefused, match="Choose"):
-            logo_png(tmp_path / name)
-    with pytest.raises(LogoRefused, match="cannot be read"):
-        logo_png(tmp_path / "none.png")
-    with pytest.raises(LogoRefused, match="too small"):
-        logo_png(picture(tmp_path / "small.png", 8))
+DRAWING = b'<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200"><rect width="99" height="99"/></svg>'
 
 
-def test_a_drawing_and_a_picture_of_too_many_pixels_are_no_logos(tmp_path: Path) -> None:
-    drawing = b'<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200"><rect width="99" height="99"/></svg>'
-    for name in ("logo.svg", "logo.png"):
-        (tmp_path / name).write_bytes(drawing)
-        with pytest.raises(LogoRefused, match="PNG or JPEG"):
-            logo_png(tmp_path / name)
+@pytest.mark.parametrize("name", ["logo.png", "logo.svg"])
+@pytest.mark.parametrize("content", [b"", b"no picture", b"<svg", DRAWING])
+def test_a_file_that_is_no_picture_is_no_logo(name: str, content: bytes, tmp_path: Path) -> None:
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(LogoRefused, match="Choose a PNG or JPEG"):
+        logo_png(tmp_path / name)
+
+
+def test_what_is_not_there_too_small_or_of_too_many_pixels_is_no_logo(tmp_path: Path) -> None:
     large = QImage(7900, 7900, QImage.Format.Format_Mono)
     large.fill(0)
     assert large.save(str(tmp_path / "large.png"))
     assert (tmp_path / "large.png").stat().st_size < 100_000
-    with pytest.raises(LogoRefused, match="PNG or JPEG"):
-        logo_png(tmp_path / "large.png")
+    picture(tmp_path / "small.png", 8)
+    for name, said in (("none", "cannot be read"), ("small", "too small"), ("large", "PNG or JPEG")):
+        with pytest.raises(LogoRefused, match=said):
+            logo_png(tmp_path / f"{name}.png")
 
 
 def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured() -> None:
@@ -177,15 +157,14 @@ def test_a_letter_is_one_page_whatever_stands_in_it(language: str, hand: bool, t
             replace(made, comment=comment), "\n".join(["D" * 80] * 6), date(2026, 11, 22), "Real Name", language
         )
         path = write_report(letter, tmp_path / f"{len(comment)}.pdf")
-        assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+        assert pages_of(path) == 1
         words = words_of(path)
         assert f"Real Name ({made.pseudonym})" in words
         assert f"Carpus {made.figures.software_version}" in words
         assert ("Short, and kept." in words) == (comment != LONG)
         assert "Line 3 of" not in words
-        boxes = tool("pdftotext", "-bbox", str(path), "-")
-        assert max(float(y) for y in re.findall(r'yMax="([\d.]+)"', boxes)) <= 792.0 - 28.0
-        assert max(float(x) for x in re.findall(r'xMax="([\d.]+)"', boxes)) <= 612.0 - 28.0
+        _, _, right, foot = reach_of(path)
+        assert (right <= 612.0 - 28.0, foot <= 792.0 - 28.0) == (True, True)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -194,7 +173,7 @@ def test_the_sheet_for_home_is_one_page_in_the_patients_language(
     language: str, names: tuple[str, ...], tmp_path: Path
 ) -> None:
     path = write_report(home_report(language, "left", names), tmp_path / "home.pdf")
-    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    assert pages_of(path) == 1
     words = words_of(path)
     with speaking(language):
         said = [task_words(name) for name in names]
@@ -214,7 +193,6 @@ def test_the_sheet_for_home_has_no_bad_news() -> None:
     history, goals = store.history("linden"), {("WRIST_FE", "right"): (60.0, -50.0)}
     last = next(one for one in history if one.session_id == "session-7")
     way = own_way(last, history, goals)  # type: ignore[arg-type]
-    assert way is not None
     assert way.further
     assert way.goal_deg == 60.0
     assert len(way.days) == len(way.values_deg) >= 2
@@ -224,18 +202,15 @@ def test_the_sheet_for_home_has_no_bad_news() -> None:
     first = next(one for one in history if one.when.date() == way.days[0])
     as_at_first = replace(last, rows=first.rows)
     held = own_way(as_at_first, [first], {})
-    assert held is not None
     assert not held.further
     assert own_way(as_at_first, [first, *fallen], {}) is None, "what was reached in between is not held"
     worse = replace(last, rows=tuple(replace(row, mean_deg=0.3 * row.mean_deg) for row in last.rows))
     assert own_way(worse, history, {}) is None
 
 
-def test_the_sheet_for_home_asks_in_the_window_and_goes_back(qtbot: QtBot, theme: Theme, tmp_path: Path) -> None:
-    host = QWidget()
-    qtbot.addWidget(host)
-    host.resize(1000, 760)
-    host.show()
+def test_the_sheet_for_home_asks_in_the_window_and_goes_back(
+    qtbot: QtBot, theme: Theme, host: QWidget, tmp_path: Path
+) -> None:
     sheet, asked = HomeSheet(host, theme), []
     sheet.wanted.connect(asked.append)
     sheet.begin(report(), date(2026, 11, 20))

@@ -7,17 +7,22 @@ from datetime import date, datetime, timedelta
 
 import pytest
 from PySide6.QtCore import QRectF, QSize, Qt
-from PySide6.QtWidgets import QPushButton
+from PySide6.QtWidgets import QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
+from carpus.core.names import MOST_CHARACTERS
 from carpus.core.records.set_up import PRACTICE_PATIENT
+from carpus.core.records.values import PatientEntry
+from carpus.ui.language import LANGUAGES, speaking
 from carpus.ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, room_left, spread, with_spread
+from carpus.ui.patients.entry import PatientForm
 from carpus.ui.patients.listing import cells
 from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.picture.photo import fitted
 from carpus.ui.ports import MOST_ROWS
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.fakes import FakeStore
 from tests.ui.geometry import shown_texts
 
@@ -30,13 +35,8 @@ def store() -> FakeStore:
 
 
 @pytest.fixture
-def screen(qtbot: QtBot, theme: Theme, store: FakeStore) -> PatientsScreen:
-    screen = PatientsScreen(theme, store, lambda: TODAY)
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
-    screen.activateWindow()
-    qtbot.waitUntil(screen.isActiveWindow)
+def screen(theme: Theme, show: Show[PatientsScreen], store: FakeStore) -> PatientsScreen:
+    screen = show(PatientsScreen(theme, store, lambda: TODAY), active=True)
     screen.set_camera_ready(True)
     screen.refresh()
     screen.search.setFocus()
@@ -78,7 +78,7 @@ def test_why_a_patient_comes_and_since_when_stands_in_list_and_card(
     assert cells(store.rows[3], TODAY)[2:4] == ("Rheumatoid arthritis", "")
     screen.refresh("linden")
     expected = {"Wrist fracture, plate", "operated on 21 Aug 2026", "13 weeks"}
-    qtbot.waitUntil(lambda: expected <= set(shown_texts(screen.card)), timeout=60_000)
+    qtbot.waitUntil(lambda: expected <= set(shown_texts(screen.card)))
     screen.refresh("cobalt")
     assert not any("weeks" in text for text in shown_texts(screen.card))
 
@@ -178,17 +178,8 @@ def test_numbers_never_carry_a_sign_and_never_hide_what_is_unknown() -> None:
     assert with_spread(57.2, 2.4) == "57°\N{NO-BREAK SPACE}±\N{NO-BREAK SPACE}2°"
     assert with_spread(57.2, float("nan")) == "57°"
     assert (clock(84.9), clock(3661), clock_tenths(20.65)) == ("01:24", "1:01:01", "00:20.6")
-    assert [ordinal(n) for n in (1, 2, 3, 4, 11, 12, 13, 21, 112)] == [
-        "1st",
-        "2nd",
-        "3rd",
-        "4th",
-        "11th",
-        "12th",
-        "13th",
-        "21st",
-        "112th",
-    ]
+    said = [ordinal(n) for n in (1, 2, 3, 4, 11, 12, 13, 21, 112)]
+    assert said == ["1st", "2nd", "3rd", "4th", "11th", "12th", "13th", "21st", "112th"]
     assert days_ago(datetime(2026, 11, 19, 23, 0), TODAY) == "yesterday"
 
 
@@ -257,3 +248,140 @@ def test_of_very_many_patients_the_first_are_shown_and_searching_finds_the_other
     assert screen.list.rows.rowCount() == MOST_ROWS + 1
     screen.search.setText(f"oak {MOST_ROWS + 150}")
     assert [screen.list.rows.row(0).pseudonym] == [f"Oak {MOST_ROWS + 150}"]
+
+
+# --- the sheet of a patient's facts ----------------------------------------------------------------------
+
+
+Given = list[PatientEntry]
+
+
+@pytest.fixture
+def form(host: QWidget, theme: Theme, store: FakeStore) -> PatientForm:
+    return PatientForm(host, theme, store, lambda: TODAY)
+
+
+@pytest.fixture
+def given(form: PatientForm) -> Given:
+    """What was accepted."""
+    entries: Given = []
+    form.accepted.connect(entries.append)
+    return entries
+
+
+@pytest.mark.parametrize("letters", [5, MOST_CHARACTERS])
+def test_what_is_typed_is_kept_whole_however_long_it_is(form: PatientForm, given: Given, letters: int) -> None:
+    form.begin(PatientEntry("n" * letters, "left", "right"), frozenset())
+    form.save.click()
+    assert [entry.pseudonym for entry in given] == ["n" * letters]
+    too_long = "m" * (MOST_CHARACTERS + 5)
+    for line in (form.name, form.real_name, form.diagnosis):
+        form.begin(given[0], frozenset())
+        line.setText(too_long)
+        assert (line.text(), form.save.isEnabled()) == (too_long, False), "nothing is cut"
+        assert form.save.text().endswith("5 letters too many")
+    form.close_sheet()
+
+
+def test_no_hand_is_chosen_by_itself(qtbot: QtBot, form: PatientForm, given: Given) -> None:
+    form.begin(None, frozenset())
+    qtbot.keyClick(form.name, Qt.Key.Key_Return)
+    assert (given, form.save.isEnabled(), form.save.text()) == ([], False, "Which hand is affected?")
+    assert form.focusWidget() is form.side.buttons()[0], "Enter leads to what is asked"
+    form.side.buttons()[1].click()
+    assert form.save.text() == "Which hand writes?"
+    form.dominance.buttons()[2].click()
+    qtbot.keyClick(form.name, Qt.Key.Key_Return)
+    assert [(one.side, one.dominance) for one in given] == [("left", "unknown")]
+
+
+def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(
+    qtbot: QtBot, form: PatientForm, given: Given, store: FakeStore
+) -> None:
+    form.begin(PatientEntry("Fir 12", "left", "right"), frozenset())
+    assert (form.listed.isVisible(), form.save.isEnabled()) == (False, True), "nobody must say why a patient comes"
+    qtbot.keyClicks(form.diagnosis, "Mallet  finger")
+    assert not form.listed.isChecked()
+    form.listed.click()
+    assert store.listed[-1] == "Mallet finger"
+    form.listed.click()
+    assert (form.listed.isChecked(), "Mallet finger" in store.listed) == (False, False)
+    for typed, asked in (("21.8.", "Since"), ("20.12.2026", "Since when? It"), ("21.8.2026", "Operation or injury?")):
+        form.onset_day.setText(typed)
+        assert form.save.text().startswith(asked), typed
+        assert not form.save.isEnabled()
+    form.onset.buttons()[1].click()
+    assert form.since.text() == "13 weeks"
+    form.save.click()
+    assert given == [
+        PatientEntry("Fir 12", "left", "right", diagnosis="Mallet finger", onset="injury", onset_day=date(2026, 8, 21))
+    ]
+    form.begin(given[0], frozenset())
+    form.onset_day.clear()
+    form.save.click()
+    assert (given[1].onset, given[1].onset_day) == ("injury", None), "no date, no weeks"
+
+
+def test_a_day_that_is_none_is_told_on_leaving_its_field_and_the_list_is_no_stop_of_tab(
+    qtbot: QtBot, form: PatientForm, host: QWidget
+) -> None:
+    form.begin(None, frozenset())  # no hand is chosen yet: the button asks for that first
+    form.diagnosis.setFocus()
+    qtbot.keyClicks(form.diagnosis, "Mallet finger")
+    form.focusNextPrevChild(True)
+    assert (form.listed.isVisible(), host.focusWidget()) == (True, form.onset_day)
+    for typed, told in (("31.2.2026", "Since when? Day, month, year"), ("20.12.2026", "yet to come")):
+        form.onset_day.setFocus()
+        form.onset_day.selectAll()
+        qtbot.keyClicks(form.onset_day, typed)
+        assert not form._fault.isVisible(), "not while it is typed"
+        form.focusNextPrevChild(True)
+        assert form._fault.isVisible()
+        assert told in form._fault.text()
+    form.onset_day.setFocus()
+    form.onset_day.selectAll()
+    qtbot.keyClick(form.onset_day, Qt.Key.Key_Delete)
+    form.focusNextPrevChild(True)
+    assert not form._fault.isVisible()
+
+
+def test_a_sign_that_cannot_be_seen_is_told_in_the_form_and_nothing_typed_is_lost(
+    form: PatientForm, given: Given, store: FakeStore
+) -> None:
+    form.begin(PatientEntry("Fir 12", "left", "right"), frozenset())
+    form.note.setPlainText("a long note")
+    form.diagnosis.setText("Radius\u00adfracture")
+    before = list(store.listed)
+    form.listed.click()
+    assert store.listed == before
+    form.save.click()
+    assert form.isVisible()
+    assert "soft hyphen" in form._fault.text()
+    assert form.note.toPlainText() == "a long note"
+    for typed in ("21.8.99999999999", "21.8.202"):
+        form.onset_day.setText(typed)
+        assert not form.save.isEnabled(), typed
+    form.onset_day.clear()
+    form.diagnosis.setText("Radius fracture")
+    form.save.click()
+    assert [one.diagnosis for one in given] == ["Radius fracture"]
+
+
+def test_the_letter_of_a_field_leads_to_it(qtbot: QtBot, form: PatientForm, host: QWidget) -> None:
+    form.begin(None, frozenset())
+    for letter, field in ((Qt.Key.Key_D, form.diagnosis), (Qt.Key.Key_S, form.onset_day), (Qt.Key.Key_N, form.name)):
+        qtbot.keyClick(host.focusWidget(), letter, Qt.KeyboardModifier.AltModifier)
+        assert host.focusWidget() is field
+
+
+@pytest.mark.parametrize("scale", [1.0, 1.5])
+@pytest.mark.parametrize("code", LANGUAGES)
+def test_no_field_is_cut_at_its_right(qtbot: QtBot, host: QWidget, code: str, scale: float) -> None:
+    with speaking(code):
+        form = PatientForm(host, Theme("dark", scale), FakeStore(), lambda: TODAY)
+        form.begin(
+            PatientEntry("Fir 12", "both", "left", diagnosis="Radius", onset="injury", onset_day=TODAY), frozenset()
+        )
+        qtbot.waitUntil(lambda: form._fields.width() > 0)
+        assert form._fields.minimumSizeHint().width() <= form._scroll.viewport().width()
+        form.close_sheet()

@@ -7,6 +7,7 @@ import io
 import math
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,20 +19,25 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import OutputNotWritable
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.hand.protocols import WRIST6
+from carpus.core.hand.protocols import HAND21, WRIST6, joint_angle_names
 from carpus.core.results.figures import session_figures
-from carpus.core.results.seen import ReportCurves, session_curves
+from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.seen import ReportCurves, joint_curves, session_curves
 from carpus.core.types import ByteImage, FloatArray
+from carpus.ui.figures import FIGURES, Figure
+from carpus.ui.joint_figures import figures_of
 from carpus.ui.numbers import with_spread
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.history import History
 from carpus.ui.plot.live_curves import LiveCurves
 from carpus.ui.plot.series import Curve, Series, paint_curves
-from carpus.ui.plot.session import SessionPlot, paint_session
+from carpus.ui.plot.session import SessionPlot, paint_session, thinned
 from carpus.ui.plot.session_view import CurveView
 from carpus.ui.plot.style import screen_style
 from carpus.ui.theme import Theme
+from tests.moments import with_moment
 from tests.ui.fakes import FakeFeed, session
+from tests.ui.hand_fakes import hand_session
 
 MINUTES_20_S = 1200.0
 
@@ -68,7 +74,9 @@ def drag(qtbot: QtBot, face: QWidget, start: QPointF, by_px: int) -> None:
     qtbot.mouseRelease(face, Qt.MouseButton.LeftButton, pos=start.toPoint() + QPoint(by_px, 0))
 
 
-def wheel(face: QWidget, at: QPointF, turn: int, modifiers: Qt.KeyboardModifier) -> None:
+def wheel(
+    face: QWidget, at: QPointF, turn: int, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier
+) -> None:
     event = QWheelEvent(
         at, face.mapToGlobal(at), QPoint(), QPoint(0, turn), Qt.MouseButton.NoButton, modifiers,
         Qt.ScrollPhase.NoScrollPhase, False,
@@ -114,7 +122,6 @@ def test_keys_zoom_about_the_cursor_and_show_all(view: CurveView) -> None:
     view.zoom_in()
     start_s, end_s = view.shown()
     whole = view.extent()
-    assert whole is not None
     assert end_s - start_s == pytest.approx(whole[1] / 1.25)
     assert (10.0 - start_s) / (end_s - start_s) == pytest.approx(10.0 / whole[1])
     for _ in range(40):
@@ -127,7 +134,6 @@ def test_keys_zoom_about_the_cursor_and_show_all(view: CurveView) -> None:
 def test_under_the_mouse_stand_time_value_and_spread(view: CurveView) -> None:
     panel, column = view.panels()[0]
     plot = view._plot
-    assert plot is not None
     at = QPointF(round(float(panel.x(15.0))), round(panel.box.center().y()))
     time_s, *values = view.said_at(at)
     shown = plot.values(column, view.time_at(at.x()))[0]
@@ -167,7 +173,6 @@ def test_a_picture_is_of_print_size_and_a_drawing_of_lines(view: CurveView, tmp_
 
 def test_the_table_has_what_is_shown_with_gaps_empty(view: CurveView, tmp_path: Path) -> None:
     plot = view._plot
-    assert plot is not None
     angles = plot.curves.angles_deg.copy()
     angles[330:333] = math.nan
     curves = ReportCurves(plot.curves.time_s, angles, plot.curves.sds_deg, plot.curves.status)
@@ -200,7 +205,6 @@ def test_the_window_shows_what_the_printer_draws(view: CurveView, theme: Theme) 
     """The same marks through pyqtgraph's scene and by a painter alone: the same pixels in every panel."""
     view.show_window((20.0, 40.0))
     plot = view._plot
-    assert plot is not None
     view.show_plot(SessionPlot(plot.curves, plot.exercise, plot.repetitions, -1, 40.0))
     view.set_time(20.0)
     view._time_s = -1.0  # the cursor is drawn on the screen only
@@ -306,8 +310,73 @@ def test_nothing_moves_by_mouse_while_measuring(qtbot: QtBot, theme: Theme) -> N
     before = [box.viewRange() for box in curves.canvas.boxes]
     at = QPointF(curves.panels()[0][0].box.center().toPoint())
     for turn in (120, -120):
-        wheel(curves.face, at, turn, Qt.KeyboardModifier.NoModifier)
+        wheel(curves.face, at, turn)
     drag(qtbot, curves.face, at, 80)
     qtbot.mouseClick(curves.face, Qt.MouseButton.RightButton, pos=at.toPoint())
     assert [box.viewRange() for box in curves.canvas.boxes] == before
     assert QApplication.activePopupWidget() is None
+
+
+# --- values no hand can have, which are never drawn ------------------------------------------------------
+NAMES = joint_angle_names()
+COLUMN = NAMES.index("PIP4_flexion")
+
+
+def test_an_angle_that_no_joint_can_have_is_a_gap_in_review_and_figures() -> None:
+    session = hand_session()
+    angles = session.motion.joint_angles_rad.copy()
+    angles[600:602] = np.radians(-3627.0)  # as after pictures were missing for twelve seconds
+    broken = replace(session, motion=replace(session.motion, joint_angles_rad=angles))
+    curves = joint_curves(broken)
+    assert np.isnan(curves.angles_deg[600:602]).all()
+    assert not curves.seen[600:602].any()
+    assert np.nanmin(curves.angles_deg) > -60.0
+    for row in session_figures(broken, RepetitionChoices({})).rows:
+        for value in (row.mean_deg, row.sd_deg, row.best_deg):
+            assert not abs(value) > 400.0, row.key
+
+
+def test_an_angle_that_no_joint_can_have_takes_only_its_own_figures_live() -> None:
+    frame = FakeFeed("fist", 3.0, protocol="hand21").frames[10]
+    angles = frame.moment.joint_angles_rad.copy()
+    angles[COLUMN] = np.radians(-3627.0)
+    _, value, _, measured, _ = figures_of(HAND21, [with_moment(frame, joint_angles_rad=angles)])
+    gone = {FIGURES[k] for k in np.flatnonzero(np.isnan(value[0]))}
+    assert gone == {Figure(4, "middle"), Figure(4, "end"), Figure(4, "tam")}
+    assert not measured[0, [FIGURES.index(figure) for figure in gone]].any()
+
+
+@pytest.mark.parametrize("seconds", [130.0, 400.0])
+def test_a_long_session_has_no_gaps_but_its_own(seconds: float) -> None:
+    time_s = np.arange(0.0, seconds, 1 / 30)
+    time_s = time_s[(time_s < 50.0) | (time_s > 62.6)]
+    value = 40.0 * np.sin(time_s)
+    gaps = thinned(Series(time_s, value, np.ones_like(value), np.zeros(len(value), dtype=bool)), 500).gaps_s()
+    assert len(gaps) == 1
+    assert gaps[0] == pytest.approx((50.0, 62.6), abs=1.0)
+
+
+def drawn(theme: Theme, many: list[Series]) -> list[QRectF]:
+    picture = QImage(600, 120, QImage.Format.Format_RGB32)
+    panel = Panel(QRectF(0, 0, 600, 120), Scale(-15.0, 115.0, (90.0, 0.0), ()), 0.0, 20.0)
+    painter = QPainter(picture)
+    numbers = paint_curves(painter, screen_style(theme), panel, [Curve(series, "curve_a") for series in many])
+    painter.end()
+    return numbers
+
+
+def test_numbers_of_values_beyond_the_scale_never_cover_each_other(qapp: QApplication, theme: Theme) -> None:
+    time_s = np.arange(0.0, 20.0, 1 / 30)
+    value = 60.0 + 62.0 * np.sin(6.0 * time_s)
+    sure = np.zeros(len(time_s), dtype=bool)
+    numbered = drawn(theme, [Series(time_s, value + off, None, sure) for off in (0.0, 3.0, 1.0)])
+    assert len(numbered) > 2
+    for i, one in enumerate(numbered):
+        assert one.right() <= 600.0
+        assert not any(one.intersects(other) for other in numbered[i + 1 :])
+
+
+def test_a_hidden_stretch_beyond_the_scale_has_no_number(qapp: QApplication, theme: Theme) -> None:
+    time_s = np.arange(0.0, 20.0, 1 / 30)
+    value = 60.0 + 62.0 * np.sin(time_s)
+    assert drawn(theme, [Series(time_s, value, None, value > 80.0)]) == []

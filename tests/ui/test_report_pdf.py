@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 import subprocess
 import sys
 from dataclasses import replace
@@ -31,18 +30,9 @@ from carpus.ui.report.session_page import paint_boxes
 from carpus.ui.report.words import other_lines
 from carpus.ui.terms import LEGAL_SENTENCE
 from tests.ui.fakes import FakeSessions, figures_once, session
+from tests.ui.printed import pages_of, reach_of, tool, words_of
 
 ROOT = Path(__file__).parents[2]
-
-
-def tool(name: str, *arguments: str) -> str:
-    path = shutil.which(name)
-    assert path is not None, f"{name} (poppler-utils) is needed to read the report back"
-    return subprocess.run([path, *arguments], capture_output=True, text=True, check=True).stdout
-
-
-def words_of(path: Path) -> str:
-    return " ".join(tool("pdftotext", "-layout", str(path), "-").split())
 
 
 @pytest.fixture(scope="module")
@@ -56,9 +46,8 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_the_report_is_two_pages_of_a4(report: Path) -> None:
-    info = tool("pdfinfo", str(report))
-    assert re.search(r"Pages:\s+2\n", info)
-    assert "A4" in info
+    assert pages_of(report) == 2
+    assert "A4" in tool("pdfinfo", str(report))
 
 
 def test_every_font_is_embedded_and_gives_its_text_back(report: Path) -> None:
@@ -81,6 +70,7 @@ def test_the_figures_on_the_page_are_those_of_the_session(report: Path) -> None:
     assert "20 Nov 2026, 11:36" in words
     assert re.search(r"2 ?/ ?3", words)
     assert "Repetition 7 stopped for pain." in words
+    assert words.count(LEGAL_SENTENCE) == 2, "word for word on each page"
 
 
 def test_the_foot_says_by_which_revision_and_of_which_recording(tmp_path: Path) -> None:
@@ -92,18 +82,11 @@ def test_the_foot_says_by_which_revision_and_of_which_recording(tmp_path: Path) 
     assert "Carpus 10.11.12 (0123456)" in foot
     assert "recording ab12…cd34" in foot
     assert "as measured live" in foot, "the end of the line is on the page"
-    boxes = tool("pdftotext", "-bbox", "-f", "1", "-l", "1", str(path), "-")
-    (end,) = re.findall(r'xMax="([\d.]+)"[^>]*>live</word>', boxes)[-1:]
+    (*_, end) = re.findall(r'xMax="([\d.]+)"[^>]*>live</word>', tool("pdftotext", "-bbox", "-l", "1", str(path), "-"))
     assert float(end) <= 595.0 - 42.0, "nothing leaves the margin on the right"
 
 
-def test_the_legal_sentence_is_there_word_for_word(report: Path) -> None:
-    assert LEGAL_SENTENCE in words_of(report)
-
-
-@pytest.fixture(scope="module")
-def doubted(tmp_path_factory: pytest.TempPathFactory) -> str:
-    """Words of the report of a simulated session that was started although the camera was tilted."""
+def test_a_simulated_and_doubtful_session_says_so_and_shows_its_targets(report: Path, tmp_path: Path) -> None:
     stored = session()
     parameters = json.dumps({"source": {"simulated": "yes"}, "set_up": {"targets_deg": [45.0, -30.0]}})
     verdict = replace(stored.calibration.verdict, findings=(CalibrationFinding("tilt", (), 22.0, 15.0, "deg"),))
@@ -112,10 +95,7 @@ def doubted(tmp_path_factory: pytest.TempPathFactory) -> str:
         header=replace(stored.header, parameters=parameters),
         calibration=replace(stored.calibration, verdict=verdict),
     )
-    return words_of(write_session_report(stored, tmp_path_factory.mktemp("doubted") / "report.pdf"))
-
-
-def test_a_simulated_and_doubtful_session_says_so_and_shows_its_targets(doubted: str, report: Path) -> None:
+    doubted, usual = words_of(write_session_report(stored, tmp_path / "report.pdf")), words_of(report)
     for words in (
         "Simulated hand: nobody’s movement was measured.",
         "Measured although doubtful: The hand is tilted 22° to the camera",
@@ -124,7 +104,7 @@ def test_a_simulated_and_doubtful_session_says_so_and_shows_its_targets(doubted:
         "dashed: target",
     ):
         assert words in doubted
-        assert words not in words_of(report)
+        assert words not in usual
 
 
 def test_error_is_explained_only_where_a_change_is_judged(report: Path, tmp_path: Path) -> None:
@@ -165,10 +145,9 @@ def test_long_names_and_reasons_stay_within_the_margins(tmp_path: Path) -> None:
     path = write_session_report(
         session(), tmp_path / "x.pdf", choices=choices, pseudonym="Blue Hummingbird Mountain 42 and more of"
     )
-    boxes = tool("pdftotext", "-bbox", "-f", "1", "-l", "1", str(path), "-")
-    left, right = ([float(at) for at in re.findall(rf'{side}="([0-9.-]+)"', boxes)] for side in ("xMin", "xMax"))
-    assert min(left) >= 42.52 - 2.0
-    assert max(right) <= 595.28 - 42.52 + 2.0
+    left, _, right, _ = reach_of(path)
+    assert left >= 42.52 - 2.0
+    assert right <= 595.28 - 42.52 + 2.0
     assert "Blue Hummingbird Mountain 42 and more of" in words_of(path)
 
 
@@ -176,7 +155,7 @@ def test_long_names_and_reasons_stay_within_the_margins(tmp_path: Path) -> None:
 def test_every_exercise_fits_the_page(tmp_path: Path, exercise: str) -> None:
     motion = {"WRIST_RU": "deviation", "FOREARM_PS": "pronosupination", "FREE": "mixed"}.get(exercise, "flexion")
     path = write_session_report(session(exercise=exercise, motion=motion, lost=[(20.0, 22.0)]), tmp_path / "x.pdf")
-    assert re.search(r"Pages:\s+2\n", tool("pdfinfo", str(path)))
+    assert pages_of(path) == 2
     assert LEGAL_SENTENCE in words_of(path)
 
 
@@ -194,7 +173,7 @@ def test_the_progress_report_gives_the_answer_and_names_what_was_left_out(tmp_pa
     assert "The whole arc has improved by" in words
     assert "camera 18 cm further away" in words
     assert LEGAL_SENTENCE in words
-    assert re.search(r"Pages:\s+1\n", tool("pdfinfo", str(path)))
+    assert pages_of(path) == 1
 
 
 def test_a_report_never_replaces_a_file(tmp_path: Path) -> None:
@@ -233,13 +212,12 @@ def test_many_warnings_make_the_page_smaller_and_nothing_is_lost(tmp_path: Path,
     findings += (CalibrationFinding("tilt", (), 22.0, 15.0, "deg"), CalibrationFinding("distance", (), 1.22, 1.1, "m"))
     doubtful = replace(stored.calibration, verdict=replace(stored.calibration.verdict, findings=findings))
     path = write_session_report(replace(stored, calibration=doubtful), tmp_path / "x.pdf")
-    assert re.search(r"Pages:\s+2\n", tool("pdfinfo", str(path)))
+    assert pages_of(path) == 2
     words = words_of(path)
     assert words.count("off its place") == len(stored.header.protocol.markers)
     assert LEGAL_SENTENCE in words
     assert f"Session {stored.header.session_id[:8]}" in words
-    boxes = tool("pdftotext", "-bbox", str(path), "-")
-    assert max(float(y) for y in re.findall(r'yMax="([0-9.]+)"', boxes)) < 841.9 - 28.3, "a centimetre of margin"
+    assert reach_of(path)[3] < 841.9 - 28.3, "a centimetre of margin"
 
 
 def test_a_page_that_cannot_be_painted_leaves_the_program_running(

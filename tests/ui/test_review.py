@@ -8,9 +8,7 @@ from datetime import datetime
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
-from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtCore import QPoint, QPointF, Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.results.progress import Progress
@@ -25,7 +23,9 @@ from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.progress.words import headline
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.fakes import FakeSessions
+from tests.ui.test_plots import drag
 
 
 @pytest.fixture
@@ -34,43 +34,27 @@ def store() -> FakeSessions:
 
 
 @pytest.fixture
-def background(qtbot: QtBot) -> Iterator[Background]:
-    """Idle before the screens go, as the program waits before it ends."""
-    background = Background()
-    yield background
-    qtbot.waitUntil(lambda: not background.busy)
-
-
-@pytest.fixture
-def screen(qtbot: QtBot, theme: Theme, store: FakeSessions, background: Background) -> Iterator[ReviewScreen]:
-    screen = ReviewScreen(theme, Keys(), background, store)
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
-    screen.activateWindow()
-    qtbot.waitUntil(screen.isActiveWindow)
+def screen(
+    qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], store: FakeSessions, background: Background
+) -> Iterator[ReviewScreen]:
+    screen = show(ReviewScreen(theme, Keys(), background, store), active=True)
     screen.begin("linden", "session-7")
     qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
     yield screen
     screen.playing.stop()
 
 
-def key(qtbot: QtBot, screen: ReviewScreen, name: Qt.Key) -> None:
-    qtbot.keyClick(screen, name)
-
-
 def test_arrows_step_by_one_picture_and_the_picture_follows(qtbot: QtBot, screen: ReviewScreen) -> None:
     screen.playing.seek(10.0)
     before = screen.playing.time_s
-    key(qtbot, screen, Qt.Key.Key_Right)
+    qtbot.keyClick(screen, Qt.Key.Key_Right)
     assert screen.playing.time_s - before == pytest.approx(1 / 30, abs=0.02)
-    key(qtbot, screen, Qt.Key.Key_Left)
+    qtbot.keyClick(screen, Qt.Key.Key_Left)
     assert screen.playing.time_s == pytest.approx(before, abs=0.02)
     qtbot.waitUntil(lambda: not screen.picture.reader.busy)
 
 
 def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
-    assert screen.figures is not None
     qtbot.mouseClick(screen.card.count_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: "session-7" in store.kept and store.kept["session-7"].not_counted)
     assert screen.figures.not_counted
@@ -85,7 +69,6 @@ def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewS
 
 
 def test_notes_of_the_session_are_read_in_the_review(screen: ReviewScreen) -> None:
-    assert screen.figures is not None
     assert screen.figures.notes
     for _, text in screen.figures.notes:
         assert text in screen.card.tables.notes.text()
@@ -94,22 +77,21 @@ def test_notes_of_the_session_are_read_in_the_review(screen: ReviewScreen) -> No
 
 def test_space_plays_and_stops(qtbot: QtBot, screen: ReviewScreen) -> None:
     screen.playing.seek(5.0)
-    key(qtbot, screen, Qt.Key.Key_Space)
+    qtbot.keyClick(screen, Qt.Key.Key_Space)
     qtbot.waitUntil(lambda: screen.playing.time_s > 5.1)
-    key(qtbot, screen, Qt.Key.Key_Space)
+    qtbot.keyClick(screen, Qt.Key.Key_Space)
     stopped = screen.playing.time_s
     qtbot.waitUntil(lambda: not screen.picture.reader.busy)
     assert screen.playing.time_s == stopped
 
 
 def test_brackets_walk_through_the_repetitions(qtbot: QtBot, screen: ReviewScreen) -> None:
-    assert screen.figures is not None
     assert screen.current == 0
-    key(qtbot, screen, Qt.Key.Key_BracketRight)
-    key(qtbot, screen, Qt.Key.Key_BracketRight)
+    for _ in range(2):
+        qtbot.keyClick(screen, Qt.Key.Key_BracketRight)
     assert screen.current == 2
     assert screen.playing.time_s == pytest.approx(screen.figures.repetitions[2].start_s)
-    key(qtbot, screen, Qt.Key.Key_BracketLeft)
+    qtbot.keyClick(screen, Qt.Key.Key_BracketLeft)
     assert screen.current == 1
 
 
@@ -117,7 +99,7 @@ def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
     qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
 ) -> None:
     screen.go_to_repetition(3)
-    key(qtbot, screen, Qt.Key.Key_X)
+    qtbot.keyClick(screen, Qt.Key.Key_X)
     assert screen.reason.isVisible()
     screen.reason.buttons[0].click()
     qtbot.waitUntil(lambda: "session-7" in store.kept)
@@ -125,7 +107,7 @@ def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
     assert "number 4 left out: pain" in screen.card.count.text()
     assert "mean of 8 repetitions" in screen.card.count.text()
     screen.go_to_repetition(3)
-    key(qtbot, screen, Qt.Key.Key_X)
+    qtbot.keyClick(screen, Qt.Key.Key_X)
     qtbot.waitUntil(lambda: not store.kept["session-7"].left_out)
     assert "mean of 9 repetitions" in screen.card.count.text()
 
@@ -133,7 +115,6 @@ def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
 def test_a_repetition_and_all_after_it_are_passive_by_mouse(
     qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
 ) -> None:
-    assert screen.figures is not None
     screen.go_to_repetition(7)
     qtbot.mouseClick(screen.player.repetition, Qt.MouseButton.LeftButton)
     assert screen.reason.isVisible()
@@ -144,41 +125,27 @@ def test_a_repetition_and_all_after_it_are_passive_by_mouse(
     assert screen.card.tables.ways.isVisible()
     assert [row[0] for row in screen.card.tables.ways.rows] == ["Whole arc", "Flexion", "Extension"]
     screen.go_to_repetition(7)
-    key(qtbot, screen, Qt.Key.Key_X)
+    qtbot.keyClick(screen, Qt.Key.Key_X)
     qtbot.waitUntil(lambda: store.kept["session-7"].left_out[7] == "")
     assert screen.figures.repetitions[7].counts
 
 
 def test_comma_and_full_stop_move_the_nearer_edge(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
-    assert screen.figures is not None
     screen.go_to_repetition(2)
     before = screen.figures.repetitions[2]
-    key(qtbot, screen, Qt.Key.Key_Period)
+    qtbot.keyClick(screen, Qt.Key.Key_Period)
     after = screen.figures.repetitions[2]
     assert after.start_s == pytest.approx(before.start_s + 0.1)
     assert after.end_s == before.end_s
     qtbot.waitUntil(lambda: "session-7" in store.kept)
 
 
-def drag(qtbot: QtBot, face: QWidget, start: QPoint, end: QPoint) -> None:
-    """Press, move while pressed, let go."""
-    qtbot.mousePress(face, Qt.MouseButton.LeftButton, pos=start)
-    for at in (0.5 * (QPointF(start) + QPointF(end)), QPointF(end)):
-        move = QMouseEvent(
-            QEvent.Type.MouseMove, at, face.mapToGlobal(at), Qt.MouseButton.NoButton,
-            Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier,
-        )  # fmt: skip
-        QApplication.sendEvent(face, move)
-    qtbot.mouseRelease(face, Qt.MouseButton.LeftButton, pos=end)
-
-
 def test_an_edge_is_dragged_by_the_mouse(qtbot: QtBot, screen: ReviewScreen) -> None:
-    assert screen.figures is not None
     screen.go_to_repetition(2)
     before = screen.figures.repetitions[2]
     panel = screen.charts.curves.panels()[0][0]
     start = QPoint(round(float(panel.x(before.end_s))), round(panel.box.center().y()))
-    drag(qtbot, screen.charts.curves.face, start, QPoint(start.x() - 12, start.y()))
+    drag(qtbot, screen.charts.curves.face, QPointF(start), -12)
     assert screen.figures.repetitions[2].end_s < before.end_s - 0.5
     assert screen.figures.repetitions[2].start_s == before.start_s
 
@@ -198,11 +165,10 @@ def test_the_table_compares_with_the_last_session_and_the_other_hand(screen: Rev
     assert "within measurement error (14°)" in first.change
 
 
-def test_without_pictures_the_marks_are_still_shown(qtbot: QtBot, theme: Theme, background: Background) -> None:
-    screen = ReviewScreen(theme, Keys(), background, FakeSessions(pictures=False))
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
+def test_without_pictures_the_marks_are_still_shown(
+    qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], background: Background
+) -> None:
+    screen = show(ReviewScreen(theme, Keys(), background, FakeSessions(pictures=False)))
     screen.begin("linden", "session-7")
     qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
     assert not screen.grab().isNull()
@@ -233,12 +199,9 @@ def test_thinning_keeps_extremes_gaps_and_ends() -> None:
 
 
 def test_progress_answers_with_the_arc_and_rings_what_is_unfair(
-    qtbot: QtBot, theme: Theme, store: FakeSessions, background: Background
+    qtbot: QtBot, theme: Theme, show: Show[ProgressScreen], store: FakeSessions, background: Background
 ) -> None:
-    screen = ProgressScreen(theme, Keys(), background, store)
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
+    screen = show(ProgressScreen(theme, Keys(), background, store))
     screen.begin("linden", "session-7")
     qtbot.waitUntil(lambda: len(screen.progress.points) == 7)
     assert screen.answer.text().startswith("The whole arc has improved by")
@@ -259,7 +222,6 @@ def test_progress_of_nobody_says_so() -> None:
 
 def test_a_session_on_the_screen_says_when_it_was_stored(screen: ReviewScreen) -> None:
     reviewed = screen.reviewed
-    assert reviewed is not None
     assert (reviewed.saved_at - reviewed.figures.when).total_seconds() == pytest.approx(reviewed.figures.duration_s)
     screen.begin("linden", "session-6")
     assert screen.reviewed is None

@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, Qt
-from PySide6.QtGui import QImage, QPainter, QWheelEvent
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtGui import QImage, QPainter
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -28,7 +28,9 @@ from carpus.ui.plot.style import screen_style
 from carpus.ui.report.hand_rows import COLUMNS, limits_words
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
+from tests.ui.test_plots import wheel
 
 
 @pytest.fixture(scope="module")
@@ -37,17 +39,14 @@ def store() -> FakeHandSessions:
 
 
 @pytest.fixture
-def screen(qtbot: QtBot, theme: Theme, store: FakeHandSessions) -> Iterator[ReviewScreen]:
-    background = Background()
-    screen = ReviewScreen(theme, Keys(), background, store)
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
+def screen(
+    qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], store: FakeHandSessions, background: Background
+) -> Iterator[ReviewScreen]:
+    screen = show(ReviewScreen(theme, Keys(), background, store))
     screen.begin("linden", "hand-7")
     qtbot.waitUntil(lambda: screen.shown and not background.busy)
     yield screen
     screen.playing.stop()
-    qtbot.waitUntil(lambda: not background.busy)
 
 
 def plot_of(screen: ReviewScreen) -> HandPlot:
@@ -78,7 +77,6 @@ def test_a_curve_is_dashed_exactly_where_a_disc_of_the_joint_was_hidden(
 ) -> None:
     session = store.session("hand-7")
     series = plot_of(screen).joint_series(Figure(3, "middle"))
-    assert series is not None
     at = SITES.index("PIP3")
     known = np.isfinite(session.markers.measured_px[:, [at, at + 1], 0]).all(axis=1)
     value = np.isfinite(series.value)
@@ -88,7 +86,6 @@ def test_a_curve_is_dashed_exactly_where_a_disc_of_the_joint_was_hidden(
 
 def test_a_lost_stretch_is_a_gap_and_no_number(screen: ReviewScreen) -> None:
     series = plot_of(screen).joint_series(Figure(2, "knuckle"))
-    assert series is not None
     assert any(start < 31.5 < end for start, end in series.gaps_s())
     assert math.isnan(joint_at(plot_of(screen), Figure(2, "knuckle"), 31.5)[0])
 
@@ -103,7 +100,6 @@ def test_an_end_joint_without_measurement_of_its_own_is_never_seen(screen: Revie
 def test_the_table_says_what_is_at_least_and_why(screen: ReviewScreen) -> None:
     rows = screen.card.tables.hand.rows
     assert [row.finger for row in rows] == [1, 2, 3, 4, 5]
-    assert screen.figures is not None
     for row in rows:
         for column, cell in zip(COLUMNS, row.cells, strict=True):
             found = screen.figures.row("arc", -1, Figure(row.finger, column).joint)
@@ -125,7 +121,6 @@ def test_space_plays_with_a_finger_chosen_and_the_curves_keep_step(qtbot: QtBot,
 
 
 def test_a_time_in_no_repetition_has_no_number(screen: ReviewScreen) -> None:
-    assert screen.reviewed is not None
     first, *_, last = screen.reviewed.figures.repetitions
     screen.playing.seek(first.start_s + 0.5)
     count = len(screen.reviewed.figures.repetitions)
@@ -147,8 +142,9 @@ def test_the_skeleton_goes_from_the_wrist_to_each_tip(store: FakeHandSessions) -
 
 
 def test_the_places_are_final_before_the_session_is_read(
-    qtbot: QtBot, theme: Theme, store: FakeHandSessions, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], store: FakeHandSessions, background: Background,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
     may_read, session = threading.Event(), store.session
 
     def read(session_id: str) -> Session:
@@ -156,11 +152,7 @@ def test_the_places_are_final_before_the_session_is_read(
         return session(session_id)
 
     monkeypatch.setattr(store, "session", read)
-    background = Background()
-    screen = ReviewScreen(theme, Keys(), background, store)
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
+    screen = show(ReviewScreen(theme, Keys(), background, store))
 
     def places() -> list[QRect]:
         QApplication.processEvents()
@@ -171,7 +163,7 @@ def test_the_places_are_final_before_the_session_is_read(
     before = places()
     assert not screen.shown
     may_read.set()
-    qtbot.waitUntil(lambda: screen.shown and not background.busy, timeout=60_000)
+    qtbot.waitUntil(lambda: screen.shown and not background.busy)
     assert places() == before
     screen.playing.stop()
 
@@ -210,14 +202,6 @@ def test_the_wheel_shows_less_time_about_the_mouse_and_a_double_click_the_repeti
     assert plot_of(screen).shown_s == plot_of(screen).repetitions_s
     double_click(qtbot, curves.face, at)
     assert plot_of(screen).shown_s == whole
-
-
-def wheel(widget: QWidget, at: QPointF, turn: int) -> None:
-    event = QWheelEvent(
-        at, widget.mapToGlobal(at), QPoint(), QPoint(0, turn), Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier,
-        Qt.ScrollPhase.NoScrollPhase, False,
-    )  # fmt: skip
-    QApplication.sendEvent(widget, event)
 
 
 def test_numbers_beside_the_curves_never_overlap_also_with_end_joints_of_their_own(qtbot: QtBot, theme: Theme) -> None:

@@ -13,6 +13,7 @@ from carpus.ui.sessions import listing
 from carpus.ui.sessions.listing import cells
 from carpus.ui.sessions.screen import SessionsScreen
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.fake_shelf import FakeShelf
 
 
@@ -22,11 +23,10 @@ def shelf() -> FakeShelf:
 
 
 @pytest.fixture
-def screen(qtbot: QtBot, theme: Theme, shelf: FakeShelf) -> SessionsScreen:
-    screen = SessionsScreen(theme, Background(), shelf)
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
+def screen(
+    qtbot: QtBot, theme: Theme, show: Show[SessionsScreen], background: Background, shelf: FakeShelf
+) -> SessionsScreen:
+    screen = show(SessionsScreen(theme, background, shelf))
     screen.begin("linden", "Linden 42", "s1")
     qtbot.waitUntil(lambda: all(line.figure or line.damaged for line in screen.list.rows.lines))
     return screen
@@ -34,7 +34,6 @@ def screen(qtbot: QtBot, theme: Theme, shelf: FakeShelf) -> SessionsScreen:
 
 def chosen(screen: SessionsScreen) -> str:
     line = screen.chosen()
-    assert line is not None
     return line.session_id
 
 
@@ -94,10 +93,10 @@ def test_deleting_is_asked_for_by_button_and_key(qtbot: QtBot, screen: SessionsS
     assert wanted == ["s1", "s1"]
 
 
-def test_a_patient_without_a_session_is_told_so(qtbot: QtBot, theme: Theme) -> None:
-    screen = SessionsScreen(theme, Background(), FakeShelf(0))
-    qtbot.addWidget(screen)
-    screen.show()
+def test_a_patient_without_a_session_is_told_so(
+    theme: Theme, show: Show[SessionsScreen], background: Background
+) -> None:
+    screen = show(SessionsScreen(theme, background, FakeShelf(0)))
     screen.begin("fir", "Fir 12")
     assert screen.none.isVisible()
     assert not screen.open_button.isVisible()

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt, QThread
+from PySide6.QtCore import QPoint, QRect, Qt, QThread
 from PySide6.QtGui import QKeySequence
-from PySide6.QtWidgets import QApplication, QPushButton, QWidget
+from PySide6.QtWidgets import QApplication, QPushButton, QScrollArea, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from carpus.core.words import Words
@@ -18,28 +19,36 @@ from carpus.ui.controls.field import Choices
 from carpus.ui.controls.layouts import in_column
 from carpus.ui.controls.text import Text, heading
 from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
-from carpus.ui.icons import octagon
 from carpus.ui.keys import DEFAULT_KEYS, Keys, action_words
 from carpus.ui.messages.messages import Answer, StopCard
 from carpus.ui.ports import Preferences
 from carpus.ui.report.pdf import session_report
 from carpus.ui.report.screen import ReportScreen
 from carpus.ui.settings.screen import SettingsScreen
-from carpus.ui.shell import Shell
+from carpus.ui.shell import FocusRing, Shell
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.fakes import FakeSessions
 
+Settings = Callable[..., tuple[SettingsScreen, list[Preferences]]]
 WORDS = Words("The camera was unplugged.", "Your data are safe.", "Plug the camera in again.")
 
 
 @pytest.fixture
-def shell(qtbot: QtBot, theme: Theme) -> Shell:
-    shell = Shell(theme)
-    qtbot.addWidget(shell)
-    shell.show()
-    shell.activateWindow()
-    qtbot.waitUntil(shell.isActiveWindow)
-    return shell
+def shell(theme: Theme, show: Show[Shell]) -> Shell:
+    return show(Shell(theme), active=True)
+
+
+@pytest.fixture
+def settings(theme: Theme, show: Show[SettingsScreen]) -> Settings:
+    """The settings with some preferences, and what they tell."""
+
+    def one(**chosen: object) -> tuple[SettingsScreen, list[Preferences]]:
+        screen, told = show(SettingsScreen(theme, Preferences(**chosen), "0.9.1")), []
+        screen.changed.connect(told.append)
+        return screen, told
+
+    return one
 
 
 def test_the_bundled_face_is_used_and_its_figures_are_tabular(qapp: QApplication) -> None:
@@ -175,40 +184,28 @@ def test_tab_leads_to_what_is_chosen_and_arrows_choose_another(qtbot: QtBot, the
     assert choices.value() is None
 
 
-def test_settings_act_at_once_and_tell_what_was_chosen(qtbot: QtBot, theme: Theme) -> None:
-    screen = SettingsScreen(theme, Preferences(theme="light", data_folder="/data"), "1.0.0")
-    qtbot.addWidget(screen)
-    told: list[Preferences] = []
-    screen.changed.connect(told.append)
+def test_settings_act_at_once_and_tell_what_was_chosen(settings: Settings) -> None:
+    screen, told = settings(theme="light", data_folder="/data")
     screen.looks.buttons()[1].click()
     screen.text_scale.buttons()[2].click()
     screen.therapist.setText("M. R.")
     screen.therapist.editingFinished.emit()
-    assert (told[-1].theme, told[-1].text_scale, told[-1].therapist, told[-1].data_folder) == (
-        "dark",
-        1.5,
-        "M. R.",
-        "/data",
-    )
+    now = told[-1]
+    assert (now.theme, now.text_scale, now.therapist, now.data_folder) == ("dark", 1.5, "M. R.", "/data")
 
 
-def test_what_only_research_needs_is_folded_away_until_it_is_switched_on(qtbot: QtBot, theme: Theme) -> None:
-    screen = SettingsScreen(theme, Preferences(stream=True, angle_order="isb"))
-    qtbot.addWidget(screen)
-    screen.show()
+def test_what_only_research_needs_is_folded_away_until_it_is_switched_on(settings: Settings) -> None:
+    screen, told = settings(stream=True, angle_order="isb")
     screen.choose("research")
     folded = (screen.angle_order, screen.stream, screen.agreement)
     assert not any(widget.isVisible() for widget in folded)
-    told: list[Preferences] = []
-    screen.changed.connect(told.append)
     screen.research.click()
     assert all(widget.isVisible() for widget in folded)
     assert (told[-1].research, told[-1].stream, told[-1].angle_order) == (True, True, "isb"), "no value changes by it"
 
 
-def test_about_tells_what_lies_in_the_clinics_folder(qtbot: QtBot, theme: Theme) -> None:
-    screen = SettingsScreen(theme, Preferences(), "0.9.1")
-    qtbot.addWidget(screen)
+def test_about_tells_what_lies_in_the_clinics_folder(settings: Settings) -> None:
+    screen, _ = settings()
     assert "asks nobody" in screen.newer.text()
     told = []
     for newest in ("0.10.0", "0.9.1", "", None):
@@ -220,17 +217,13 @@ def test_about_tells_what_lies_in_the_clinics_folder(qtbot: QtBot, theme: Theme)
     assert "cannot be read" in told[3]
 
 
-def test_a_key_can_be_given_to_one_action_only(qtbot: QtBot, theme: Theme) -> None:
-    screen = SettingsScreen(theme, Preferences(), "1.0.0")
-    qtbot.addWidget(screen)
-    screen.show()
+def test_a_key_can_be_given_to_one_action_only(settings: Settings) -> None:
+    screen, _ = settings()
     screen.choose("keys")
-    screen.keys["note"].setKeySequence(QKeySequence("Ctrl+J"))
-    screen.keys["note"].editingFinished.emit()
-    assert screen.preferences.keys == {"note": "Ctrl+J"}
-    screen.keys["pain"].setKeySequence(QKeySequence("Ctrl+J"))
-    screen.keys["pain"].editingFinished.emit()
-    assert screen.preferences.keys == {"note": "Ctrl+J"}
+    for action in ("note", "pain"):
+        screen.keys[action].setKeySequence(QKeySequence("Ctrl+J"))
+        screen.keys[action].editingFinished.emit()
+        assert screen.preferences.keys == {"note": "Ctrl+J"}
     assert screen.fault.isVisible()
     assert screen.keys["pain"].keySequence() == QKeySequence("F6")
     screen.reset.click()
@@ -245,12 +238,9 @@ def test_every_key_has_words_and_is_a_key() -> None:
 
 
 def test_a_report_is_saved_in_the_background_and_replaces_only_when_asked(
-    qtbot: QtBot, theme: Theme, tmp_path: Path
+    qtbot: QtBot, theme: Theme, show: Show[ReportScreen], tmp_path: Path
 ) -> None:
-    screen = ReportScreen(theme, Keys(), Background())
-    qtbot.addWidget(screen)
-    screen.resize(1280, 744)
-    screen.show()
+    screen = show(ReportScreen(theme, Keys(), Background()))
     screen.begin(session_report(FakeSessions().session("session-7")), str(tmp_path))
     assert not screen.page.grab().isNull()
     with qtbot.waitSignal(screen.saved) as saved:
@@ -283,13 +273,47 @@ def test_background_work_answers_in_the_window_s_thread(qtbot: QtBot) -> None:
     assert not background.busy
 
 
-def test_the_octagon_has_eight_equal_sides() -> None:
-    from PySide6.QtCore import QPointF
+# --- the mark of the keyboard, also when what holds its control moves ------------------------------------
+@pytest.fixture
+def parts(qtbot: QtBot, theme: Theme) -> tuple[QWidget, QScrollArea, list[QPushButton], FocusRing]:
+    window = QWidget()
+    qtbot.addWidget(window)
+    window.resize(300, 200)
+    inside = QWidget()
+    column = QVBoxLayout(inside)
+    buttons = [QPushButton(str(number)) for number in range(20)]
+    for button in buttons:
+        column.addWidget(button)
+    area = QScrollArea()
+    area.setWidgetResizable(True)
+    area.setWidget(inside)
+    QVBoxLayout(window).addWidget(area)
+    ring = FocusRing(window)
+    with qtbot.waitExposed(window):
+        window.show()
+    ring._follow(None, buttons[2])  # without a window manager nothing has the keyboard
+    return window, area, buttons, ring
 
-    shape = octagon(QPointF(0, 0), 10.0)
-    points = [shape.at(k) for k in range(8)]
-    sides = [
-        ((a.x() - b.x()) ** 2 + (a.y() - b.y()) ** 2) ** 0.5
-        for a, b in zip(points, points[1:] + points[:1], strict=True)
-    ]
-    assert max(sides) - min(sides) < 0.01
+
+def around(window: QWidget, button: QPushButton) -> QRect:
+    return QRect(button.mapTo(window, QPoint(0, 0)), button.size())
+
+
+def test_it_follows_what_is_scrolled(parts: tuple[QWidget, QScrollArea, list[QPushButton], FocusRing]) -> None:
+    window, area, buttons, ring = parts
+    before = ring.geometry()
+    assert before.contains(around(window, buttons[2]))
+    area.verticalScrollBar().setValue(15)
+    assert ring.geometry() == before.translated(0, -15)
+    assert ring.geometry().contains(around(window, buttons[2]))
+
+
+def test_it_goes_with_what_is_scrolled_away_and_comes_back(
+    parts: tuple[QWidget, QScrollArea, list[QPushButton], FocusRing],
+) -> None:
+    _, area, _, ring = parts
+    area.verticalScrollBar().setValue(area.verticalScrollBar().maximum())
+    assert not ring.isVisible()
+    area.verticalScrollBar().setValue(0)
+    assert ring.isVisible()
+    assert ring.mask().isEmpty()

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from carpus.ui.theme import Theme
 from carpus.ui.tour.bubble import BubbleView
-from carpus.ui.tour.order import ONLY_READ, PARTS, PLACES, Bubble, TourMoment, Work, bubble_at, part_of, words_of
+from carpus.ui.tour.order import PARTS, PLACES, Bubble, TourMoment, Work, bubble_at, part_of, words_of
 
 BUBBLES: tuple[Bubble, ...] = get_args(Bubble)
 PLACES_OF_ALL = (*dict.fromkeys(PLACES.values()), "exercise", "sessions", "progress", "help", "settings", "correct")
@@ -120,7 +120,3 @@ def test_over_a_recording_the_space_bar_stays_with_the_screen(theme: Theme) -> N
     assert not view.next_button.focusPolicy().value
     assert not view.leave_button.focusPolicy().value
     view.deleteLater()
-
-
-def test_only_what_a_person_must_do_is_merely_read() -> None:
-    assert set(ONLY_READ) == {"click", "results"}

@@ -135,7 +135,8 @@ def paint_finger_curves(
     _paint_key(page, left, page.right - page.width_of(aside, 8.5) - 12, top + 11)
     plot = HandPlot(curves, figures.exercise, figures.repetitions, -1, joints=joints)
     box = page.box(page.left + 80, top + 28, page.right - page.left - 88, height)
-    paint_session(page.painter, page.style, plot, plot.panels(box, BETWEEN_PT * page.point))
+    if not page.is_trial:
+        paint_session(page.painter, page.style, plot, plot.panels(box, BETWEEN_PT * page.point))
     return top + 28 + height + 16
 
 

@@ -53,6 +53,8 @@ def _paint_all(page: Page, report: SessionReport, motion: MotionCurves) -> float
 
 def _paint_ways(page: Page, title: str, plot: WayPlot, top: float, height: float, aside: str) -> float:
     page.title(title, top + 11, aside)
+    if page.is_trial:
+        return top + 16 + height + 8
     style: PlotStyle = page.style
     panels = side_by_side(style, page.box(page.left, top + 16, page.right - page.left, height), 12 * page.point)
     paint_planes(page.painter, style, plot, panels)
@@ -69,7 +71,8 @@ def _paint_curves(
     page.title(title, top + 11, aside)
     plot = MotionPlot(report.curves, report.figures.exercise, report.figures.repetitions, -1, motion=motion, kind=kind)
     box = page.box(page.left + 78, top + 29, page.right - page.left - 84, height)
-    paint_session(page.painter, page.style, plot, plot.panels(box, 7 * page.point))
+    if not page.is_trial:
+        paint_session(page.painter, page.style, plot, plot.panels(box, 7 * page.point))
     return top + 29 + height + 18
 
 

@@ -46,6 +46,8 @@ class Page:
     point: float
     number: str = ""
     """Which page of how many, in words, for its head; empty where that is not known."""
+    is_trial: bool = False
+    """Nobody sees it: plots, whose height is given, may be left out."""
 
     def __post_init__(self) -> None:
         self.painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -219,7 +221,7 @@ def painted_on_nothing(page: Page, paint: Callable[[Page], float]) -> float:
     nowhere = QPicture()
     painter = QPainter(nowhere)
     try:
-        return paint(Page(painter, page.point))
+        return paint(Page(painter, page.point, is_trial=True))
     finally:
         painter.end()
 

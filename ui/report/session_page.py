@@ -271,8 +271,8 @@ def _paint_curves(page: Page, report: SessionReport, top: float) -> float:
         *report.figures.targets_deg,
     )  # fmt: skip
     box = page.box(page.left + 70, top + 30, page.right - page.left - 78, 158)
-    style = page.style
-    paint_session(page.painter, style, plot, plot.panels(box, 9 * page.point))
+    if not page.is_trial:
+        paint_session(page.painter, page.style, plot, plot.panels(box, 9 * page.point))
     return top + 30 + 158 + 16
 
 
