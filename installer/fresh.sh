@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# The README's two commands on a machine that has nothing: `make run` and `make test` in clean roots of Debian, with
-# an empty environment. Needs root, git and mmdebstrap; takes the last commit, not what is uncommitted.
-# usage: installer/fresh.sh [SUITE...]      (bookworm and trixie: Debian 12 and 13)
+# The README's two commands on a machine that has nothing: `make run` and `make test` in clean roots of Debian and
+# Ubuntu, with an empty environment. Needs root, git and mmdebstrap; takes the last commit, not what is uncommitted.
+# usage: installer/fresh.sh [SUITE...]      (bookworm and trixie: Debian 12 and 13; noble is Ubuntu 24.04, which needs
+#        Ubuntu's keys: the package ubuntu-keyring, or UBUNTU_KEYRING=FILE; TARGETS=run tries the first command alone)
 #
 # How packages are reached is this machine's matter: its proxies, certificates and pip settings go along, nothing else.
 set -euo pipefail
@@ -20,7 +21,7 @@ roots=$(mktemp -d "${TMPDIR:-/var/tmp}/fresh-roots.XXXXXX")
 trap 'rm -rf "$roots"' EXIT
 mkdir -p "$logs"
 
-. installer/where_from.sh  # mirror, apt_config
+. installer/clean_roots.sh  # new_root, inside
 
 # --- how pip reaches its packages -----------------------------------------------------------------
 # Files, folders and variables of this machine's pip become one /etc/pip.conf inside; what it names goes along.
@@ -57,35 +58,20 @@ PYTHON
 }
 
 # --- one root ---------------------------------------------------------------------------------------
-# In mount and process spaces of their own: nothing is left mounted or running, however this ends.
-inside() {
-    local root=$1; shift
-    unshare --mount --pid --fork --kill-child bash -euo pipefail -c '
-        root=$1; shift
-        while read -r folder; do mkdir -p "$root$folder"; mount --rbind "$folder" "$root$folder"; done <"$root/.folders"
-        mount -t proc proc "$root/proc"
-        mount --rbind /dev "$root/dev"
-        mount -t tmpfs tmpfs "$root/dev/shm"
-        exec chroot "$root" /usr/bin/env -i /bin/sh -c "cd /srv/carpus && exec $*"
-    ' inside "$root" "$@" </dev/null
-}
-
 try() {
     local suite=$1 root=$roots/$1 log=$logs/$1.log start words=""
     say "$suite: a root with python3, git and make (the whole log: $log)"
-    mmdebstrap --variant=minbase --include=python3,git,make --aptopt="$apt_config" \
-        "$suite" "$root" ${mirror:+"$mirror"} >"$log" 2>&1 || { tail -n 20 "$log"; return 1; }
-    cp /etc/hosts "$root/etc/hosts"
+    new_root "$suite" "$root" "$log" python3,git,make || return 1
     settle_pip "$root" >"$root/.folders"
     git clone --quiet --no-hardlinks "file://$checkout" "$root/srv/carpus"
-    for target in run test; do
+    for target in ${TARGETS:-run test}; do
         start=$SECONDS
-        inside "$root" make "$target" >>"$log" 2>&1 \
+        inside "$root" /bin/sh -c "cd /srv/carpus && exec make $target" >>"$log" 2>&1 \
             || { tail -n 60 "$log"; say "$suite: make $target FAILED"; return 1; }
         words+=", make $target $(((SECONDS - start) / 60)) min $(((SECONDS - start) % 60)) s"
     done
     grep -E '^[0-9]+ passed|^=+ .*passed' "$log" | tail -n 1
-    say "Debian $(cut -d. -f1 "$root/etc/debian_version"), $(chroot "$root" python3 --version)$words: passed"
+    say "$(. "$root/etc/os-release"; echo "$PRETTY_NAME"), $(chroot "$root" python3 --version)$words: passed"
     rm -rf "$root"
 }
 

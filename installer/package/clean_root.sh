@@ -22,29 +22,7 @@ roots=$(mktemp -d "${TMPDIR:-/var/tmp}/package-roots.XXXXXX")
 trap 'rm -rf "$roots"' EXIT
 mkdir -p "$out"
 
-. installer/where_from.sh  # mirror, apt_config
-
-ubuntu_keyring=${UBUNTU_KEYRING:-/usr/share/keyrings/ubuntu-archive-keyring.gpg}
-from_where() {  # one word or line a line: options and sources of mmdebstrap for a suite
-    case "$1" in
-        bookworm | trixie) [ -z "$mirror" ] || printf '%s\n' "$mirror" ;;
-        *)
-            [ -f "$ubuntu_keyring" ] || fail "$1 needs Ubuntu's keys: apt-get install ubuntu-keyring, or UBUNTU_KEYRING=FILE"
-            printf 'deb http://archive.ubuntu.com/ubuntu %s main universe\n' "$1" "$1-updates" ;;
-    esac
-}
-
-# In mount and process spaces of their own: nothing is left mounted or running, however this ends.
-inside() {
-    local root=$1; shift
-    unshare --mount --pid --fork --kill-child bash -euo pipefail -c '
-        root=$1; shift
-        mount -t proc proc "$root/proc"
-        mount --rbind /dev "$root/dev"
-        mount -t tmpfs tmpfs "$root/dev/shm"
-        exec chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 "$@"
-    ' inside "$root" "$@" </dev/null
-}
+. installer/clean_roots.sh  # new_root, inside
 
 # An older version of the same package, made of nothing but its name: what a clinic has before.
 older() {
@@ -59,13 +37,9 @@ older() {
 try() {
     local suite=$1 root=$roots/$1 log=$out/$1.log
     say "$suite: a root without Python (the whole log: $log)"
-    local sources keys=()
-    sources=$(from_where "$suite")
-    case "$suite" in bookworm | trixie) ;; *) keys=(--keyring="$ubuntu_keyring") ;; esac
-    mmdebstrap "${keys[@]}" --variant=minbase --include=apt,xvfb,xauth,xdotool,imagemagick,fonts-dejavu-core,xclip,procps --aptopt="$apt_config" \
-        "$suite" "$root" ${sources:+"$sources"} >"$log" 2>&1 || { tail -n 20 "$log"; return 1; }
+    new_root "$suite" "$root" "$log" \
+        apt,xvfb,xauth,xdotool,imagemagick,fonts-dejavu-core,xclip,procps || return 1
     ! chroot "$root" sh -c 'command -v python3' || fail "there is a Python in the root"
-    cp /etc/hosts "$root/etc/hosts"
     cp "$deb" "$root/srv/carpus.deb"
     cp "$extra" "$root/srv/extra.deb"
     cp "$here/in_the_root.sh" "$here/discs_on_screen.sh" "$root/srv/"
@@ -73,7 +47,7 @@ try() {
     rm -rf "$out/$suite"
     mkdir -p "$root/srv/out"
     local code=0
-    inside "$root" /bin/bash /srv/in_the_root.sh >>"$log" 2>&1 || code=$?
+    inside "$root" PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 /bin/bash /srv/in_the_root.sh >>"$log" 2>&1 || code=$?
     mkdir -p "$out/$suite" && cp -r "$root/srv/out/." "$out/$suite/"
     grep '^in the root: ' "$log" || true
     [ "$code" = 0 ] || { tail -n 25 "$log"; say "$suite: FAILED"; return 1; }
