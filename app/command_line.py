@@ -67,7 +67,13 @@ def tell(fault: CarpusFault) -> None:
     """One line of what a source tells and does not raise."""
     from carpus.core.words import one_sentence
 
-    print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
+    say(one_sentence(fault))
+
+
+def misused(command: str, sentence: str) -> int:
+    """Wrong usage that no option shows by itself: one line, and the exit code."""
+    print(f"carpus {command}: {sentence}", file=sys.stderr)
+    return 2
 
 
 class ShowProgress(Protocol):

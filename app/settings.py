@@ -185,11 +185,10 @@ def settings_folder() -> Path:
 
 def load_settings(folder: Path | None = None) -> Settings:
     """The shipped defaults with this person's settings and what was chosen in the window over them."""
-    folder = folder or settings_folder()
-    merged = _defaults()
-    for name in (SETTINGS_FILE, PREFERENCES_FILE):
-        merged = _merged(merged, _own(folder / name))
-    return _settings(merged, "defaults.toml")
+    settings, faults = load_sound_settings(folder)
+    for fault in faults:
+        raise fault
+    return settings
 
 
 def load_sound_settings(folder: Path | None = None) -> tuple[Settings, list[CarpusFault]]:
@@ -232,39 +231,27 @@ def _own(path: Path) -> Values:
     return own
 
 
+_PREFERENCES = {
+    "screen": ("theme", "text_scale", "language", "research"),
+    "recording": ("folder",),
+    "report": ("therapist", "angle_order", "agreement_limit_deg"),
+    "backup": ("folder", "hour"),
+    "records": ("retention_years",),
+    "lock": ("after_min",),
+    "stream": ("on",),
+    "patient": ("sound",),
+    "first_start": ("answered",),
+}
+
+
 def keep_preferences(chosen: Settings, folder: Path | None = None) -> None:
     """Store what the window lets a person choose. Raises :class:`OutputNotWritable`."""
     path = (folder or settings_folder()) / PREFERENCES_FILE
-    screen = chosen.screen
-    lines = [
-        "# Chosen in the window of Carpus.",
-        "[screen]",
-        f"theme = {_text(screen.theme)}",
-        f"text_scale = {float(screen.text_scale)}",
-        f"language = {_text(screen.language)}",
-        f"research = {'true' if screen.research else 'false'}",
-        "[screen.keys]",
-        *(f"{name} = {_text(key)}" for name, key in sorted(screen.keys.items())),
-        "[recording]",
-        f"folder = {_text(chosen.recording.folder)}",
-        "[report]",
-        f"therapist = {_text(chosen.report.therapist)}",
-        f"angle_order = {_text(chosen.report.angle_order)}",
-        f"agreement_limit_deg = {float(chosen.report.agreement_limit_deg)}",
-        "[backup]",
-        f"folder = {_text(chosen.backup.folder)}",
-        f"hour = {chosen.backup.hour}",
-        "[records]",
-        f"retention_years = {chosen.records.retention_years}",
-        "[lock]",
-        f"after_min = {chosen.lock.after_min}",
-        "[stream]",
-        f"on = {'true' if chosen.stream.on else 'false'}",
-        "[patient]",
-        f"sound = {'true' if chosen.patient.sound else 'false'}",
-        "[first_start]",
-        f"answered = {'true' if chosen.first_start.answered else 'false'}",
-    ]
+    lines = ["# Chosen in the window of Carpus."]
+    for section, names in _PREFERENCES.items():
+        values = {name: getattr(getattr(chosen, section), name) for name in names}
+        lines += [f"[{section}]", *(f"{name} = {_text(value)}" for name, value in values.items())]
+    lines += ["[screen.keys]", *(f"{name} = {_text(key)}" for name, key in sorted(chosen.screen.keys.items()))]
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         part = path.with_suffix(".part")
@@ -293,7 +280,8 @@ def _path(named: str) -> Path:
         return Path(named)
 
 
-def _text(value: str) -> str:
+def _text(value: object) -> str:
+    """As TOML writes it, which writes texts, numbers and truths as JSON does."""
     return json.dumps(value, ensure_ascii=False)
 
 

@@ -78,7 +78,7 @@ def test_a_session_is_told_in_plain_lines(tmp_path: Path) -> None:
 def test_ranges_are_the_figures_of_the_report(exercise: str) -> None:
     made = fakes.session(seconds=20.0, exercise=exercise)
     figures = session_figures(made)
-    lines = {line.split()[0]: line for line in range_lines(made)}
+    lines = {line.split()[0]: line for line in range_lines(made, figures)}
     flexion, extension, arc = (figures.row(name, 1) for name in ("flexion", "extension", "arc"))
     assert flexion is not None
     assert extension is not None
@@ -92,7 +92,8 @@ def test_ranges_are_the_figures_of_the_report(exercise: str) -> None:
 def test_a_side_that_was_never_reached_is_told_as_it_is() -> None:
     made = fakes.session(seconds=20.0, exercise="FREE")
     bent = dataclasses.replace(made.motion, angles_rad=0.2 * made.motion.angles_rad + np.radians([0.0, 40.0, 0.0]))
-    text = next(line for line in range_lines(dataclasses.replace(made, motion=bent)) if "flexion " in line)
+    turned = dataclasses.replace(made, motion=bent)
+    text = next(line for line in range_lines(turned, session_figures(turned)) if "flexion " in line)
     low, high = (float(part.split("°")[0]) for part in (text.split("from ")[1], text.split(" to ")[1]))
     assert "extension" not in text
     assert 20.0 < low < 40.0 < high
@@ -101,7 +102,7 @@ def test_a_side_that_was_never_reached_is_told_as_it_is() -> None:
 def test_an_angle_that_stays_at_nought_has_a_range_of_nothing() -> None:
     made = fakes.session(seconds=20.0, exercise="FREE")
     still = dataclasses.replace(made, motion=dataclasses.replace(made.motion, angles_rad=0.0 * made.motion.angles_rad))
-    assert [line.split(", arc ")[1] for line in range_lines(still)] == ["0.0°"] * 3
+    assert [line.split(", arc ")[1] for line in range_lines(still, session_figures(still))] == ["0.0°"] * 3
 
 
 def test_a_session_cut_short_says_so_before_and_after_recovery(tmp_path: Path) -> None:

@@ -23,6 +23,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from typing import Any, BinaryIO, NoReturn
 
 from carpus.app.batch.work import Outcome, Task, clear_leftovers, fault_of, work
+from carpus.app.command_line import say
 from carpus.core.errors import CarpusFault, ExtraMissing, OutputBusy, SchedulerUnreachable
 from carpus.core.installing import is_packed
 from carpus.core.words import one_sentence
@@ -243,7 +244,7 @@ def outcomes_on(address: str, tasks: Sequence[Task], limit_s: float = LIMIT_S) -
         raise SchedulerUnreachable(address, str(cause).partition("\n")[0] or type(cause).__name__) from cause
     with Client(address, set_as_default=False) as client:
         if not client.nthreads():
-            print("carpus: the scheduler has no workers yet; they are waited for.", file=sys.stderr)
+            say("the scheduler has no workers yet; they are waited for.")
         futures = {client.submit(on_worker, task, limit_s, key=_key(task), retries=TRIES - 1): task for task in tasks}
         try:
             for future in as_completed(list(futures), loop=client.loop):

@@ -10,7 +10,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import bar, number, tell
+from carpus.app.command_line import bar, misused, number, say, tell
 
 if TYPE_CHECKING:
     from carpus.core.calibration.camera.board import Board
@@ -49,9 +49,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     if arguments.board is not None:
         if arguments.recording is not None or arguments.output is not None:
-            print("carpus calibrate-camera: --board only prints; leave out the recording and --output.",
-                  file=sys.stderr)  # fmt: skip
-            return 2
+            return misused("calibrate-camera", "--board only prints; leave out the recording and --output.")
         return _print_board(arguments)
     return _calibrate(arguments)
 
@@ -93,8 +91,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     for line in calibration_lines(made):
         print(line)
     if made.depth is not None and not made.depth.is_registered:
-        print("carpus: warning: depth does not lie on colour; switch registration on, or depths are read beside the "
-              "markers.", file=sys.stderr)  # fmt: skip
+        say("warning: depth does not lie on colour; switch registration on, or depths are read beside the markers.")
     when = datetime.fromisoformat(info.recorded) if is_moment(info.recorded) else datetime.now().astimezone()
     serial = arguments.serial or info.serial
     stored = stored_of(made, serial, when, info.settings)
@@ -110,8 +107,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
         path = keep_calibration(folder, made, stored)
         print(f"Kept for camera {serial}: {path}")
     elif arguments.output is None:
-        print("carpus: nobody says which camera this was, so it is not kept; name it with --serial, or use --output.",
-              file=sys.stderr)  # fmt: skip
+        say("nobody says which camera this was, so it is not kept; name it with --serial, or use --output.")
         return 1
     return 0
 

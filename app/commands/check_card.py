@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import bar, tell
+from carpus.app.command_line import bar, misused, say, tell
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -41,8 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     if arguments.card is not None:
         if arguments.recording is not None or arguments.output is not None:
-            print("carpus check-card: --card only prints; leave out the recording and --output.", file=sys.stderr)
-            return 2
+            return misused("check-card", "--card only prints; leave out the recording and --output.")
         if arguments.card.exists():
             raise OutputExists(arguments.card)
         from carpus.core.calibration.card.card import card_sheets
@@ -90,16 +88,17 @@ def _check(arguments: argparse.Namespace) -> int:
     verdict = verdict_of(earlier, check)
     print(sentence_of(check, verdict))
     if verdict == "out":
-        print("carpus: warning: check once more (card flat, 60 cm, its ruler 100 mm), then calibrate the camera; still "
-              "out: do not measure with it.", file=sys.stderr)  # fmt: skip
+        say(
+            "warning: check once more (card flat, 60 cm, its ruler 100 mm), then calibrate the camera; still "
+            "out: do not measure with it."
+        )
     if any(one.when == check.when for one in kept):
         print(f"Kept for camera {serial} already: {path}")
     elif serial:
         add_check(path, check)
         print(f"Kept for camera {serial}: {path}")
     else:
-        print("carpus: nobody says which camera this was, so the check is not kept; --serial names it.",
-              file=sys.stderr)  # fmt: skip
+        say("nobody says which camera this was, so the check is not kept; --serial names it.")
     if arguments.output is not None:
         _write_page(arguments.output, f"{info.name} {serial}".strip(), check, earlier, reading)
     return 1 if verdict == "out" else 0

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import argparse
 import math
-import sys
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from carpus import __version__
-from carpus.app.command_line import number
+from carpus.app.command_line import misused, number
 from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S
 from carpus.core.hand.protocols import SITES
 from carpus.core.names import known_names
@@ -91,8 +90,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.study is not None:
         return _study(arguments)
     if arguments.reference is None:
-        print("carpus compare: a session and its reference are needed, or --study TABLE.csv.", file=sys.stderr)
-        return 2
+        return misused("compare", "a session and its reference are needed, or --study TABLE.csv.")
     from carpus.app.of_file import read_choices
     from carpus.core.agreement.compared_files import compare_files, lines, write_files
 
@@ -130,10 +128,7 @@ def _study(arguments: argparse.Namespace) -> int:
     of_one: dict[str, object] = {"columns": {}, "markers": {}, "unit": None, "session": None}
     given = [name for name, usual in of_one.items() if getattr(arguments, name) != usual]
     if given or math.isfinite(arguments.lag) or arguments.drift:
-        print(
-            "carpus compare: in a study the table says session, columns, markers, unit, lag and drift.", file=sys.stderr
-        )
-        return 2
+        return misused("compare", "in a study the table says session, columns, markers, unit, lag and drift.")
     with bar("comparing", "session") as progress:
         lines = read_table(arguments.study, mapping)
         study = study_of(

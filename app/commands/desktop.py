@@ -9,13 +9,13 @@ import sys
 from datetime import datetime
 from pathlib import Path
 
+from carpus.app.command_line import say, tell
 from carpus.app.of_file import note_in
 from carpus.app.settings import load_sound_settings
 from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, FolderInUse
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.staging import remove_left_behind
-from carpus.core.words import one_sentence
 
 
 def has_display() -> bool:
@@ -33,7 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
 def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None = None) -> int:
     """The window, on the real world or on the simulated camera; ``session`` is opened in it, or in the one there is."""
     if not has_display():
-        print("carpus: there is no display here; “carpus demo” shows the whole way without one.", file=sys.stderr)
+        say("there is no display here; “carpus demo” shows the whole way without one.")
         return 1
     gc.disable()  # what is built by a start stays: the collector would look through it again and again, for nothing
     from carpus.app import compose
@@ -51,13 +51,13 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
             make_private(settings.data_folder)
             if not alone.take():
                 if alone.call_first(session):
-                    print("carpus: it is open already, and has come to the front.", file=sys.stderr)
+                    say("it is open already, and has come to the front.")
                     return 0
                 raise FolderInUse(settings.data_folder)
             desktop = compose.compose(qt, settings, is_demo=is_demo, told=told)
         except CarpusFault as fault:
             alone.let_go()
-            print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
+            tell(fault)
             chosen = compose.ask_for_folder(qt, settings, fault)
             if chosen is None:
                 return 1

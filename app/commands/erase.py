@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
-from carpus.app.command_line import tell
+from carpus.app.command_line import say, tell
 from carpus.app.of_file import data_folder_of, initials
 from carpus.app.settings import load_sound_settings, sessions_folder
 from carpus.core.errors import FolderMissing, PatientUnknown, RecordingMissing
@@ -34,13 +33,12 @@ def run(arguments: argparse.Namespace) -> int:
     settings, _ = load_sound_settings()
     folder = data_folder_of(path) if path.is_file() else arguments.data_folder or settings.data_folder
     if folder is None:
-        print(f"carpus: {path} lies in no data folder, so Carpus keeps nothing else of it; delete the file itself.",
-              file=sys.stderr)  # fmt: skip
+        say(f"{path} lies in no data folder, so Carpus keeps nothing else of it; delete the file itself.")
         return 1
     if not folder.is_dir():
         raise FolderMissing(folder)
     if not is_kept_in(folder):
-        print(f"carpus: {folder} is no data folder; nothing has been deleted.", file=sys.stderr)
+        say(f"{folder} is no data folder; nothing has been deleted.")
         return 1
     of_clinic = folder == settings.data_folder
     library = Library(
@@ -74,7 +72,7 @@ def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> in
         print(f"Nothing has been deleted. To erase it, say --for-good “{pseudonym}”; the archive is the milder way.")
         return 0
     if confirmed.casefold() != pseudonym.casefold():
-        print(f"carpus: {confirmed} is not whose it is; nothing has been deleted.", file=sys.stderr)
+        say(f"{confirmed} is not whose it is; nothing has been deleted.")
         return 1
     records.erase(plan)
     if library.store.settled(MOST_WAIT_S):

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from carpus import __version__
-from carpus.app.command_line import ask_passphrase, bar
+from carpus.app.command_line import ask_passphrase, bar, tell
 from carpus.app.of_file import note_exported
 from carpus.core.errors import OutputExists, SessionsMissing
 from carpus.core.formats.formats import FORMATS
 from carpus.core.names import known_names
-from carpus.core.words import one_sentence
 
 if TYPE_CHECKING:
     from carpus.core.formats.formats import Exported
@@ -85,7 +83,7 @@ def _exported(arguments: argparse.Namespace, paths: list[Path], folder: Path) ->
             progress=progress,
         )
     for refused in done.refused:
-        print(f"carpus: {one_sentence(refused.fault)}", file=sys.stderr)
+        tell(refused.fault)
     return done
 
 

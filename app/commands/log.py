@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import argparse
 import csv
-import sys
 from pathlib import Path
 
-from carpus.app.command_line import tell
+from carpus.app.command_line import say, tell
 from carpus.app.settings import load_sound_settings, sessions_folder
 from carpus.core.durable import private
 from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, RegisterDamaged
@@ -32,7 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not folder.is_dir():
         raise FolderMissing(folder)
     if not is_kept_in(folder):
-        print(f"carpus: {folder} is no data folder: it has no log.", file=sys.stderr)
+        say(f"{folder} is no data folder: it has no log.")
         return 1
     if arguments.output is not None and arguments.output.exists():
         raise OutputExists(arguments.output)
@@ -42,14 +41,13 @@ def run(arguments: argparse.Namespace) -> int:
         folder, sessions_folder(settings) if own else None, settings.records.url if own else "", faults.append
     ) as store:
         if not store.settled(MOST_WAIT_S):
-            print("carpus: the clinic's server does not answer: this is what was done on this computer.",
-                  file=sys.stderr)  # fmt: skip
+            say("the clinic's server does not answer: this is what was done on this computer.")
         deeds = read_log(store)
     for fault in faults:
         if not isinstance(fault, RegisterDamaged):
             tell(fault)
         else:
-            print(f"carpus: a line is damaged and left out ({fault.detail}).", file=sys.stderr)
+            say(f"a line is damaged and left out ({fault.detail}).")
     rows = []
     for deed in deeds:
         facts = " ".join(f"{name}={value}" for name, value in deed.facts.items())

@@ -8,10 +8,10 @@ import sys
 from pathlib import Path
 
 from carpus import __version__
+from carpus.app.command_line import misused, tell
 from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, PatientUnknown, SessionsMissing
 from carpus.core.measures.change import ErrorLimits
 from carpus.core.names import known_names
-from carpus.core.words import one_sentence
 
 EXAMPLE = """carpus progress "Fern 12"
 carpus progress all --output measures.csv"""
@@ -48,8 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
         if path.exists():
             raise OutputExists(path)
         if path.suffix.lower() == ".pdf" and arguments.subject == EVERYBODY:
-            print("carpus progress: a report is of one patient; name the pseudonym.", file=sys.stderr)
-            return 2
+            return misused("progress", "a report is of one patient; name the pseudonym.")
     settings = load_settings()
     places = arguments.sessions or [settings.data_folder]
     found = _of(arguments.subject, places, read_limits(settings.data_folder))
@@ -98,7 +97,7 @@ def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type:
                     figures = session_figures(read_session(path), read_choices(path), limits)
                     out.append((path, with_trust(figures, folder_with_checks(path))))
             except CarpusFault as fault:
-                print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
+                tell(fault)
     if not out:
         if subject == EVERYBODY:
             raise SessionsMissing(places[0])

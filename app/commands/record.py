@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import sys
 import time
 import uuid
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
-from carpus.app.command_line import CAMERA_HELP, bar, camera_address, number, tell
+from carpus.app.command_line import CAMERA_HELP, bar, camera_address, misused, number, tell
 from carpus.app.settings import load_settings
 from carpus.core.capture.calibrated import with_given_name, with_stored_calibration
 from carpus.core.capture.devices.cameras import open_camera
@@ -51,8 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     if arguments.lossless and arguments.format != "raw":
-        print("carpus record: --lossless is for --format raw; a TUM folder is without loss already.", file=sys.stderr)
-        return 2
+        return misused("record", "--lossless is for --format raw; a TUM folder is without loss already.")
     if arguments.output.exists():
         raise OutputExists(arguments.output)
     if arguments.origin is not None:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
+from carpus.app.command_line import tell
 from carpus.app.of_file import note
 from carpus.core.errors import FolderMissing
 from carpus.core.session.reader import read_outline
 from carpus.core.session.recovery import recover_folder
-from carpus.core.words import one_sentence
 
 EXAMPLE = "carpus recover sessions"
 
@@ -31,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
     for path in found.empty:
         print(f"Ended before its first frame was stored, may be deleted: {path}")
     for fault in found.faults:
-        print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
+        tell(fault)
     if not (found.recovered or found.busy or found.faults or found.empty):
         print("No interrupted session here.")
     return 1 if found.faults else 0

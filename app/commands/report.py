@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 from carpus import __version__
+from carpus.app.command_line import say
 from carpus.app.of_file import made
 from carpus.app.settings import ANGLE_ORDERS, load_settings
 from carpus.core.errors import OutputExists
@@ -71,7 +71,7 @@ def run(arguments: argparse.Namespace) -> int:
             for session, chosen, camera in zip(sessions, choices, cameras, strict=True)
         ]
         for older in {one.session_id for one in figures} - {one.session_id for one in newest_results(figures)}:
-            print(f"carpus: session {older} is left out: a newer result of its recording counts.", file=sys.stderr)
+            say(f"session {older} is left out: a newer result of its recording counts.")
         write_progress_report(figures, arguments.output, therapist=therapist, software_version=__version__, **look)
     del application
     kept = [(path, one.header.session_id) for path, one in zip(arguments.sessions, sessions, strict=True)]

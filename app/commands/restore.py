@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import ask_passphrase, bar
+from carpus.app.command_line import ask_passphrase, bar, misused, say
 from carpus.app.of_file import note_in
 from carpus.app.settings import settings_folder
 from carpus.core.errors import BackupMissing
@@ -32,9 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     if arguments.into is None and arguments.against is None:
-        print("carpus restore: say where to, with --into FOLDER, or what to compare with, --against FOLDER.",
-              file=sys.stderr)  # fmt: skip
-        return 2
+        return misused("restore", "say where to, with --into FOLDER, or what to compare with, --against FOLDER.")
     from carpus.core.records.backup import plan_restore, restore
 
     found = _chosen(arguments.place, arguments.name)
@@ -70,6 +67,6 @@ def _chosen(place: Path, name: str | None) -> tuple[Backup, Content] | None:
         raise BackupMissing(place)
     name = name or next(iter(there))
     if name not in there:
-        print(f"carpus: no back-up in {place} is called “{name}”; {known_names(name, there)}.", file=sys.stderr)
+        say(f"no back-up in {place} is called “{name}”; {known_names(name, there)}.")
         return None
     return there[name], content_of(place)

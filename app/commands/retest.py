@@ -6,13 +6,12 @@ from __future__ import annotations
 import argparse
 import csv
 import math
-import sys
 from collections import Counter
 from datetime import date
 from pathlib import Path
 
+from carpus.app.command_line import say, tell
 from carpus.core.errors import CarpusFault, FolderMissing, ReferenceUnreadable, StudyUnsuited
-from carpus.core.words import one_sentence
 
 EXAMPLE = "carpus retest sessions --output retest.csv"
 _WHY = {
@@ -105,7 +104,7 @@ def _read(places: list[Path], named: dict[str, str]) -> tuple[list, dict[str, st
             try:
                 figures.append(session_figures(read_session(path), read_choices(path)))
             except CarpusFault as fault:
-                print(f"carpus: {one_sentence(fault)}", file=sys.stderr)
+                tell(fault)
                 continue
             for name in (path.name, path.stem):
                 if name in named:
@@ -114,7 +113,7 @@ def _read(places: list[Path], named: dict[str, str]) -> tuple[list, dict[str, st
     if not figures:
         raise StudyUnsuited(places[0], "no session can be read")
     for name in sorted(set(named) - met):
-        print(f"carpus: no session is called {name}, which the list of raters names.", file=sys.stderr)
+        say(f"no session is called {name}, which the list of raters names.")
     return figures, raters
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -13,7 +12,7 @@ import numpy as np
 
 from carpus import __version__
 from carpus.app.batch.places import is_many
-from carpus.app.command_line import bar, count, number, tell
+from carpus.app.command_line import bar, count, misused, number, say, tell
 from carpus.app.of_file import note
 from carpus.app.settings import load_settings
 from carpus.core.calibration.clicks import read_clicks
@@ -230,10 +229,10 @@ def _refused(arguments: argparse.Namespace, settings: TrackSettings) -> bool:
     """Whether the options contradict each other, told on stderr."""
     told = not_of_the_papers(arguments) if settings.paper is not None else []
     if told:
-        print(
-            f"carpus track: the papers' method works by colour alone on the papers' chain and does not look back; "
+        misused(
+            "track",
+            f"the papers' method works by colour alone on the papers' chain and does not look back; "
             f"leave out {' and '.join(told)}.",
-            file=sys.stderr,
         )
     return bool(told)
 
@@ -242,25 +241,22 @@ def run(arguments: argparse.Namespace) -> int:
     named = arguments.recording
     if is_many(named, arguments.output):
         if arguments.stream:
-            print("carpus track: --stream is for one recording; leave it out.", file=sys.stderr)
-            return 2
+            return misused("track", "--stream is for one recording; leave it out.")
         return _many(named, arguments)
     of_many = [name for name in ("jobs", "scheduler", "table", "time_limit") if getattr(arguments, name) is not None]
     if of_many:
-        print(f"carpus track: --{of_many[0].replace('_', '-')} is for many recordings; leave it out.", file=sys.stderr)
-        return 2
+        return misused("track", f"--{of_many[0].replace('_', '-')} is for many recordings; leave it out.")
     arguments.recording = named[0]
     is_session = arguments.recording.suffix == ".h5" and arguments.recording.is_file()
     settings = settings_from(arguments, TrackSettings() if is_session else load_settings().track)
     if is_color_alone(settings):
-        print(f"carpus: {COLOR_ALONE}", file=sys.stderr)
+        say(COLOR_ALONE)
     if not arguments.recording.exists():
         raise RecordingMissing(arguments.recording)
     if is_session:
         return _again(arguments, was_told=is_color_alone(settings))
     if arguments.calibration is None:
-        print("carpus track: a recording needs --calibration CLICKS.json.", file=sys.stderr)
-        return 2
+        return misused("track", "a recording needs --calibration CLICKS.json.")
     return 2 if _refused(arguments, settings) else _recording(arguments, settings)
 
 
@@ -314,7 +310,7 @@ def _stream(clicks: Clicks, rate_hz: float, settings: TrackSettings) -> Listener
     begun_s: list[float] = []
     stream = SampleStream.of_hand(clicks, rate_hz, dip_free=settings.dip_free, clock=lambda: begun_s[0])
     if not stream.wait_for_listener(LISTENER_PATIENCE_S):
-        print("carpus: nobody listens to the stream; it goes on.", file=sys.stderr)
+        say("nobody listens to the stream; it goes on.")
     begun_s.append(library().local_clock())
     return stream
 
@@ -326,7 +322,7 @@ def _many(named: list[Path], arguments: argparse.Namespace) -> int:
     if _refused(arguments, chosen):
         return 2
     if is_color_alone(chosen):
-        print(f"carpus: {COLOR_ALONE}", file=sys.stderr)
+        say(COLOR_ALONE)
     from carpus.app.commands.track_many import run_many
 
     return run_many(named, arguments.output, arguments, usual, lambda base: settings_from(arguments, base))
@@ -341,15 +337,14 @@ def _again(arguments: argparse.Namespace, *, was_told: bool) -> int:
     """A session tracked again: as it was, and what differs is said."""
     given = [f"--{name.replace('_', '-')}" for name in _OF_RECORDINGS if getattr(arguments, name)]
     if given:
-        print(f"carpus track: a session brings its own; leave out {' and '.join(given)}.", file=sys.stderr)
-        return 2
+        return misused("track", f"a session brings its own; leave out {' and '.join(given)}.")
     header = read_outline(arguments.recording).header
     before = settings_told(header.parameters)
     settings = settings_from(arguments, before.settings if before else load_settings().track)
     if _refused(arguments, settings):
         return 2
     if is_color_alone(settings) and not was_told:
-        print(f"carpus: {COLOR_ALONE}", file=sys.stderr)
+        say(COLOR_ALONE)
     warn_of_experiment(settings, header.protocol)
     with bar("tracking again") as progress:
         report = retrack_session(
@@ -382,15 +377,13 @@ def say_doubtful_date(recorded: Recorded | None) -> None:
     """Say on stderr where a session's date is only that of a file."""
     if recorded is None or recorded.said_by == "file":
         day = "unknown" if recorded is None else f"taken from its file ({recorded.when[:10]})"
-        print(
-            f"carpus: the recording does not say when the hand moved: {day}; --recorded DATE says it.", file=sys.stderr
-        )
+        say(f"the recording does not say when the hand moved: {day}; --recorded DATE says it.")
 
 
 def warn_of_experiment(settings: TrackSettings, protocol: MarkerProtocol) -> None:
     """Say on stderr that fingers by colour alone are an experiment."""
     if protocol.has_fingers and is_color_alone(settings):
-        print(f"carpus: {HAND_COLOR_ALONE}", file=sys.stderr)
+        say(HAND_COLOR_ALONE)
 
 
 def warn(verdict: Verdict) -> None:
@@ -398,17 +391,19 @@ def warn(verdict: Verdict) -> None:
     for finding in verdict.findings:
         if finding.blocks:
             continue  # this ends the command, and is said there
-        print(f"carpus: warning: {finding_sentence(finding)}", file=sys.stderr)
+        say(f"warning: {finding_sentence(finding)}")
 
 
 def print_report(report: TrackReport) -> None:
     """Where the session is and its main figures."""
-    from carpus.core.results.session_lines import range_lines  # all measures: nobody waits for them at the start
+    from carpus.core.results.figures import session_figures  # all measures: nobody waits for them at the start
+    from carpus.core.results.session_lines import range_lines
 
     print(f"Session: {report.output}")
     doubtful = f", doubtful {report.doubtful}" if report.doubtful else ""
     print(
         f"Frames: {report.frames}, tracked {report.tracked}, predicted {report.predicted}, lost {report.lost}{doubtful}"
     )
-    for line in range_lines(read_session(report.output)):
+    session = read_session(report.output)
+    for line in range_lines(session, session_figures(session)):
         print(line.strip())

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import argparse
 import csv
-import math
-import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
@@ -16,10 +14,10 @@ from pathlib import Path
 from carpus.app.batch.places import SESSION_SUFFIX, TrackingInput, places
 from carpus.app.batch.processes import LIMIT_S, cores, outcomes
 from carpus.app.batch.work import Outcome, Task, fault_of
-from carpus.app.command_line import bar
+from carpus.app.command_line import bar, misused
 from carpus.core.errors import CarpusFault, OutputExists, OutputNotWritable, RecordingMissing
 from carpus.core.formats.measures_files import check_place, measures_file
-from carpus.core.formats.new_output import new_table
+from carpus.core.formats.new_output import cell, new_table
 from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.reader import read_outline
@@ -46,7 +44,7 @@ def write_outcomes(outcomes: Sequence[Outcome], folder: Path) -> Path:
             each.place.name,
             each.result,
             str(each.frames),
-            *(f"{share:.6g}" if math.isfinite(share) else "" for share in (each.tracked, each.lost)),
+            *map(cell, (each.tracked, each.lost)),
             " ".join(each.said),
         )
         for each in outcomes
@@ -83,15 +81,13 @@ def run_many(
     over a session's own; the exit code."""
     given = [f"--{name.replace('_', '-')}" for name in _OF_ONE if getattr(arguments, name)]
     if given:
-        print(
-            f"carpus track: of many recordings each brings its own (calibration.json in its folder, or "
+        return misused(
+            "track",
+            f"of many recordings each brings its own (calibration.json in its folder, or "
             f"NAME.calibration.json beside a file); leave out {' and '.join(given)}.",
-            file=sys.stderr,
         )
-        return 2
     if output.suffix == SESSION_SUFFIX or output.is_file():
-        print("carpus track: many recordings need a folder as --output.", file=sys.stderr)
-        return 2
+        return misused("track", "many recordings need a folder as --output.")
     for path in named:
         if not path.exists():
             raise RecordingMissing(path)

@@ -6,10 +6,9 @@ from __future__ import annotations
 import contextlib
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 
@@ -47,17 +46,13 @@ Begin = Callable[[CalibrationOutcome, Sequence[Frame]], None]
 """Called with the chosen outcome and the pictures it was made from, the clicked one first."""
 
 
-class Pictures(Protocol):
-    """Where the calibration's pictures come from."""
+@dataclass(frozen=True, slots=True)
+class Pictures:
+    """Where the calibration's pictures come from; ``still``: the picture to click on, then its neighbours in time."""
 
-    @property
-    def is_live(self) -> bool: ...
-
-    def newest(self) -> Frame | None: ...
-
-    def still(self) -> Sequence[Frame]:
-        """The picture to click on, then its neighbours in time."""
-        ...
+    is_live: bool
+    newest: Callable[[], Frame | None]
+    still: Callable[[], Sequence[Frame]]
 
 
 class HandCalibrator:
@@ -107,10 +102,6 @@ class HandCalibrator:
     @property
     def is_live(self) -> bool:
         return self._pictures.is_live
-
-    @property
-    def held(self) -> Frame | None:
-        return self._held[0] if self._held else None
 
     def newest_frame(self) -> Frame | None:
         return self._pictures.newest()
@@ -275,7 +266,7 @@ class Sources:
             recording=Path(choice.path),
             listener=self._listener(session, set_up),
         )
-        pictures = StoredPictures(opening)
+        pictures = Pictures(False, lambda: opening[0], lambda: opening)  # clicks are on the very first
         return OpenSource(self._calibrator(pictures, source, set_up, measuring), measuring, asks)
 
     def _track(self, set_up: SetUp) -> TrackSettings:
@@ -319,10 +310,12 @@ class Sources:
             on_chosen=on_chosen,
             listener=self._listener(session, set_up),
         )
-        return OpenSource(self._calibrator(LivePictures(session), source, set_up, measuring), measuring)
+        # Those before the picture of the moment, going back: the hand has been still up to now.
+        pictures = Pictures(True, session.newest_frame, lambda: session.recent_frames(RECENT_FRAMES)[::-1])
+        return OpenSource(self._calibrator(pictures, source, set_up, measuring), measuring)
 
     def _calibrator(
-        self, pictures: LivePictures | StoredPictures, source: FrameSource, set_up: SetUp, measuring: SourceMeasuring
+        self, pictures: Pictures, source: FrameSource, set_up: SetUp, measuring: SourceMeasuring
     ) -> HandCalibrator:
         return HandCalibrator(
             pictures,
@@ -387,38 +380,6 @@ class TakesDrawn:
         if self._patient.is_closed:
             raise NobodyWaitsError
         self._progress(done, total)
-
-
-class LivePictures:
-    """The pictures of a running source."""
-
-    is_live = True
-
-    def __init__(self, session: LiveSession) -> None:
-        self._session = session
-
-    def newest(self) -> Frame | None:
-        return self._session.newest_frame()
-
-    def still(self) -> Sequence[Frame]:
-        """The picture of the moment, then those before it, going back: the hand has been still up to now."""
-        return self._session.recent_frames(RECENT_FRAMES)[::-1]
-
-
-class StoredPictures:
-    """The first pictures of a recording; clicks are on the very first."""
-
-    is_live = False
-
-    def __init__(self, opening: Sequence[Frame]) -> None:
-        self._opening = opening
-
-    def newest(self) -> Frame | None:
-        return self._opening[0]
-
-    def still(self) -> Sequence[Frame]:
-        """The first picture and those after it."""
-        return self._opening
 
 
 def opening_frames(source: FrameSource, still_s: float) -> list[Frame]:

@@ -19,7 +19,7 @@ import numpy as np
 import scipy
 
 from carpus.core.agreement.statistics import Interval, icc_2_1, icc_3_1
-from carpus.core.formats.new_output import new_table
+from carpus.core.formats.new_output import cell, new_table
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import FEWEST_PEOPLE, MDC95_FACTOR, ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.results.figures import SessionFigures
@@ -220,12 +220,8 @@ def write_study(studies: Sequence[StudyFigures], path: Path) -> Path:
                 *f.mdc95_interval, f.sem_same_rater, f.step,
             )  # fmt: skip
             counts = (str(f.people), str(f.readings))
-            rows.append((one.protocol, one.exercise, of, movement, *counts, *map(_cell, values)))
+            rows.append((one.protocol, one.exercise, of, movement, *counts, *map(cell, values)))
     return new_table(path, HEAD, rows)
-
-
-def _cell(value: float) -> str:
-    return f"{value:.6g}" if math.isfinite(value) else ""
 
 
 State = Literal["complete", "due", "too_late", "missing"]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -20,7 +20,7 @@ from scipy.spatial.transform import Rotation
 from carpus.core.errors import OutputExists
 from carpus.core.formats.new_output import new_json, new_table, new_text
 from carpus.core.formats.provenance import DAY_NOUGHT
-from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, About, Take, measured, number, rate_of
+from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number, rate_of
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
@@ -101,16 +101,16 @@ def write(take: Take, folder: Path) -> list[Path]:
     return out
 
 
-def complete(folder: Path, written: Sequence[About]) -> list[Path]:
-    """The files that speak of all sessions."""
-    people: dict[str, About] = {}
+def complete(folder: Path, written: Sequence[Mapping[str, Any]]) -> list[Path]:
+    """The files that speak of all sessions, by their provenances."""
+    people: dict[str, Mapping[str, Any]] = {}
     for one in written:
-        people.setdefault(subject_label(one.subject_id), one)
+        people.setdefault(subject_label(one["of"]["subject_id"]), one["of"])
     rows = [
-        (f"sub-{label}", _cell(one.subject_id), "yes" if one.simulated else "no")
-        for label, one in sorted(people.items())
+        (f"sub-{label}", _cell(of["subject_id"]), "yes" if of["simulated"] else "no")
+        for label, of in sorted(people.items())
     ]
-    made_by = written[0].provenance["made_by"]
+    made_by = written[0]["made_by"]
     return [
         new_json(
             folder / DESCRIPTION,

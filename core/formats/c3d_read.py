@@ -55,12 +55,12 @@ def _points(content: bytes, path: Path) -> PointTrack:
     order = ">" if processor == SGI else "<"
     said = _parameters(content, at, order, processor == DEC)
     point = said["POINT"]
-    used = int(_one(point["USED"]))
-    scale = float(_one(point["SCALE"]))
-    rate_hz = float(_one(point["RATE"]))
+    used = int(point["USED"][0])
+    scale = float(point["SCALE"][0])
+    rate_hz = float(point["RATE"][0])
     first, last = (value & 0xFFFF for value in struct.unpack_from(f"{order}HH", content, 6))
     analog = struct.unpack_from(f"{order}H", content, 4)[0]
-    begin = (int(_one(point.get("DATA_START", [0]))) & 0xFFFF or struct.unpack_from(f"{order}H", content, 16)[0]) - 1
+    begin = (int(point.get("DATA_START", [0])[0]) & 0xFFFF or struct.unpack_from(f"{order}H", content, 16)[0]) - 1
     is_float = scale < 0.0
     word = 4 if is_float else 2
     row_bytes = (4 * used + analog) * word
@@ -73,7 +73,7 @@ def _points(content: bytes, path: Path) -> PointTrack:
     raw = np.frombuffer(content, np.uint8, frames * row_bytes, begin * BLOCK).reshape(frames, row_bytes)
     values = _numbers(raw[:, : 4 * used * word], order, processor == DEC, is_float).reshape(frames, used, 4)
     place = values[..., :3] if is_float else values[..., :3] * np.float32(scale)
-    unit = str(_one(point.get("UNITS", ["mm"]))).strip().lower() or "mm"
+    unit = str(point.get("UNITS", ["mm"])[0]).strip().lower() or "mm"
     if unit not in _METRES:
         raise ReferenceUnreadable(path, phrase("its unit is {unit}", unit=unit))
     known = values[..., 3] >= 0.0
@@ -91,12 +91,8 @@ def _frames(said: Mapping[str, Mapping[str, list[Any]]], by_header: int) -> int:
         start, end = (int(end[0]) % 65536 + 65536 * (int(end[1]) % 65536) for end in ends)
         return end - start + 1
     if "LONG_FRAMES" in said["POINT"]:
-        return int(_one(said["POINT"]["LONG_FRAMES"]))
+        return int(said["POINT"]["LONG_FRAMES"][0])
     return by_header
-
-
-def _one(values: list[Any]) -> Any:
-    return values[0]
 
 
 def _parameters(content: bytes, at: int, order: str, dec: bool) -> dict[str, dict[str, list[Any]]]:

@@ -181,7 +181,7 @@ def _groups(take: Take, even: EvenTimes, points: C3dPoints, data_block: int) -> 
     for name, text in said.items():
         if text:
             yield _text(8, name, text)
-    yield _end()
+    yield b"\0\0"
 
 
 def _events(happened: Sequence[Event], hand: str, start_s: float) -> Iterator[bytes]:
@@ -208,10 +208,6 @@ def _parameter(number: int, name: str, kind: int, shape: tuple[int, ...], data: 
     text = name.encode()
     body = struct.pack("<bB", kind, len(shape)) + bytes(shape) + data + b"\0"
     return struct.pack("<bb", len(text), number) + text + struct.pack("<H", 2 + len(body)) + body
-
-
-def _end() -> bytes:
-    return b"\0\0"
 
 
 def _integers(number: int, name: str, values: Sequence[int]) -> bytes:

@@ -10,18 +10,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import astuple, fields
+from dataclasses import fields
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from carpus.core.formats.new_output import new_json, new_table
+from carpus.core.formats.measures_files import HEAD, csv_rows
+from carpus.core.formats.new_output import cell, new_json, new_table
 from carpus.core.formats.take import ANGLES_MEAN, CAMERA_AXES, W0_AXES, Take, measured, number
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.by_hand import COLUMNS, rows_of
 from carpus.core.results.figures import SessionFigures
-from carpus.core.results.measures_table import MEASURE_COLUMNS, SessionFigure, measure_rows, positive_of
+from carpus.core.results.measures_table import MEASURE_COLUMNS, measure_rows, positive_of
 from carpus.core.results.motion_curves import motion_columns
 from carpus.core.results.repetition_rows import trained_name
 from carpus.core.session.values import Motion, RepetitionRow, Session
@@ -121,11 +121,10 @@ def write(take: Take, folder: Path) -> list[Path]:
     }  # fmt: skip
     for name, table in (tables(take.session) | {"repetitions": repetition_table(take.session, take.figures)}).items():
         out.append(new_table(folder / f"{take.name}.{name}.csv", list(table), _rows(table)))
-    measures = (tuple(_cell(value) for value in astuple(row)) for row in measure_rows(take.figures, take.name))
-    head = [field.name for field in fields(SessionFigure)]
-    out.append(new_table(folder / f"{take.name}.measures.csv", head, measures))
+    measures = csv_rows(measure_rows(take.figures, take.name))
+    out.append(new_table(folder / f"{take.name}.measures.csv", HEAD, measures))
     if take.by_hand:
-        rows = ([_cell(text) for text in row] for row in rows_of(take.by_hand))
+        rows = ([cell(text) for text in row] for row in rows_of(take.by_hand))
         out.append(new_table(folder / f"{take.name}.by-hand.csv", list(COLUMNS), rows))
         said["by-hand"] = COLUMNS
     content = {
@@ -252,7 +251,7 @@ def _rows(table: Table) -> Iterator[tuple[str, ...]]:
         if values.dtype.kind == "f":
             digits = 6 if name in ("timestamp_s", "since_start_s") else 3
             return [number(value, digits) for value in values.tolist()]
-        return [_cell(value) for value in values.tolist()]
+        return [cell(value) for value in values.tolist()]
 
     count = max((len(values) for values in table.values()), default=0)
     for begin in range(0, count, _AT_ONCE):
@@ -261,12 +260,3 @@ def _rows(table: Table) -> Iterator[tuple[str, ...]]:
 
 
 _AT_ONCE = 8192
-
-
-def _cell(value: Any) -> str:
-    """Unknown is empty; numbers to six digits that count."""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, float):
-        return f"{value:.6g}" if math.isfinite(value) else ""
-    return str(value)

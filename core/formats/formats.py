@@ -2,7 +2,7 @@
 one or hundreds, into one folder, in which nothing is overwritten.
 
 A module has ``write(take, folder)`` and, where a format speaks of all sessions together, ``check(folder)`` before the
-first, ``complete(folder, abouts)`` after the last and ``OWN_FOLDER``. It is loaded only when it is asked for.
+first, ``complete(folder, provenances)`` after the last and ``OWN_FOLDER``. It is loaded only when it is asked for.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.formats.new_output import new_text
 from carpus.core.formats.provenance import LEGAL, Deidentification, provenance
-from carpus.core.formats.take import About, Take, about
+from carpus.core.formats.take import Take
 from carpus.core.measures.by_hand import HandValue, of_session
 from carpus.core.results.camera_said import camera_of
 from carpus.core.results.figures import session_figures
@@ -51,7 +51,7 @@ class Writer:
         self._module: Any = import_module(f"{__package__}.{FORMATS[name].module}")
         own = getattr(self._module, "OWN_FOLDER", "")
         self.name, self.folder = name, folder / own if own and not alone else folder
-        self._written: list[About] = []
+        self._written: list[Mapping[str, Any]] = []
 
     def check(self) -> None:
         """Raise a fault that is known before anything is written."""
@@ -59,9 +59,9 @@ class Writer:
         if check is not None:
             check(self.folder)
 
-    def write(self, take: Take, of: About) -> Sequence[Path]:
+    def write(self, take: Take) -> Sequence[Path]:
         out: Sequence[Path] = self._module.write(take, self.folder)
-        self._written.append(of)
+        self._written.append(take.provenance)
         return out
 
     def complete(self) -> Sequence[Path]:
@@ -150,7 +150,7 @@ def export_sessions(
                 stopped = stopped or cancelled()
                 if stopped:
                     break
-                written = writer.write(take, about(take))
+                written = writer.write(take)
                 files += written
                 parts[one.path] = (*parts.get(one.path, ()), *written)
                 done += 1

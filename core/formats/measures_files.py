@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import astuple, fields
@@ -12,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from carpus.core.errors import ExtraMissing, OutputExists
-from carpus.core.formats.new_output import new_bytes, plain_cell
+from carpus.core.formats.new_output import cell, new_bytes, plain_cell
 from carpus.core.results.measures_table import SessionFigure
 
 PARQUET = ".parquet"
@@ -93,12 +92,4 @@ def write_measures(rows: Sequence[SessionFigure], path: Path) -> Path:
 
 def csv_rows(rows: Sequence[SessionFigure]) -> list[list[str]]:
     """Every row as texts: unknown is empty, numbers to six digits that count."""
-    return [[plain_cell(_cell(value)) for value in astuple(row)] for row in rows]
-
-
-def _cell(value: Any) -> str:
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, float):
-        return f"{value:.6g}" if math.isfinite(value) else ""
-    return str(value)
+    return [[plain_cell(cell(value)) for value in astuple(row)] for row in rows]

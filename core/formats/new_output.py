@@ -82,6 +82,15 @@ def plain_cell(text: str) -> str:
     return text if text[:1] not in _CALCULATED or not text or _NUMBER.fullmatch(text) else f"'{text}"
 
 
+def cell(value: Any) -> str:
+    """A value as a table has it: unknown is empty, numbers to six digits that count."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.6g}" if math.isfinite(value) else ""
+    return str(value)
+
+
 def without_nan(value: Any) -> Any:
     """The same with None for every number that is not finite, and plain numbers for NumPy's.
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 import json
 import secrets
 import uuid
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from datetime import UTC, datetime
 from typing import Any
@@ -34,9 +33,7 @@ def provenance(
     De-identified: no hash, name or date leads back.
     """
     header = session.header
-    parameters = json.loads(header.parameters)
-    parameters = parameters if isinstance(parameters, dict) else {}
-    source, settings = _part(parameters, "source"), _part(parameters, "settings")
+    source, settings = (made_by.said_in(header.parameters, part) for part in ("source", "settings"))
     out: dict[str, Any] = {
         "made_by": {"program": "Carpus", "version": software_version, "revision": made_by.revision()},
         "of": {
@@ -51,7 +48,7 @@ def provenance(
         },
         "tracked_by": {
             "version": header.software_version,
-            "revision": _part(parameters, "provenance").get("revision", ""),
+            "revision": made_by.said_in(header.parameters, "provenance").get("revision", ""),
             "settings_sha256": made_by.sha256_of_settings(settings) if settings else "",
         },
         "camera": asdict(session.camera) | {"source": {name: source[name] for name in sorted(source)}},
@@ -66,11 +63,6 @@ def provenance(
     out["of"]["recording_sha256"] = source.get("sha256", "")
     out["recorded"], out["session_made"] = header.recorded, header.created
     return out
-
-
-def _part(parameters: Mapping[str, Any], name: str) -> Mapping[str, Any]:
-    part = parameters.get(name)
-    return part if isinstance(part, Mapping) else {}
 
 
 DAY_NOUGHT = datetime(1900, 1, 1, tzinfo=UTC)
@@ -146,16 +138,10 @@ def _day(moment: str) -> datetime:
 
 
 def _parameters(text: str, start_s: float) -> str:
-    told: Any = json.loads(text)
-    told = told if isinstance(told, dict) else {}
-    kept: dict[str, Any] = {}
-    if isinstance(told.get("settings"), dict):
-        kept["settings"] = told["settings"]
-    if isinstance(learnt := told.get("learnt"), dict):
-        kept["learnt"] = dict(learnt)
-        if isinstance(learnt.get(_LEARNT_TIME), (int, float)):
-            kept["learnt"][_LEARNT_TIME] = learnt[_LEARNT_TIME] - start_s
+    kept = {part: told for part in ("settings", "learnt") if (told := made_by.said_in(text, part))}
+    if isinstance(kept.get("learnt", {}).get(_LEARNT_TIME), (int, float)):
+        kept["learnt"][_LEARNT_TIME] -= start_s
     for part, names in (("source", OF_NO_ONE), (SET_UP, _SET_UP_KEPT), ("provenance", ("revision",))):
-        if isinstance(told.get(part), dict):
-            kept[part] = {name: told[part][name] for name in names if name in told[part]}
+        if told := made_by.said_in(text, part):
+            kept[part] = {name: told[name] for name in names if name in told}
     return json.dumps(kept, sort_keys=True)

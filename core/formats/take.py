@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -137,26 +137,6 @@ class Take:
     @property
     def even(self) -> EvenTimes:
         return even_times(self.session.timestamp_s, rate_of(self.session))
-
-
-class About(NamedTuple):
-    """What a format needs of a session when all are written."""
-
-    name: str
-    subject_id: str
-    hand: str
-    exercise: str
-    recorded: str
-    simulated: bool
-    provenance: Mapping[str, Any]
-
-
-def about(take: Take) -> About:
-    """Of one session."""
-    header = take.session.header
-    return About(
-        take.name, header.subject_id, header.hand, header.exercise, header.recorded, header.simulated, take.provenance
-    )
 
 
 def repetition_events(take: Take) -> list[Event]:

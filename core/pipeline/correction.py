@@ -17,20 +17,17 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core import errors
-from carpus.core.calibration.calibrate import StillNoise
 from carpus.core.errors import CarpusFault, NotCorrectable, NotCorrected, OutputExists
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.frame_pipeline import answers_in, notes_in
 from carpus.core.pipeline.processes import track_again
 from carpus.core.pipeline.told_settings import settings_told
-from carpus.core.pipeline.track import Progress, TrackSettings, from_neutral, learnt_from, learnt_in, parameters_json
-from carpus.core.results.repetition_rows import repetitions_of
+from carpus.core.pipeline.track import Progress, TrackSettings, from_neutral, learnt_again, write_tracked, writer_again
 from carpus.core.session.marker_doubts import CORRECTED, SAME_SPOT_PX, Correction, said_of
 from carpus.core.session.reader import read_detections, read_session
-from carpus.core.session.values import DetectionTable, Session, header_again, motion_of
-from carpus.core.session.writer import SessionWriter
+from carpus.core.session.values import DetectionTable, Event, Session
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import SIMULATED, BoolArray, Detections, FloatArray, Moment, SpotAnswer, TrackedFrame
+from carpus.core.types import BoolArray, Detections, FloatArray, Moment, SpotAnswer, TrackedFrame
 
 STEP_PX, HELD_WITHIN_S = 7.0, 0.5
 """A disc moves no further than this from picture to picture; so soon after a correction its name must have held."""
@@ -68,23 +65,15 @@ def correct(task: CorrectionTask, progress: Progress | None = None) -> None:
     session, settings = task.session, _settings(task.session)
     ordered = sorted(task.corrections, key=lambda one: one.row)
     retracking = _Retracking(session, task.table, settings, ordered)
-    writer = _writer(session, task.output, settings, task.software_version)
-    try:
-        for done, frame in enumerate(retracking.frames(), 1):
-            writer.append(frame)
-            if progress is not None:
-                progress(done, len(session))
-        for event in notes_in(session):
-            writer.add_event(event.time_s, event.kind, event.text)
-        for correction in ordered:
-            writer.add_event(float(session.timestamp_s[correction.row]), CORRECTED, said_of(correction, task.by))
-        if settings.smooth:
-            writer.write_smoothed(motion_of(retracking.looked_back()))
-        writer.write_repetitions(repetitions_of(writer.read_back()))
-        writer.close()
-    except BaseException:
-        writer.discard()  # the session it was made from is still there
-        raise
+    writer = writer_again(
+        session, task.output, settings, retracking.learnt, session.calibration, task.software_version,
+        {"corrected": "yes"},
+    )  # fmt: skip
+    said = [Event(float(session.timestamp_s[one.row]), CORRECTED, said_of(one, task.by)) for one in ordered]
+    write_tracked(
+        writer, retracking.frames(), retracking.looked_back if settings.smooth else None, session.calibration.verdict,
+        len(session), progress, [*notes_in(session), *said],
+    )  # fmt: skip
 
 
 def _settings(session: Session) -> TrackSettings:
@@ -112,20 +101,6 @@ def not_held(session: Session, corrections: Sequence[Correction]) -> tuple[str, 
     return tuple(dict.fromkeys(out))
 
 
-def _writer(session: Session, output: Path, settings: TrackSettings, version: str) -> SessionWriter:
-    old = session.header
-    learnt = learnt_in(old.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
-    source = {"session": old.session_id, "from": "detections", "corrected": "yes"}
-    source |= {SIMULATED: "yes"} if old.simulated else {}
-    header = header_again(
-        old,
-        software_version=version,
-        parameters=parameters_json(settings, source, learnt, old.set_up),
-        dip_free=settings.tracker.dip == "free",
-    )
-    return SessionWriter.create(output, header, session.camera, session.calibration)
-
-
 class _Retracking:
     """The way through the stored blobs, with the corrections on its way."""
 
@@ -133,17 +108,17 @@ class _Retracking:
         self, session: Session, table: DetectionTable, settings: TrackSettings, corrections: Sequence[Correction]
     ) -> None:
         self._session, self._table, self._settings = session, table, settings
-        self._learnt = learnt_in(session.header.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
+        self.learnt = learnt_again(session, settings)
         self._by_row = {correction.row: correction for correction in corrections}
         self._answers = answers_in(session)
         self._moments: list[Moment] = []
-        own = self._learnt.applied(settings.tracker)
+        own = self.learnt.applied(settings.tracker)
         self._tracker = Tracker(session.calibration, session.camera, own, keep_history=settings.smooth)
 
     def frames(self) -> Iterator[TrackedFrame]:
         session = self._session
         times_s = session.timestamp_s
-        rows = from_neutral(range(len(session)), self._tracker, self._learnt.neutral_ends_s, lambda row: times_s[row])
+        rows = from_neutral(range(len(session)), self._tracker, self.learnt.neutral_ends_s, lambda row: times_s[row])
         for row in rows:
             time_s = float(times_s[row])
             blobs = self._table.of_frame(row)

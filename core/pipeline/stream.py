@@ -15,7 +15,7 @@ import numpy as np
 from carpus.core.calibration.result import Clicks
 from carpus.core.errors import ExtraMissing
 from carpus.core.hand.protocols import WRIST_ANGLES, MarkerProtocol
-from carpus.core.types import Side, TrackedFrame
+from carpus.core.types import TrackedFrame
 
 NAME, EVENTS_NAME = "Carpus", "CarpusEvents"
 LIVE_ID = "carpus-live"
@@ -69,23 +69,17 @@ class SampleStream:
     _offset_s: Callable[[float], float]
 
     @classmethod
-    def open(
-        cls,
-        protocol: MarkerProtocol,
-        joint_names: Sequence[str],
-        hand: Side,
-        source_id: str,
-        rate_hz: float = 30.0,
-        offset_s: Callable[[float], float] | None = None,
+    def of_hand(
+        cls, clicks: Clicks, rate_hz: float, *, dip_free: bool, clock: Callable[[], float] | None = None
     ) -> SampleStream:
-        """Offer both outlets. ``offset_s`` of a picture's time gives what leads from it to LSL's clock; without it the
-        first picture counts as taken when it comes. Raises :class:`ExtraMissing` without pylsl."""
+        """Offer both outlets of the hand that was clicked; the first picture was taken at what ``clock``, asked once,
+        says in LSL's time: without it when it comes. Raises :class:`ExtraMissing` without pylsl."""
         lsl = library()
-        said = channels(protocol, joint_names)
-        info = lsl.StreamInfo(NAME, "MoCap", len(said), rate_hz, lsl.cf_float32, source_id)
+        said = channels(clicks.protocol, clicks.protocol.joint_names(dip_free))
+        info = lsl.StreamInfo(NAME, "MoCap", len(said), rate_hz, lsl.cf_float32, LIVE_ID)
         about = info.desc()
         about.append_child_value("manufacturer", "Carpus")
-        about.append_child_value("hand", hand)
+        about.append_child_value("hand", clicks.side)
         about.append_child_value("frame", "axes of the colour camera: x right, y down, z forward")
         listed = about.append_child("channels")
         for channel in said:
@@ -95,18 +89,8 @@ class SampleStream:
                 ("unit", channel.unit),
             ):  # fmt: skip
                 one.append_child_value(name, text)
-        marks = lsl.StreamInfo(EVENTS_NAME, "Markers", 1, lsl.IRREGULAR_RATE, lsl.cf_string, f"{source_id}-events")
-        return cls(lsl.StreamOutlet(info), lsl.StreamOutlet(marks), offset_s or _first_is_now(lsl.local_clock))
-
-    @classmethod
-    def of_hand(
-        cls, clicks: Clicks, rate_hz: float, *, dip_free: bool, clock: Callable[[], float] | None = None
-    ) -> SampleStream:
-        """As :meth:`open`, of the hand that was clicked, under :data:`LIVE_ID`; the first picture was taken at what
-        ``clock``, asked once, says in LSL's time: without it when it comes."""
-        names = clicks.protocol.joint_names(dip_free)
-        offset_s = None if clock is None else _first_is_now(clock)
-        return cls.open(clicks.protocol, names, clicks.side, LIVE_ID, rate_hz, offset_s)
+        marks = lsl.StreamInfo(EVENTS_NAME, "Markers", 1, lsl.IRREGULAR_RATE, lsl.cf_string, f"{LIVE_ID}-events")
+        return cls(lsl.StreamOutlet(info), lsl.StreamOutlet(marks), _first_is_now(clock or lsl.local_clock))
 
     def push(self, frame: TrackedFrame) -> None:
         """One picture, with the time it was taken."""

@@ -32,7 +32,7 @@ from carpus.core.pipeline.live import Listener
 from carpus.core.provenance import revision, sha256_of_file, sha256_of_recording, sha256_of_settings
 from carpus.core.session.plausible import check_calibration
 from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session
-from carpus.core.session.values import SET_UP, Event, Session, header_again, motion_of, new_header
+from carpus.core.session.values import SET_UP, Event, Session, motion_of, new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
@@ -308,7 +308,7 @@ def track_recording(
 
     tracked = _heard(map(answered, ordered), listener)
     notes = () if said is None else notes_in(said)
-    return _written(writer, tracked, look_back, outcome.verdict, source.info.frame_count, progress, notes)
+    return write_tracked(writer, tracked, look_back, outcome.verdict, source.info.frame_count, progress, notes)
 
 
 def _recording_facts(info: SourceInfo, recorded: Recorded | None, path: Path | None) -> dict[str, Any]:
@@ -376,7 +376,7 @@ def _retrack_detections(
 ) -> TrackReport:
     old = session.header
     table = read_detections(origin)
-    learnt = learnt_in(old.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
+    learnt = learnt_again(session, settings)
     calibration = session.calibration
     check_calibration(origin, calibration)
     before = paper_as_tracked(old.parameters)
@@ -392,16 +392,42 @@ def _retrack_detections(
             dropped = max(int(session.quality.dropped_before[row]), 0)
             yield tracker.step(row, float(time_s[row]), table.of_frame(row), dropped)
 
-    source = {"session": old.session_id, "from": "detections", "sha256": sha256_of_file(origin)}
+    facts = {"sha256": sha256_of_file(origin)}
+    writer = writer_again(session, output, settings, learnt, calibration, software_version, facts)
+    return write_tracked(writer, tracked(), look_back, calibration.verdict, len(session), progress, notes_in(session))
+
+
+def learnt_again(session: Session, settings: TrackSettings) -> Learnt:
+    """What an earlier session learnt; where it does not say, what the settings take."""
+    return learnt_in(session.header.parameters) or learnt_from(StillNoise(), -np.inf, settings.tracker)
+
+
+def writer_again(
+    session: Session,
+    output: Path,
+    settings: TrackSettings,
+    learnt: Learnt,
+    calibration: Calibration,
+    software_version: str,
+    facts: Mapping[str, str],
+) -> SessionWriter:
+    """The file of another result of the recording that a session is of, from its blobs."""
+    old = session.header
+    source = {"session": old.session_id, "from": "detections", **facts}
     source |= {SIMULATED: "yes"} if old.simulated else {}
-    header = header_again(
-        old,
+    header = new_header(
+        hand=old.hand,
+        protocol=old.protocol,
         software_version=software_version,
+        subject_id=old.subject_id,
+        exercise=old.exercise,
         parameters=parameters_json(settings, source, learnt, old.set_up),
+        origin=old.session_id,
         dip_free=settings.dip_free,
+        recorded=old.recorded,
+        recording_id=old.recording_id,
     )
-    writer = SessionWriter.create(output, header, session.camera, calibration, clock=_standing)
-    return _written(writer, tracked(), look_back, calibration.verdict, len(session), progress, notes_in(session))
+    return SessionWriter.create(output, header, session.camera, calibration, clock=_standing)
 
 
 def _heard(frames: Iterator[TrackedFrame], listener: Listener | None) -> Iterator[TrackedFrame]:
@@ -421,7 +447,7 @@ def _opening(frames: Iterator[Seen], still_s: float) -> list[Frame]:
     return opening
 
 
-def _written(
+def write_tracked(
     writer: SessionWriter,
     tracked: Iterator[TrackedFrame],
     look_back: Callable[[], list[Moment]] | None,
@@ -430,6 +456,8 @@ def _written(
     progress: Progress | None,
     notes: Iterable[Event],
 ) -> TrackReport:
+    """Store frames as they are tracked, then notes, the smoother's result where wanted, and the repetitions. When it
+    cannot be done nothing half-done is left behind, but for what a full disk took."""
     counts = dict.fromkeys(TrackStatus, 0)
     try:
         done = 0

@@ -77,18 +77,8 @@ class CurveColumn:
     values: FloatArray
 
 
-def motion_columns(session: Session, motion: Motion | None = None) -> tuple[CurveColumn, ...]:
-    """Every curve of a session by its filter or its smoother, ``motion``; without it the smoother's where it ran."""
-    return tuple(_columns(session, best_motion(session) if motion is None else motion))
-
-
-def hand_axes(session: Session) -> FloatArray:
-    """The hand's axes (N, 3, 3), columns X, Y and Z of W2, in the stored W0, to be drawn along the path."""
-    motion = best_motion(session)
-    return rotation_in_place(motion.rotation_w2_w0, motion.w0_turn_rad)
-
-
-def _columns(session: Session, motion: Motion) -> Iterator[CurveColumn]:
+def motion_columns(session: Session, motion: Motion) -> Iterator[CurveColumn]:
+    """Every curve of a session by its filter or its smoother, ``motion``."""
     side = session.header.hand
     for axis, letter in enumerate("xyz"):
         yield CurveColumn(f"position_{letter}_mm", 1e3 * motion.position_m[:, axis])
@@ -165,18 +155,18 @@ def seen_angles(session: Session) -> SeenAngles:
 
 
 def mean_repetition(
-    time_s: FloatArray, value_deg: FloatArray, repetitions: Sequence[ShownRepetition], points: int = POINTS
+    time_s: FloatArray, value_deg: FloatArray, repetitions: Sequence[ShownRepetition]
 ) -> MeanRepetition:
     """Mean and sd over the counted repetitions of an angle (N,), each from its start (0) to its end (1).
 
     Between samples no further apart than the longest gap that counts as seen the angle goes straight; further apart it
     is unknown.
     """
-    share = np.linspace(0.0, 1.0, points)
+    share = np.linspace(0.0, 1.0, POINTS)
     counted = [repetition for repetition in repetitions if repetition.counts and repetition.end_s > repetition.start_s]
     rows = np.array(
         [_between(time_s, value_deg, rep.start_s + share * (rep.end_s - rep.start_s)) for rep in counted]
-    ).reshape(len(counted), points)
+    ).reshape(len(counted), POINTS)
     known = np.isfinite(rows)
     seen = known.sum(axis=0)
     fewest = max(min(FEWEST_FOR_SPREAD, len(counted)), LEAST_SEEN_SHARE * len(counted), 1)

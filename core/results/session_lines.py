@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections import Counter
 from dataclasses import replace
@@ -18,8 +17,9 @@ from carpus.core.capture.source import SourceInfo, is_simulated
 from carpus.core.depth_sensor import ASSUMED, DepthSensor
 from carpus.core.hand.exercises import SIDES
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.results.camera_said import camera_of
-from carpus.core.results.figures import session_figures
+from carpus.core.provenance import said_in
+from carpus.core.results.camera_said import camera_of, camera_said
+from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.ranges import is_total
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import has_raw
@@ -30,17 +30,11 @@ _USUAL_M = 0.7
 """Camera to hand."""
 LIMITED = ", limited by the camera's view"
 FREE_MOVEMENT = "FREE"
-_WRIST_DIRECTIONS = {
-    "deviation": ("ulnar", "radial"),
-    "flexion": ("extension", "flexion"),
-    "pronosupination": ("pronation", "supination"),
-}
-"""Words for the negative and the positive side of each wrist angle."""
 
 
 def session_summary(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
     """Everything a person asks of a session file, the identity first and the settings last."""
-    header, quality = session.header, session.quality
+    header, quality, figures = session.header, session.quality, session_figures(session, choices)
     lines = [
         _line("Session", str(session.path)),
         _line("Identity", f"{header.session_id}, written by Carpus {header.software_version}"),
@@ -54,8 +48,10 @@ def session_summary(session: Session, choices: RepetitionChoices | None = None) 
         _line("Complete", _completeness(session)),
         *_frames(session.timestamp_s, np.maximum(quality.dropped_before, 0)),
         _line("Tracking", _shares(session)),
-        *_ranges(session, choices),
-        *repetition_lines(session, choices),
+        "Range of motion",
+        *range_lines(session, figures),
+        *_joint_ranges(session, figures),
+        *repetition_lines(figures),
         *_calibration(session),
         _line("Camera", camera_text(session.camera) + _calibrated(header.parameters)),
         _line("Sensor", sensor_text(session.camera.sensor)),
@@ -140,11 +136,9 @@ def _calibrated(parameters: str) -> str:
     >>> _calibrated('{"source": {"calibrated": "2026-11-20T08:00:00+00:00", "calibration_age_days": "2.0"}}')
     '; calibrated 2026-11-20, 2 days before'
     """
-    try:
-        source = json.loads(parameters)["source"]
-        return f"; calibrated {source['calibrated'][:10]}, {float(source['calibration_age_days']):.0f} days before"
-    except (ValueError, KeyError, TypeError):
-        return ""
+    camera = camera_said(parameters)
+    known = camera.calibrated and math.isfinite(camera.age_days)
+    return f"; calibrated {camera.calibrated[:10]}, {camera.age_days:.0f} days before" if known else ""
 
 
 def _completeness(session: Session) -> str:
@@ -181,10 +175,9 @@ def _shares(session: Session) -> str:
     return ", ".join(f"{status.name.lower()} {100.0 * number / count:.1f} %" for status, number in frames.items())
 
 
-def range_lines(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
+def range_lines(session: Session, figures: SessionFigures) -> list[str]:
     """Range of each wrist angle, in the same figures as review, report and export: of the trained one the mean of its
     repetitions, else over the whole recording."""
-    figures = session_figures(session, choices)
     header = replace(session.header, exercise=FREE_MOVEMENT)
     whole = session_figures(replace(session, header=header)) if figures.exercise.counts else figures
     lines = []
@@ -200,17 +193,17 @@ def range_lines(session: Session, choices: RepetitionChoices | None = None) -> l
         low = -rows[negative].mean_deg if negative in rows else None
         high = rows[positive].mean_deg if positive in rows else arc + (low or 0.0)
         low = high - arc if low is None else low
-        text = f"from {_side(name, low)} to {_side(name, high)}, arc {arc:.1f}°"
+        text = f"from {_side(angle, low)} to {_side(angle, high)}, arc {arc:.1f}°"
         if of.counted:
             text += ", of 1 repetition" if of.counted == 1 else f", mean of {of.counted} repetitions"
         lines.append(f"  {name:<18} {text}" + (LIMITED if rows["arc"].limited else ""))
     return lines
 
 
-def repetition_lines(session: Session, choices: RepetitionChoices | None = None) -> list[str]:
+def repetition_lines(figures: SessionFigures) -> list[str]:
     """One line for each repetition, as the review counts it; none where nothing is counted."""
     lines = []
-    for number, one in enumerate(session_figures(session, choices).repetitions, 1):
+    for number, one in enumerate(figures.repetitions, 1):
         if (row := one.row) is None:
             continue
         least = "at least " if row.at_least else ""
@@ -229,16 +222,10 @@ def repetition_lines(session: Session, choices: RepetitionChoices | None = None)
     return lines
 
 
-def _ranges(session: Session, choices: RepetitionChoices | None) -> list[str]:
-    """Ranges of the wrist's angles, then of the joints."""
-    return ["Range of motion", *range_lines(session, choices), *_joint_ranges(session, choices)]
-
-
-def _joint_ranges(session: Session, choices: RepetitionChoices | None) -> list[str]:
+def _joint_ranges(session: Session, figures: SessionFigures) -> list[str]:
     """Of the whole hand: every joint over the frames in which it was seen, and the total of every finger."""
     if not session.header.joint_names:
         return []
-    figures = session_figures(session, choices)
     ends = {(row.joint, row.movement): row.mean_deg for row in figures.joint_rows}
     over = "mean of the repetitions, " if figures.counted else ""
     lines = [f"Joints of the fingers, {over}while they were seen (TAM: total active motion)"]
@@ -259,8 +246,8 @@ def _joint_ranges(session: Session, choices: RepetitionChoices | None) -> list[s
     return lines
 
 
-def _side(name: str, angle_deg: float) -> str:
-    negative, positive = _WRIST_DIRECTIONS[name]
+def _side(angle: int, angle_deg: float) -> str:
+    positive, negative = SIDES[angle]
     return f"{abs(angle_deg):.1f}° {positive if angle_deg >= 0.0 else negative}"
 
 
@@ -282,16 +269,14 @@ def _calibration(session: Session) -> list[str]:
     lines += [f"  doubtful: {finding_sentence(finding)}" for finding in verdict.findings]
     start_deg = np.degrees(calibration.start_angles_rad)
     if np.any(np.isfinite(start_deg) & (start_deg != 0.0)):
-        given = ", ".join(_side(name, float(angle)) for name, angle in zip(WRIST_ANGLES, start_deg, strict=True))
+        given = ", ".join(_side(angle, float(start)) for angle, start in enumerate(start_deg))
         lines.append(f"  Start angles as given by the therapist: {given}.")
     return lines
 
 
 def _provenance(session: Session) -> list[str]:
     """By which revision, of which recording, with which settings; what an older session does not say is left out."""
-    parameters = json.loads(session.header.parameters)
-    parts = [parameters.get(name) if isinstance(parameters, dict) else None for name in ("provenance", "source")]
-    said, source = (part if isinstance(part, dict) else {} for part in parts)
+    said, source = (said_in(session.header.parameters, part) for part in ("provenance", "source"))
     camera = camera_of(session)
     calibrated = camera.calibrated and f"{camera.calibrated}, {camera.age_days:.0f} days before"
     facts = (

@@ -108,11 +108,11 @@ def side_by_side(first: SessionFigures, second: SessionFigures, keys: Sequence[R
     found = {item_key(item): item for item in compare_rows(alike, first, rows)}
     reverse = {}
     if relation == "hands":  # neither hand comes first: what is sure of the one way is sure of the other
-        beside_them = [other for row in rows for other in _rows_of(alike, row.key)]
+        beside_them = [other for row in rows if (other := alike.row(row.movement, row.angle, row.joint)) is not None]
         reverse = {item_key(item): item for item in compare_rows(first, alike, beside_them)}
     ranges = []
     for row in rows:
-        item, beside = found.get(row.key), next(iter(_rows_of(alike, row.key)), None)
+        item, beside = found.get(row.key), alike.row(row.movement, row.angle, row.joint)
         if item is None or beside is None:
             continue
         turned = reverse.get(row.key)
@@ -163,12 +163,6 @@ def partner_of(history: Sequence[SessionFigures], figures: SessionFigures) -> Se
 def _alike(one: SessionFigures, other: SessionFigures) -> bool:
     same = (one.exercise.id, one.protocol, one.simulated) == (other.exercise.id, other.protocol, other.simulated)
     return same and one.session_id != other.session_id and not one.not_counted
-
-
-def _rows_of(figures: SessionFigures, key: RowKey) -> list[RangeRow]:
-    joint, movement, angle = key
-    row = figures.row(movement, angle, joint)
-    return [] if row is None else [row]
 
 
 Step = Literal["part", "start", "time"]

@@ -131,22 +131,6 @@ def new_header(
     )
 
 
-def header_again(old: SessionHeader, *, software_version: str, parameters: str, dip_free: bool) -> SessionHeader:
-    """A header for another result of the recording that a session is of."""
-    return new_header(
-        hand=old.hand,
-        protocol=old.protocol,
-        software_version=software_version,
-        subject_id=old.subject_id,
-        exercise=old.exercise,
-        parameters=parameters,
-        origin=old.session_id,
-        dip_free=dip_free,
-        recorded=old.recorded,
-        recording_id=old.recording_id,
-    )
-
-
 @dataclass(frozen=True, slots=True)
 class Motion(Moment):
     """Moments of N frames, of the filter or of the smoother: every array of a :class:`Moment` with N rows of it."""

@@ -12,6 +12,7 @@ import numpy as np
 import pylsl
 import pytest
 
+from carpus.core.calibration.result import Clicks
 from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.pipeline.stream import SampleStream, channels, sample_of
 from tests.session.samples import make_frame, time_of
@@ -41,9 +42,12 @@ def test_a_second_process_reads_what_was_sent(tmp_path: Path, monkeypatch: pytes
     settings.write_text(SETTINGS, encoding="utf-8")
     monkeypatch.setenv("LSLAPICFG", str(settings))
     source = f"carpus-{uuid.uuid4()}"
+    monkeypatch.setattr("carpus.core.pipeline.stream.LIVE_ID", source)
     names = joint_angle_names()
-    offset_s = pylsl.local_clock() - time_of(0)
-    stream = SampleStream.open(HAND21, names, "left", source, offset_s=lambda _: offset_s)
+    begun_s = pylsl.local_clock()
+    offset_s = begun_s - time_of(0)
+    clicks = Clicks("left", HAND21, np.zeros((21, 2)))
+    stream = SampleStream.of_hand(clicks, 30.0, dip_free=False, clock=lambda: begun_s)
     listener = subprocess.Popen(
         [sys.executable, "-c", LISTENER, source], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )

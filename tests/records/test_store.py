@@ -46,6 +46,7 @@ from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import HomePlan, PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
+from tests.records.first_version import statements
 from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record
 
 VERSIONS = Path(schema.__file__).parent / "migrations" / "versions"
@@ -494,7 +495,7 @@ def test_the_first_version_is_read_and_its_script_is_what_the_tables_say(tmp_pat
         assert [one.text for one in of_sessions.comments(house.store, session.session_id)] == ["Less swelling."]
     assert schema.VERSION == "1"
     for dialect in ("sqlite", "postgresql"):
-        assert (VERSIONS / f"1.{dialect}.sql").read_text(encoding="utf-8") == schema.statements(dialect)
+        assert (VERSIONS / f"1.{dialect}.sql").read_text(encoding="utf-8") == statements(dialect)
 
 
 def test_a_diagnosis_is_found_and_the_clinics_list_has_the_usual_ones_first(tmp_path: Path) -> None:

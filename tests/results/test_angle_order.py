@@ -20,7 +20,7 @@ from tests.ui.fakes import NOW, session
 def test_the_same_turns_are_read_in_the_order_of_the_isb() -> None:
     made = session(exercise="FREE", motion="mixed")
     turned = in_order(made, "isb")
-    table = {column.name: column.values for column in motion_columns(made)}
+    table = {column.name: column.values for column in motion_columns(made, made.motion)}
     for k, name in enumerate(("deviation", "flexion", "pronosupination")):
         assert np.allclose(np.degrees(turned.motion.angles_rad[:, k]), table[f"isb_{name}_deg"], equal_nan=True)
     # R = Ry(flexion) Rz(deviation) Rx(turning), by another library.

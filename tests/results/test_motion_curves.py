@@ -14,7 +14,7 @@ from tests.ui.hand_fakes import hand_session
 def test_curves_and_table_agree() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp", lost=[(5.0, 6.0)])
     curves = motion_curves(made)
-    table = {column.name: column.values for column in motion_columns(made)}
+    table = {column.name: column.values for column in motion_columns(made, made.motion)}
     for axis, letter in enumerate("xyz"):
         pairs = (
             (curves.position_mm, f"position_{letter}_mm"),

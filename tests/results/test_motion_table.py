@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from carpus.core.formats import csv_tables
-from carpus.core.results.motion_curves import hand_axes, motion_columns
+from carpus.core.results.motion_curves import motion_columns
 from tests.formats.takes import take_of
 from tests.ui.fakes import session
 from tests.ui.hand_fakes import hand_session
@@ -18,17 +18,16 @@ from tests.ui.hand_fakes import hand_session
 
 def test_path_velocities_and_joints_are_those_of_the_session() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
-    table = {column.name: column.values for column in motion_columns(made)}
+    table = {column.name: column.values for column in motion_columns(made, made.motion)}
     assert np.allclose(table["position_z_mm"], 1e3 * made.motion.position_m[:, 2], equal_nan=True)
     assert np.allclose(table["velocity_x_mm_s"], 1e3 * made.motion.velocity_m_s[:, 0], equal_nan=True)
     tip = made.header.protocol.markers.index("TIP3")
     assert np.allclose(table["joint_TIP3_y_mm"], 1e3 * made.motion.joint_position_m[:, tip, 1], equal_nan=True)
-    assert np.allclose(hand_axes(made)[0], made.motion.rotation_w2_w0[0], atol=1e-9)
 
 
 def test_zyz_turns_back_into_the_rotation_wherever_it_is_given() -> None:
     made = session()
-    table = {column.name: column.values for column in motion_columns(made)}
+    table = {column.name: column.values for column in motion_columns(made, made.motion)}
     zyz = np.column_stack([table[f"zyz_{name}_deg"] for name in ("alpha", "beta", "gamma")])
     known = np.isfinite(zyz[:, 0])
     assert known.mean() > 0.8

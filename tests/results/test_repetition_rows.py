@@ -117,7 +117,7 @@ def test_every_column_says_what_it_is() -> None:
 
 
 def test_the_summary_has_a_line_for_each(session: Session) -> None:
-    lines = repetition_lines(session, RepetitionChoices({1: "pain"}))
+    lines = repetition_lines(session_figures(session, RepetitionChoices({1: "pain"})))
     assert len(lines) == 3
     assert "arc 50.0 deg" in lines[0]
     assert "SPARC -2.5" in lines[0]
