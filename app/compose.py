@@ -382,12 +382,12 @@ def ask_for_folder(qt: QApplication, settings: Settings, fault: CarpusFault) -> 
     return NoFolder(theme, fault_words(fault), Path.home()).ask()
 
 
-def with_kept_folder(settings: Settings, folder: Path, settings_folder: Path | None = None) -> Settings:
+def with_kept_folder(settings: Settings, folder: Path) -> Settings:
     """The settings with another data folder, also from the next start on."""
     os.environ.pop(DATA_VARIABLE, None)  # it would go over what was just chosen
     chosen = replace(settings, recording=replace(settings.recording, folder=str(folder)))
     with contextlib.suppress(CarpusFault):
-        keep_preferences(chosen, settings_folder)
+        keep_preferences(chosen)
     return chosen
 
 

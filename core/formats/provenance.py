@@ -25,10 +25,8 @@ OF_NO_ONE = (
 """What a de-identified export says of the source: nothing that names a device, a file or a day."""
 
 
-def provenance(
-    session: Session, software_version: str, deidentified: bool = False, now: datetime | None = None
-) -> dict[str, Any]:
-    """As plain values for JSON; ``software_version`` of the program that runs, ``now`` is injectable.
+def provenance(session: Session, software_version: str, deidentified: bool = False) -> dict[str, Any]:
+    """As plain values for JSON; ``software_version`` of the program that runs.
 
     De-identified: no hash, name or date leads back.
     """
@@ -58,7 +56,7 @@ def provenance(
     if deidentified:
         out["camera"]["source"] = {name: source[name] for name in OF_NO_ONE if name in source}
         return out
-    out["made"] = (now or datetime.now(UTC)).isoformat(timespec="seconds")
+    out["made"] = datetime.now(UTC).isoformat(timespec="seconds")
     out["of"]["session_sha256"] = made_by.sha256_of_file(session.path) if session.path.is_file() else ""
     out["of"]["recording_sha256"] = source.get("sha256", "")
     out["recorded"], out["session_made"] = header.recorded, header.created

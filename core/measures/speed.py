@@ -83,10 +83,11 @@ def log_dimensionless_jerk(speed: FloatArray, rate_hz: float, least_peak: float 
     return -math.log(total) if total > 0.0 else math.nan
 
 
-def speed_peaks(
-    speed: FloatArray, rate_hz: float, least_rise: float, apart_s: float = 0.15, least_dip: float = 0.0
-) -> int:
-    """Movement units: local maxima more than ``least_rise`` above the minimum just before, ``apart_s`` apart or more.
+_UNITS_APART_S = 0.15
+
+
+def speed_peaks(speed: FloatArray, rate_hz: float, least_rise: float, least_dip: float = 0.0) -> int:
+    """Movement units: local maxima more than ``least_rise`` above the minimum just before, 0.15 s apart or more.
 
     Reference: 20 mm/s for a position, the greater of 10 % of the peak and 5 degrees/s for an angle. 1 is ideal. A dip
     smaller than ``least_dip``, what noise makes of itself, parts no maxima: one in the middle of a long rise would make
@@ -97,7 +98,7 @@ def speed_peaks(
     count, last_counted, last_top = 0, -math.inf, 0
     for top in sps.find_peaks(speed, prominence=least_dip)[0].tolist():
         rise = speed[top] - speed[last_top : top + 1].min()
-        if rise > least_rise and (top - last_counted) / rate_hz >= apart_s:
+        if rise > least_rise and (top - last_counted) / rate_hz >= _UNITS_APART_S:
             count += 1
             last_counted = top
         last_top = top

@@ -104,12 +104,12 @@ def read_form(store: Store, usual: Paper = "a4") -> ReportForm:
     return ReportForm(paper=usual) if row is None else _form(row)
 
 
-def form_in(folder: Path, usual: Paper = "a4") -> ReportForm:
+def form_in(folder: Path) -> ReportForm:
     """The form of a data folder, for a command."""
     if not is_kept_in(folder):
-        return ReportForm(paper=usual)
+        return ReportForm()
     with Store(folder) as store:
-        return read_form(store, usual)
+        return read_form(store)
 
 
 def keep_form(store: Store, form: ReportForm, before: ReportForm) -> None:

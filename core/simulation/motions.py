@@ -102,6 +102,13 @@ class _Patient:
             done += 1
         writer.move(neutral, 0.5 * share_s)
 
+    def go_through(self, *steps: tuple[FloatArray, FloatArray, FloatArray, float]) -> None:
+        """Arm, wrist and joints together to one posture after the other, each in its seconds."""
+        for place, posture, joints, duration_s in steps:
+            self.carry.move(place, duration_s)
+            self.wrist.move(posture, duration_s)
+            self.joints.move(joints, duration_s)
+
     def wrist_target(self, deviation: float = 0.0, flexion: float = 0.0, supination: float = 0.0) -> FloatArray:
         """Shares of the full range of each angle, as angles."""
         return self.range_share * np.array(
@@ -113,24 +120,17 @@ def _rest(patient: _Patient) -> None:
     pass
 
 
-def _flexion(patient: _Patient) -> None:
-    targets = [patient.wrist_target(flexion=1.0), patient.wrist_target(flexion=-1.0)]
-    patient.repeat(patient.wrist, targets, np.zeros(3))
+def _to_and_fro(hold_share: float = _HOLD_SHARE, **shares: float) -> Callable[[_Patient], None]:
+    """The wrist from one end of the range of an angle to the other."""
 
+    def write(patient: _Patient) -> None:
+        ends = [
+            patient.wrist_target(**shares),
+            patient.wrist_target(**{name: -share for name, share in shares.items()}),
+        ]
+        patient.repeat(patient.wrist, ends, np.zeros(3), hold_share)
 
-def _deviation(patient: _Patient) -> None:
-    targets = [patient.wrist_target(deviation=1.0), patient.wrist_target(deviation=-1.0)]
-    patient.repeat(patient.wrist, targets, np.zeros(3))
-
-
-def _fast_deviation(patient: _Patient) -> None:
-    targets = [patient.wrist_target(deviation=1.0), patient.wrist_target(deviation=-1.0)]
-    patient.repeat(patient.wrist, targets, np.zeros(3), hold_share=0.0)
-
-
-def _pronosupination(patient: _Patient) -> None:
-    targets = [patient.wrist_target(supination=1.0), patient.wrist_target(supination=-1.0)]
-    patient.repeat(patient.wrist, targets, np.zeros(3))
+    return write
 
 
 def _mixed(patient: _Patient) -> None:
@@ -169,18 +169,14 @@ def _reach_grasp(patient: _Patient) -> None:
     pace = patient.cycle_s / _DEFAULT_REACH_S
     done = 0
     while done < patient.repetitions and patient.carry.time_s < patient.end_s:
-        steps: list[tuple[FloatArray, FloatArray, FloatArray, float]] = [
+        patient.go_through(
             (way, turned, opened, REACH_S * pace),
             (way, turned, closed, 0.4 * pace),
             (way + lift, turned, closed, 0.5 * pace),
             (way, turned, closed, 0.5 * pace),
             (way, turned, opened, 0.4 * pace),
             (np.zeros(3), np.zeros(3), patient.neutral, REACH_S * pace),
-        ]
-        for place, posture, joints, duration_s in steps:
-            patient.carry.move(place, duration_s)
-            patient.wrist.move(posture, duration_s)
-            patient.joints.move(joints, duration_s)
+        )
         done += 1
 
 
@@ -286,19 +282,16 @@ def _grasp_mug(patient: _Patient) -> None:
     pace = patient.cycle_s / _DEFAULT_REACH_S
     done = 0
     while done < patient.repetitions and patient.carry.time_s < patient.end_s:
-        for place, posture, joints, duration_s in (
-            (way, turned, opened, 0.9),
-            (way, turned, early, 0.25),
-            (way, turned, closed, 0.25),
-            (way + lift, turned, closed, 0.5),
-            (way + lift, turned, closed, 0.4),
-            (way, turned, closed, 0.5),
-            (way, turned, opened, 0.4),
-            (np.zeros(3), np.zeros(3), patient.neutral, 0.9),
-        ):
-            patient.carry.move(place, duration_s * pace)
-            patient.wrist.move(posture, duration_s * pace)
-            patient.joints.move(joints, duration_s * pace)
+        patient.go_through(
+            (way, turned, opened, 0.9 * pace),
+            (way, turned, early, 0.25 * pace),
+            (way, turned, closed, 0.25 * pace),
+            (way + lift, turned, closed, 0.5 * pace),
+            (way + lift, turned, closed, 0.4 * pace),
+            (way, turned, closed, 0.5 * pace),
+            (way, turned, opened, 0.4 * pace),
+            (np.zeros(3), np.zeros(3), patient.neutral, 0.9 * pace),
+        )
         done += 1
 
 
@@ -344,11 +337,11 @@ _DEFAULT_REACH_S = 4.0
 
 MOTIONS: dict[str, tuple[Callable[[_Patient], None], float]] = {
     "rest": (_rest, 0.3),
-    "flexion": (_flexion, 0.3),
-    "deviation": (_deviation, 0.4),
-    "pronosupination": (_pronosupination, 0.35),
+    "flexion": (_to_and_fro(flexion=1.0), 0.3),
+    "deviation": (_to_and_fro(deviation=1.0), 0.4),
+    "pronosupination": (_to_and_fro(supination=1.0), 0.35),
     "mixed": (_mixed, 0.4),
-    "fast_deviation": (_fast_deviation, 1.7),
+    "fast_deviation": (_to_and_fro(0.0, deviation=1.0), 1.7),
     "reach": (_reach, 1.0 / _DEFAULT_REACH_S),
     "reach_grasp": (_reach_grasp, 1.0 / _DEFAULT_REACH_S),
     "fist": (_fist, 0.3),

@@ -218,7 +218,6 @@ def write_oni(
     *,
     fps: int = 30,
     color: ColorCodec = "jpeg",
-    registered: bool = True,
     mirrored: bool = False,
     simulated: bool = False,
 ) -> int:
@@ -251,7 +250,7 @@ def write_oni(
         if writer is not None:
             writer.abandon()
     if written:
-        write_camera_info(sidecar, camera, registered=registered, mirrored=mirrored, simulated=simulated)
+        write_camera_info(sidecar, camera, registered=True, mirrored=mirrored, simulated=simulated)
     return written
 
 
@@ -278,13 +277,7 @@ RECORDING_FILE = "recording.oni"
 _MILLIMETRE = 1e-3
 
 
-def simulate_oni(
-    spec: RecordingSpec,
-    folder: Path,
-    progress: Callable[[int, int], None] | None = None,
-    *,
-    color: ColorCodec = "jpeg",
-) -> Path:
+def simulate_oni(spec: RecordingSpec, folder: Path, progress: Callable[[int, int], None] | None = None) -> Path:
     """Make ``recording.oni`` with its sidecar, clicks and truth in ``folder``; the file's path.
 
     Depth is in whole millimetres, as the device gives it.
@@ -298,7 +291,7 @@ def simulate_oni(
         simulate(spec, pictures, progress)
         source = TumFolder(pictures, read_ahead=4)
         frames = in_millimetres(source.frames())
-        write_oni(target, frames, source.info.camera, fps=round(spec.fps), color=color, simulated=True)
+        write_oni(target, frames, source.info.camera, fps=round(spec.fps), simulated=True)
         for name in (CLICKS_FILE, TRUTH_FILE, CAMERA_FILE):
             shutil.move(pictures / name, folder / name)
     return target

@@ -231,22 +231,22 @@ class PracticeCamera:
         self._closed.set()
 
 
-def board_camera(board: Board, speed: float = 1.0, seed: int = 5) -> PracticeCamera:
+def board_camera(board: Board, speed: float = 1.0) -> PracticeCamera:
     """The board as a person shows it who does what is asked: everywhere, tilted to all sides, near and far."""
-    return PracticeCamera(_board_frames(board, seed), speed)
+    return PracticeCamera(_board_frames(board), speed)
 
 
-def card_camera(speed: float = 1.0, seed: int = 9) -> PracticeCamera:
+def card_camera(speed: float = 1.0) -> PracticeCamera:
     """The check card as it lies under the camera."""
-    return PracticeCamera(_card_frames(seed), speed)
+    return PracticeCamera(_card_frames(), speed)
 
 
-def _board_frames(board: Board, seed: int) -> Iterator[Frame]:
+def _board_frames(board: Board) -> Iterator[Frame]:
     studio = _studio()
     texture = texture_of(board_sheet(board, "a4"))
     index = 0
     before: Placed | None = None
-    for around in itertools.count(seed):
+    for around in itertools.count(5):
         for placed in poses(texture, DIFFERENT, BOARD_DISTANCES_M[board.pattern], around):
             on_the_way = [] if before is None else [(_between(before, placed), 1)]
             for shown, times in (*on_the_way, (placed, _STILL_FRAMES)):
@@ -257,8 +257,8 @@ def _board_frames(board: Board, seed: int) -> Iterator[Frame]:
             before = placed
 
 
-def _card_frames(seed: int) -> Iterator[Frame]:
-    studio, scene = _studio(), card_scene(turn_deg=float(np.random.default_rng(seed).uniform(-12.0, 12.0)))
+def _card_frames() -> Iterator[Frame]:
+    studio, scene = _studio(), card_scene(turn_deg=float(np.random.default_rng(9).uniform(-12.0, 12.0)))
     made: list[Frame] = []
     for index in itertools.count():
         if len(made) < _MOST_PICTURES:

@@ -204,7 +204,7 @@ class TimeOfFlight:
         cells = rng.standard_normal((height // _MULTIPATH_CELL_PX + 2, width // _MULTIPATH_CELL_PX + 2))
         slow = cv2.resize(cells.astype(np.float32), (width, height), interpolation=cv2.INTER_CUBIC)
         slow = slow * np.float32(_MULTIPATH_SD_M / float(np.std(slow)))
-        own = np.float32(_PIXEL_STAYS_M) * self._noise(rng)
+        own = np.float32(_PIXEL_STAYS_M) * window_noise(rng, shape, self._patch_px)
         self._longer_m = np.float32(_MULTIPATH_M * rng.uniform()) + slow + own
 
     def measure(self, depth_m: FloatImage, frame: int, color: FloatImage | None = None) -> DepthImage:
@@ -219,19 +219,15 @@ class TimeOfFlight:
         flying = cv2.dilate(depth_m, around) - cv2.erode(depth_m, around) > _EDGE_M
         seen = np.where(flying, cv2.blur(depth_m, (3, 3)), depth_m)
         sd_m = self._sensor.reading_sd_m(depth_m.astype(np.float64)).astype(np.float32) * self._dimness(color)
-        depth = np.float32(self._scale) * (seen + self._longer_m + sd_m * self._noise(rng))
+        depth = np.float32(self._scale) * (
+            seen + self._longer_m + sd_m * window_noise(rng, self._shape, self._patch_px)
+        )
         lost = flying & (flecks(rng, self._shape) > 0.9)
         lost |= in_shadow(np.float32(self._color_px_m) / depth_m, self._side)
         lost |= (depth < self._sensor.nearest_m) | (depth > self._sensor.farthest_m)
         lost |= rng.random(self._shape, dtype=np.float32) < _FLIGHT_LOST_SHARE
         depth = np.round(depth * 1000.0) / 1000.0
         return np.where(lost, np.uint16(0), counts(depth))
-
-    def _noise(self, rng: np.random.Generator) -> FloatImage:
-        """Noise (H, W) of standard deviation 1, shared by the few pixels of one reading."""
-        white = rng.standard_normal(self._shape, dtype=np.float32)
-        width = self._patch_px
-        return np.asarray(cv2.blur(white, (width, width)) * np.float32(width))
 
     def _dimness(self, color: FloatImage | None) -> FloatImage:
         """Factor (H, W) on the noise. The camera brings its own, infrared light, which dyes let through: what is bright
