@@ -18,18 +18,16 @@ from types import TracebackType
 from typing import TYPE_CHECKING
 
 import platformdirs
-from PySide6.QtCore import QEvent, QMetaObject, QObject, Qt, QTimer
+from PySide6.QtCore import QEvent, QEventLoop, QMetaObject, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QPixmap
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QFileDialog
 
 from carpus import __version__
 from carpus.app.command_line import on_stop
 from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.journey import CORE, SCREENS, Journey, Parts, load
-from carpus.app.desktop.no_folder import NoFolder
 from carpus.app.desktop.preferences import PreferenceKeeper
 from carpus.app.desktop.welcoming import Tour, Welcome
-from carpus.app.desktop.witness import Witness
 from carpus.app.settings import DATA_VARIABLE, LockSettings, Settings, keep_preferences, sessions_folder
 from carpus.app.settings import settings_folder as own_settings_folder
 from carpus.core.capture.source import FrameSource
@@ -40,6 +38,7 @@ from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import Recovered, recover
 from carpus.core.records.set_up import SetUp
+from carpus.core.words import Words
 from carpus.ui import language
 from carpus.ui.background import Background
 from carpus.ui.check_card.standing_words import card_words
@@ -48,6 +47,7 @@ from carpus.ui.fonts import load_fonts
 from carpus.ui.icons import program_icon
 from carpus.ui.keys import Keys
 from carpus.ui.last_places import LastPlaces, place_of, put_in_place
+from carpus.ui.messages.messages import Answer, StopCard
 from carpus.ui.records.backing_up import BackingUp
 from carpus.ui.records.erasing import Erasing
 from carpus.ui.records.lists import RecordLists
@@ -60,6 +60,55 @@ from carpus.ui.translate import tr
 if TYPE_CHECKING:
     from carpus.app.desktop.sources import Sources
     from carpus.ui.settings.screen import SettingsScreen
+if TYPE_CHECKING:
+    from carpus.app.desktop.journey import Journey
+
+
+def answer_words() -> tuple[str, str]:
+    """End, or go on elsewhere."""
+    return tr("Close Carpus"), tr("Choose another folder")
+
+
+def folder_title() -> str:
+    """Over the choice of a folder."""
+    return tr("Folder of patients and sessions")
+
+
+class NoFolder:
+    """A card in an empty window. ``chosen`` is the folder that the person named, None when they closed the window."""
+
+    def __init__(self, theme: Theme, words: Words, start: Path) -> None:
+        self.chosen: Path | None = None
+        self._start = start
+        self.shell = Shell(theme)
+        self.shell.bar.help_button.hide()
+        self.shell.bar.settings_button.hide()
+        self.card = StopCard(self.shell.stage, theme)
+        self._words = words
+        self._loop = QEventLoop()
+        self.shell.closing.connect(self._loop.quit)
+
+    def ask(self) -> Path | None:
+        """Show it and wait for the answer."""
+        self.shell.show()
+        self._show()
+        self._loop.exec()
+        self.shell.hide()
+        self.shell.deleteLater()
+        return self.chosen
+
+    def _show(self) -> None:
+        end, other = answer_words()
+        self.card.show_words(self._words, (Answer(end, self.shell.close), Answer(other, self._choose)))
+
+    def _choose(self) -> None:
+        named = QFileDialog.getExistingDirectory(self.shell, folder_title(), str(self._start))
+        if not named:
+            self._show()
+            return
+        self.chosen = Path(named)
+        self._loop.quit()
+
 
 Take = Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]
 SWITCH_S = 0.001
@@ -273,8 +322,7 @@ def compose(
 
     @cache
     def sources() -> Sources:
-        from carpus.app.desktop.practice import practice_beginning, practice_take
-        from carpus.app.desktop.sources import Sources
+        from carpus.app.desktop.sources import Sources, practice_beginning, practice_take
         from carpus.core.records.new_sessions import NewSessions
 
         beginning = practice_beginning if take is None else lambda _: None
@@ -457,3 +505,36 @@ def with_data_folder(settings: Settings, folder: Path | None) -> Settings:
     if folder is None:
         return settings
     return replace(settings, recording=replace(settings.recording, folder=str(folder)))
+
+
+class Witness(QObject):
+    """Watches the journey; changes nothing of it."""
+
+    log_lost = Signal(object)
+    """Something could not be written into the log, from whatever thread."""
+
+    def __init__(self, journey: Journey, library: Library) -> None:
+        super().__init__(journey)
+        self._now_beside: Callable[[], Sequence[str]] = lambda: sorted(journey.beside.screen.ids)
+        self._now, self._library = journey.now, library
+        self._seen = ("", "")
+        self.log_lost.connect(journey.messages.fault)
+        library.log_fault = self.log_lost.emit
+        journey.way.arrived.connect(self._arrived)
+
+    def _arrived(self, place: str) -> None:
+        patient = self._now.patient
+        if place == "review" and self._is_new(place, self._now.session_id):
+            self._library.notes.session("opened", self._now.session_id)
+        elif place == "beside":
+            for session_id in self._now_beside() if self._is_new(place, " ".join(self._now_beside())) else ():
+                self._library.notes.session("opened", session_id)
+        elif place == "progress" and patient is not None and self._is_new(place, patient.patient_id):
+            self._library.notes.patient("opened", patient.patient_id)
+        elif place == "patients":
+            self._seen = ("", "")
+
+    def _is_new(self, place: str, identity: str) -> bool:
+        """Not only back from the help."""
+        before, self._seen = self._seen, (place, identity)
+        return before != self._seen

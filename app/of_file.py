@@ -7,13 +7,13 @@ Files that lie elsewhere are a person's own; nothing is written down of them.
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carpus.app.command_line import tell
 from carpus.app.settings import load_sound_settings, sessions_folder
-from carpus.core.errors import CarpusFault
+from carpus.core.errors import CarpusFault, FolderMissing
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.session.reader import read_outline
 
@@ -69,6 +69,14 @@ def read_comment(path: Path) -> str:
 
     with Store(folder) as store:
         return latest(comments(store, read_outline(path).header.session_id))
+
+
+def sessions_in(places: Iterable[Path]) -> Iterator[Path]:
+    """Session files, and those of folders, in order. Raises :class:`FolderMissing`."""
+    for place in places:
+        if not place.exists():
+            raise FolderMissing(place)
+        yield from sorted(place.rglob("*.h5")) if place.is_dir() else [place]
 
 
 def initials() -> str:

@@ -138,6 +138,13 @@ def nearest_rotation(matrix: FloatArray) -> FloatArray:
     return np.asarray(u @ vt)
 
 
+def rigid(source: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Rotation (3, 3) and shift (3,) that bring points (P, 3) nearest to others (Kabsch, without a mirror)."""
+    a, b = source.mean(axis=0), target.mean(axis=0)
+    turn = nearest_rotation((target - b).T @ (source - a))
+    return turn, b - turn @ a
+
+
 def mean_rotation(rotation: FloatArray, weight: FloatArray) -> FloatArray:
     """Weighted mean on the manifold of rotations (N, 3, 3) with weights (N,) summing to 1.
 

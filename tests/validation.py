@@ -25,9 +25,9 @@ from pathlib import Path
 import numpy as np
 
 from carpus import __version__
-from carpus.app.batch.places import TrackingInput
 from carpus.app.batch.processes import outcomes
 from carpus.app.batch.work import Task
+from carpus.app.sources import TrackingInput
 from carpus.core.agreement.retest import StudyFigures, studies
 from carpus.core.agreement.study import AgreementStudy, read_table, study_lines, study_of
 from carpus.core.pipeline.track import TrackSettings

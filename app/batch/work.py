@@ -14,9 +14,8 @@ from typing import Literal
 from threadpoolctl import threadpool_limits
 
 from carpus import __version__
-from carpus.app.batch.places import TrackingInput
 from carpus.app.settings import load_settings
-from carpus.app.sources import open_recording
+from carpus.app.sources import TrackingInput, open_recording
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Verdict, finding_sentence
 from carpus.core.capture.source import Recorded

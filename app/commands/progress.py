@@ -9,7 +9,7 @@ from pathlib import Path
 
 from carpus import __version__
 from carpus.app.command_line import misused, tell
-from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, PatientUnknown, SessionsMissing
+from carpus.core.errors import CarpusFault, OutputExists, PatientUnknown, SessionsMissing
 from carpus.core.measures.change import ErrorLimits
 from carpus.core.names import known_names
 
@@ -79,25 +79,22 @@ def run(arguments: argparse.Namespace) -> int:
 def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type: ignore[type-arg]
     """Sessions of a patient that can be read, with their figures. Raises :class:`PatientUnknown` or
     :class:`SessionsMissing` for none."""
-    from carpus.app.of_file import read_choices
+    from carpus.app.of_file import read_choices, sessions_in
     from carpus.core.results.camera_said import folder_with_checks
     from carpus.core.results.figures import session_figures, with_trust
     from carpus.core.session.reader import read_outline, read_session
 
     out = []
     known: list[str] = []
-    for place in places:
-        if not place.exists():
-            raise FolderMissing(place)
-        for path in sorted(place.rglob("*.h5")) if place.is_dir() else [place]:
-            try:
-                said = read_outline(path).header.subject_id
-                known.append(said)
-                if subject == EVERYBODY or said.casefold() == subject.strip().casefold():
-                    figures = session_figures(read_session(path), read_choices(path), limits)
-                    out.append((path, with_trust(figures, folder_with_checks(path))))
-            except CarpusFault as fault:
-                tell(fault)
+    for path in sessions_in(places):
+        try:
+            said = read_outline(path).header.subject_id
+            known.append(said)
+            if subject == EVERYBODY or said.casefold() == subject.strip().casefold():
+                figures = session_figures(read_session(path), read_choices(path), limits)
+                out.append((path, with_trust(figures, folder_with_checks(path))))
+        except CarpusFault as fault:
+            tell(fault)
     if not out:
         if subject == EVERYBODY:
             raise SessionsMissing(places[0])

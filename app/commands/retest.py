@@ -11,7 +11,7 @@ from datetime import date
 from pathlib import Path
 
 from carpus.app.command_line import say, tell
-from carpus.core.errors import CarpusFault, FolderMissing, ReferenceUnreadable, StudyUnsuited
+from carpus.core.errors import CarpusFault, ReferenceUnreadable, StudyUnsuited
 
 EXAMPLE = "carpus retest sessions --output retest.csv"
 _WHY = {
@@ -92,24 +92,21 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _read(places: list[Path], named: dict[str, str]) -> tuple[list, dict[str, str]]:  # type: ignore[type-arg]
     """Figures of all sessions that can be read, and their raters by session id."""
-    from carpus.app.of_file import read_choices
+    from carpus.app.of_file import read_choices, sessions_in
     from carpus.core.results.figures import session_figures
     from carpus.core.session.reader import read_session
 
     figures, raters, met = [], {}, set()
-    for place in places:
-        if not place.exists():
-            raise FolderMissing(place)
-        for path in sorted(place.rglob("*.h5")) if place.is_dir() else [place]:
-            try:
-                figures.append(session_figures(read_session(path), read_choices(path)))
-            except CarpusFault as fault:
-                tell(fault)
-                continue
-            for name in (path.name, path.stem):
-                if name in named:
-                    raters[figures[-1].session_id] = named[name]
-                    met.add(name)
+    for path in sessions_in(places):
+        try:
+            figures.append(session_figures(read_session(path), read_choices(path)))
+        except CarpusFault as fault:
+            tell(fault)
+            continue
+        for name in (path.name, path.stem):
+            if name in named:
+                raters[figures[-1].session_id] = named[name]
+                met.add(name)
     if not figures:
         raise StudyUnsuited(places[0], "no session can be read")
     for name in sorted(set(named) - met):

@@ -11,10 +11,10 @@ from typing import get_args
 import numpy as np
 
 from carpus import __version__
-from carpus.app.batch.places import is_many
 from carpus.app.command_line import bar, count, misused, number, say, tell
 from carpus.app.of_file import note
 from carpus.app.settings import load_settings
+from carpus.app.sources import is_many
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict, finding_sentence
 from carpus.core.capture.paced import PacedSource

@@ -11,10 +11,10 @@ from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
-from carpus.app.batch.places import SESSION_SUFFIX, TrackingInput, places
 from carpus.app.batch.processes import LIMIT_S, cores, outcomes
 from carpus.app.batch.work import Outcome, Task, fault_of
 from carpus.app.command_line import bar, misused
+from carpus.app.sources import SESSION_SUFFIX, TrackingInput, places
 from carpus.core.errors import CarpusFault, OutputExists, OutputNotWritable, RecordingMissing
 from carpus.core.formats.measures_files import check_place, measures_file
 from carpus.core.formats.new_output import cell, new_table

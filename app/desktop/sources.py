@@ -1,19 +1,22 @@
-"""Opens the source that was chosen: live camera, stored recording, or the practice patient; and the clicks on its
-picture to a calibration."""
+"""Opens the source that was chosen: live camera, stored recording, or the practice patient, whose still hand takes a
+second to draw and whose movement is drawn while a person looks and clicks; and the clicks on its picture to a
+calibration."""
 
 from __future__ import annotations
 
 import contextlib
+import math
+import os
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from carpus import __version__
-from carpus.app.desktop.practice import practice_times
 from carpus.app.settings import Settings
 from carpus.app.sources import open_recording
 from carpus.core.calibration.calibrate import CalibrationOutcome, calibrate, compared_with_last_time
@@ -24,6 +27,7 @@ from carpus.core.camera import Camera
 from carpus.core.capture.calibrated import with_given_name, with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.devices.cameras import open_camera
+from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.paced import PacedSource, PracticeSource
 from carpus.core.capture.source import FrameSource, is_simulated
 from carpus.core.detection.appearance import expected_radius_px
@@ -33,11 +37,73 @@ from carpus.core.pipeline.live import Listener, LiveSession
 from carpus.core.pipeline.measuring import SourceMeasuring
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.records.new_sessions import NewSessions
-from carpus.core.records.set_up import SetUp
+from carpus.core.records.set_up import PRACTICE_REPETITIONS, SetUp
+from carpus.core.simulation.hand_motion import STILL_S
+from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import Detections, FloatArray, Frame, Side
 from carpus.ui.now_open import OpenSource, SourceChoice
 from carpus.ui.opening import NobodyWaitsError, Progress
 from carpus.ui.ports import FoundMarker, Judged, ProposedMarker, VerdictLimits
+
+_SPEED_HZ, _RANGE_SHARE, _SECONDS = 0.4, 0.8, 9.0
+_OTHERWISE: dict[str, dict[str, Any]] = {
+    "opposition": {"seconds": 11.5, "repetitions": 4, "range_share": 1.0},
+    "reach_grasp": {"speed_hz": 0.3, "repetitions": 2, "range_share": 0.6},
+}
+"""A touch of each finger, which falls short of none; reaches that so few pictures can follow."""
+_FPS = 15.0
+"""Few pictures: they are drawn before the first report can be made. A real camera has 30 a second."""
+_TILT_DEG, _HAND_TILT_DEG = 4.0, {"right": 11.0, "left": 8.0}
+"""The thumb's discs face sideways: for them the thumb side is turned up, as far as the verdict allows."""
+_READ_AHEAD = 8
+
+
+def practice_spec(set_up: SetUp) -> RecordingSpec:
+    """A short take: three repetitions, now and then a hidden marker, a false blue spot."""
+    exercise = set_up.exercise
+    usual = RecordingSpec(
+        seed=5,
+        hand=set_up.side,
+        protocol=set_up.protocol.name,
+        motion=exercise.motion,
+        seconds=_SECONDS,
+        fps=_FPS,
+        speed_hz=_SPEED_HZ,
+        repetitions=PRACTICE_REPETITIONS,
+        range_share=_RANGE_SHARE,
+        hand_length_mm=188.0,
+        skin_tone=1,
+        light="bright",
+        sleeve="grey",
+        distance_m=0.64,
+        yaw_deg=3.0,
+        tilt_deg=_HAND_TILT_DEG[set_up.side] if set_up.protocol.has_fingers else _TILT_DEG,
+        hidden_share=0.02,
+    )
+    return replace(usual, **_OTHERWISE.get(exercise.motion, {}))
+
+
+def practice_times(set_up: SetUp) -> int:
+    """How often the take is played until the patient has done what is asked."""
+    return max(1, math.ceil(set_up.repetitions / (practice_spec(set_up).repetitions or 1)))
+
+
+def practice_take(set_up: SetUp, progress: Callable[[int, int], None]) -> tuple[FrameSource, float]:
+    """The take as a source, and how long it is still at its start."""
+    from carpus.core.simulation.recording import cached_recording
+
+    folder = cached_recording(practice_spec(set_up), progress, workers=os.cpu_count() or 1)
+    return TumFolder(folder, read_ahead=_READ_AHEAD), STILL_S - 1.0 / _FPS
+
+
+def practice_beginning(set_up: SetUp) -> tuple[FrameSource, float] | None:
+    """The same hand in the same place, as long as it is still; None where the whole take was drawn before."""
+    from carpus.core.simulation.recording import FirstPictures, is_cached
+
+    if is_cached(practice_spec(set_up)):
+        return None
+    return FirstPictures(practice_spec(set_up), STILL_S), STILL_S - 1.0 / _FPS
+
 
 SAME_DISC_PX = 3.0
 """Nearer than this two places are the same disc."""

@@ -21,8 +21,7 @@ from PySide6.QtWidgets import QWidget
 
 from carpus.app import compose
 from carpus.app.command_line import on_stop
-from carpus.app.desktop.practice import practice_spec
-from carpus.app.desktop.sources import RECENT_FRAMES
+from carpus.app.desktop.sources import RECENT_FRAMES, practice_spec
 from carpus.app.settings import FirstStartSettings, ScreenSettings, Settings
 from carpus.core.errors import CalibrationImpossible
 from carpus.core.records.set_up import PRACTICE_PATIENT

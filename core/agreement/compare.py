@@ -377,7 +377,7 @@ def _angles_of_points(
     both &= np.asarray(session.status) == TrackStatus.TRACKED
     if both.sum() < FEWEST:
         raise ReferenceUnsuited(reference.path, phrase("the two have no time in common"))
-    turn, move = rigid(there[both].reshape(-1, 3), mine[both].reshape(-1, 3))
+    turn, move = so3.rigid(there[both].reshape(-1, 3), mine[both].reshape(-1, 3))
     off = there[both] @ turn.T + move - mine[both]
     known = np.isfinite(theirs).all(axis=(1, 2))
     side = session.header.hand
@@ -393,7 +393,7 @@ def _angles_of_points(
     w0_in_reference = turn.T @ session.calibration.rotation_w0_cam
     rotation = np.full((len(theirs), 3, 3), np.nan)
     for k in np.flatnonzero(known):
-        body, _ = rigid(neutral, theirs[k])
+        body, _ = so3.rigid(neutral, theirs[k])
         rotation[k] = w0_in_reference.T @ body @ w0_in_reference
     angles = angles_from_rotation(rotation @ start, side)
     residual = float(np.sqrt(np.mean(np.sum(off**2, axis=-1))))
@@ -406,13 +406,6 @@ def _angles_of_points(
 
 def _within(time_s: FloatArray, begin_s: float) -> np.ndarray:
     return (time_s >= begin_s - 1e-6) & (time_s <= begin_s + NEUTRAL_S)
-
-
-def rigid(source: FloatArray, target: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Rotation (3, 3) and shift (3,) that bring points (P, 3) nearest to others (Kabsch, without a mirror)."""
-    a, b = source.mean(axis=0), target.mean(axis=0)
-    turn = so3.nearest_rotation((target - b).T @ (source - a))
-    return turn, b - turn @ a
 
 
 # --- readings --------------------------------------------------------------------------------------------------

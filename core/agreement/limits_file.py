@@ -10,7 +10,7 @@ from datetime import date
 from pathlib import Path
 from typing import Any
 
-from carpus.core.errors import OutputNotWritable, SettingsInvalid
+from carpus.core.errors import SettingsInvalid
 from carpus.core.formats.new_output import new_json
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.phrase import phrase
@@ -67,7 +67,7 @@ def store_limits(data_folder: Path, new: Sequence[RetestStudy]) -> Path:
 
     Raises :class:`SettingsInvalid` where the one that is there is damaged, and the faults of writing.
     """
-    path, next_path = data_folder / LIMITS_FILE, data_folder / (LIMITS_FILE + ".new")
+    path = data_folder / LIMITS_FILE
     kinds = {(one.protocol, one.exercise, one.angle_order) for one in new}
     kept = (
         one for one in read_limits(data_folder).studies if (one.protocol, one.exercise, one.angle_order) not in kinds
@@ -77,10 +77,4 @@ def store_limits(data_folder: Path, new: Sequence[RetestStudy]) -> Path:
         "format_version": FORMAT_VERSION,
         "studies": [asdict(one) for one in (*kept, *new)],
     }
-    try:
-        next_path.unlink(missing_ok=True)
-        new_json(next_path, content)
-        next_path.replace(path)
-    except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
-    return path
+    return new_json(path, content, replaces=True)

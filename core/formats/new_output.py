@@ -49,16 +49,16 @@ def new_bytes(path: Path, *, replaces: bool = False) -> Iterator[IO[bytes]]:
         half.unlink(missing_ok=True)
 
 
-def new_text(path: Path, text: str) -> Path:
+def new_text(path: Path, text: str, *, replaces: bool = False) -> Path:
     """Write a text as a new file, lines ended by a line feed alone."""
-    with new_bytes(path) as file:
+    with new_bytes(path, replaces=replaces) as file:
         file.write(text.encode("utf-8"))
     return path
 
 
-def new_json(path: Path, content: Any) -> Path:
+def new_json(path: Path, content: Any, *, replaces: bool = False) -> Path:
     """Write JSON that every reader takes: what is not known is null, never NaN."""
-    return new_text(path, json.dumps(without_nan(content), indent=2, ensure_ascii=False) + "\n")
+    return new_text(path, json.dumps(without_nan(content), indent=2, ensure_ascii=False) + "\n", replaces=replaces)
 
 
 def new_table(

@@ -19,10 +19,18 @@ import numpy as np
 from carpus.core import errors
 from carpus.core.errors import CarpusFault, NotCorrectable, NotCorrected, OutputExists
 from carpus.core.phrase import phrase
-from carpus.core.pipeline.frame_pipeline import answers_in, notes_in
 from carpus.core.pipeline.processes import track_again
 from carpus.core.pipeline.told_settings import settings_told
-from carpus.core.pipeline.track import Progress, TrackSettings, from_neutral, learnt_again, write_tracked, writer_again
+from carpus.core.pipeline.track import (
+    Progress,
+    TrackSettings,
+    answers_in,
+    from_neutral,
+    learnt_again,
+    notes_in,
+    write_tracked,
+    writer_again,
+)
 from carpus.core.session.marker_doubts import CORRECTED, SAME_SPOT_PX, Correction, said_of
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import DetectionTable, Event, Session

@@ -25,10 +25,18 @@ from carpus.core.errors import DiskFull, EndStalled, ExtraMissing, NotLookedBack
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.around_hand import AroundHand, HandArea
 from carpus.core.pipeline.channels import ChannelFull, NeverDrop
-from carpus.core.pipeline.frame_pipeline import NOT_LOOKED_BACK, FramePipeline
 from carpus.core.pipeline.live import Listener, LiveSession
 from carpus.core.pipeline.looking_back import LookingBack, TrackedHand
-from carpus.core.pipeline.track import Learnt, TrackSettings, build_pipeline, learnt_from, parameters_json, source_facts
+from carpus.core.pipeline.track import (
+    NOT_LOOKED_BACK,
+    FramePipeline,
+    Learnt,
+    TrackSettings,
+    build_pipeline,
+    learnt_from,
+    parameters_json,
+    source_facts,
+)
 from carpus.core.records.new_sessions import NewSessions
 from carpus.core.records.set_up import MARKERS_SUFFIX, SetUp
 from carpus.core.results.repetition_rows import repetitions_of

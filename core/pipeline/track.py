@@ -1,4 +1,5 @@
-"""The main job without a screen: a stored recording and its clicks to a complete session file."""
+"""The main job without a screen: a stored recording and its clicks to a complete session file; picture by picture, from
+blobs by way of discs and the state estimate to angles."""
 
 from __future__ import annotations
 
@@ -9,7 +10,7 @@ from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
 from itertools import chain
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
@@ -18,16 +19,16 @@ from carpus.core.calibration.result import Calibration, Clicks, Verdict
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.camera import Camera
 from carpus.core.capture.files.pictures import decode_color, decode_depth
-from carpus.core.capture.files.raw import RawRecording
+from carpus.core.capture.files.raw import PackedFrame, RawRecording
 from carpus.core.capture.source import FrameSource, Recorded, SourceInfo, recorded_at, recording_id
 from carpus.core.depth_sensor import ASSUMED
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
+from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, part_read, surface_samples
 from carpus.core.errors import DiskFull, OutputExists, PictureDamaged, RecordingEmpty
 from carpus.core.papers.chain import PaperSettings, as_written, by_the_discs
 from carpus.core.papers.tracker import PaperTracker
 from carpus.core.phrase import phrase
-from carpus.core.pipeline.frame_pipeline import FramePipeline, HandTracker, Seen, answers_in, notes_in
 from carpus.core.pipeline.live import Listener
 from carpus.core.provenance import revision, sha256_of_file, sha256_of_recording, sha256_of_settings
 from carpus.core.session.plausible import check_calibration
@@ -36,7 +37,63 @@ from carpus.core.session.values import SET_UP, Event, Session, motion_of, new_he
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import SIMULATED, FloatArray, Frame, Moment, SpotAnswer, TrackedFrame, TrackStatus
+from carpus.core.types import SIMULATED, SPOT_SAID, FloatArray, Frame, Moment, SpotAnswer, TrackedFrame, TrackStatus
+
+Seen = Frame | PackedFrame
+"""A frame, or one whose pictures are unpacked where they are looked at."""
+HandTracker = Tracker | PaperTracker
+"""Follows one calibrated hand through frames in order of time."""
+AnyTracker = TypeVar("AnyTracker", bound=HandTracker)
+
+
+class FramePipeline(Generic[AnyTracker]):
+    """Detector and tracker of one calibrated hand; call it with each frame in order."""
+
+    def __init__(self, detector: Detector, tracker: AnyTracker, sampling: SamplingSettings) -> None:
+        self.detector = detector
+        self.tracker = tracker
+        self.sampling = sampling
+
+    def __call__(self, given: Seen) -> TrackedFrame:
+        """Track one frame. Without a prediction the whole picture is searched."""
+        expected = self.tracker.expect(given.timestamp_s)
+        region = part = None
+        if expected is not None:
+            region = self.detector.region_about(expected.pixel, expected.covariance_px2, expected.depth_m)
+            if not isinstance(given, Frame):  # a live picture is whole already
+                part = part_read(region, expected.back_px, expected.finger_px, self.sampling)
+        frame = given.seen(part)
+        blobs = self.detector.detect(frame, region)
+        if region is not None and self.tracker.would_miss(blobs):
+            frame = given.seen(None)
+            blobs = self.detector.detect(frame, None)
+        if expected is not None:
+            blobs = blobs.with_readings(
+                surface_samples(frame, expected.back_px, self.sampling),
+                finger_samples(frame, expected.finger_px, self.sampling),
+            )
+        return self.tracker.step(frame.index, frame.timestamp_s, blobs, frame.dropped_before)
+
+
+NOT_LOOKED_BACK = "not_looked_back"
+"""The event of a session that is stored as tracked, though looking back was asked for."""
+
+
+def notes_in(session: Session) -> list[Event]:
+    """Its events, but for what only that tracking of it met."""
+    return [event for event in session.events if event.kind != NOT_LOOKED_BACK]
+
+
+def answers_in(session: Session) -> dict[int, list[SpotAnswer]]:
+    """What was said of blue spots, by the row of the picture that took it up."""
+    out: dict[int, list[SpotAnswer]] = {}
+    for event in session.events:
+        if event.kind == SPOT_SAID and len(session):
+            row = int(abs(session.timestamp_s - event.time_s).argmin())
+            answer = SpotAnswer.of_text(event.text, row)
+            if answer is not None:
+                out.setdefault(row, []).append(answer)
+    return out
 
 
 class SessionPictures:

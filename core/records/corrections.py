@@ -15,7 +15,6 @@ from carpus.core.errors import OutputNotWritable, SessionUnreadable
 from carpus.core.records.library import Library
 from carpus.core.records.session_list import TRIALS_FOLDER
 from carpus.core.records.set_up import MARKERS_SUFFIX
-from carpus.core.records.values import SessionEntry
 from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.results.seen import best_motion
 from carpus.core.session.disk import free_name
@@ -91,19 +90,12 @@ class Corrections:
         make_private(self._folder)
         return free_name(self._folder / self._library.entry(session_id).path.name)
 
-    def origin_of(self, session_id: str) -> Path:
-        return self._library.entry(session_id).path
-
     def moment(self, session_id: str, row: int) -> tuple[ByteImage | None, FloatArray]:
         """The picture of a row, None where none were kept, and the middles (S, 2) of its blue spots."""
         path = self._library.entry(session_id).path
         if self._table is None or self._table[0] != path:
             self._table = (path, read_detections(path))
         return self._library.picture(session_id, row), self._table[1].of_frame(row).pixel
-
-    def results(self, session_id: str) -> Sequence[SessionEntry]:
-        """All results of the recording of a session, the first one first."""
-        return self._library.results_of(session_id)
 
     def both(self, session_id: str, trial: Path) -> tuple[Session, Session]:
         """The session and its new result, to be looked at beside each other."""

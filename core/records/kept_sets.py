@@ -13,10 +13,9 @@ from carpus.core.errors import CarpusFault, ChangedMeanwhile
 from carpus.core.hand.exercises import EXERCISES, exercise_named
 from carpus.core.hand.protocols import protocol_names
 from carpus.core.records.changes import changed, kept, new
-from carpus.core.records.exercise_sets import USUAL_SETS, ExerciseSet, begun
 from carpus.core.records.patients import Patients, goal, goals, known, storable
 from carpus.core.records.schema import EXERCISE_SET, SET_UP
-from carpus.core.records.set_up import CoursePart, SetUp
+from carpus.core.records.set_up import USUAL_SETS, CoursePart, ExerciseSet, SetUp, begun
 from carpus.core.records.store import Store
 
 

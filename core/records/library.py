@@ -43,6 +43,7 @@ from carpus.core.session.reader import has_raw, read_outline, read_raw_color, re
 from carpus.core.session.values import AngleOrder, Session
 from carpus.core.types import ByteImage, Side
 
+PRACTICE_NAME = "Practice patient"
 KEPT_PICTURES = 2
 """Files of pictures that stay open: two sessions are looked at beside each other."""
 
@@ -109,7 +110,6 @@ class Library:
     def __init__(
         self,
         folder: Path,
-        practice_name: str = "Practice patient",
         *,
         by: By = "window",
         url: str = "",
@@ -130,8 +130,8 @@ class Library:
         self.patients, self.index = Patients(self.store), ListedSessions(self.store)
         self.notes = Notes(self.log, self.index.owner, lambda fault: self.log_fault(fault))
         self.pictures = ShownPictures()
-        if self.patients.one(PRACTICE_PATIENT).entry.pseudonym != practice_name:
-            self.store.do([changed(PATIENT, PRACTICE_PATIENT, pseudonym=practice_name)])
+        if self.patients.one(PRACTICE_PATIENT).entry.pseudonym != PRACTICE_NAME:
+            self.store.do([changed(PATIENT, PRACTICE_PATIENT, pseudonym=PRACTICE_NAME)])
         self.elsewhere: dict[str, SessionEntry] = {}
         """Sessions that are in no list, remembered until the program ends: files that were handed over, and those of a
         data folder that went away, which are brought home at the next start."""

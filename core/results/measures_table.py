@@ -37,13 +37,13 @@ class SessionFigure:
     of: str
     unit: str
     mean: float
-    sd: float
-    best: float
-    measurement_sd: float
-    count: int
-    at_least: bool
-    seen_share: float
-    inferred: bool
+    sd: float = math.nan
+    best: float = math.nan
+    measurement_sd: float = math.nan
+    count: int = 1
+    at_least: bool = False
+    seen_share: float = math.nan
+    inferred: bool = False
     camera_not_sure: str = ""
     positive: str = ""
     estimate: str = ""
@@ -120,40 +120,26 @@ def _rows(figures: SessionFigures, session: str) -> Iterator[SessionFigure]:
         figures.when.isoformat(timespec="seconds"), figures.simulated, figures.side, figures.protocol,
         figures.exercise.id, figures.duration_s, quality.frames, quality.measured_share, figures.counted,
     )  # fmt: skip
-    for row in (*figures.rows, *figures.joint_rows):
-        yield SessionFigure(
-            *common, _measure(row), row.joint or WRIST_ANGLES[row.angle], "deg", row.mean_deg, row.sd_deg, row.best_deg,
-            row.measurement_sd_deg, row.count, row.limited, row.seen_share, row.inferred,
-        )  # fmt: skip
-    helped = figures.passive
-    for row in () if helped is None else (*helped.rows, *helped.joint_rows):
-        yield SessionFigure(
-            *common, _measure(row), f"{row.joint or WRIST_ANGLES[row.angle]}, passive", "deg", row.mean_deg,
-            row.sd_deg, row.best_deg, row.measurement_sd_deg, row.count, row.limited, row.seen_share, row.inferred,
-        )  # fmt: skip
-    speed = figures.speed
-    trained = (
+    for own, aside in ((figures, ""), (figures.passive, ", passive")):
+        for row in () if own is None else (*own.rows, *own.joint_rows):
+            of = f"{row.joint or WRIST_ANGLES[row.angle]}{aside}"
+            yield SessionFigure(
+                *common, _measure(row), of, "deg", row.mean_deg, row.sd_deg, row.best_deg, row.measurement_sd_deg,
+                row.count, row.limited, row.seen_share, row.inferred,
+            )  # fmt: skip
+    for item in figures.further:
+        yield SessionFigure(*common, item.name, item.of, item.unit, item.mean, item.sd, count=item.count)
+    for grade in figures.grades:
+        measure = f"share of the usual TAM{f', {grade.grade}' if grade.grade else ''}"
+        yield SessionFigure(*common, measure, f"TAM{grade.finger}", "share", grade.share, at_least=grade.grade is None)
+    speed, exercise = figures.speed, figures.exercise
+    name = exercise.joint or ("" if exercise.angle is None else WRIST_ANGLES[exercise.angle])
+    for measure, unit, spread in (
         ("peak speed", "deg/s", speed.peak_speed), ("smoothness", "SPARC", speed.smoothness),
         ("mean speed", "deg/s", speed.mean_speed), ("movement time", "s", speed.movement_time),
         ("time to peak", "share", speed.time_to_peak), ("movement units", "1", speed.peaks),
         ("jerk", "LDLJ", speed.ldlj), ("pauses", "1", speed.pauses), ("pause time", "s", speed.pause_time),
-    )  # fmt: skip
-    for item in figures.further:
-        yield SessionFigure(
-            *common, item.name, item.of, item.unit, item.mean, item.sd, math.nan, math.nan, item.count,
-            False, math.nan, False,
-        )  # fmt: skip
-    for grade in figures.grades:
-        yield SessionFigure(
-            *common, f"share of the usual TAM{f', {grade.grade}' if grade.grade else ''}", f"TAM{grade.finger}",
-            "share", grade.share, math.nan, math.nan, math.nan, 1, grade.grade is None, math.nan, False,
-        )  # fmt: skip
-    exercise = figures.exercise
-    name = exercise.joint or ("" if exercise.angle is None else WRIST_ANGLES[exercise.angle])
-    for measure, unit, spread in trained:
+    ):  # fmt: skip
         if spread.count:
-            yield SessionFigure(
-                *common, measure, name, unit, spread.mean, spread.sd, spread.best, spread.measurement_sd,
-                spread.count,
-                False, math.nan, False,
-            )  # fmt: skip
+            values = spread.mean, spread.sd, spread.best, spread.measurement_sd, spread.count
+            yield SessionFigure(*common, measure, name, unit, *values)

@@ -78,16 +78,9 @@ def _laid_on(shape_m: FloatArray, seen_m: FloatArray, point_m: FloatArray) -> Fl
 
 def _fit(shape_m: FloatArray, seen_m: FloatArray) -> tuple[FloatArray, FloatArray, float]:
     """Rotation and shift that lay a shape on what is seen, and the root mean square of what is left, metres."""
-    seen_middle, shape_middle = seen_m.mean(axis=0), shape_m.mean(axis=0)
-    rotation = so3.nearest_rotation((seen_m - seen_middle).T @ (shape_m - shape_middle))
-    shift = seen_middle - rotation @ shape_middle
+    rotation, shift = so3.rigid(shape_m, seen_m)
     left_m = shape_m @ rotation.T + shift - seen_m
     return rotation, shift, float(np.sqrt((left_m**2).sum(axis=1).mean()))
-
-
-def laid_on_misfit_m(shape_m: FloatArray, seen_m: FloatArray) -> float:
-    """Root mean square, metres, of what is left when a shape (K, 3) is laid on what is seen of it (K, 3)."""
-    return _fit(shape_m, seen_m)[2]
 
 
 def _depth_m(session: Session, row: int, number: int) -> float:
@@ -165,14 +158,14 @@ def _palm_doubt(
         return None, None
     camera, shape_m = session.camera, session.calibration.marker_position_w0_m
     seen_m = camera.back_project(camera.undistort(places[palm]), depth_m[palm])
-    now_m = laid_on_misfit_m(shape_m[palm], seen_m)
+    now_m = _fit(shape_m[palm], seen_m)[2]
     if now_m <= WRONG_MISFIT_M:
         return None, None
     best_m, pair = now_m, (0, 0)
     for one, other in combinations(range(len(palm)), 2):
         order = np.arange(len(palm))
         order[[one, other]] = order[[other, one]]
-        trial_m = laid_on_misfit_m(shape_m[palm], seen_m[order])
+        trial_m = _fit(shape_m[palm], seen_m[order])[2]
         if trial_m < best_m:
             best_m, pair = trial_m, (palm[one], palm[other])
     if best_m < 0.5 * now_m and best_m <= WRONG_MISFIT_M and changed & set(pair):

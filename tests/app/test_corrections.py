@@ -52,7 +52,7 @@ def entered(library: Library, stored: Stored) -> tuple[str, str]:  # noqa: F811
 
 def made(corrections: Corrections, session_id: str, stored: Stored) -> Path:  # noqa: F811
     trial = corrections.trial_path(session_id)
-    correct(task_of(corrections.origin_of(session_id), trial, (put_right(stored),), "2.0"))
+    correct(task_of(stored.path, trial, (put_right(stored),), "2.0"))
     return trial
 
 
@@ -158,8 +158,8 @@ def test_a_wanted_result_counts_and_the_old_one_stays(library: Library, stored: 
     time.sleep(1.1)  # files say the second in which they were made, and nobody corrects within one
     new = corrections.use(session_id, made(corrections, session_id, stored))
     assert [entry.session_id for entry in library.sessions(patient)] == [new]
-    assert [entry.session_id for entry in corrections.results(new)] == [session_id, new]
-    assert [entry.session_id for entry in corrections.results(session_id)] == [session_id, new]
+    assert [entry.session_id for entry in library.results_of(new)] == [session_id, new]
+    assert [entry.session_id for entry in library.results_of(session_id)] == [session_id, new]
     assert old.exists()
     assert library.entry(new).exercise == "WRIST_RUD"
     assert library.entry(new).path.with_suffix(MARKERS_SUFFIX).read_bytes() == b"picture"

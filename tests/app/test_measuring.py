@@ -15,11 +15,17 @@ from carpus.core.detection.surface_samples import SamplingSettings
 from carpus.core.errors import RecordingEmpty
 from carpus.core.pipeline import looking_back
 from carpus.core.pipeline.correction import correct, task_of
-from carpus.core.pipeline.frame_pipeline import NOT_LOOKED_BACK, FramePipeline
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.looking_back import PIECE_S, LookingBack, TrackedHand
 from carpus.core.pipeline.measuring import LivePipeline, SmoothedSession
-from carpus.core.pipeline.track import Learnt, TrackSettings, parameters_json, retrack_session
+from carpus.core.pipeline.track import (
+    NOT_LOOKED_BACK,
+    FramePipeline,
+    Learnt,
+    TrackSettings,
+    parameters_json,
+    retrack_session,
+)
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter

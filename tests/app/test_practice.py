@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.app.desktop.practice import practice_spec
+from carpus.app.desktop.sources import practice_spec
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.protocols import HAND21

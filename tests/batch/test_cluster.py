@@ -20,10 +20,10 @@ from distributed import Client
 from pyarrow import parquet
 
 from carpus.app.__main__ import main
-from carpus.app.batch.places import places
 from carpus.app.batch.processes import outcomes_on
 from carpus.app.batch.work import Outcome, Task
 from carpus.app.commands.track_many import OUTCOMES_FILE
+from carpus.app.sources import places
 from carpus.core.errors import SchedulerUnreachable
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.reader import read_session

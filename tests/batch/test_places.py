@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from carpus.app.batch.places import is_many, is_recording, places
+from carpus.app.sources import is_many, is_recording, places
 
 
 def folder_of(root: Path, *names: str) -> Path:

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from carpus.app.batch import processes, work
-from carpus.app.batch.places import TrackingInput
 from carpus.app.batch.processes import DIED, cores, outcomes
 from carpus.app.batch.work import Outcome, Task
+from carpus.app.sources import TrackingInput
 from carpus.core.errors import OutputBusy
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.disk import part_path

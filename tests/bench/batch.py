@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 
-from carpus.app.batch.places import TrackingInput
 from carpus.app.batch.processes import cores, outcomes
 from carpus.app.batch.work import Task
+from carpus.app.sources import TrackingInput
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Clicks
 from carpus.core.capture.files.raw import RawRecording, RawWriter

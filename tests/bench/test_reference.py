@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from carpus.core.detection.surface_samples import SamplingSettings
-from carpus.core.pipeline.frame_pipeline import FramePipeline
+from carpus.core.pipeline.track import FramePipeline
 from carpus.core.tracking import hand_filter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker

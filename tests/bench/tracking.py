@@ -12,9 +12,8 @@ import numpy as np
 from carpus.core.calibration.calibrate import calibrate
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
-from carpus.core.pipeline import frame_pipeline
-from carpus.core.pipeline.frame_pipeline import FramePipeline
-from carpus.core.pipeline.track import TrackSettings, build_pipeline, learnt_from
+from carpus.core.pipeline import track
+from carpus.core.pipeline.track import FramePipeline, TrackSettings, build_pipeline, learnt_from
 from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import hand_filter, palm_association
@@ -127,7 +126,7 @@ class spied:  # noqa: N801  (read as a word)
         spy.watch(palm_association, "associate_jointly", "joint")
         spy.watch(hand_filter, "predicted_ahead", "predict")
         spy.watch(hand_filter, "reset_and_levelled", "surface")
-        spy.watch(frame_pipeline, "surface_samples", "surface")
+        spy.watch(track, "surface_samples", "surface")
         spy.watch(hand_filter, "find_palm", "find")
         return spy
 

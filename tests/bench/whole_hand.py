@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from carpus.core.pipeline import frame_pipeline
-from carpus.core.pipeline.frame_pipeline import FramePipeline
+from carpus.core.pipeline import track
+from carpus.core.pipeline.track import FramePipeline
 from carpus.core.simulation.recording import cached_recording
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import digit_association, hand_filter
@@ -43,7 +43,7 @@ def measure(folder: Path, costs: Costs, rounds: int) -> None:
         spy.watch(hand_filter, "associate_and_update", "names")
         spy.watch(digit_association, "_digit_jointly", "names")
         spy.watch(hand_filter, "reset_and_levelled", "surface")
-        spy.watch(frame_pipeline, "surface_samples", "surface")
+        spy.watch(track, "surface_samples", "surface")
         try:
             for (frame, step_ms), whole in zip(beside_the_plain(frames, ends_s), whole_ms, strict=True):
                 _parts(pipeline, frame, spy, whole, costs)

@@ -19,7 +19,7 @@ from PySide6.QtCore import QEvent, QEventLoop, QObject, Qt, QTimer
 
 from carpus.app import compose
 from carpus.app.desktop.journey import Journey
-from carpus.app.desktop.practice import practice_spec
+from carpus.app.desktop.sources import practice_spec
 from carpus.app.desktop.unattended import Walker
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.calibration.clicks import read_clicks

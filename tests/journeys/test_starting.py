@@ -13,8 +13,8 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app import compose
 from carpus.app.commands import desktop
+from carpus.app.compose import NoFolder
 from carpus.app.desktop.alone import Alone
-from carpus.app.desktop.no_folder import NoFolder
 from carpus.app.settings import load_settings
 from carpus.core.words import Words
 from carpus.ui.theme import Theme

@@ -14,8 +14,7 @@ from pytestqt.qtbot import QtBot
 from carpus.app.compose import Desktop
 from carpus.app.settings import ScreenSettings, Settings
 from carpus.core.hand.protocols import HAND21, joint_angle_names
-from carpus.core.pipeline.frame_pipeline import NOT_LOOKED_BACK
-from carpus.core.pipeline.track import retrack_session
+from carpus.core.pipeline.track import NOT_LOOKED_BACK, retrack_session
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import TRUTH_FILE

@@ -13,8 +13,7 @@ from carpus.core.calibration.calibrate import calibrate
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.kernels import choice
-from carpus.core.pipeline.frame_pipeline import FramePipeline
-from carpus.core.pipeline.track import TrackSettings, build_pipeline, learnt_from
+from carpus.core.pipeline.track import FramePipeline, TrackSettings, build_pipeline, learnt_from
 from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.tracker import Tracker

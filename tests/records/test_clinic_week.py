@@ -6,7 +6,7 @@ import math
 from datetime import date, datetime, timedelta
 from pathlib import Path
 
-from carpus.core.records.clinic_week import SOON_DAYS, clinic_week
+from carpus.core.records.of_clinic import SOON_DAYS, clinic_week
 from tests.records.samples import HERON, LINDEN, T0, House, measure, opened
 
 AFTER_DAYS = 28

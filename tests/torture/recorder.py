@@ -24,10 +24,10 @@ from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.source import FrameSource, SourceInfo
 from carpus.core.detection.surface_samples import SamplingSettings
-from carpus.core.pipeline.frame_pipeline import FramePipeline
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.pipeline.looking_back import LookingBack, TrackedHand
 from carpus.core.pipeline.measuring import LivePipeline, SmoothedSession
+from carpus.core.pipeline.track import FramePipeline
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker

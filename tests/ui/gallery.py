@@ -23,7 +23,7 @@ from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import DiskFull
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import DEFAULT_LIMITS
-from carpus.core.records.exercise_sets import USUAL_SETS
+from carpus.core.records.set_up import USUAL_SETS
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.results.report_form import Letterhead, ReportForm

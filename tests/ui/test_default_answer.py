@@ -31,7 +31,7 @@ from pytestqt.qtbot import QtBot
 import carpus.app
 import carpus.ui
 from carpus.core.agreement.reference import ReferenceOutline
-from carpus.core.records.exercise_sets import USUAL_SETS
+from carpus.core.records.set_up import USUAL_SETS
 from carpus.core.words import Words
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.camera_calibration.name_sheet import CameraNameSheet

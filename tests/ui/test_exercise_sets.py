@@ -15,11 +15,10 @@ from carpus.core.errors import ChangedMeanwhile
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.records import patients
 from carpus.core.records.changes import dropped
-from carpus.core.records.exercise_sets import USUAL_SETS, ExerciseSet, begun, next_part
 from carpus.core.records.kept_sets import keep_set_up, keep_sets, last_set_up, read_sets
 from carpus.core.records.library import Library
 from carpus.core.records.schema import EXERCISE_SET, PATIENT
-from carpus.core.records.set_up import CoursePart
+from carpus.core.records.set_up import USUAL_SETS, CoursePart, ExerciseSet, begun, next_part
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures

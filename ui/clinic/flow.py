@@ -6,7 +6,7 @@ from collections.abc import Callable
 from datetime import date
 
 from carpus.core.durable import replace_file
-from carpus.core.records.clinic_week import clinic_week
+from carpus.core.records.of_clinic import clinic_week
 from carpus.core.records.values import ClinicWeek
 from carpus.ui.clinic.screen import ClinicScreen, write_clinic_page
 from carpus.ui.flow import Flow, ScreenContext

@@ -6,7 +6,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from carpus.core.records.exercise_sets import next_part
+from carpus.core.records.set_up import next_part
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Surface
 from carpus.ui.controls.layouts import fill, in_line

@@ -6,8 +6,7 @@ import math
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from carpus.core.records.exercise_sets import next_part
-from carpus.core.records.set_up import SetUp
+from carpus.core.records.set_up import SetUp, next_part
 from carpus.ui import numbers
 from carpus.ui.live.recording import Glance
 from carpus.ui.live.screen import LiveScreen

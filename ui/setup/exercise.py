@@ -11,8 +11,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.hand.exercises import SIDES, Exercise, exercise_named, exercises_of
 from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_named
-from carpus.core.records.exercise_sets import ExerciseSet, begun
-from carpus.core.records.set_up import SetUp
+from carpus.core.records.set_up import ExerciseSet, SetUp, begun
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import GoalProposal, Goals, proposals
 from carpus.core.types import Side

@@ -9,10 +9,9 @@ from pathlib import Path
 from PySide6.QtCore import Qt
 
 from carpus.core.errors import CarpusFault
-from carpus.core.records.exercise_sets import USUAL_SETS, ExerciseSet
 from carpus.core.records.kept_sets import keep_sets, last_set_up, read_sets
 from carpus.core.records.patients import goals
-from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp, practice_set_up
+from carpus.core.records.set_up import PRACTICE_PATIENT, USUAL_SETS, ExerciseSet, SetUp, practice_set_up
 from carpus.core.results.figures import SessionFigures
 from carpus.core.types import Side
 from carpus.ui.flow import Flow, ScreenContext

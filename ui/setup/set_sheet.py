@@ -11,16 +11,16 @@ from PySide6.QtWidgets import QComboBox, QLineEdit, QWidget
 
 from carpus.core.hand.exercises import exercise_named, exercises_of
 from carpus.core.hand.protocols import protocol_named
-from carpus.core.records.exercise_sets import (
+from carpus.core.records.set_up import (
     MOST_NAME,
     MOST_PARTS,
     MOST_REPETITIONS,
     MOST_REST_S,
     MOST_SECONDS,
+    CoursePart,
     ExerciseSet,
     new_set_id,
 )
-from carpus.core.records.set_up import CoursePart
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.field import Labelled, number_field

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from carpus.core.records.exercise_sets import ExerciseSet
-from carpus.core.records.set_up import Course, CoursePart
+from carpus.core.records.set_up import Course, CoursePart, ExerciseSet
 from carpus.ui import terms
 from carpus.ui.translate import say, tr
 
