@@ -147,21 +147,18 @@ def _faults(lines: _Lines, side: Side, plan: FloatArray, settings: FingerOrderSe
         # A very short piece, as of a finger bent towards the camera's line of sight, has no direction worth judging.
         weight = np.clip(np.minimum(length[:-1], length[1:]) / (settings.short * size), 0.0, 1.0)
         faults += float((weight * np.maximum(turn_deg - limit_deg, 0.0)).sum()) / settings.turn_deg
-    faults += float(_crossings(lines, plan).sum())
+    start, end = (plan[[piece[end] for piece in lines.pieces]] for end in (0, 1))
+    faults += float(crossing(start, end, np.array(lines.beside, dtype=np.int64).reshape(-1, 2)).sum())
     return faults + settings.order_weight * _knuckles_out_of_order(lines, side, plan)
 
 
-def _crossings(lines: _Lines, plan: FloatArray) -> NDArray[np.bool_]:
-    """Which pieces of different fingers cut each other, of the pairs ``beside``."""
-    if not lines.beside:
-        return np.zeros(0, dtype=bool)
-    ends = np.array([(plan[a], plan[b]) for a, b, _ in lines.pieces])
-    first, second = ends[[i for i, _ in lines.beside]], ends[[j for _, j in lines.beside]]
+def crossing(start: FloatArray, end: FloatArray, pairs: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Which of the ``pairs`` (K, 2) of pieces cut each other, which run from ``start`` (P, 2) to ``end`` (P, 2)."""
 
     def turn(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
         return np.asarray((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
 
-    a, b, c, d = first[:, 0], first[:, 1], second[:, 0], second[:, 1]
+    a, b, c, d = start[pairs[:, 0]], end[pairs[:, 0]], start[pairs[:, 1]], end[pairs[:, 1]]
     return np.asarray((turn(a, b, c) * turn(a, b, d) < 0.0) & (turn(c, d, a) * turn(c, d, b) < 0.0))
 
 

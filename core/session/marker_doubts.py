@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core import so3
+from carpus.core.calibration.name_checks import crossing
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.session.values import Session
 from carpus.core.types import FloatArray
@@ -230,15 +231,7 @@ def _tangle(protocol: MarkerProtocol, places: FloatArray, size_px: float) -> flo
     pieces, pairs = _pieces_of(protocol)
     start, end = places[pieces[:, 0]], places[pieces[:, 1]]
     length_px = float(np.nansum(np.linalg.norm(start - end, axis=1)))
-    a, b = start[pairs[:, 0]], end[pairs[:, 0]]
-    c, d = start[pairs[:, 1]], end[pairs[:, 1]]
-    cut = (_side(a, b, c) * _side(a, b, d) < 0.0) & (_side(c, d, a) * _side(c, d, b) < 0.0)
-    return length_px / size_px + CROSSING * float(np.count_nonzero(cut))
-
-
-def _side(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
-    """On which side (K,) of the lines from ``a`` to ``b`` the points ``c`` lie."""
-    return np.asarray((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
+    return length_px / size_px + CROSSING * float(np.count_nonzero(crossing(start, end, pairs)))
 
 
 @lru_cache(maxsize=4)

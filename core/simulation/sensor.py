@@ -131,11 +131,17 @@ class SimulatedDepth:
         depth = np.float32(DISPARITY_PX_M * self._scale) / np.maximum(seen, 1.0)
         lost = at_edge & (flecks(rng, self._shape) > 0.35)
         lost |= in_shadow(disparity, self._shadow_side)
-        lost |= (depth < _NEAREST_M) | (depth > _FARTHEST_M)
-        lost |= rng.random(self._shape, dtype=np.float32) < 2e-4
-        # The sensor itself speaks in whole millimetres.
-        depth = np.round(depth * 1000.0) / 1000.0
-        return np.where(lost, np.uint16(0), counts(depth))
+        return _told(depth, lost, (_NEAREST_M, _FARTHEST_M), 2e-4, rng)
+
+
+def _told(
+    depth_m: FloatImage, lost: NDArray[np.bool_], range_m: tuple[float, float], share: float, rng: np.random.Generator
+) -> DepthImage:
+    """What a sensor says of its readings (H, W), in whole millimetres: nothing of those that are ``lost``, out of its
+    range, or of a ``share`` drawn anywhere."""
+    lost = lost | (depth_m < range_m[0]) | (depth_m > range_m[1])
+    lost |= rng.random(lost.shape, dtype=np.float32) < share
+    return np.where(lost, np.uint16(0), counts(np.round(depth_m * 1000.0) / 1000.0))
 
 
 def window_noise(rng: np.random.Generator, shape: tuple[int, int], width_px: int) -> FloatImage:
@@ -224,10 +230,7 @@ class TimeOfFlight:
         )
         lost = flying & (flecks(rng, self._shape) > 0.9)
         lost |= in_shadow(np.float32(self._color_px_m) / depth_m, self._side)
-        lost |= (depth < self._sensor.nearest_m) | (depth > self._sensor.farthest_m)
-        lost |= rng.random(self._shape, dtype=np.float32) < _FLIGHT_LOST_SHARE
-        depth = np.round(depth * 1000.0) / 1000.0
-        return np.where(lost, np.uint16(0), counts(depth))
+        return _told(depth, lost, (self._sensor.nearest_m, self._sensor.farthest_m), _FLIGHT_LOST_SHARE, rng)
 
     def _dimness(self, color: FloatImage | None) -> FloatImage:
         """Factor (H, W) on the noise. The camera brings its own, infrared light, which dyes let through: what is bright
@@ -293,10 +296,7 @@ class ActiveStereo:
         depth = np.float32(self._product_px_m * self._scale) / np.maximum(seen, np.float32(1.0))
         lost = at_edge & (flecks(rng, self._shape) > 0.9)
         lost |= in_shadow(disparity * np.float32(self._enlarged), self._second_eye)
-        lost |= (depth < self._sensor.nearest_m) | (depth > self._sensor.farthest_m)
-        lost |= rng.random(self._shape, dtype=np.float32) < _STEREO_LOST_SHARE
-        depth = np.round(depth * 1000.0) / 1000.0
-        return np.where(lost, np.uint16(0), counts(depth))
+        return _told(depth, lost, (self._sensor.nearest_m, self._sensor.farthest_m), _STEREO_LOST_SHARE, rng)
 
 
 DepthPictures = SimulatedDepth | ActiveStereo | TimeOfFlight
