@@ -141,7 +141,7 @@ def _told(
     range, or of a ``share`` drawn anywhere."""
     lost = lost | (depth_m < range_m[0]) | (depth_m > range_m[1])
     lost |= rng.random(lost.shape, dtype=np.float32) < share
-    return np.where(lost, np.uint16(0), counts(np.round(depth_m * 1000.0) / 1000.0))
+    return np.where(lost, np.uint16(0), counts(np.asarray(np.round(depth_m * 1000.0) / 1000.0, dtype=np.float32)))
 
 
 def window_noise(rng: np.random.Generator, shape: tuple[int, int], width_px: int) -> FloatImage:
