@@ -27,6 +27,11 @@ def long_finger_name(finger: str) -> str:
     }.get(finger, finger)  # fmt: skip
 
 
+def finger_of(marker: str) -> int:
+    """The finger that a disc lies on, 1 to 5; 0 for the wrist."""
+    return int(marker[-1]) if marker[-1:].isdigit() else 0
+
+
 def click_instruction(marker: str) -> str:
     """``Click the ring knuckle``."""
     return tr("Click the {marker}").format(marker=marker_in_words(marker, say))

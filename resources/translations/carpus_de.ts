@@ -320,6 +320,10 @@
         <translation>{finger}</translation>
     </message>
     <message>
+        <source>Wrist, {movement}</source>
+        <translation>Handgelenk, {movement}</translation>
+    </message>
+    <message>
         <source>{finger}, {joint}, {movement}</source>
         <translation>{finger}, {joint}, {movement}</translation>
     </message>
@@ -7451,6 +7455,10 @@
         <source>Simulated hand</source>
         <translation>Simulierte Hand</translation>
     </message>
+    <message>
+        <source>1 marker hidden</source>
+        <translation>1 Marker verdeckt</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -9122,6 +9130,10 @@
     <message>
         <source>none</source>
         <translation>keine</translation>
+    </message>
+    <message>
+        <source>no target</source>
+        <translation>kein Ziel</translation>
     </message>
     <message>
         <source>Use as targets</source>

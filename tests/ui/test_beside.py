@@ -75,6 +75,14 @@ def test_of_a_hook_all_middle_joints_come_first_and_what_nobody_measures_has_no_
     assert ("DIP3_flexion", -1) not in finger.quantities
 
 
+def test_the_curve_is_of_the_finger_that_was_looked_at() -> None:
+    hands = [hand_session(session_id=key, side=key) for key in ("right", "left")]
+    now = shown(*(Watched.of(hand, session_figures(hand)) for hand in hands), "tam")
+    assert now.quantity_of(4) == ("TAM4", -1)
+    assert now.quantity_of(0) == now.main_quantity
+    assert replace(now, both=replace(now.both, ranges=())).main_quantity == ("TAM3", -1), "as the exercise says"
+
+
 def test_an_unfair_pair_has_its_reason_once_and_no_judgement(right: SessionFigures, left: SessionFigures) -> None:
     both = side_by_side(right, replace(left, quality=replace(left.quality, distance_m=0.95)))
     assert headline(both) == ("Shown beside each other, not judged.", "")

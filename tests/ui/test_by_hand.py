@@ -178,7 +178,7 @@ def test_reports_and_table_tell_them_as_entered_by_hand(tmp_path: Path) -> None:
     report = session_report(store.session("session-7"), history=store.history("linden"), by_hand=values)
     said = words_of(write_session_report(report, tmp_path / "session.pdf"))
     assert "Entered by hand, not measured by Carpus" in said
-    assert "Flexion 47° active, 58° passive" in " ".join(said.split())
+    assert "Wrist, flexion 47° active, 58° passive" in " ".join(said.split())
     assert "17.6" not in said, "of another day"
     mine = [one for one in counted(values) if one.side in ("right", "")]
     course = progress_report(store.history("linden"), by_hand=mine)

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
+from carpus.core.results.figures import session_figures
+from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.marker_doubts import Correction, name_doubt
 from carpus.ui.background import Background
 from carpus.ui.correct.picture import RING_PX
 from carpus.ui.correct.places import Places
+from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.keys import Keys
+from carpus.ui.plot.session import HandPlot
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeCorrections, FakeSessions
-from tests.ui.hand_fakes import hand_session
+from tests.ui.hand_fakes import FakeHandSessions, hand_session
 
 ROW = 620
 
@@ -182,6 +189,43 @@ def test_the_distance_says_which_marker_is_wrong_also_beside_a_wrong_one(session
 def test_without_stored_pictures_the_spots_are_shown_and_said(screen: CorrectScreen) -> None:
     assert "No pictures stored" in screen.hint.text()
     assert len(screen.picture.spots) == 7
+
+
+def test_the_curve_is_of_the_finger_whose_disc_is_put_right_and_a_key_is_named_that_does_something(
+    qtbot: QtBot, theme: Theme
+) -> None:
+    background, sessions = Background(), FakeHandSessions()
+    shown = CorrectScreen(theme, Keys({"correct_undo": "U"}), background, FakeCorrections(sessions, pictures=False))
+    qtbot.addWidget(shown)
+    session = hand_session()
+    for doubted, named in ((False, "H , . U"), (True, "H , . U D")):
+        session = replace(session, markers=replace(session.markers, doubted=session.markers.doubted | doubted))
+        shown.begin("hand-7", session, 200)
+        assert " ".join(name for name, _ in shown._caps._keys[1:]) == named
+    plot = shown.curves._plot
+    assert isinstance(plot, HandPlot)
+    assert plot.finger == 3, "what the exercise is about"
+    for marker, finger in (("PIP5", 5), ("CMC1", 1)):
+        shown.choose(marker)
+        assert isinstance(shown.curves._plot, HandPlot)
+        assert shown.curves._plot.finger == finger
+    shown.choose("WRIST")
+    assert not isinstance(shown.curves._plot, HandPlot)
+    qtbot.waitUntil(lambda: not background.busy)
+
+
+def test_the_results_are_shown_of_the_finger_that_was_corrected(qtbot: QtBot, theme: Theme) -> None:
+    session = hand_session()
+    curves, joints = session_curves(session), joint_curves(session)
+    host = QWidget()
+    qtbot.addWidget(host)
+    sheet = ResultsSheet(host, theme)
+    assert joints is not None
+    other = replace(joints, angles_deg=joints.angles_deg + 90.0 * (np.arange(len(joints.names)) == 0))
+    both = BothResults(session_figures(session), curves, curves, joints, other)
+    for finger, opens_on in ((4, 4), (0, 1)):
+        sheet.show_both("", "", replace(both, finger=finger))
+        assert sheet.finger.value() == opens_on
 
 
 def test_each_picture_is_corrected_by_itself(qtbot: QtBot, screen: CorrectScreen) -> None:

@@ -217,6 +217,17 @@ def test_another_button_with_the_keyboard_takes_enter_and_its_sign(qtbot: QtBot,
     assert said == [other.text()]
 
 
+@pytest.mark.parametrize(("alarm", "pressed"), [(False, ["Go on"]), (True, [])])
+def test_esc_goes_on_where_nothing_went_wrong(
+    qtbot: QtBot, theme: Theme, host: QWidget, alarm: bool, pressed: list[str]
+) -> None:
+    card, found = StopCard(host, theme), []
+    answers = [Answer(name, lambda name=name: found.append(name)) for name in ("Open the folder", "Go on")]
+    card.show_words(Words("2 files were written.", "", ""), answers, alarm=alarm)
+    qtbot.keyClick(card, Qt.Key.Key_Escape)
+    assert found == pressed
+
+
 def test_a_risky_answer_is_never_the_default(theme: Theme, host: QWidget) -> None:
     with pytest.raises(ValueError, match="Erase it"):
         StopCard(host, theme).show_words(Words("", "", ""), [Answer("Erase it", lambda: None, risky=True)])

@@ -322,7 +322,7 @@ def test_a_diagnosis_with_its_date_is_typed_or_chosen_and_the_clinics_list_kept(
     assert (given[1].onset, given[1].onset_day) == ("injury", None), "no date, no weeks"
 
 
-def test_a_day_that_is_none_is_told_on_leaving_its_field_and_the_list_is_no_stop_of_tab(
+def test_a_day_that_is_none_is_told_once_it_is_written_and_the_list_is_no_stop_of_tab(
     qtbot: QtBot, form: PatientForm, host: QWidget
 ) -> None:
     form.begin(None, frozenset())  # no hand is chosen yet: the button asks for that first
@@ -333,11 +333,15 @@ def test_a_day_that_is_none_is_told_on_leaving_its_field_and_the_list_is_no_stop
     for typed, told in (("31.2.2026", "Since when? Day, month, year"), ("20.12.2026", "yet to come")):
         form.onset_day.setFocus()
         form.onset_day.selectAll()
-        qtbot.keyClicks(form.onset_day, typed)
+        qtbot.keyClicks(form.onset_day, typed[:-1])
         assert not form._fault.isVisible(), "not while it is typed"
-        form.focusNextPrevChild(True)
+        qtbot.keyClicks(form.onset_day, typed[-1])
         assert form._fault.isVisible()
         assert told in form._fault.text()
+    form.onset_day.selectAll()
+    qtbot.keyClicks(form.onset_day, "31.2")
+    form.focusNextPrevChild(True)
+    assert form._fault.isVisible(), "half a day is told on leaving its field"
     form.onset_day.setFocus()
     form.onset_day.selectAll()
     qtbot.keyClick(form.onset_day, Qt.Key.Key_Delete)

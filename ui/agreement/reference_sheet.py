@@ -13,8 +13,8 @@ from PySide6.QtWidgets import QComboBox, QGridLayout, QSizePolicy, QWidget
 from carpus.core.hand.protocols import PALM_MARKERS
 from carpus.ui.agreement.words import angle_name
 from carpus.ui.controls.button import Button, Tick
-from carpus.ui.controls.field import Choices, Labelled
-from carpus.ui.controls.layouts import RING_PX, STRETCH, fill, host_of, in_line, scroll_area
+from carpus.ui.controls.field import Choices, Combo, Labelled
+from carpus.ui.controls.layouts import RING_PX, STRETCH, ScrollArea, fill, host_of, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import MEDIUM, SEMIBOLD, Text
 from carpus.ui.marker_words import marker_name
@@ -44,7 +44,7 @@ class ReferenceSheet(Sheet):
         self.head(self.tr("Compare this session with what?"), words, gap=8)
         body.addSpacing(8)
         self.file_button = Button(theme, self.tr("Choose a &file…"), "primary", icon="folder-open")
-        self.box = QComboBox()
+        self.box = Combo()
         self._other = Labelled(theme, self.tr("Or another session of this &patient"), self.box)
         self.session_button = Button(theme, self.tr("Compare with this &session"))
         close = Button(theme, self.tr("Cancel"), "quiet", hint=self.tr("Esc"))
@@ -88,7 +88,7 @@ class ColumnsSheet(Sheet):
         kept = self.problem.sizePolicy()
         kept.setRetainSizeWhenHidden(True)  # so that nothing jumps when all is said
         self.problem.setSizePolicy(kept)
-        self._scroll = scroll_area(QWidget())
+        self._scroll = ScrollArea(QWidget())
         self.boxes: dict[str, QComboBox] = {}
         self.signs: dict[str, Tick] = {}
         self._outline: ReferenceOutline | None = None
@@ -124,7 +124,7 @@ class ColumnsSheet(Sheet):
         self.boxes, self.signs = {}, {}
         for number, name in enumerate(ours):
             words = marker_name(name) if points else self.tr("Time") if name == "time" else angle_name(name)
-            box = QComboBox()
+            box = Combo()
             box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
             box.setAccessibleName(words)
             box.addItem("–", "")

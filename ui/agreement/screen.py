@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QBoxLayout, QComboBox, QGridLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QGridLayout, QVBoxLayout, QWidget
 
 from carpus.ui.agreement.words import (
     angle_name,
@@ -25,17 +25,17 @@ from carpus.ui.agreement.words import (
 )
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line, named_by_color
-from carpus.ui.controls.field import Choices
+from carpus.ui.controls.field import Choices, Combo
 from carpus.ui.controls.layouts import (
     STRETCH,
     Fitted,
+    ScrollArea,
     ScrolledColumn,
     empty,
     fill,
     in_column,
     in_grid,
     in_line,
-    scroll_area,
 )
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, heading
@@ -76,9 +76,8 @@ class AgreementScreen(Fitted):
         self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         self.bar = ThinBar(theme, self.tr("How far the comparison is"))
         self.stop_button = Button(theme, self.tr("Stop"))
-        self.angle = QComboBox()
+        self.angle = Combo()
         self.angle.setAccessibleName(self.tr("Angle"))
-        self.angle.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.view = Choices(theme, [("differences", self.tr("Differences")), ("curves", self.tr("Curves"))])
         self.chart = AgreementChart(theme)
         self.table = AgreementTable(theme)
@@ -120,7 +119,7 @@ class AgreementScreen(Fitted):
         figures.body.addWidget(caption(self._theme, words, wrap=True))
         host = ScrolledColumn()
         in_column((self._columns, 1), figures, gap=GAP_PX, margins=(0, 0, 0, 0), within=host)
-        self._body = scroll_area(host)
+        self._body = ScrollArea(host)
         self._work = Card(self._theme, 24)
         fill(self._work.body, Text(self._theme, self.tr("Bringing the two together…"), 16, SEMIBOLD), self.bar)
         self._work.body.addLayout(in_line(STRETCH, self.stop_button))

@@ -7,14 +7,25 @@ from dataclasses import replace
 
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.core.results.motion_curves import Quantity
 from carpus.ui.beside.shown import Shown, Watched, kinds
 from carpus.ui.beside.words import BesideRow, facts_words, heads, other_hand_words, quantity_name, table_rows
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line, named_by_color
-from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, fill, in_column, in_grid, in_line, scroll_area
+from carpus.ui.controls.field import Combo
+from carpus.ui.controls.layouts import (
+    NO_LIMIT_PX,
+    STRETCH,
+    ScrollArea,
+    ScrolledColumn,
+    empty,
+    fill,
+    in_column,
+    in_grid,
+    in_line,
+)
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, plain_tooltip
 from carpus.ui.keys import Keys
 from carpus.ui.plot.beside import BesidePlot
@@ -22,8 +33,6 @@ from carpus.ui.plot.card import StillPlot
 from carpus.ui.plot.style import screen_style
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import limit_words
-
-NO_LIMIT_PX = 16_777_215
 
 
 class DifferencesCard(Card):
@@ -33,9 +42,8 @@ class DifferencesCard(Card):
         super().__init__(theme, 20)
         self._theme = theme
         self._facts = ElidedText(theme, "", 14, REGULAR, "text2")
-        self.followed = QComboBox()
+        self.followed = Combo()
         self.followed.setAccessibleName(self.tr("What is compared"))
-        self.followed.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.followed.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.mirror_button = Button(theme, self.tr("&Mirror"), "quiet", hint=keys["mirror"])
         self.mirror_button.setCheckable(True)
@@ -51,12 +59,13 @@ class DifferencesCard(Card):
         self.body.addLayout(self._title_row)
         self._column = ScrolledColumn()
         in_column(self.table, self._limits, STRETCH, gap=8, margins=(0, 0, 8, 0), within=self._column)
-        self._scroll = scroll_area(self._column, Qt.FocusPolicy.TabFocus)  # so that keys scroll it
+        self._scroll = ScrollArea(self._column, Qt.FocusPolicy.TabFocus)  # so that keys scroll it
         self._scroll.setAccessibleName(self.tr("Differences"))
         self.body.addWidget(self._scroll, 1)
 
     def fit(self, *, tight: bool, shown: bool) -> None:
-        """No higher than what is in it; with large text fewer words at the button."""
+        """No higher than what is in it, and with large text no lower, with fewer words at the button."""
+        self._scroll.unroll(on=tight)
         self.export_button.set_face(self.export_button.text(), hint="" if tight else "Ctrl+E")
         self._scroll.setMinimumHeight(self._theme.px(70))
         needed = self._column.sizeHint().height()
@@ -64,7 +73,7 @@ class DifferencesCard(Card):
             needed = self._column.heightForWidth(max(self._scroll.width() - 16, 1))
         margins = self.body.contentsMargins()
         around = self._title_row.sizeHint().height() + self.body.spacing() + margins.top() + margins.bottom()
-        self.setMaximumHeight(max(needed, self._theme.px(70)) + around + 4 if shown else NO_LIMIT_PX)
+        self.setMaximumHeight(max(needed, self._theme.px(70)) + around + 4 if shown and not tight else NO_LIMIT_PX)
 
     def clear(self) -> None:
         self.table.show_rows((), ())
@@ -166,9 +175,8 @@ class MeanCard(Card):
         super().__init__(theme, 0)
         self._shown: Shown | None = None
         self.title = Text(theme, self.tr("Mean repetition, ± sd"), 14, SEMIBOLD)
-        self._quantities = QComboBox()
+        self._quantities = Combo()
         self._quantities.setAccessibleName(self.tr("Angle"))
-        self._quantities.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self._quantities.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
         self._quantities.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         self.curves = MeanCurves(theme)
@@ -184,8 +192,9 @@ class MeanCard(Card):
         assert self._shown is not None
         return self._shown.quantities[max(self._quantities.currentIndex(), 0)]
 
-    def show_means(self, now: Shown | None) -> None:
-        """What can be chosen of two sessions, and the curves of their main angle; nothing while they are read."""
+    def show_means(self, now: Shown | None, finger: int = 0) -> None:
+        """What can be chosen of two sessions, and the curves of a finger or of their main angle; nothing while they are
+        read."""
         self._shown = now
         self._quantities.setEnabled(now is not None)
         self._quantities.blockSignals(True)
@@ -193,7 +202,7 @@ class MeanCard(Card):
         if now is not None:
             for quantity in now.quantities:
                 self._quantities.addItem(quantity_name(quantity), quantity)
-            self._quantities.setCurrentIndex(now.quantities.index(now.main_quantity))
+            self._quantities.setCurrentIndex(now.quantities.index(now.quantity_of(finger)))
         self._quantities.blockSignals(False)
         self.curves.show_plot(None if now is None else now.plot(self.quantity))
 

@@ -40,12 +40,12 @@ class BesideFlow(Flow):
         screen.export.connect(self._export)
         screen.other.connect(self._ask_other)
 
-    def show(self, one: str, other: str) -> None:
-        """Show two sessions; Back leads to where one is now."""
+    def show(self, one: str, other: str, finger: int = 0) -> None:
+        """Show two sessions, of the whole hand a ``finger`` first; Back leads to where one is now."""
         if self.context.way.place != "beside":
             self.back_to = self.context.way.place
         patient = self.context.now.patient
-        self.screen.begin((one, other), patient.side if patient is not None else "")
+        self.screen.begin((one, other), patient.side if patient is not None else "", finger)
         self.context.way.go("beside")
 
     def up(self) -> None:

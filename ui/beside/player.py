@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QGridLayout
+from PySide6.QtWidgets import QGridLayout
 
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.core.results.side_by_side import InStep, Step, in_step
@@ -16,6 +16,7 @@ from carpus.ui import numbers
 from carpus.ui.beside.shown import Watched
 from carpus.ui.beside.words import step_words
 from carpus.ui.controls.card import Card, KeyCaps
+from carpus.ui.controls.field import Combo
 from carpus.ui.controls.layouts import fill, in_grid, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text
 from carpus.ui.playback.transport import Playing, Scrubber, Transport
@@ -34,9 +35,8 @@ class BesidePlayer(Card):
         super().__init__(theme, 0)
         self.transport = Transport(theme, playing, 4)
         self._step_name = Text(theme, self.tr("In step by"), 14, REGULAR, "text2")
-        self.step = QComboBox()
+        self.step = Combo()
         self.step.setAccessibleName(self.tr("In step by"))
-        self.step.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.step.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
         for value, words in step_words():
             self.step.addItem(words, value)

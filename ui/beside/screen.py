@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal, SignalInstance
-from PySide6.QtWidgets import QVBoxLayout
 
 from carpus.core.results.side_by_side import Step, ordered
 from carpus.core.session.values import Session
@@ -18,7 +17,7 @@ from carpus.ui.beside.shown import Shown, Watched, shown, value_words
 from carpus.ui.beside.words import doubts, headline, picture_words, unfair_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import Fitted, in_column, in_line
+from carpus.ui.controls.layouts import Fitted, in_column, in_line, page
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text, heading
 from carpus.ui.keys import Keys, bind
@@ -47,7 +46,7 @@ class BesideScreen(Fitted):
         self._theme = theme
         self.ids: tuple[str, str] = ("", "")
         """The sessions asked for; once they are shown in the order in which they stand."""
-        self._affected = ""
+        self._affected, self._finger = "", 0
         self._watched: tuple[Watched, Watched] | None = None
         self.shown: Shown | None = None
         """What is on the screen; None while it is read."""
@@ -85,7 +84,7 @@ class BesideScreen(Fitted):
         self._strip.body.addLayout(line)
         one, other = self.pictures
         self._top = in_line((one, 324), (other, 324), GAP_PX - 12, (self.mean, 556), gap=12)
-        whole = in_column(
+        self._column = in_column(
             head,
             self._bar,
             self._strip,
@@ -94,9 +93,9 @@ class BesideScreen(Fitted):
             (self.differences, 5),
             gap=12,
             margins=(MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX),
-            within=self,
         )
-        whole.addStretch(0)
+        self._column.addStretch(0)
+        in_column(page(self._column), margins=(0, 0, 0, 0), within=self)
 
     def _fit_soon(self) -> None:
         """Again when every part has taken its new size."""
@@ -116,12 +115,6 @@ class BesideScreen(Fitted):
             picture.setMinimumSize(round(least * 4 / 3), least)
         self.differences.fit(tight=tight, shown=self.shown is not None)
         self._column.setStretchFactor(self._top, 2 if tight else 5)
-
-    @property
-    def _column(self) -> QVBoxLayout:
-        layout = self.layout()
-        assert isinstance(layout, QVBoxLayout)
-        return layout
 
     def _connect(self, keys: Keys) -> None:
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
@@ -160,10 +153,11 @@ class BesideScreen(Fitted):
             signal.emit(self.shown)
 
     # --- life ---------------------------------------------------------------------------------------------
-    def begin(self, session_ids: tuple[str, str], affected: str = "") -> None:
-        """Read two sessions in the background, then show them; ``affected`` is the patient's hand."""
+    def begin(self, session_ids: tuple[str, str], affected: str = "", finger: int = 0) -> None:
+        """Read two sessions in the background, then show them; ``affected`` is the patient's hand, ``finger`` the one
+        that was looked at, if any."""
         self.playing.open(-1.0)
-        self.ids, self._affected = session_ids, affected
+        self.ids, self._affected, self._finger = session_ids, affected, finger
         self._watched = self.shown = self.together = None
         self.answer.setText(self.tr("Reading both sessions…"))
         self._basis.setText("")
@@ -232,7 +226,7 @@ class BesideScreen(Fitted):
         self._unfair.setText(unfair_words(now.both) or " ".join(doubts(now.both)))
         self._strip.setVisible(bool(self._unfair.text()))
         self.differences.show_differences(now)
-        self.mean.show_means(now)
+        self.mean.show_means(now, self._finger)
         self._show_place()
         self._fit()
         self._fit_soon()

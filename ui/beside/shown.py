@@ -63,7 +63,15 @@ class Shown:
             return main.first.joint, -1
         if main is not None and ("", main.first.angle) in self.quantities:
             return "", main.first.angle
-        return self.quantities[0]
+        joint = self.both.first.exercise.joint
+        return self._of_finger(figure_of(joint).finger if joint else 0) or self.quantities[0]
+
+    def quantity_of(self, finger: int) -> Quantity:
+        """Of a finger, or the main one where it has none."""
+        return self._of_finger(finger) or self.main_quantity
+
+    def _of_finger(self, finger: int) -> Quantity | None:
+        return next((one for one in self.quantities if one[0] and figure_of(one[0]).finger == finger), None)
 
 
 def kinds(first: Watched, second: Watched) -> list[tuple[str, str]]:

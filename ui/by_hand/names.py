@@ -17,17 +17,17 @@ from carpus.core.measures.by_hand import (
 )
 from carpus.ui import numbers, terms
 from carpus.ui.marker_words import long_finger_name
-from carpus.ui.translate import say, tr
+from carpus.ui.translate import inside, say, tr
 from carpus.ui.verdicts import no_change_words
 
 
 def measure_name(measure: HandMeasure) -> str:
-    """``Flexion``, ``Grip``, ``Ring finger, PIP flexion``."""
+    """``Wrist, flexion``, ``Grip``, ``Ring finger, PIP flexion``."""
     if measure.name:
         return say(measure.name)
     joint, _, movement = measure.id.rpartition("_")
     if not joint:
-        return terms.movement_long_name(movement.lower())
+        return tr("Wrist, {movement}").format(movement=inside(terms.movement_long_name(movement.lower())))
     finger = int(joint[-1])
     row = {"MCP": tr("knuckle"), "PIP": tr("middle joint"), "DIP": tr("end joint"), "IP": tr("end joint")}[joint[:-1]]
     name = long_finger_name(str(finger))
@@ -72,7 +72,7 @@ def direction_words(measure: HandMeasure) -> str:
 
 
 def full_name(key: Key) -> str:
-    """``Flexion, active``."""
+    """``Wrist, flexion, active``."""
     return ", ".join(filter(None, (measure_name(measure_named(key[0])), way_name(key[1]))))
 
 
@@ -104,7 +104,7 @@ def keys_in_order(values: Iterable[HandValue]) -> list[Key]:
 
 
 def day_words(values: Sequence[HandValue]) -> str:
-    """What counts, newest of each, in one line: ``Flexion 45° active, 58° passive; Grip 18 kg``."""
+    """What counts, newest of each, in one line: ``Wrist, flexion 45° active, 58° passive; Grip 18 kg``."""
     by_measure: dict[str, list[HandValue]] = {}
     for key in keys_in_order(values):
         by_measure.setdefault(key[0], []).append(course_of(values, key)[-1])

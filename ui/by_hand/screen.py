@@ -8,7 +8,7 @@ from datetime import date, datetime
 
 from PySide6.QtCore import QDate, QSize, Qt, Signal
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QBoxLayout, QComboBox, QDateEdit, QSizePolicy, QWidget
+from PySide6.QtWidgets import QBoxLayout, QDateEdit, QSizePolicy, QWidget
 
 from carpus.core.measures.by_hand import MEASURES, HandMeasure, HandValue, Key, counted, measure_named
 from carpus.core.results.figures import SessionFigures
@@ -20,8 +20,8 @@ from carpus.ui.by_hand.form import HandForm
 from carpus.ui.by_hand.names import changes, measure_name
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import STRETCH, Fitted, ScrolledColumn, empty, fill, in_column, in_line, scroll_area
+from carpus.ui.controls.field import Choices, Combo
+from carpus.ui.controls.layouts import STRETCH, Fitted, ScrollArea, ScrolledColumn, empty, fill, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.plot.by_hand import paint_course
 from carpus.ui.plot.card import StillPlot
@@ -63,9 +63,8 @@ class ByHandScreen(Fitted):
         self.day.setAccessibleName(self.tr("Day of measuring"))
         self.hand = Choices(theme, [(side, terms.hand_name(side)) for side in ("right", "left")])
         self.form = HandForm(theme)
-        self.more = QComboBox()
+        self.more = Combo()
         self.more.setAccessibleName(self.tr("Other measures"))
-        self.more.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.state = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.cancel = Button(theme, self.tr("Close"), "quiet", hint="Esc")
         self.save_button = Button(
@@ -104,7 +103,7 @@ class ByHandScreen(Fitted):
             2,
             self.basis,
             14,
-            (scroll_area(host), 1),
+            (ScrollArea(host), 1),
             12,
             foot,
             gap=0,

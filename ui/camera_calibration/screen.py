@@ -20,13 +20,13 @@ from carpus.ui.controls.field import Choices
 from carpus.ui.controls.layouts import (
     STRETCH,
     Fitted,
+    ScrollArea,
     ScrolledColumn,
     empty,
     fill,
     in_column,
     in_grid,
     in_line,
-    scroll_area,
 )
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind
@@ -170,7 +170,7 @@ class BoardBeginning(QWidget):
         self._host = ScrolledColumn()
         self._host.setLayout(body)
         whole = in_line(margins=(MARGIN_PX - 4, GAP_PX, MARGIN_PX - 8, GAP_PX), within=self)
-        self._scroll = scroll_area(self._host)
+        self._scroll = ScrollArea(self._host)
         whole.addWidget(self._scroll, 1)
 
     def _card(self, title: str) -> Card:
@@ -262,7 +262,7 @@ class BoardResultView(Fitted):
         whole = in_column(
             self.answer, 2, self.basis, 12, gap=0, margins=(MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX), within=self
         )
-        fill(whole, (scroll_area(host), 1), 12, foot)
+        fill(whole, (ScrollArea(host), 1), 12, foot)
         self._theme.changed.connect(self._fit)
 
     def _fit(self) -> None:

@@ -17,13 +17,13 @@ from carpus.ui.controls.field import Choices
 from carpus.ui.controls.layouts import (
     STRETCH,
     Fitted,
+    ScrollArea,
     ScrolledColumn,
     empty,
     fill,
     in_column,
     in_grid,
     in_line,
-    scroll_area,
     scrolled,
 )
 from carpus.ui.controls.progress_bar import ThinBar
@@ -112,7 +112,7 @@ class CardScreen(Fitted):
         whole = in_column(
             self.camera, head, gap=12, margins=(MARGIN_PX, GAP_PX - 4, MARGIN_PX - 8, GAP_PX), within=self.overview
         )
-        whole.addWidget(scroll_area(host), 1)
+        whole.addWidget(ScrollArea(host), 1)
 
     def _lay_out_measuring(self) -> None:
         theme = self._theme

@@ -6,7 +6,16 @@ import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QLineEdit, QSpinBox, QWidget
+from PySide6.QtWidgets import (
+    QButtonGroup,
+    QComboBox,
+    QHBoxLayout,
+    QLineEdit,
+    QSpinBox,
+    QStyle,
+    QStyleOptionComboBox,
+    QWidget,
+)
 
 from carpus.ui import numbers
 from carpus.ui.controls.button import Button
@@ -45,6 +54,20 @@ class SearchField(QLineEdit):
         self.setFont(font(16 * self._theme.text_scale))
         self.setTextMargins(self._theme.px(30), 0, self._theme.px(60), 0)
         self.setFixedHeight(self._theme.px(44))
+
+
+class Combo(QComboBox):
+    """As wide as its longest choice; where there is less room the end of the chosen one is left out, not cut."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+
+    def initStyleOption(self, option: QStyleOptionComboBox) -> None:
+        super().initStyleOption(option)
+        part = QStyle.SubControl.SC_ComboBoxEditField
+        room = self.style().subControlRect(QStyle.ComplexControl.CC_ComboBox, option, part, self).width()
+        option.currentText = self.fontMetrics().elidedText(option.currentText, Qt.TextElideMode.ElideRight, room)
 
 
 class Labelled(QWidget):

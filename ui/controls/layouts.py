@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypeAlias, TypeVar
 
-from PySide6.QtCore import QPoint, QRect, QSize, Qt
+from PySide6.QtCore import QEvent, QPoint, QRect, QSize, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QBoxLayout,
@@ -164,6 +164,8 @@ class FlowLayout(QLayout):
 
 
 RING_PX = 5
+NO_LIMIT_PX = 16_777_215
+"""Qt's own greatest width and height."""
 
 
 class Fitted(QWidget):
@@ -186,19 +188,54 @@ class ScrolledColumn(QWidget):
         return QSize(whole.width(), 0) if wraps else whole
 
 
-def scroll_area(host: QWidget, focus: Qt.FocusPolicy = Qt.FocusPolicy.NoFocus) -> QScrollArea:
+class _Page(ScrolledColumn):
+    """Never lower than everything on it can be."""
+
+    def heightForWidth(self, width: int) -> int:
+        layout = self.layout()
+        return -1 if layout is None else layout.minimumHeightForWidth(width)
+
+
+class ScrollArea(QScrollArea):
     """Scrolls what it holds up and down, never aside; Tab passes it by unless ``focus`` says otherwise."""
-    area = QScrollArea()
-    area.setWidget(host)
-    area.setWidgetResizable(True)
-    area.setFocusPolicy(focus)
-    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    return area
+
+    def __init__(self, host: QWidget, focus: Qt.FocusPolicy = Qt.FocusPolicy.NoFocus) -> None:
+        super().__init__()
+        self.setWidget(host)
+        self.setWidgetResizable(True)
+        self.setFocusPolicy(focus)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+
+    def unroll(self, *, on: bool) -> None:
+        """As high as all that it holds, on a page that scrolls in its place."""
+        policy = self.sizePolicy()
+        policy.setHeightForWidth(on)
+        self.setSizePolicy(policy)
+        bar = Qt.ScrollBarPolicy
+        self.setVerticalScrollBarPolicy(bar.ScrollBarAlwaysOff if on else bar.ScrollBarAsNeeded)
+
+    def heightForWidth(self, width: int) -> int:
+        held = self.widget()
+        if held is None:
+            return -1
+        return held.heightForWidth(width) if held.hasHeightForWidth() else held.sizeHint().height()
+
+    def event(self, event: QEvent) -> bool:
+        if event.type() == QEvent.Type.LayoutRequest and self.sizePolicy().hasHeightForWidth():
+            self.updateGeometry()  # what it holds has become higher or lower
+        return super().event(event)
 
 
-def scrolled(layout: QVBoxLayout) -> QScrollArea:
+def page(layout: QVBoxLayout) -> ScrollArea:
+    """The whole of a screen, which scrolls where the window is lower than everything on it can be."""
+    host = _Page()
+    host.setLayout(layout)
+    return ScrollArea(host)
+
+
+def scrolled(layout: QVBoxLayout) -> ScrollArea:
     """A column that scrolls where large text leaves no room; at its edges there is room for the focus ring."""
     layout.setContentsMargins(RING_PX, RING_PX, RING_PX, RING_PX)
     host = ScrolledColumn()
     host.setLayout(layout)
-    return scroll_area(host)
+    return ScrollArea(host)

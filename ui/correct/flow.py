@@ -21,7 +21,7 @@ from carpus.ui.background import Background
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.flow import Flow, ScreenContext
-from carpus.ui.marker_words import marker_name
+from carpus.ui.marker_words import finger_of, marker_name
 from carpus.ui.translate import inside, tr
 
 
@@ -162,8 +162,9 @@ class CorrectFlow(Flow):
             said = [correction for correction, _ in corrections_in(new)]
             words = difference_words(difference(old, new), not_held(new, said))
             both = BothResults(
-                session_figures(new), session_curves(old), session_curves(new), joint_curves(old), joint_curves(new)
-            )
+                session_figures(new), session_curves(old), session_curves(new), joint_curves(old), joint_curves(new),
+                max((finger_of(marker) for one in said for marker in one.places), default=0),
+            )  # fmt: skip
             return whose(old.header), words, both
 
         def show(found: tuple[str, str, BothResults]) -> None:

@@ -29,13 +29,14 @@ WRIST = -1
 
 @dataclass(frozen=True, slots=True)
 class BothResults:
-    """What is drawn of the old and of the new result of one recording."""
+    """What is drawn of the old and of the new result of one recording; ``finger`` is one that was corrected, or 0."""
 
     figures: SessionFigures
     old: ReportCurves
     new: ReportCurves
     old_joints: JointCurves | None = None
     new_joints: JointCurves | None = None
+    finger: int = 0
 
 
 class ResultsSheet(Sheet):
@@ -99,7 +100,7 @@ class ResultsSheet(Sheet):
         self._show(self.tr("Use the new result?"), whose)
         self.words.setText(words)
         self.later.set_face(self.tr("Decide later"))
-        finger = most_different_finger(both.old_joints, both.new_joints)
+        finger = both.finger or most_different_finger(both.old_joints, both.new_joints)
         self.finger.choose(finger or WRIST)
         self._show_parts(running=False, both=both)
         self._draw()

@@ -11,7 +11,7 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QPushButton, QSizePolicy, QWidget
 
 from carpus.core.results.figures import SessionFigures, session_figures
-from carpus.core.results.seen import session_curves
+from carpus.core.results.seen import JointCurves, joint_curves, session_curves
 from carpus.core.session.marker_doubts import NameDoubt
 from carpus.core.session.values import Session
 from carpus.core.types import ByteImage, FloatArray, TrackStatus
@@ -23,11 +23,12 @@ from carpus.ui.controls.layouts import STRETCH, Fitted, empty, fill, in_column, 
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Sign, StateText, Text
 from carpus.ui.correct.picture import CorrectionPicture
 from carpus.ui.correct.places import Places
+from carpus.ui.figures import figure_of
 from carpus.ui.keys import Keys, bind
-from carpus.ui.marker_words import marker_name
+from carpus.ui.marker_words import finger_of, marker_name
 from carpus.ui.playback.pictures import RowReader, plain_ground
 from carpus.ui.playback.transport import Scrubber, Transport, clock_words
-from carpus.ui.plot.session import SessionPlot
+from carpus.ui.plot.session import HandPlot, SessionPlot
 from carpus.ui.plot.session_view import CurveView
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
@@ -52,9 +53,14 @@ class CorrectScreen(Fitted):
     def __init__(self, theme: Theme, keys: Keys, background: Background, store: Corrections) -> None:
         super().__init__()
         self._theme = theme
+        self._keys = keys
+        self._caps = KeyCaps(theme, [])
         self._session_id = ""
         self._session: Session | None = None
         self._figures: SessionFigures | None = None
+        self._joints: JointCurves | None = None
+        self._finger = 0
+        """Whose curves are shown; 0 for the wrist."""
         self.places: Places | None = None
         self._time_s = np.empty(0)
         self.row = 0
@@ -74,8 +80,12 @@ class CorrectScreen(Fitted):
         self.although.hide()
         self.rows: dict[str, MarkerRow] = {}
         self._rows = in_column(gap=0)
-        self.next_doubtful = Button(theme, self.tr("Next doubtful picture"), "quiet", hint="D", height_px=36)
-        self.hide_button = Button(theme, self.tr("Not to be seen here"), "quiet", hint="H", height_px=36)
+        self.next_doubtful = Button(
+            theme, self.tr("Next doubtful picture"), "quiet", hint=keys["correct_doubtful"], height_px=36
+        )
+        self.hide_button = Button(
+            theme, self.tr("Not to be seen here"), "quiet", hint=keys["correct_hide"], height_px=36
+        )
         self.primary = Button(theme, self.tr("Track again from here"), "primary", hint=ENTER)
         self.cancel = Button(theme, self.tr("Cancel"), height_px=52)
         self.cancel.setToolTip(self.tr("Back to the review (Esc)"))
@@ -83,12 +93,8 @@ class CorrectScreen(Fitted):
         self._connect(keys)
 
     def _lay_out(self) -> None:
-        keys = [
-            (self.tr("Drag"), self.tr("move a name")), ("H", self.tr("not to be seen here")),
-            (", .", self.tr("picture")), ("Z", self.tr("undo")), ("D", self.tr("next doubtful")),
-        ]  # fmt: skip
         left = in_column((self.picture, 452), gap=8)
-        left.addLayout(in_line(KeyCaps(self._theme, keys), STRETCH))
+        left.addLayout(in_line(self._caps, STRETCH))
         player = Card(self._theme, 0)
         line = in_line(self.transport, 32, STRETCH, self.time, 8, (self.scrubber, 6), 8, gap=4, margins=(12, 7, 16, 7))
         player.body.addLayout(line)
@@ -106,7 +112,20 @@ class CorrectScreen(Fitted):
         self._theme.changed.connect(self._fit)
         self._fit()
 
+    def _say_keys(self) -> None:
+        """What a key does, of those that do something here."""
+        keys = self._keys
+        said = [
+            (self.tr("Drag"), self.tr("move a name")), (keys["correct_hide"], self.tr("not to be seen here")),
+            (f"{keys['correct_back']} {keys['correct_on']}", self.tr("picture")),
+            (keys["correct_undo"], self.tr("undo")),
+        ]  # fmt: skip
+        if self._doubtful().size:
+            said.append((keys["correct_doubtful"], self.tr("next doubtful")))
+        self._caps.set_keys(said)
+
     def _fit(self) -> None:
+        self._say_keys()
         tight = is_tight(self, self._theme)
         self._column.setFixedWidth(self._theme.px(376))
         self.curves.setVisible(not tight and self.height() >= 600 * self._theme.text_scale)
@@ -141,8 +160,8 @@ class CorrectScreen(Fitted):
         self._session_id, self._session = session_id, session
         self.places = Places(session)
         self._figures = session_figures(session)
-        curves = session_curves(session)
-        self._time_s = curves.time_s
+        self._curves, self._joints = session_curves(session), joint_curves(session)
+        self._time_s = self._curves.time_s
         self.current = ""
         empty(self._rows)
         self.rows = {}
@@ -154,13 +173,24 @@ class CorrectScreen(Fitted):
             self._rows.addWidget(line)
         self.picture.clear(self.tr("Reading the picture…"))
         self.picture.set_hand_area(session.calibration.clicks.pixel)
-        self.curves.show_plot(SessionPlot(curves, self._figures.exercise, self._figures.repetitions, -1))
+        joint = self._figures.exercise.joint
+        self._show_curves(figure_of(joint).finger if joint and self._joints is not None else 0)
         self.scrubber.show_session(float(self._time_s[-1]), self._figures.repetitions, -1)
         self.reader.begin(session_id)
         self.row = -1
         self.show_row(row)
         self._fit()
         self.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _show_curves(self, finger: int) -> None:
+        if self._session is None or self._figures is None:
+            return
+        self._finger = finger
+        shown = (self._curves, self._figures.exercise, self._figures.repetitions, -1)
+        hand = finger and self._joints is not None
+        self.curves.show_plot(HandPlot(*shown, joints=self._joints, finger=finger) if hand else SessionPlot(*shown))
+        if self.row >= 0:
+            self.curves.set_time(float(self._time_s[self.row]))
 
     def _doubtful(self) -> np.ndarray:
         if self._session is None:
@@ -210,13 +240,14 @@ class CorrectScreen(Fitted):
     # --- what a person says -------------------------------------------------------------------------------
     def choose(self, name: str) -> None:
         self.current = name
+        if finger_of(name) != self._finger and self._joints is not None:
+            self._show_curves(finger_of(name))
         self._refresh()
 
     def put(self, name: str, pixel: FloatArray) -> None:
         if self.places is not None:
-            self.current = name
             self.places.put(self.row, name, pixel, self._spots)
-            self._refresh()
+            self.choose(name)
 
     def _clicked_beside(self, pixel: FloatArray) -> None:
         """With a name chosen in the list, a click is its place."""

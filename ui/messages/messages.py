@@ -268,7 +268,7 @@ class Answer:
 
 class StopCard(Sheet):
     """Shows :class:`Words` with up to two answers; the last one is the primary, has the keyboard, and
-    loses nothing: where the other one is risky, Esc gives it too."""
+    loses nothing: where the other one is risky, or nothing went wrong, Esc gives it too."""
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, WIDTH_PX, may_close=False)
@@ -284,6 +284,7 @@ class StopCard(Sheet):
         )
         self._buttons = in_line(gap=12)
         self._answers: list[tuple[Button, Answer]] = []
+        self._alarm = True
         body = self.card.body
         body.setContentsMargins(32, 24, 32, 24)
         body.setSpacing(14)
@@ -315,7 +316,7 @@ class StopCard(Sheet):
         if answers and answers[-1].risky:
             raise ValueError(f"what Enter answers loses nothing: {answers[-1].text}")
         empty(self._buttons)
-        self._answers = []
+        self._answers, self._alarm = [], alarm
         for number, answer in enumerate(answers):
             primary = number == len(answers) - 1
             button = Button(self._theme, answer.text, "primary" if primary else "plain", hint=answer.key, height_px=48)
@@ -342,7 +343,8 @@ class StopCard(Sheet):
         answer.action()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() == Qt.Key.Key_Escape and any(answer.risky for _, answer in self._answers):
+        loses_nothing = not self._alarm or any(answer.risky for _, answer in self._answers)
+        if event.key() == Qt.Key.Key_Escape and self._answers and loses_nothing:
             self._answers[-1][0].click()
             return
         pressed = QKeySequence(event.key())

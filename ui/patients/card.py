@@ -13,7 +13,7 @@ from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.layouts import STRETCH, empty, fill, in_column, in_line, scroll_area
+from carpus.ui.controls.layouts import STRETCH, ScrollArea, empty, fill, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, caption, plain_tooltip
 from carpus.ui.figures import figure_of, followed_name
 from carpus.ui.picture.photo import Photo
@@ -80,7 +80,7 @@ class PatientCardView(Card):
             self._warning, 4, self._results, 14, self._note_when, self._note, STRETCH,
             gap=0, margins=(0, 0, 0, 0), within=recall,
         )  # fmt: skip
-        self._recall = scroll_area(recall)  # large text: what must be recalled scrolls, the buttons stay
+        self._recall = ScrollArea(recall)  # large text: what must be recalled scrolls, the buttons stay
         self.body.setSpacing(0)
         fill(
             self.body, in_line((self._name, 1), self.edit_button), 2, (self._recall, 1), 16, self.bubble,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from datetime import date
 from typing import TYPE_CHECKING
@@ -16,7 +17,7 @@ from carpus.core.records.values import PatientEntry
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button, Tick, is_enter
 from carpus.ui.controls.field import Choices, Labelled
-from carpus.ui.controls.layouts import STRETCH, fill, host_of, in_column, in_line, scroll_area
+from carpus.ui.controls.layouts import STRETCH, ScrollArea, fill, host_of, in_column, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.fault_words import fault_words
@@ -96,7 +97,7 @@ class PatientForm(Sheet):
             margins=(0, 0, 0, 0),
             within=self._fields,
         )
-        self._scroll = scroll_area(self._fields)  # large text on a small screen: the fields scroll, the buttons stay
+        self._scroll = ScrollArea(self._fields)  # large text on a small screen: the fields scroll, the buttons stay
         body = self.card.body
         body.setSpacing(16)
         rule_line = Text(theme, rule, 14, token="text2", wrap=True)
@@ -173,6 +174,8 @@ class PatientForm(Sheet):
         elif day is not None and self.onset.value() is None:
             asked = asked or self.tr("Operation or injury?")
             self._asked = self.onset
+        if self._wrong_day() and re.search(r"\d{4}$|^\d{4}\D+\d+\D+\d\d$", self.onset_day.text().strip()):
+            self._show_fault(self._wrong_day())  # written to its end: told at once, not when the field is left
         self.save.set_face(asked or self._words)
         self.save.setEnabled(not asked)
 

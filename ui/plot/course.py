@@ -298,7 +298,9 @@ class Points:
             line = float(panel.y(other.mean_deg)) + 2 * unit
             if baseline - metrics.ascent() < line < baseline + 4 * unit:
                 baseline = float(panel.y(row.mean_deg - sd)) + 8 * unit + metrics.ascent()
-        painter.drawText(QPointF(x - metrics.horizontalAdvance(text) / 2, baseline), text)
+        width = metrics.horizontalAdvance(text)
+        left = min(x - width / 2, panel.box.right() + 4 * unit - width)  # beside it stands what the bands are
+        painter.drawText(QPointF(left, baseline), text)
 
 
 def paint_behind(

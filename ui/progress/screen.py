@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QWidget
 
 from carpus.core.measures.by_hand import HandValue, counted
 from carpus.core.results.figures import SessionFigures
@@ -18,7 +18,19 @@ from carpus.ui.by_hand.change_rows import add_changes
 from carpus.ui.by_hand.names import changes, day_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.layouts import STRETCH, Fitted, ScrolledColumn, empty, fill, in_column, in_line, scroll_area
+from carpus.ui.controls.field import Combo
+from carpus.ui.controls.layouts import (
+    NO_LIMIT_PX,
+    STRETCH,
+    Fitted,
+    ScrollArea,
+    ScrolledColumn,
+    empty,
+    fill,
+    in_column,
+    in_line,
+    page,
+)
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
 from carpus.ui.keys import Keys, bind, letter_key
 from carpus.ui.plot.course_view import ProgressChart
@@ -31,6 +43,7 @@ if TYPE_CHECKING:  # it reads and writes files
     from carpus.core.records.library import Library
 
 LEAST_LETTERS = 14
+LEAST_CHART_PX = 360
 FILTERS_PX = 1180
 """What the row above the sentence needs with everything in it."""
 
@@ -51,8 +64,8 @@ class ProgressScreen(Fitted):
         self._kinds: list[tuple[str, str]] = []
         self._by_hand: list[HandValue] = []
         self.progress = Progress((), (), None)
-        self.exercise = QComboBox()
-        self.followed = QComboBox()
+        self.exercise = Combo()
+        self.followed = Combo()
         self.span = Text(theme, "", 14, REGULAR, "text2")
         self.report_button = Button(
             theme, self.tr("Progress report"), "primary", icon="file-text", hint="Ctrl+P", height_px=44
@@ -88,30 +101,39 @@ class ProgressScreen(Fitted):
         bind(self, keys, "export", self.table_button.click)
 
     def _lay_out(self) -> None:
-        filters = in_line(gap=12)
+        self._filters = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        self._filters.setSpacing(12)
         self.exercise.setAccessibleName(self.tr("Exercise and hand"))
         self.exercise.setMinimumContentsLength(LEAST_LETTERS)
-        self.exercise.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
-        filters.addWidget(self.exercise)
         self.followed.setAccessibleName(self.tr("What is followed"))
-        self.followed.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.followed.hide()  # until a session of the whole hand is shown
-        fill(filters, self.followed, self.span, STRETCH, self.table_button, self.picture_button, self.report_button)
+        what = in_line(self.exercise, self.followed, self.span, STRETCH, gap=12)
+        made = in_line(STRETCH, self.table_button, self.picture_button, self.report_button, gap=12)
+        fill(self._filters, (what, 1), made)
         right = in_column(self._table, self._hand, self._fair, STRETCH, gap=GAP_PX, margins=(0, 0, 0, 0))
         host = ScrolledColumn()
         host.setLayout(right)
-        self._side = scroll_area(host)
+        self._side = ScrollArea(host)
+        self._columns = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        self._columns.setSpacing(GAP_PX)
+        fill(self._columns, (self.chart, 1), self._side)
         self._theme.changed.connect(self._fit)
         self._fit()
-        columns = in_line((self.chart, 1), self._side, gap=GAP_PX)
-        whole = in_column(filters, 18, gap=0, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX), within=self)
+        whole = in_column(self._filters, 18, gap=0, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX))
         whole.addLayout(in_line((self.answer, 1), (self.by_hand_button, 0, Qt.AlignmentFlag.AlignBottom), gap=12))
-        fill(whole, 2, self.basis, 16, (columns, 1))
+        fill(whole, 2, self.basis, 16, (self._columns, 1))
+        in_column(page(whole), margins=(0, 0, 0, 0), within=self)
 
     def _fit(self) -> None:
-        tight = is_tight(self, self._theme)
-        narrow = tight or self.width() < FILTERS_PX * self._theme.text_scale
-        self._side.setFixedWidth(self._theme.px(300 if tight else 352))
+        """Where there is little room, everything one below the other on a page that scrolls."""
+        narrow = is_tight(self, self._theme) or self.width() < FILTERS_PX * self._theme.text_scale
+        direction = QBoxLayout.Direction.TopToBottom if narrow else QBoxLayout.Direction.LeftToRight
+        self._filters.setDirection(direction)
+        self._columns.setDirection(direction)
+        self._side.unroll(on=narrow)
+        self._side.setMinimumWidth(0 if narrow else self._theme.px(352))
+        self._side.setMaximumWidth(NO_LIMIT_PX if narrow else self._theme.px(352))
+        self.chart.setMinimumHeight(self._theme.px(LEAST_CHART_PX) if narrow else 0)
         self.span.setVisible(not narrow)
         self.report_button.set_face(self.report_button.text(), hint="" if narrow else "Ctrl+P")
         self.table_button.set_face(self.table_button.text(), hint="" if narrow else "Ctrl+E")

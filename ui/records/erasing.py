@@ -16,7 +16,7 @@ from carpus.core.words import Words
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, fill, in_column, in_line, scroll_area
+from carpus.ui.controls.layouts import STRETCH, ScrollArea, ScrolledColumn, fill, in_column, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text
 from carpus.ui.flow import ScreenContext
@@ -260,7 +260,7 @@ class EraseSheet(Sheet):
             )
         )
         column.addWidget(milder)
-        self._scroll = scroll_area(self._parts)  # large text on a small screen: the answer stays to be seen
+        self._scroll = ScrollArea(self._parts)  # large text on a small screen: the answer stays to be seen
         fill(body, self._scroll, in_line((self.label, 1), (self.line, 1), gap=16), 8)
         body.addLayout(in_line(self.for_good, STRETCH, self.cancel, self.instead))
 

@@ -15,7 +15,7 @@ from carpus.core.records.log import LoggedDeed
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Line
-from carpus.ui.controls.layouts import ScrolledColumn, empty, fill, host_of, in_column, in_line, scroll_area
+from carpus.ui.controls.layouts import ScrollArea, ScrolledColumn, empty, fill, host_of, in_column, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text
 from carpus.ui.flow import ScreenContext
@@ -220,7 +220,7 @@ class RecordsSheet(Sheet):
         self.rows = in_column(gap=8, margins=(0, 0, 8, 0))
         self._inside = ScrolledColumn()
         self._inside.setLayout(self.rows)
-        self._scroll = scroll_area(self._inside)
+        self._scroll = ScrollArea(self._inside)
         self.done = Button(theme, self.tr("Done"), "primary", height_px=44)
         self.done.clicked.connect(self.close_sheet)
         self.set_default(self.done)

@@ -414,5 +414,7 @@ class LockSheet(Sheet):
         super().keyPressEvent(event)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        self._bar.setGeometry(0, 0, self.width(), self._theme.px(56) + 1)
+        bar_px = self._theme.px(56) + 1
+        self._bar.setGeometry(0, 0, self.width(), bar_px)
+        self.setContentsMargins(0, bar_px, 0, 0)  # the card stands in what is left
         super().resizeEvent(event)

@@ -15,6 +15,7 @@ from carpus.core.results.progress import compare
 from carpus.core.results.report_form import MOST_SENTENCES, SECTIONS, ReportForm
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button, Tick
+from carpus.ui.controls.field import Combo
 from carpus.ui.controls.layouts import fill, in_column
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
 from carpus.ui.report.hand_rows import hand_since_words, range_words
@@ -86,7 +87,7 @@ class ReportPanel(QWidget):
 
     def _sentence_box(self) -> QComboBox:
         """The sentences to choose from, found by any part of them."""
-        box = QComboBox()
+        box = Combo()
         box.setEditable(True)
         box.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
         box.setAccessibleName(self.tr("Sentence to insert"))

@@ -12,7 +12,7 @@ from carpus.core.hand.exercises import Exercise
 from carpus.core.records.values import HomePlan
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button, Tick
-from carpus.ui.controls.field import Choices, Labelled, number_field
+from carpus.ui.controls.field import Choices, Combo, Labelled, number_field
 from carpus.ui.controls.layouts import fill, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text
@@ -45,7 +45,7 @@ class HomeSheet(Sheet):
             grid.addWidget(tick, number // 3, number % 3)
         body.addLayout(grid)
         self.times, self.rounds = self._count(theme), self._count(theme)
-        self.day = QComboBox()
+        self.day = Combo()
         self.day.setEditable(True)
         self.day.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
         self.at = QLineEdit()
@@ -161,7 +161,7 @@ class LetterSheet(Sheet):
         body = self.card.body
         words = self.tr("One page, with the figures of this session and your comment. Addresses stay in your list.")
         self.head(self.tr("Letter to the doctor"), words, gap=8)
-        self.known = QComboBox()
+        self.known = Combo()
         self.known.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.known.setPlaceholderText(self.tr("Written to before"))
         self.known.setAccessibleName(self.tr("Written to before"))

@@ -13,7 +13,7 @@ from carpus.core.records.retest_people import RetestPeople
 from carpus.core.words import Words
 from carpus.ui import terms
 from carpus.ui.controls.button import Button, Tick
-from carpus.ui.controls.layouts import RING_PX, STRETCH, host_of, in_column, in_line, scroll_area
+from carpus.ui.controls.layouts import RING_PX, STRETCH, ScrollArea, host_of, in_column, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import REGULAR, Text
 from carpus.ui.flow import Flow, ScreenContext
@@ -160,7 +160,7 @@ class PeopleSheet(Sheet):
             "such as P01. Each is measured twice or more within 14 days, all discs taken off and put on anew."
         )
         self.head(self.tr("Who takes part?"), words, gap=8)
-        self._scroll = scroll_area(QWidget())
+        self._scroll = ScrollArea(QWidget())
         self.card.body.addWidget(self._scroll)
         self.ticks: dict[str, Tick] = {}
         self.take = Button(theme, self.tr("These take part"), "primary", height_px=44)

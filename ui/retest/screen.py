@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from datetime import date
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QBoxLayout, QComboBox, QGridLayout, QWidget
+from PySide6.QtWidgets import QBoxLayout, QGridLayout, QWidget
 
 from carpus.core.agreement.retest import Mounting, Person, Restated, Retest, RetestPlan, changed_first
 from carpus.core.hand.protocols import WRIST_ANGLES
@@ -15,7 +15,8 @@ from carpus.core.measures.change import ARC_LIMIT_FACTOR, DEFAULT_LIMITS, FEWEST
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.layouts import STRETCH, Fitted, ScrolledColumn, empty, in_column, in_grid, in_line, scroll_area
+from carpus.ui.controls.field import Combo
+from carpus.ui.controls.layouts import STRETCH, Fitted, ScrollArea, ScrolledColumn, empty, in_column, in_grid, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.figures import figure_of
 from carpus.ui.icons import State
@@ -43,9 +44,8 @@ class RetestScreen(Fitted):
         self._theme = theme
         self.plan = RetestPlan("", (), None)
         self._limits: ErrorLimits = DEFAULT_LIMITS
-        self.exercise = QComboBox()
+        self.exercise = Combo()
         self.exercise.setAccessibleName(self.tr("Exercise"))
-        self.exercise.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.people_button = Button(theme, self.tr("&People…"))
         self.save_button = Button(theme, self.tr("Save table…"), hint="Ctrl+E")
         self.use_button = Button(theme, self.tr("&Use these limits…"))
@@ -83,7 +83,7 @@ class RetestScreen(Fitted):
             2,
             self.basis,
             12,
-            (scroll_area(host), 1),
+            (ScrollArea(host), 1),
             gap=0,
             margins=(MARGIN_PX, GAP_PX - 4, MARGIN_PX, GAP_PX),
             within=self,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QBoxLayout, QScrollArea, QWidget
+from PySide6.QtWidgets import QBoxLayout, QLayout, QWidget
 
 from carpus.core.records.values import SessionEntry
 from carpus.core.results.figures import SessionFigures
@@ -14,7 +14,7 @@ from carpus.core.results.side_by_side import partner_of
 from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import STRETCH, ScrolledColumn, empty, fill, in_column, in_line
+from carpus.ui.controls.layouts import NO_LIMIT_PX, STRETCH, ScrollArea, ScrolledColumn, empty, fill, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text, plain_tooltip
 from carpus.ui.controls.words_table import WordsTable
 from carpus.ui.report.active_passive import active_passive
@@ -25,7 +25,7 @@ from carpus.ui.report.tables import column_names, repetition_words, table_rows
 from carpus.ui.report.words import corrected_words
 from carpus.ui.review.reviewed import Reviewed
 from carpus.ui.review.tables import FurtherTable, HandTable, RangeTable
-from carpus.ui.theme import Theme, is_tight
+from carpus.ui.theme import Theme
 from carpus.ui.translate import inside
 
 LEAST_TABLE_PX = 84
@@ -98,39 +98,42 @@ class ReviewCard(Card):
             )
         self.beside_button.setToolTip(words)
 
-    def fit(self, screen: QWidget, *, whole_hand: bool) -> None:
-        """The tables take the rows they have; with large text they scroll and the curves keep a panel."""
-        tight = is_tight(screen, self._theme)
+    def fit(self, page: QLayout, height_px: int, *, tight: bool, whole_hand: bool) -> None:
+        """The tables take the rows they have, or scroll so that the curves keep their panels; with large text the page
+        scrolls with all of them."""
         self.report_button.set_face(self.report_button.text(), hint="" if tight else "Ctrl+P")
         self.export_button.set_face(self.export_button.text(), hint="" if tight else "Ctrl+E")
         self.again_button.set_face(self.again_button.text(), icon="" if tight else "plus")
-        most = screen.height() * (0.36 if tight else 0.42 if whole_hand else 0.48)
-        fewest, beside = LEAST_TABLE_PX * self._theme.text_scale, QBoxLayout.Direction.LeftToRight
-        # With large text what was left out, and why, has a line of its own where the table can spare one.
-        self._said.setDirection(QBoxLayout.Direction.TopToBottom if tight else beside)
-        room = self._room_px(screen)
-        if room < fewest:
-            self._said.setDirection(beside)
-            room = self._room_px(screen)
+        # With large text what was left out, and why, has a line of its own.
+        direction = QBoxLayout.Direction
+        self._said.setDirection(direction.TopToBottom if tight else direction.LeftToRight)
+        self.tables.unroll(on=tight)
+        if tight:
+            self.tables.setMinimumHeight(0)
+            self.tables.setMaximumHeight(NO_LIMIT_PX)
+            return
+        if whole_hand:
+            self.tables.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOn)
+        most = height_px * (0.42 if whole_hand else 0.48)
         # Of the whole hand always more than there is room for: its place is known before it is read.
         needed = most if whole_hand else self.tables.needed_px() + 2
-        self.tables.setFixedHeight(round(max(min(needed, most, room), fewest)))
+        fewest = LEAST_TABLE_PX * self._theme.text_scale
+        self.tables.setFixedHeight(round(max(min(needed, most, self._room_px(page, height_px)), fewest)))
 
-    def _room_px(self, screen: QWidget) -> int:
+    def _room_px(self, page: QLayout, height_px: int) -> int:
         """What is left for the tables when all else keeps its least height; the card must not be pushed together."""
-        whole, width = screen.layout(), screen.width()
-        assert whole is not None
-        self.body.activate()  # its line may just have become two, and its widget keeps the height it had before
-        whole.invalidate()  # the text may just have become larger
-        least = whole.minimumHeightForWidth(width) if whole.hasHeightForWidth() else whole.minimumSize().height()
-        return screen.height() - (least - self.tables.minimumHeight())
+        page.invalidate()  # the text may just have become larger
+        width = page.geometry().width()
+        least = page.minimumHeightForWidth(width) if page.hasHeightForWidth() else page.minimumSize().height()
+        return height_px - (least - self.tables.minimumHeight())
 
 
-class ResultTables(QScrollArea):
+class ResultTables(ScrollArea):
     """Range of motion, active and passive, further measures, notes, and other results of the recording."""
 
     def __init__(self, theme: Theme) -> None:
-        super().__init__()
+        column = ScrolledColumn()
+        super().__init__(column)
         self.range = RangeTable(theme)
         self.hand = HandTable(theme)
         self.further = FurtherTable(theme)
@@ -141,23 +144,17 @@ class ResultTables(QScrollArea):
         self.limits = Text(theme, "", 12, REGULAR, "text2", wrap=True)
         self.notes = Text(theme, "", 14, REGULAR, wrap=True)
         self.results = ResultChoice(theme)
-        column = ScrolledColumn()
         self._column = in_column(gap=4, margins=(0, 0, 0, 0), within=column)
         for widget in (self.range, self.hand, *self._ways, self.further, self.limits, self.notes, self.results):
             self._column.addWidget(widget)
         self._column.addStretch(1)
         for hidden in (self.hand, self.limits, self.further, *self._ways):
             hidden.hide()  # until there is a session that has it
-        self.setWidget(column)
-        self.setWidgetResizable(True)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
 
     def show_places(self, *, whole_hand: bool) -> None:
         self.hand.setVisible(whole_hand)
         self.limits.setVisible(whole_hand)
         self.range.setVisible(not whole_hand)
-        policy = Qt.ScrollBarPolicy
-        self.setVerticalScrollBarPolicy(policy.ScrollBarAlwaysOn if whole_hand else policy.ScrollBarAsNeeded)
 
     def show_nothing(self) -> None:
         """While a session of the whole hand is read: places without figures."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QWidget
+from PySide6.QtWidgets import QBoxLayout, QWidget
 
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, KeyCaps
-from carpus.ui.controls.field import Choices
+from carpus.ui.controls.field import Choices, Combo
 from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, Text
 from carpus.ui.figures import FINGERS, figure_of
@@ -45,8 +45,8 @@ class ReviewCharts(QWidget):
         self.curves = CurveView(theme)
         self.ways = WaysView(theme)
         self.ways.hide()
-        column = in_column(self.finger, gap=8, margins=(0, 0, 0, 0), within=self)
-        fill(column, (self.curves, 1), (self.ways, 1))
+        self._column = in_column(self.finger, gap=8, margins=(0, 0, 0, 0), within=self)
+        fill(self._column, (self.curves, 1), (self.ways, 1))
         self.finger.chosen.connect(lambda _: self.chosen.emit())
 
     @property
@@ -55,9 +55,13 @@ class ReviewCharts(QWidget):
         value = self.finger.value()
         return value if isinstance(value, int) else 0
 
-    def fit(self, reviewed: Reviewed | None, *, tight: bool) -> bool:
-        """With large text fewer panels; whether another finger had to be chosen for that."""
+    def fit(self, reviewed: Reviewed | None, *, above: QBoxLayout | None) -> bool:
+        """With large text fewer panels, and the fingers ``above`` everything; whether another finger had to be chosen
+        for that."""
+        tight, place = above is not None, above or self._column
         self.curves.show_single(tight)
+        if place.indexOf(self.finger) < 0:
+            place.insertWidget(0, self.finger)
         self.finger.buttons()[0].setVisible(not tight)
         if tight and reviewed is not None and reviewed.is_hand and self.number == 0:
             self.finger.choose(figure_of(reviewed.figures.exercise.joint).finger)  # five panels have no room
@@ -106,10 +110,9 @@ class Player(Card):
         self._research = True
         self._end_s = 1.0
         self.transport = Transport(theme, playing)
-        self.view = QComboBox()
+        self.view = Combo()
         self.view.setAccessibleName(self.tr("What is drawn"))
         self.view.setToolTip(self.tr("What is drawn of the movement (V)"))
-        self.view.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.view.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
         for value, words in (
             ("angles", self.tr("Angles")), ("path", self.tr("Path")), ("place", self.tr("Place, speed")),

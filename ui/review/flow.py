@@ -27,7 +27,7 @@ class ReviewFlow(Flow):
         screen.report.connect(lambda session_id: way.show("report", session_id))
         screen.export.connect(self.exporting.ask)
         screen.film.connect(self.save_film)
-        screen.beside.connect(lambda one, other: way.show("beside", one, other))
+        screen.beside.connect(lambda one, other: way.show("beside", one, other, screen.charts.number))
         screen.correct.connect(lambda *where: way.show("correct", *where))
         screen.result.connect(self.show)
         screen.charts.curves.menu.saved.connect(lambda path: self.note_made([path], [context.now.session_id]))

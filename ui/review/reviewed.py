@@ -142,7 +142,7 @@ def _figures(
 
 
 def _hidden_words(count: int) -> str:
-    return tr("{count} markers hidden").format(count=count)
+    return tr("1 marker hidden") if count == 1 else tr("{count} markers hidden").format(count=count)
 
 
 def _wrist_said(column: int, value: float, sd: float) -> str:

@@ -15,7 +15,7 @@ from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.types import TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.layouts import STRETCH, Fitted, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, Fitted, in_column, in_line, page
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import Text
 from carpus.ui.keys import Keys, bind
@@ -67,15 +67,15 @@ class ReviewScreen(Fitted):
         self.bubble = BubbleView(theme, wide=True)
         self.reason = ReasonSheet(self, theme)
         self.film_sheet = FilmSheet(self, theme)
-        in_column(
+        self._column = in_column(
             (in_line((self.picture, 480), (self.charts, 736), gap=GAP_PX), 1),
             self.player,
             self.bubble,
             self.card,
             gap=12,
             margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX),
-            within=self,
         )
+        in_column(page(self._column), margins=(0, 0, 0, 0), within=self)
         self._connect()
         self._bind(keys)
         # At once, and again when every part has taken its new size.
@@ -87,10 +87,11 @@ class ReviewScreen(Fitted):
 
     def _fit(self) -> None:
         self.bubble.give_room(self.height() >= LEAST_SCREEN_PX * self._theme.text_scale)
-        if self.charts.fit(self.reviewed, tight=is_tight(self, self._theme)):
+        tight = is_tight(self, self._theme)
+        if self.charts.fit(self.reviewed, above=self._column if tight else None):
             self._refresh()
         else:
-            self.card.fit(self, whole_hand=self._whole_hand)
+            self.card.fit(self._column, self.height(), tight=tight, whole_hand=self._whole_hand)
 
     def _connect(self) -> None:
         curves, card = self.charts.curves, self.card

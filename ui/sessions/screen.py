@@ -14,7 +14,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.background import Background
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.layouts import in_column, in_line, scroll_area
+from carpus.ui.controls.layouts import ScrollArea, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.keys import Keys, bind
 from carpus.ui.sessions.listing import SessionLine, SessionList, remark
@@ -92,7 +92,7 @@ class SessionsScreen(QWidget):
             self.move_button, self.rename_button, self.erase_button,
         ):  # fmt: skip
             body.addWidget(button)
-        self._right = scroll_area(self._card)
+        self._right = ScrollArea(self._card)
         in_line(
             (left, 1),
             self._right,

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLineEdit, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
 from carpus.ui.controls.button import Button
+from carpus.ui.controls.field import Combo
 from carpus.ui.controls.layouts import STRETCH, in_line
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.theme import Theme
@@ -65,7 +66,7 @@ class ChooseSheet(Sheet):
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 600)
         self.head()
-        self.box = QComboBox()
+        self.box = Combo()
         self.box.setAccessibleName(self.tr("Choice"))
         self.card.body.addWidget(self.box)
         self.take = Button(theme, "", "primary", height_px=44)

@@ -27,7 +27,7 @@ from carpus.ui import terms
 from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import Choices, DegreesField
-from carpus.ui.controls.layouts import Part, ScrolledColumn, fill, in_column, in_line, scroll_area
+from carpus.ui.controls.layouts import Part, ScrollArea, ScrolledColumn, fill, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.keys import DEFAULT_KEYS, action_words
 from carpus.ui.language import LANGUAGES
@@ -236,7 +236,7 @@ class SettingsScreen(QWidget):
             page.addStretch(1)
             host = ScrolledColumn()
             host.setLayout(page)
-            self._stack.addWidget(scroll_area(host))
+            self._stack.addWidget(ScrollArea(host))
             button = self.index[part] = Button(self._theme, titles[part], "quiet", height_px=40)
             button.setCheckable(True)
             group.addButton(button, number)

@@ -54,7 +54,7 @@ class ExerciseScreen(QWidget):
         sides: list[tuple[object, str]] = [("right", terms.side_name("right")), ("left", terms.side_name("left"))]
         self.side = Choices(theme, sides)
         self.repetitions = number_field(theme, MOST_REPETITIONS, nothing=self.tr("none"))
-        self.targets = tuple(DegreesField(theme, MOST_TARGET_DEG, self.tr("none")) for _ in range(2))
+        self.targets = tuple(DegreesField(theme, MOST_TARGET_DEG, self.tr("no target")) for _ in range(2))
         self.problem = Text(theme, "", 14, token="bad", wrap=True)
         self.proposal = Text(theme, "", 14, token="text2", wrap=True)
         self.accept = Button(theme, self.tr("Use as targets"), "plain", height_px=36)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QLineEdit, QWidget
+from PySide6.QtWidgets import QLineEdit, QWidget
 
 from carpus.core.hand.exercises import exercise_named, exercises_of
 from carpus.core.hand.protocols import protocol_named
@@ -23,7 +23,7 @@ from carpus.core.records.set_up import (
 )
 from carpus.ui import terms
 from carpus.ui.controls.button import Button
-from carpus.ui.controls.field import Labelled, number_field
+from carpus.ui.controls.field import Combo, Labelled, number_field
 from carpus.ui.controls.layouts import STRETCH, in_column, in_grid, in_line, scrolled
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import Text, caption
@@ -47,13 +47,13 @@ class PartRow:
 
     def __init__(self, theme: Theme, discs: str, part: CoursePart) -> None:
         words = _words()
-        self.exercise = QComboBox()
+        self.exercise = Combo()
         for one in exercises_of(protocol_named(discs)):
             self.exercise.addItem(terms.exercise_name(one.id), one.id)
         self.exercise.setCurrentIndex(max(0, self.exercise.findData(part.exercise.id)))
         self.exercise.setAccessibleName(words["exercise"])
         self.count = number_field(theme, MOST_SECONDS)
-        self.unit = QComboBox()
+        self.unit = Combo()
         self.unit.addItem(words["times"], False)
         self.unit.addItem(words["seconds"], True)
         self.unit.setAccessibleName(words["unit"])
@@ -99,7 +99,7 @@ class SetSheet(Sheet):
         self._discs = ""
         self._sure = False
         self.rows: list[PartRow] = []
-        self.which = QComboBox()
+        self.which = Combo()
         self.which.setAccessibleName(self.tr("Set"))
         self.name = QLineEdit(maxLength=MOST_NAME, placeholderText=self.tr("No names of patients"))
         self.name.setAccessibleName(self.tr("Name of the set"))

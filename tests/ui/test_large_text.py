@@ -1,0 +1,85 @@
+"""What is read with German words at 150 %: tables, curves and names are there in whole, and the page scrolls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from PySide6.QtWidgets import QApplication, QScrollArea, QStyleOptionComboBox, QWidget
+
+from carpus.ui.beside.screen import BesideScreen
+from carpus.ui.controls.field import Combo
+from carpus.ui.controls.layouts import ScrollArea
+from carpus.ui.progress.screen import ProgressScreen
+from carpus.ui.records.locking import LockSheet
+from carpus.ui.review.screen import ReviewScreen
+from carpus.ui.theme import Theme
+from tests.ui import pseudo
+from tests.ui.gallery import Gallery
+
+LEAST_PLOT_PX = 240
+
+
+@pytest.fixture(scope="module")
+def gallery(qapp: QApplication) -> Iterator[Gallery]:
+    with pseudo.spoken("de"):
+        shown = Gallery(qapp, "dark", (1280, 800), 1.5)
+        yield shown
+        shown.close()
+
+
+def is_whole(area: QScrollArea) -> bool:
+    held = area.widget()
+    return held is not None and area.viewport().height() >= held.height()
+
+
+def test_curves_of_every_finger_are_wide_and_no_choice_is_cut(gallery: Gallery) -> None:
+    gallery.progress_hand()
+    gallery.settle()
+    screen = gallery.shell.stage.currentWidget()
+    assert isinstance(screen, ProgressScreen)
+    assert min(panel.box.width() for panel, _ in screen.chart.panels()) >= LEAST_PLOT_PX
+    for box in (screen.exercise, screen.followed):
+        assert box.width() >= box.sizeHint().width()
+    assert is_whole(screen._side)
+
+
+def test_tables_are_read_whole(gallery: Gallery) -> None:
+    for state in (gallery.review_hand, gallery.beside_hand):
+        state()
+        screen = gallery.shell.stage.currentWidget()
+        assert isinstance(screen, ReviewScreen | BesideScreen)
+        tables = screen.card.tables if isinstance(screen, ReviewScreen) else screen.differences._scroll
+        assert is_whole(tables)
+        (page,) = (area for area in screen.findChildren(ScrollArea) if area.parent() is screen)
+        assert page.verticalScrollBar().maximum() > 0
+
+
+def test_no_finger_loses_the_end_of_its_name(gallery: Gallery) -> None:
+    gallery.review_hand()
+    screen = gallery.shell.stage.currentWidget()
+    assert isinstance(screen, ReviewScreen)
+    shown = [button for button in screen.charts.finger.buttons() if button.isVisible()]
+    assert len(shown) == 6
+    assert [button.shown_text for button in shown] == [button.text() for button in shown]
+
+
+def test_the_lock_stands_below_its_bar(gallery: Gallery) -> None:
+    gallery.locked()
+    sheet = gallery.over[-1]
+    assert isinstance(sheet, LockSheet)
+    above, below = sheet.card.y() - sheet._bar.height(), sheet.height() - sheet.card.geometry().bottom()
+    assert above >= below // 2
+
+
+def test_a_choice_without_room_ends_in_dots(theme: Theme, qapp: QApplication) -> None:
+    host = QWidget()
+    box = Combo()
+    box.setParent(host)
+    box.addItem("Faustschluss · Rechte Hand")
+    for width, whole in ((box.sizeHint().width() + 10, True), (120, False)):
+        box.resize(width, 40)
+        option = QStyleOptionComboBox()
+        box.initStyleOption(option)
+        assert (option.currentText == box.currentText()) is whole
+        assert option.currentText.endswith("…") is not whole
