@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from carpus.app.compose import Desktop
     from carpus.core.simulation.spec import RecordingSpec
+    from tests.commands import Command
 
 # Before anything imports NumPy or Qt: two BLAS pools stall each other, and there is no screen to open windows on.
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -130,6 +131,23 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Callable[[RecordingSpe
             return cached_recording(spec, cache=folder)
 
     return recording
+
+
+@pytest.fixture
+def command(capsys: pytest.CaptureFixture[str]) -> Command:
+    """Runs a command of ``carpus`` in this process."""
+    from carpus.app.__main__ import main
+    from tests.commands import Done
+
+    def run(*words: str | Path) -> Done:
+        capsys.readouterr()
+        try:
+            code = main([str(word) for word in words])
+        except SystemExit as end:
+            code = int(end.code or 0)
+        return Done(code, *capsys.readouterr())
+
+    return run
 
 
 @pytest.fixture

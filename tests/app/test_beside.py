@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import shutil
 from collections.abc import Callable
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
@@ -14,10 +13,9 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from carpus.app.compose import Desktop
-from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
-from carpus.core.records.values import PatientEntry
 from tests.agreement.test_retest import written
+from tests.records.samples import LINDEN, kept
 
 NOW = datetime(2026, 11, 20, 9, 0, tzinfo=UTC)
 EARLIER = NOW - timedelta(days=7)
@@ -32,13 +30,7 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 
 @pytest.fixture
 def desktop(open_desktop: Callable[..., Desktop], recorded: tuple[Path, Path], tmp_path: Path) -> Desktop:
-    library = Library(tmp_path / "data")
-    patient = library.patients.add(PatientEntry("Linden 42", "right"))
-    for stored, when in zip(recorded, (NOW, EARLIER), strict=True):
-        path = library.index.new_path(patient, "Linden 42", "WRIST_FE", "right", when)
-        shutil.copyfile(stored, path)
-        library.index.enter(path, patient)
-    library.close()
+    patient = kept(tmp_path / "data", LINDEN, (recorded[0], NOW, ""), (recorded[1], EARLIER, ""))
     opened = open_desktop(today=date(2026, 11, 20))
     opened.journey.sessions.show(patient)
     return opened
@@ -61,7 +53,6 @@ def test_from_two_ticks_to_tables_and_a_page_and_back(
     assert screen.answer.text() == "The whole arc has improved by 30° since 13 Nov."
     assert [row.words for row in screen.differences.table.rows][:3] == ["improved, beyond error"] * 3
 
-    assert screen.together is not None
     start, starts = screen.playing.time_s, screen.together.step.starts_s
     assert start == starts[0]
     for key, expected in ((Qt.Key.Key_BracketRight, starts[1]), (Qt.Key.Key_BracketLeft, start)):

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from PySide6.QtCore import QLocale, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop, application, compose
+from carpus.app.compose import Desktop
 from carpus.app.desktop import care_cameras
-from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.calibration.camera import views
 from carpus.core.calibration.card import measure
 from carpus.core.calibration.card.chart import add_check, chart_path, read_checks
@@ -41,14 +40,8 @@ def data(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def desktop(qapp: QApplication, data: Path, tmp_path: Path) -> Iterator[Desktop]:
-    """The real application, put together as for a user."""
-    QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedKingdom))
-    settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(data)))
-    opened = compose(application([]), settings, speed=20.0, settings_folder=tmp_path / "settings")
-    opened.show()
-    yield opened
-    opened.close()
+def desktop(open_desktop: Callable[..., Desktop]) -> Desktop:
+    return open_desktop(speed=20.0)
 
 
 @pytest.fixture(autouse=True)
@@ -84,7 +77,6 @@ def test_from_the_settings_over_board_and_card_to_their_pages(
 
     journey.way.show("settings")
     settings_card = desktop.shell.findChild(CameraCard)
-    assert settings_card is not None
     settings_card.calibrate_button.click()
     assert journey.place == "board"
     assert not board.beginning.begin_button.isEnabled(), "no camera is plugged in here"
@@ -103,7 +95,6 @@ def test_from_the_settings_over_board_and_card_to_their_pages(
     board.showing.primary.click()
     qtbot.waitUntil(lambda: board.result.result is not None)
     result = board.result.result
-    assert result is not None
     assert result.simulated
     assert "The camera is calibrated" in board.result.answer.text()
     page = saved_as("calibration.pdf")
@@ -161,7 +152,6 @@ def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(
     assert desktop.shell.bar.camera.text() == "Camera out: check it"
     journey.way.show("settings")
     card = desktop.shell.findChild(CameraCard)
-    assert card is not None
     assert "out of its limits" in card._state.text()
     disk, answers = care_cameras.known_serials, threading.Event()
     monkeypatch.setattr(care_cameras, "known_serials", lambda folder: disk(folder) if answers.wait(600) else set())

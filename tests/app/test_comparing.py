@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-import shutil
 from collections.abc import Callable
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
@@ -19,12 +18,11 @@ from carpus.app.settings import ScreenSettings, Settings
 from carpus.core.agreement.clocks import Stopped, WorkWatch
 from carpus.core.agreement.compared_files import compare_files
 from carpus.core.agreement.reference import outline_of
-from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
-from carpus.core.records.values import PatientEntry
 from carpus.core.results.report_form import ReportSettings
 from carpus.core.session.reader import read_session
 from tests.agreement.test_retest import written
+from tests.records.samples import LINDEN, kept
 
 NOW = datetime(2026, 11, 20, 9, 0, tzinfo=UTC)
 
@@ -62,13 +60,7 @@ def earlier(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def desktop(
     open_desktop: Callable[..., Desktop], qtbot: QtBot, recorded: Path, earlier: Path, tmp_path: Path
 ) -> Desktop:
-    library = Library(tmp_path / "data")
-    patient = library.patients.add(PatientEntry("Linden 42", "right"))
-    for stored, when in ((recorded, NOW), (earlier, NOW - timedelta(days=1))):
-        path = library.index.new_path(patient, "Linden 42", "WRIST_FE", "right", when)
-        shutil.copyfile(stored, path)
-        library.index.enter(path, patient)
-    library.close()
+    patient = kept(tmp_path / "data", LINDEN, (recorded, NOW, ""), (earlier, NOW - timedelta(days=1), ""))
     settings = Settings(screen=ScreenSettings("light"), report=ReportSettings(agreement_limit_deg=5.0))
     opened = open_desktop(settings, today=date(2026, 11, 20))
     opened.journey.review.show("", patient)
@@ -104,7 +96,6 @@ def test_from_the_review_to_saved_tables(
     comparing.columns.signs["flexion"].click()
     comparing.columns.take.click()
     qtbot.waitUntil(lambda: screen.compared is not None)
-    assert screen.compared is not None
     (pairs,) = screen.compared.pairs
     assert pairs.figures_deg.bias == pytest.approx(2.0, abs=0.05)
     assert screen.answer.text() == "Flexion–extension agrees within 5°."
@@ -130,7 +121,6 @@ def test_from_the_review_to_saved_tables(
 
 def test_from_the_list_of_sessions_with_another_one(qtbot: QtBot, desktop: Desktop) -> None:
     journey = desktop.journey
-    assert journey.now.patient is not None
     journey.sessions.show(journey.now.patient.patient_id)
     journey.sessions.screen.reference_button.click()
     assert journey.place == "agreement"
@@ -140,7 +130,6 @@ def test_from_the_list_of_sessions_with_another_one(qtbot: QtBot, desktop: Deskt
     ]
     sheet.session_button.click()
     qtbot.waitUntil(lambda: journey.agreement.screen.compared is not None)
-    assert journey.agreement.screen.compared is not None
     flexion = journey.agreement.screen.compared.pairs[0].figures_deg
     assert flexion.largest == pytest.approx(3.0, abs=0.1)
     assert not journey.agreement.screen.columns_button.isVisible(), "a session has no columns to be told"

@@ -31,7 +31,6 @@ def _said(desktop: Desktop) -> str:
 def test_no_screen_of_a_demo_misses_a_camera(qtbot: QtBot, demo: Callable[[], Desktop]) -> None:
     desktop = demo()
     journey, panel = desktop.journey, desktop.welcome.panel
-    assert panel is not None
     qtbot.waitUntil(lambda: bool(panel.checks), timeout=60_000)
     assert not [row.check.name for row in panel.checks if "camera" in row.check.name.lower()]
 

@@ -17,7 +17,7 @@ from carpus.core.errors import CarpusFault, FolderMissing, RecordingMoved, Recor
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.records.erasure import erase, plan_patient
 from carpus.core.records.library import Library
-from carpus.core.records.new_sessions import NewSessions, bring_home, fallback_place, recover
+from carpus.core.records.new_sessions import NewSessions, fallback_place, recover
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.writer import Fallback, SessionWriter
 from carpus.core.types import Frame
@@ -125,10 +125,6 @@ def test_a_share_keeps_its_rights(tmp_path: Path) -> None:
         NewSessions(library).new_path(set_up(linden, "Linden 42"))
     assert share.stat().st_mode & 0o777 == 0o770
     assert (share / linden).stat().st_mode & 0o777 == 0o700
-
-
-def test_nothing_to_bring_home(tmp_path: Path) -> None:
-    assert bring_home(tmp_path, lambda *_: tmp_path) == []
 
 
 def test_what_waits_of_a_patient_who_was_erased_is_erased_and_brings_nobody_back(tmp_path: Path) -> None:

@@ -26,7 +26,6 @@ def test_the_card_of_the_hand_has_every_fingers_total_with_its_change_and_at_lea
     assert [line.joint for line in lines] == [f"TAM{k}" for k in (2, 3, 4, 5)]
     for line in lines:
         row = last.row("arc", -1, line.joint)
-        assert row is not None
         assert (line.mean_deg, line.at_least) == (row.mean_deg, row.limited)
     assert any(line.at_least for line in lines)
     assert any(line.verdict == "improved" for line in lines)

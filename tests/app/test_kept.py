@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import shutil
-import subprocess
-import sys
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 
 import pytest
 
 import carpus
-from carpus.app.__main__ import main
 from carpus.app.of_file import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.errors import OutputNotWritable
@@ -26,6 +24,7 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.ui.patients.flow import PatientShelf
 from carpus.ui.sessions.flow import SessionShelf
 from tests.app.test_library import set_up, store
+from tests.commands import Command
 from tests.records.samples import traces
 
 ROOT = Path(__file__).parents[2]
@@ -80,46 +79,35 @@ def test_what_the_window_does_is_logged_without_names(library: Library, tmp_path
     assert traces(library.folder, "Linden", "Erika", linden, session) == []
 
 
-def test_commands_are_logged_where_the_session_is_kept(
-    library: Library, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_commands_are_logged_where_the_session_is_kept(library: Library, tmp_path: Path, command: Command) -> None:
     linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
     session = store(library, set_up(linden, "Linden 42"))
     practice = store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
-    path, out = str(library.entry(session).path), tmp_path / "out"
-    assert main(["info", path]) == 0
-    assert main(["verify", path]) == 0
-    assert main(["export", path, "--output", str(out)]) == 0
-    report = [sys.executable, "-m", "carpus", "report", path, "--output", str(out / "r.pdf")]
-    subprocess.run(report, cwd=ROOT, check=True, capture_output=True)  # it makes an application of its own kind
-    assert main(["info", str(library.entry(practice).path)]) == 0
-    elsewhere = tmp_path / "own.h5"
-    elsewhere.write_bytes(library.entry(session).path.read_bytes())
-    assert main(["info", str(elsewhere)]) == 0
-    commands = [(did, by) for did, by, _ in deeds(library.folder) if by == "command"]
-    assert commands == [("opened", "command"), ("opened", "command"), ("exported", "command"), ("reported", "command")]
-    capsys.readouterr()
-    assert main(["log", "--data-folder", str(library.folder)]) == 0
-    assert "6 lines." in capsys.readouterr().out
-    assert main(["erase", path]) == 0
-    said = capsys.readouterr().out
-    assert f"This stays, delete it yourself: report {out / 'r.pdf'}" in said
-    assert Path(path).exists()
-    assert main(["erase", path, "--for-good", "Heron 17"]) == 1
-    assert Path(path).exists()
-    assert main(["erase", path, "--for-good", "linden 42"]) == 0
-    assert not Path(path).exists()
+    path, out, elsewhere = library.entry(session).path, tmp_path / "out", tmp_path / "own.h5"
+    elsewhere.write_bytes(path.read_bytes())
+    for words in (
+        ("info", path), ("verify", path), ("export", path, "--output", out),
+        ("report", path, "--output", out / "r.pdf"), ("info", library.entry(practice).path), ("info", elsewhere),
+    ):  # fmt: skip
+        assert command(*words).code == 0
+    commands = [did for did, by, _ in deeds(library.folder) if by == "command"]
+    assert commands == ["opened", "opened", "exported", "reported"]
+    assert "6 lines." in command("log", "--data-folder", library.folder).out
+    asked = command("erase", path)
+    assert (asked.code, path.exists()) == (0, True)
+    assert f"This stays, delete it yourself: report {out / 'r.pdf'}" in asked.out
+    assert (command("erase", path, "--for-good", "Heron 17").code, path.exists()) == (1, True)
+    assert (command("erase", path, "--for-good", "linden 42").code, path.exists()) == (0, False)
     assert (out / "r.pdf").exists()
     assert library.sessions(linden) == []
-    assert main(["erase", str(elsewhere)]) == 1
+    assert command("erase", elsewhere).code == 1
 
 
 def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -> None:
     linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
     session = store(library, set_up(linden, "Linden 42"))
     path = library.entry(session).path
-    elsewhere = tmp_path / "mine.h5"
-    shutil.copy(path, elsewhere)
+    elsewhere = Path(shutil.copy(path, tmp_path / "mine.h5"))
     before = len(deeds(library.folder))
     carpus.open_session(elsewhere)
     carpus.export(elsewhere, tmp_path / "mine", "json")
@@ -127,11 +115,8 @@ def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -
     carpus.open_session(path)
     carpus.export(path, tmp_path / "out", "json")
     carpus.export(path, tmp_path / "nobody", "json", deidentified=True)
-    assert [(did, by) for did, by, _ in deeds(library.folder)[before:]] == [
-        ("opened", "command"),
-        ("exported", "command"),
-        ("exported", "command"),
-    ]
+    did = [(did, by) for did, by, _ in deeds(library.folder)[before:]]
+    assert did == [("opened", "command"), ("exported", "command"), ("exported", "command")]
     plan = Records(library).plan_session(session)
     assert {one.path.parent for one in plan.made} == {tmp_path / "out"}, "what was made is named"
 
@@ -152,31 +137,27 @@ def test_a_log_that_cannot_be_written_is_told_and_stops_nothing_else(
 
 
 def test_a_back_up_by_command_comes_back_elsewhere(
-    library: Library, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    library: Library, tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("os.nice", lambda _: 0)
     linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
     store(library, set_up(linden, "Linden 42"))
-    place, data = str(tmp_path / "disk"), str(library.folder)
-    assert main(["backup", place, "--list"]) == 1
-    assert main(["backup", place, "--data-folder", data]) == 0
-    assert "1 sessions" in capsys.readouterr().out
-    assert main(["backup", place, "--compare"]) == 0
+    place, new = tmp_path / "disk", tmp_path / "new"
+    assert command("backup", place, "--list").code == 1
+    made = command("backup", place, "--data-folder", library.folder)
+    assert (made.code, "1 sessions" in made.out) == (0, True)
+    assert command("backup", place, "--compare").code == 0
     store(library, set_up(linden, "Linden 42"))
-    assert main(["restore", place, "--against", data]) == 0
-    assert "Sessions added: 0, changed: 0, taken away: 1." in capsys.readouterr().out
-    assert main(["restore", place, "--into", str(tmp_path / "new")]) == 0
-    assert main(["restore", place, "--into", str(tmp_path / "new")]) == 1
-    restored = Library(tmp_path / "new")
-    try:
+    told = command("restore", place, "--against", library.folder)
+    assert (told.code, "Sessions added: 0, changed: 0, taken away: 1." in told.out) == (0, True)
+    assert [command("restore", place, "--into", new).code for _ in range(2)] == [0, 1]
+    with closing(Library(new)) as restored:
         assert [len(restored.sessions(one.patient_id)) for one in restored.patients.listed()] == [1]
-    finally:
-        restored.close()
-    assert [did for did, _, _ in deeds(tmp_path / "new")] == ["added", "recorded", "restored"]
+    assert [did for did, _, _ in deeds(new)] == ["added", "recorded", "restored"]
 
 
 def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     data, share = tmp_path / "data", tmp_path / "share"
     share.mkdir()
@@ -184,17 +165,15 @@ def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(
     settings = settings_folder() / "settings.toml"
     settings.parent.mkdir(parents=True, exist_ok=True)
     settings.write_text(f'[records]\nsessions = "{share}"\n')
-    library = Library(data, sessions=share)
-    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
-    session = store(library, set_up(linden, "Linden 42"))
-    library.keep_comment(session, "Less swelling.")
-    library.keep_choices(session, RepetitionChoices({0: "pain"}))
-    path = library.entry(session).path
-    library.close()
+    with closing(Library(data, sessions=share)) as library:
+        linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+        session = store(library, set_up(linden, "Linden 42"))
+        library.keep_comment(session, "Less swelling.")
+        library.keep_choices(session, RepetitionChoices({0: "pain"}))
+        path = library.entry(session).path
     assert path.is_relative_to(share)
-    assert read_comment(path) == "Less swelling."
-    assert read_choices(path).left_out == {0: "pain"}
+    assert (read_comment(path), read_choices(path).left_out) == ("Less swelling.", {0: "pain"})
     monkeypatch.setattr("os.nice", lambda _: 0)
-    assert main(["backup", str(tmp_path / "disk")]) == 0
-    assert main(["erase", str(path), "--for-good", "Linden 42"]) == 0
+    assert command("backup", tmp_path / "disk").code == 0
+    assert command("erase", path, "--for-good", "Linden 42").code == 0
     assert not path.exists()

@@ -50,13 +50,11 @@ def test_another_language_at_the_same_place_and_none_while_something_is_at_work(
     assert desktop.closed
 
 
-@pytest.mark.parametrize(
-    ("place", "refused"), [("review", False), ("sessions", False), ("markers", True), ("live", True)]
-)
 def test_a_camera_that_waits_behind_the_review_keeps_no_language(
-    desktop: Desktop, monkeypatch: pytest.MonkeyPatch, place: str, refused: bool
+    desktop: Desktop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(desktop.journey.now, "source", object())
-    monkeypatch.setattr(type(desktop.journey.way), "behind", place)
-    assert bool(desktop.why_no_other_language()) is refused
-    monkeypatch.setattr(desktop.journey.now, "source", None)
+    with monkeypatch.context() as waiting:
+        waiting.setattr(desktop.journey.now, "source", object())
+        for place, refused in (("review", False), ("sessions", False), ("markers", True), ("live", True)):
+            waiting.setattr(type(desktop.journey.way), "behind", place)
+            assert bool(desktop.why_no_other_language()) is refused, place

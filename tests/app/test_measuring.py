@@ -6,6 +6,8 @@ import os
 import signal
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import cache
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -27,7 +29,7 @@ from carpus.core.pipeline.track import (
     retrack_session,
 )
 from carpus.core.session.reader import read_session
-from carpus.core.session.values import new_header
+from carpus.core.session.values import Session, new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
@@ -40,22 +42,26 @@ FRAMES = 600
 NO_PICTURE = np.zeros((1, 1, 3), np.uint8)
 
 
-@pytest.fixture(autouse=True)
-def patience(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture(autouse=True, scope="module")
+def patience() -> Iterator[None]:
     """A loaded computer may take long to start a process; whether it is done in time is not what is tested."""
-    monkeypatch.setattr(looking_back, "END_S", 150.0)
+    with pytest.MonkeyPatch.context() as patient:
+        patient.setattr(looking_back, "END_S", 150.0)
+        yield
+
+
+@cache
+def all_blobs() -> tuple[Detections, ...]:
+    rng = np.random.default_rng(4)
+    turns = 30.0 * np.sin(2.0 * np.pi * 0.4 * DT_S * np.arange(FRAMES))
+    return tuple(blobs(Pose(np.array([0.0, turn, 0.0])), rng) for turn in turns)
 
 
 class Blobs:
     """A detector that knows the blobs of every frame."""
 
-    def __init__(self) -> None:
-        rng = np.random.default_rng(4)
-        turns = 30.0 * np.sin(2.0 * np.pi * 0.4 * DT_S * np.arange(FRAMES))
-        self._blobs = [blobs(Pose(np.array([0.0, turn, 0.0])), rng) for turn in turns]
-
     def detect(self, frame: Frame, _region: object = None) -> Detections:
-        return self._blobs[frame.index]
+        return all_blobs()[frame.index]
 
     def region_about(self, *_: object) -> Region:
         return Region(0, 0, CAMERA.width_px, CAMERA.height_px)
@@ -94,12 +100,17 @@ def recorded(path: Path, piece_s: float, at_row: Callable[[LookingBack, int], No
     return pipeline
 
 
-def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(tmp_path: Path) -> None:
-    recorded(tmp_path / "whole.h5", 1e6)
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Session:
+    """Looked back at once, when all of it is there."""
+    path = tmp_path_factory.mktemp("whole") / "whole.h5"
+    recorded(path, 1e6)
+    return read_session(path)
+
+
+def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(whole: Session, tmp_path: Path) -> None:
     recorded(tmp_path / "pieces.h5", PIECE_S)
-    whole, pieces = read_session(tmp_path / "whole.h5"), read_session(tmp_path / "pieces.h5")
-    assert whole.smoothed is not None
-    assert pieces.smoothed is not None
+    pieces = read_session(tmp_path / "pieces.h5")
     assert len(pieces.smoothed.angles_rad) == len(pieces.timestamp_s) == 470
     sd_rad = whole.smoothed.angles_sd_rad
     # What differs is the palm's shape, slowly learnt: a piece knows less of it than the whole session.
@@ -110,7 +121,7 @@ def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(tmp_path: Path) -> None
 
 
 def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
-    tmp_path: Path, caplog: pytest.LogCaptureFixture
+    whole: Session, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     def kill(looker: LookingBack, row: int) -> None:
         if row == 400:
@@ -118,8 +129,7 @@ def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
             os.kill(looker.pid or 0, signal.SIGKILL)
 
     recorded(tmp_path / "killed.h5", PIECE_S, kill)
-    recorded(tmp_path / "whole.h5", 1e6)
-    killed, whole = read_session(tmp_path / "killed.h5"), read_session(tmp_path / "whole.h5")
+    killed = read_session(tmp_path / "killed.h5")
     assert killed.complete
     assert killed.smoothed is None
     np.testing.assert_array_equal(killed.motion.angles_rad, whole.motion.angles_rad)
@@ -135,7 +145,7 @@ def test_a_session_whose_looking_back_is_killed_is_whole_as_tracked(
 
 def test_the_walk_keeps_no_steps() -> None:
     pipeline, kept = live_pipeline(), []
-    for frame in frames():
+    for frame in islice(frames(), 60):
         pipeline.keep = kept.append if frame.index in (3, 4) else None
         pipeline(frame)
         assert not pipeline._pipeline.tracker.record.history
@@ -171,7 +181,6 @@ def test_what_is_said_of_a_spot_while_measuring_reaches_the_tracker_and_the_file
                 live.start_recording(lambda: SessionWriter.create(path, header, CAMERA, wrong))
             if count == said_at:
                 view = live.newest()
-                assert view is not None
                 assert not np.isfinite(view.tracked.marker_measured_px[MCP3]).any()
                 hidden = view.tracked.detections.pixel
                 taken = view.tracked.marker_measured_px

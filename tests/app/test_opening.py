@@ -1,7 +1,8 @@
-"""Opening the practice patient: its still hand at once, its movement drawn beside it and played once it is there."""
+"""The practice patient: its still hand at once, its movement played once it is drawn, and what its whole hand does."""
 
 from __future__ import annotations
 
+import math
 import threading
 from dataclasses import replace
 from typing import Any
@@ -10,15 +11,24 @@ import numpy as np
 import pytest
 
 from carpus.app.desktop.sources import TakesDrawn, practice_beginning, practice_spec
+from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.paced import PracticeSource
 from carpus.core.capture.source import is_simulated
 from carpus.core.errors import CarpusFault, DiskFull
 from carpus.core.hand.exercises import exercise_named
-from carpus.core.records.set_up import SetUp
+from carpus.core.hand.protocols import HAND21
+from carpus.core.measures.reach import find_reaches
+from carpus.core.measures.signals import even_signal, low_pass
+from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.simulation import recording
 from carpus.core.simulation.recording import SimulatedPictures
+from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.simulation.truth import Truth
+from carpus.core.types import Side
 from carpus.ui.opening import NobodyWaitsError, Progress
+from tests.accuracy.carpus import measured_hand
 from tests.capture.test_practice import Take
+from tests.simulation.measurements import measurement_sequence
 from tests.ui.fakes import set_up
 
 FIRST, SECOND = (replace(set_up("FIST_COMPOSITE"), exercise=exercise_named(name)) for name in ("WRIST_FE", "WRIST_RU"))
@@ -107,3 +117,31 @@ def test_the_beginning_is_what_the_whole_take_begins_with_and_a_dozen_pictures(m
     assert frames[-1].timestamp_s - frames[0].timestamp_s == pytest.approx(still_s, abs=1.0 / 15.0)
     monkeypatch.setattr(recording, "is_cached", lambda _: True)
     assert practice_beginning(FIRST) is None, "nothing to draw: the whole take is there"
+
+
+def spec_of(exercise: str, side: Side = "right") -> RecordingSpec:
+    return practice_spec(SetUp(PRACTICE_PATIENT, "Practice", side, exercise_named(exercise), 3, math.nan, math.nan))
+
+
+def truth_of(exercise: str) -> Truth:
+    return SimulatedPictures(spec_of(exercise)).truth
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_its_hand_lies_as_flat_as_the_calibration_asks(side: Side) -> None:
+    still = replace(spec_of("FIST_COMPOSITE", side), hidden_share=0.0)
+    calibrated, _ = measured_hand(measurement_sequence(still), CalibrationSettings())
+    assert calibrated.verdict.is_good
+    assert calibrated.verdict.tilt_deg < CalibrationSettings().most_tilt_deg - 1.0
+
+
+def test_its_thumb_touches_every_finger_tip_and_it_reaches_out_and_back_twice() -> None:
+    joints = truth_of("THUMB_OPP").joint_position_w0_m
+    thumb = joints[:, HAND21.markers.index("TIP1")]
+    for finger in (2, 3, 4, 5):
+        away = np.linalg.norm(joints[:, HAND21.markers.index(f"TIP{finger}")] - thumb, axis=1)
+        assert away.min() < 0.015
+    truth = truth_of("REACH_GRASP")
+    reaches = find_reaches(low_pass(even_signal(truth.timestamp_s - truth.timestamp_s[0], truth.position_m)))
+    assert [reach.outward for reach in reaches] == [True, False, True, False]
+    assert all(0.2 < reach.path.length_m < 0.3 for reach in reaches)

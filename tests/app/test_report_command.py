@@ -1,7 +1,9 @@
-"""``carpus report`` as a process of its own: a page, a course over sessions, and each thing that can be wrong."""
+"""``carpus report`` and ``carpus progress``: a page, a course over sessions, tables; of the right patient alone."""
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import os
 import shutil
@@ -14,31 +16,30 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from pyarrow import parquet
 
 from carpus.app import python_face
-from carpus.app.__main__ import main
+from carpus.core.formats.measures_files import HEAD
 from carpus.core.records.of_sessions import add_comment, keep_choices
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.types import TrackedFrame, TrackStatus
+from tests.commands import Command
+from tests.formats.takes import stored
 from tests.moments import with_moment
 from tests.records.samples import opened
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 ROOT = Path(__file__).parents[2]
+DAY = datetime(2026, 11, 1, 9, 0, tzinfo=UTC)
 
 
 def carpus(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "QT_QPA_PLATFORM")}
-    return subprocess.run(
-        [sys.executable, "-m", "carpus", *map(str, arguments)],
-        cwd=ROOT,
-        env=environment,
-        capture_output=True,
-        text=True,
-    )
+    words = [sys.executable, "-m", "carpus", *map(str, arguments)]
+    return subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True)
 
 
 def frame(row: int) -> TrackedFrame:
@@ -54,14 +55,9 @@ def sessions(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     folder, out = tmp_path_factory.mktemp("sessions"), []
     for day in (0, 7):
         header = new_header(
-            hand="right",
-            protocol=make_calibration().clicks.protocol,
-            software_version="0",
-            subject_id="Linden 42",
-            exercise="WRIST_FE",
-            now=datetime(2026, 11, 1, 9, 0, tzinfo=UTC) + timedelta(days=day),
-            session_id=uuid.uuid4(),
-        )
+            hand="right", protocol=make_calibration().clicks.protocol, software_version="0", subject_id="Linden 42",
+            exercise="WRIST_FE", now=DAY + timedelta(days=day), session_id=uuid.uuid4(),
+        )  # fmt: skip
         out.append(folder / f"day{day}.h5")
         with SessionWriter.create(out[-1], header, CAMERA, make_calibration()) as writer:
             for row in range(20 * 30):
@@ -75,41 +71,40 @@ def words(path: Path) -> str:
     return subprocess.run([tool, "-layout", str(path), "-"], capture_output=True, text=True, check=True).stdout
 
 
-def test_one_session_makes_a_session_report(sessions: list[Path], tmp_path: Path) -> None:
+def test_sessions_make_a_report_of_a_session_or_of_progress(
+    sessions: list[Path], tmp_path: Path, command: Command
+) -> None:
     done = carpus("report", sessions[0], "--output", tmp_path / "one.pdf")
     assert (done.returncode, done.stderr) == (0, "")
     assert str(tmp_path / "one.pdf") in done.stdout
     page = words(tmp_path / "one.pdf")
     assert "Linden 42" in page
     assert "Session report" in page
+    assert command("report", *sessions, "--output", tmp_path / "course.pdf").code == 0
+    assert "Progress report" in words(tmp_path / "course.pdf")
 
 
 def test_the_comment_is_on_it_and_paper_and_language_are_chosen(sessions: list[Path], tmp_path: Path) -> None:
-    path = tmp_path / "data" / "sessions" / "day.h5"
+    path, out = tmp_path / "data" / "sessions" / "day.h5", tmp_path / "de.pdf"
     with opened(tmp_path / "data") as house:
         shutil.copy(sessions[0], path)
         house.files.take_in()
         add_comment(house.store, read_outline(path).header.session_id, "Splint at night.", "")
-    out = tmp_path / "de.pdf"
     done = carpus("report", path, "--output", out, "--paper", "letter", "--language", "de")
     assert (done.returncode, done.stderr) == (0, "")
     page = words(out)
     assert "Splint at night." in page
     assert "Sitzungsbericht" in page
-    tool = shutil.which("pdfinfo")
-    assert tool is not None
-    assert "612 x 792" in subprocess.run([tool, str(out)], capture_output=True, text=True, check=True).stdout
+    assert "612 x 792" in subprocess.run(["pdfinfo", str(out)], capture_output=True, text=True, check=True).stdout
 
 
-def test_what_was_left_out_in_the_review_is_left_out_everywhere(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_was_left_out_in_the_review_is_left_out_everywhere(tmp_path: Path, command: Command) -> None:
     path = tmp_path / "data" / "sessions" / "day.h5"
     path.parent.mkdir(parents=True)
     calibration = replace(make_calibration(), rotation_w0_cam=np.diag([1.0, -1.0, -1.0]))
     header = new_header(
-        hand="right", protocol=calibration.clicks.protocol, software_version="0", exercise="WRIST_FE",
-        now=datetime(2026, 11, 1, 9, 0, tzinfo=UTC), session_id=uuid.uuid4(),
+        hand="right", protocol=calibration.clicks.protocol, software_version="0", exercise="WRIST_FE", now=DAY,
+        session_id=uuid.uuid4(),
     )  # fmt: skip
     still = {"rotation_w2_w0": np.eye(3), "position_m": np.zeros(3), "w0_turn_rad": np.zeros(3)}
     with SessionWriter.create(path, header, CAMERA, calibration) as writer:
@@ -120,52 +115,20 @@ def test_what_was_left_out_in_the_review_is_left_out_everywhere(
     with opened(tmp_path / "data") as house:
         house.files.take_in()
         keep_choices(house.store, header.session_id, RepetitionChoices({0: "pain", 1: "pain"}), 0)
-    assert carpus("report", path, "--output", tmp_path / "day.pdf").returncode == 0
+    assert command("report", path, "--output", tmp_path / "day.pdf").code == 0
     left = whole["arc"] - 2
     assert f"mean of {left} repetitions; number 1 left out: pain" in words(tmp_path / "day.pdf")
     assert {row.measure: row.count for row in python_face.open_session(path).measures()}["arc"] == left
-    export = ["export", str(path), "--format", "json"]
-    assert main([*export, "--output", str(tmp_path / "out")]) == 0
+    export = ("export", path, "--format", "json")
+    assert command(*export, "--output", tmp_path / "out").code == 0
     (made,) = (tmp_path / "out").rglob("*.measures.json")
     content = json.loads(made.read_text(encoding="utf-8"))
     assert next(row["count"] for row in content["measures"] if row["measure"] == "arc") == left
     assert [one["reason"] for one in content["repetitions"] if not one["counted"]] == ["pain", "pain"]
-    assert main([*export, "--deidentified", "--output", str(tmp_path / "nobody")]) == 0
+    assert command(*export, "--deidentified", "--output", tmp_path / "nobody").code == 0
     (made,) = (tmp_path / "nobody").rglob("*.measures.json")
     assert "pain" not in made.read_text(encoding="utf-8").replace('"pain": []', "")
-    capsys.readouterr()
-    assert main(["info", str(path)]) == 0
-    assert f"mean of {left} repetitions" in capsys.readouterr().out
-
-
-def test_several_sessions_make_a_progress_report(sessions: list[Path], tmp_path: Path) -> None:
-    done = carpus("report", *sessions, "--output", tmp_path / "course.pdf")
-    assert done.returncode == 0
-    assert "Progress report" in words(tmp_path / "course.pdf")
-
-
-def test_what_cannot_be_done_is_one_line_and_leaves_nothing(
-    sessions: list[Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    taken = tmp_path / "taken.pdf"
-    taken.write_bytes(b"mine")
-    no_session = tmp_path / "no.h5"
-    no_session.write_text("nothing")
-    wrong = [
-        ("report", no_session, "--output", tmp_path / "a.pdf"),
-        ("report", tmp_path / "none.h5", "--output", tmp_path / "a.pdf"),
-        ("report", sessions[0], "--output", taken),
-        ("report", sessions[0], "--output", tmp_path / "no folder" / "a.pdf"),
-    ]
-    for arguments in wrong:
-        assert main(list(map(str, arguments))) == 1
-        said = capsys.readouterr().err
-        assert said.startswith("carpus: ")
-        assert len(said.splitlines()) == 1
-    assert taken.read_bytes() == b"mine"
-    assert not (tmp_path / "a.pdf").exists()
-    with pytest.raises(SystemExit, match="2"):
-        main(["report", str(sessions[0])])
+    assert f"mean of {left} repetitions" in command("info", path).out
 
 
 def test_without_a_display_the_window_says_so_and_what_shows_the_way() -> None:
@@ -173,3 +136,38 @@ def test_without_a_display_the_window_says_so_and_what_shows_the_way() -> None:
     assert done.returncode == 1
     assert "carpus demo" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Sessions of one patient, and a file that is none."""
+    (tmp_path / "sessions").mkdir()
+    stored(tmp_path / "sessions", frames=120, moving=True)
+    shutil.copy(stored(tmp_path, frames=3), tmp_path / "sessions" / "two.h5")
+    (tmp_path / "sessions" / "broken.h5").write_bytes(b"nothing")
+    return tmp_path / "sessions"
+
+
+def test_a_patients_figures_are_a_table(folder: Path, command: Command) -> None:
+    done = command("progress", "linden 42", "--sessions", folder / "one.h5")
+    rows = list(csv.DictReader(io.StringIO(done.out)))
+    assert (done.code, tuple(rows[0])) == (0, HEAD)
+    assert {row["subject_id"] for row in rows} == {"Linden 42"}
+    assert any(row["of"] == "flexion" and row["measure"] == "arc" for row in rows)
+    nobody = command("progress", "Heron 17", "--sessions", folder)
+    assert (nobody.code, "Heron 17" in nobody.err) == (1, True)
+
+
+def test_figures_are_written_as_csv_parquet_and_pdf(folder: Path, tmp_path: Path, command: Command) -> None:
+    out = [tmp_path / f"progress.{kind}" for kind in ("csv", "parquet", "pdf")]
+    asked = ("progress", "Linden 42", "--sessions", folder)
+    assert command(*asked, *(word for path in out for word in ("--output", path))).code == 0
+    assert out[2].read_bytes().startswith(b"%PDF")
+    table = parquet.read_table(out[1])
+    with out[0].open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert tuple(table.column_names) == HEAD
+    assert table.num_rows == len(rows)
+    means = [float(row["mean"]) if row["mean"] else None for row in rows]
+    for value, text in zip(table.column("mean").to_pylist(), means, strict=True):
+        assert (text is None and value != value) or value == pytest.approx(text, rel=1e-5)

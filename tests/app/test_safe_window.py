@@ -136,10 +136,16 @@ def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: 
     qtbot.waitUntil(lambda: len(lines.lines) == 2)
 
 
-def test_it_is_said_to_whom_a_session_was_given(qtbot: QtBot, opened: Open) -> None:
+def test_what_is_looked_at_is_logged_and_it_is_said_to_whom_a_session_was_given(qtbot: QtBot, opened: Open) -> None:
     desktop = opened()
     journey = desktop.journey
     journey.sessions.show(linden(desktop))
+    chosen = journey.sessions.screen.chosen()
+    journey.sessions.screen.open_chosen()
+    qtbot.waitUntil(lambda: journey.review.screen.shown)
+    last = read_log(desktop.library.store)[-1]
+    assert (last.did, last.kind, last.subject) == ("opened", "session", fingerprint(chosen.session_id))
+    journey.way.back()
     (heron,) = (one.patient_id for one in desktop.library.patients.listed("heron"))
     journey.sessions.screen.move_sheet.chosen.emit(heron)
     said = "The session is now one of Heron 17."
@@ -268,7 +274,6 @@ def test_back_up_now_reminder_and_restore(
     button = next(one for one in journey.messages.card.findChildren(QPushButton) if "Restore it" in one.text())
     button.click()
     qtbot.waitUntil(lambda: backing.restored is not None)
-    assert backing.restored is not None
     desktop.close()
     old = backing.restored.put_in_place(datetime(2026, 11, 20, 18, 0))
     assert old is not None, "what was there is kept"
@@ -348,17 +353,6 @@ def test_lists_of_records_and_the_log(qtbot: QtBot, opened: Open, data: Path) ->
     assert [table.item(row, 2).text() for row in range(2)] == ["brought back", "archived"]
     assert table.item(0, 3).text() == "Linden 42"
     assert lists.log_sheet.title.text() == f"Log: {table.rowCount()} lines"
-
-
-def test_what_is_looked_at_is_logged(qtbot: QtBot, opened: Open) -> None:
-    desktop = opened()
-    desktop.journey.sessions.show(linden(desktop))
-    chosen = desktop.journey.sessions.screen.chosen()
-    assert chosen is not None
-    desktop.journey.sessions.screen.open_chosen()
-    qtbot.waitUntil(lambda: desktop.journey.review.screen.shown)
-    last = read_log(desktop.library.store)[-1]
-    assert (last.did, last.kind, last.subject) == ("opened", "session", fingerprint(chosen.session_id))
 
 
 @pytest.mark.usefixtures("quick_age")

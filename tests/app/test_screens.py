@@ -34,10 +34,11 @@ LED = re.compile(r'way\.(?:show|aside)\("(\w+)"')
 Looks = dict[tuple[str, str], set[tuple[int, str]]]
 
 
-def seen(desktop: Desktop) -> dict[str, Looks]:
-    """Size and ground of each text of each screen, brought to the front; those that are not made yet are made."""
+def seen(desktop: Desktop, *places: str) -> dict[str, Looks]:
+    """Size and ground of each text of each screen, or of some, brought to the front; those that are not made yet are
+    made."""
     way = desktop.journey.way
-    return {place: looks(desktop, way.flow(place).screen) for place in sorted({*way.makers} - {"patients"})}
+    return {place: looks(desktop, way.flow(place).screen) for place in places or sorted({*way.makers} - {"patients"})}
 
 
 def looks(desktop: Desktop, screen: QWidget) -> Looks:
@@ -58,10 +59,27 @@ def same(some: Looks, others: Looks) -> bool:
     return len(both) > 0.6 * len(some) and all(some[one] == others[one] for one in both)
 
 
+class ShownWindows(QObject):
+    """Takes down what comes up as a window."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.seen: list[str] = []
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802  (Qt's name)
+        if event.type() == QEvent.Type.Show and isinstance(watched, QWidget) and watched.isWindow():
+            self.seen.append(type(watched).__name__)
+        return False
+
+
 def test_every_screen_has_a_page_and_every_place_that_is_named_is_there(open_desktop: Callable[..., Desktop]) -> None:
-    way = open_desktop().journey.way
+    desktop, windows = open_desktop(), ShownWindows()
+    way = desktop.journey.way
     assert {*STEPS, *TABS, *ASIDE, "patients"} <= set(way.makers)
+    desktop.application.installEventFilter(windows)
     flows = [way.flow(place) for place in way.makers]
+    desktop.application.removeEventFilter(windows)
+    assert windows.seen == [], "parts of a screen that come up as windows while it is made"
     assert {flow.place: flow for flow in flows} == way.flows
     assert {flow.guide for flow in flows} <= set(guide.PAGES)
     assert {flow.tab for flow in flows} <= {*TABS, ""}
@@ -75,21 +93,17 @@ def test_every_screen_has_a_page_and_every_place_that_is_named_is_there(open_des
     assert set(way.makers) - shown == set(), "screens without a picture"
 
 
-def test_a_start_makes_no_screen_but_the_first(open_desktop: Callable[..., Desktop]) -> None:
-    desktop = open_desktop()
-    assert set(desktop.journey.way.flows) == {"patients"}
-    desktop.close()
-    assert set(desktop.journey.way.flows) == {"patients"}
-
-
-def test_a_film_that_a_killed_program_left_goes_with_the_next_start(
+def test_a_start_makes_no_screen_but_the_first_and_a_film_that_a_killed_program_left_goes(
     open_desktop: Callable[..., Desktop], tmp_path: Path
 ) -> None:
     left = tmp_path / "data" / UNFINISHED
     left.parent.mkdir()
     left.write_bytes(b"a hand")
-    assert set(open_desktop().journey.way.flows) == {"patients"}
+    desktop = open_desktop()
+    assert set(desktop.journey.way.flows) == {"patients"}
     assert not left.exists()
+    desktop.close()
+    assert set(desktop.journey.way.flows) == {"patients"}
 
 
 def test_what_screens_are_made_of_is_loaded_in_the_windows_thread(
@@ -111,28 +125,6 @@ def test_what_screens_are_made_of_is_loaded_in_the_windows_thread(
     code = f"import sys, importlib; [importlib.import_module(one) for one in {CORE!r}]; print(*sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert not [one for one in done.stdout.split() if one.startswith(("PySide6", "carpus.ui"))]
-
-
-class ShownWindows(QObject):
-    """Takes down what comes up as a window."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.seen: list[str] = []
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802  (Qt's name)
-        if event.type() == QEvent.Type.Show and isinstance(watched, QWidget) and watched.isWindow():
-            self.seen.append(type(watched).__name__)
-        return False
-
-
-def test_no_part_of_a_screen_comes_up_as_a_window_while_it_is_made(open_desktop: Callable[..., Desktop]) -> None:
-    desktop, windows = open_desktop(), ShownWindows()
-    desktop.application.installEventFilter(windows)
-    for place in desktop.journey.way.makers:
-        desktop.journey.way.flow(place)
-    desktop.application.removeEventFilter(windows)
-    assert windows.seen == []
 
 
 CHOSEN = {"theme": "dark", "text_scale": 1.25, "research": True, "start": "still", "patient_sound": True}
@@ -162,12 +154,12 @@ def test_a_language_that_is_chosen_reaches_the_screens_that_are_made_later(
 ) -> None:
     try:
         late = open_desktop()
-        english, old = seen(late), late.journey
+        english, old = seen(late, "settings", "sessions", "live"), late.journey
         choose(late, language="de")
         qtbot.waitUntil(lambda: late.journey is not old, timeout=60_000)
         german = seen(late)
         from_start = seen(open_desktop(Settings(screen=ScreenSettings("light", language="de"))))
         assert [place for place in german if not same(german[place], from_start[place])] == []
-        assert all(german[place] != english[place] for place in english)
+        assert all(german[place] != looks for place, looks in english.items())
     finally:
         language.speak("en")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import shutil
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
@@ -20,6 +21,7 @@ from carpus.app.settings import (
     Settings,
     keep_preferences,
     load_settings,
+    load_sound_settings,
     settings_folder,
 )
 from carpus.core.errors import SettingsInvalid
@@ -42,12 +44,12 @@ def leaves(table: dict[str, Any], where: tuple[str, ...] = ()) -> list[tuple[tup
     return out
 
 
-@pytest.mark.parametrize(("place", "value"), leaves(tomllib.loads(DEFAULTS.read_text(encoding="utf-8"))))
-def test_the_shipped_file_says_what_the_code_does_without_it(place: tuple[str, ...], value: Any) -> None:
-    found: Any = Settings().track if place[0] in TRACKING else Settings()
-    for name in place:
-        found = getattr(found, name)
-    assert (list(found) if isinstance(found, tuple) else found) == value
+def test_the_shipped_file_says_what_the_code_does_without_it() -> None:
+    for place, value in leaves(tomllib.loads(DEFAULTS.read_text(encoding="utf-8"))):
+        found: Any = Settings().track if place[0] in TRACKING else Settings()
+        for name in place:
+            found = getattr(found, name)
+        assert (list(found) if isinstance(found, tuple) else found) == value, place
 
 
 def test_without_files_the_defaults_hold(tmp_path: Path) -> None:
@@ -88,12 +90,9 @@ def test_what_cannot_be_used_is_named_with_its_file(tmp_path: Path, text: str, n
     assert fault.value.subject == named
     assert SETTINGS_FILE in fault.value.detail
     assert named in one_sentence(fault.value)
-
-
-def test_a_file_that_is_no_toml_is_named(tmp_path: Path) -> None:
     with pytest.raises(SettingsInvalid) as fault:
         load_settings(written(tmp_path, "theme = light"))
-    assert SETTINGS_FILE in fault.value.subject
+    assert SETTINGS_FILE in fault.value.subject, "no TOML at all"
 
 
 def test_what_the_window_keeps_is_read_again_and_goes_over_the_persons_file(tmp_path: Path) -> None:
@@ -124,3 +123,28 @@ def test_what_the_window_does_not_show_stays_as_a_file_said(open_desktop: Callab
     desktop.keeper.screen.patient_sound.buttons()[1].click()
     assert desktop.journey.context.patient_sound
     assert desktop.journey.context.report == ReportSettings("AB", retest_days=14)
+
+
+GOLDEN = Path(__file__).parent / "golden"
+
+
+def test_settings_of_version_01_are_understood_name_by_name_and_survive_being_written_again(tmp_path: Path) -> None:
+    """What version 0.1 wrote and read is kept as files: the program of today takes them as they are."""
+    for name in (SETTINGS_FILE, PREFERENCES_FILE):
+        shutil.copy(GOLDEN / f"v0.1-{name}", tmp_path / name)
+    found, faults = load_sound_settings(tmp_path)
+    assert faults == []
+    assert found == load_settings(tmp_path)
+    table = tomllib.loads((GOLDEN / f"v0.1-{SETTINGS_FILE}").read_text(encoding="utf-8"))
+    chosen = dict(leaves(tomllib.loads((GOLDEN / f"v0.1-{PREFERENCES_FILE}").read_text(encoding="utf-8"))))
+    for place, value in leaves(table):
+        kept: Any = found.track if place[0] in TRACKING else found
+        for name in place:
+            kept = getattr(kept, name)
+        if place not in chosen:
+            assert (list(kept) if isinstance(kept, tuple) else kept) == value, place
+    assert found.track.tracker.profile == "slow", "the file says something else than the defaults"
+    assert (found.screen.theme, found.screen.text_scale, found.screen.keys) == ("dark", 1.25, {"play": "P"})
+    assert (found.recording.folder, found.report.therapist) == ("/home/clinic/Carpus", "AB")
+    keep_preferences(found, tmp_path)
+    assert load_settings(tmp_path) == found

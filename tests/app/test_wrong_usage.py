@@ -15,12 +15,14 @@ from pathlib import Path
 
 import pytest
 
-from carpus.app.__main__ import main, parser
+from carpus.app.__main__ import parser
 from carpus.app.command_line import CommandParser
 from carpus.app.commands import COMMANDS
 from carpus.core.capture.devices import cameras
+from carpus.core.hand.exercises import EXERCISES
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.values import PatientEntry
+from tests.commands import Command
 from tests.formats.takes import stored
 from tests.records.samples import opened
 
@@ -38,15 +40,37 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("{file} --output {new}.h5 --exercise wrist_ff", 2, "did you mean “WRIST_F"),
         ("{file} --output {new}.h5 --calibraton x", 2, "did you mean “--calibration”"),
         ("{file} --output {new}.h5 --recorded yesterday", 2, "2023-04-05"),
-        ("{session} --output {new}.h5 --subject A", 2, "leave out --subject"),
+        ("{gone}.h5 --output {new}.h5", 1, "gone.h5"),
+        *(
+            (f"{{session}} --output {{new}}.h5 {option} {value}", 2, f"leave out {option}")
+            for option, value in (
+                ("--subject", "A"),
+                ("--exercise", "WRIST_FE"),
+                ("--start-angles", "5 0 0"),
+                ("--calibration", "c.json"),
+            )
+        ),
+        *(
+            (f"{{file}} --output {{new}}.h5 --start-angles {angle} 0 0", 2, "--start-angles")
+            for angle in ("nan", "inf", "1000")
+        ),
+        ("{file} --output {new}.h5 --subject ' '", 2, "pseudonym"),
         ("{file} --output {new}.h5 --jobs 2", 2, "many recordings"),
+        ("{file} {session} --output {new}.h5", 2, "folder"),
+        ("{file} {session} --output {new} --stream", 2, "one recording"),
+        ("{file} {session} --output {new} --calibration c.json", 2, "--calibration"),
+        ("{file} {session} --output {new} --recorded 2023-04-05", 2, "--recorded"),
+        ("{gone} {empty} --output {new}", 1, "gone"),
     ],
     "record": [
         ("", 2, "--output"),
         ("--output {file}", 1, "There is a file already"),
         ("--output {new} --from {gone}", 1, "There is no recording"),
         ("--output {new} --from {file}", 1, "{file}"),
-        ("--output {new} --seconds soon", 2, "“soon” is no number from 0.1 to 86400"),
+        *(
+            (f"--output {{new}} --seconds {text}", 2, f"“{text}” is no number from 0.1 to 86400")
+            for text in ("soon", "nan", "inf", "0", "-1", "1e9")
+        ),
         ("--output {new} --lossless --format tum", 2, "--lossless is for --format raw"),
         ("--output {new} --camera realsnse", 2, "did you mean “realsense”? There are: xtion, realsense, orbbec, astra"),
     ],
@@ -56,7 +80,17 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("--output {new} --motion flexon", 2, "did you mean “flexion”"),
         ("--output {new} --habit tenodesi", 2, "did you mean “tenodesis”"),
         ("--output {new} --seed many", 2, "“many” is no whole number"),
-        ("--output {new} --seconds -1", 1, "seconds"),
+        ("--output {new} --skin-glide-mm much", 2, "“much” is no number, and not “drawn”"),
+        *(
+            (f"--output {{new}} --{option} {value}", 1, option.replace("-", "_"))
+            for option, value in (
+                ("seconds", "-1"),
+                ("seconds", "inf"),
+                ("fps", "inf"),
+                ("tremor-deg", "inf"),
+                ("distance-m", "0"),
+            )
+        ),
     ],
     "info": [("", 2, "FILE"), ("{gone}", 1, "{gone}"), ("{junk}", 1, "{junk}"), ("{empty}", 1, "{empty}")],
     "verify": [("", 2, "FILE"), ("{gone}", 1, "{gone}"), ("{junk}", 1, "{junk}"), ("{empty}", 1, "{empty}")],
@@ -65,6 +99,7 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("{gone} --output {new}.pdf", 1, "gone"),
         ("{junk} --output {new}.pdf", 1, "{junk}"),
         ("{session} --output {file}", 1, "There is a file already"),
+        ("{session} --output {gone}/a.pdf", 1, "{gone}"),
         ("{session} --output {new}.pdf --language fr", 2, "There are: en, de, it|there are: en, de, it"),
     ],
     "progress": [
@@ -148,32 +183,25 @@ METAVAR = re.compile(
 
 
 @pytest.fixture(scope="module")
-def session(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return stored(tmp_path_factory.mktemp("session"), frames=30, moving=True)
+def places(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """What stands in braces in :data:`WRONG`, made once, since nothing of it may be changed; the data folder has one
+    patient and no session."""
+    root = tmp_path_factory.mktemp("places")
+    names = {name: root / name for name in ("gone", "new", "empty", "file", "loop", "data")} | {
+        "junk": root / "junk.h5"
+    }
+    names["empty"].mkdir()
+    names["loop"].symlink_to(names["loop"])
+    for name in ("file", "junk"):
+        names[name].write_bytes(b"neither this nor that")
+    with opened(names["data"]) as house:
+        house.patients.add(PatientEntry("Fern 12", "right"))
+    return names | {"session": stored(tmp_path_factory.mktemp("session"), frames=30, moving=True)}
 
 
 @pytest.fixture
-def places(session: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Path]:
-    """What stands in braces in :data:`WRONG`; the data folder has one patient and no session."""
-    (tmp_path / "empty").mkdir()
-    for name in ("file", "junk.h5"):
-        (tmp_path / name).write_bytes(b"neither this nor that")
-    data = tmp_path / "data"
-    data.mkdir()
-    with opened(data) as house:
-        house.patients.add(PatientEntry("Fern 12", "right"))
-    monkeypatch.setenv("CARPUS_DATA", str(data))
-    names = {name: tmp_path / name for name in ("gone", "new", "empty", "file")}
-    (tmp_path / "loop").symlink_to(tmp_path / "loop")
-    return names | {"session": session, "junk": tmp_path / "junk.h5", "loop": tmp_path / "loop"}
-
-
-def ended(words: list[str]) -> int:
-    """The exit code, however it comes."""
-    try:
-        return main(words)
-    except SystemExit as end:
-        return int(end.code or 0)
+def data(places: dict[str, Path], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("CARPUS_DATA", str(places["data"]))
 
 
 def command_parser(name: str) -> CommandParser:
@@ -192,46 +220,50 @@ def test_every_command_is_tried() -> None:
     assert set(WRONG) == set(COMMANDS)
 
 
+@pytest.mark.usefixtures("data")
 @pytest.mark.parametrize(("name", "words", "code", "said"), ROWS, ids=[f"{row[0]} {row[1]}" for row in ROWS])
 def test_wrong_input_is_told_in_one_line(
-    name: str, words: str, code: int, said: str, places: dict[str, Path], capsys: pytest.CaptureFixture[str]
+    name: str, words: str, code: int, said: str, places: dict[str, Path], command: Command
 ) -> None:
-    assert ended([name, *shlex.split(words.format(**places))]) == code
-    out, err = capsys.readouterr()
-    assert err.startswith("carpus")
-    assert err.count("\n") == 1
-    assert err.endswith("\n")
-    assert any(each in err for each in said.format(**places).split("|")), err
-    assert not re.search(r"Traceback|unforeseen|invalid|usage:|[a-z]+_[a-z]+ value", err)
-    assert "Written" not in out
+    done = command(name, *shlex.split(words.format(**places)))
+    assert done.code == code
+    assert done.err.startswith("carpus")
+    assert (done.err.count("\n"), done.err[-1]) == (1, "\n")
+    assert any(each in done.err for each in said.format(**places).split("|")), done.err
+    assert not re.search(r"Traceback|unforeseen|invalid|usage:|[a-z]+_[a-z]+ value", done.err)
+    assert "Written" not in done.out
+    if places["new"].is_dir():
+        places["new"].rmdir()  # of an export: with nothing in it
+    assert not list(places["new"].parent.glob("new*")), "nothing is made"
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_every_option_refuses_what_it_cannot_read(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_option_refuses_what_it_cannot_read(name: str, command: Command) -> None:
     """A value that no option of its kind can have, given to each; with what else it needs left out."""
     for option in options(name):
         if not option.option_strings or option.nargs == 0 or (option.type in (None, Path) and not option.choices):
             continue
         values = ["no such\nthing"] * (option.nargs if isinstance(option.nargs, int) else 1)
-        assert ended([name, option.option_strings[0], *values]) == 2, option.dest
-        err = capsys.readouterr().err
-        assert err.count("\n") == 1
-        assert err.startswith(f"carpus {name}: {option.option_strings[0]}"), err
-        assert "invalid" not in err
-    assert ended([name, "--no-such-option"]) == 2
-    assert capsys.readouterr().err.count("\n") == 1
+        done = command(name, option.option_strings[0], *values)
+        assert (done.code, done.err.count("\n")) == (2, 1), option.dest
+        assert done.err.startswith(f"carpus {name}: {option.option_strings[0]}"), done.err
+        assert "invalid" not in done.err
+    unknown = command(name, "--no-such-option")
+    assert (unknown.code, unknown.err.count("\n")) == (2, 1)
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_help_shows_examples_that_can_be_typed(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_shows_examples_that_can_be_typed(name: str, command: Command) -> None:
     example = import_module(f"carpus.app.commands.{name.replace('-', '_')}").EXAMPLE
     for line in example.splitlines():
         program, *words = shlex.split(line)
         assert (program, words[0]) == ("carpus", name)
         parser(words).parse_args(words)
-    assert ended([name, "--help"]) == 0
-    told = capsys.readouterr().out
-    assert all(line in told for line in example.splitlines())
+    told = command(name, "--help")
+    assert told.code == 0
+    assert all(line in told.out for line in example.splitlines())
+    if name == "track":
+        assert all(exercise.id in told.out for exercise in EXERCISES)
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -245,30 +277,28 @@ def test_options_say_what_they_are_and_what_they_take_in_the_same_words(name: st
         assert option.help or not option.option_strings, option.dest
 
 
-def test_an_unknown_command_is_told_with_what_was_meant(capsys: pytest.CaptureFixture[str]) -> None:
-    assert ended(["trak", "recording"]) == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert "did you mean “track”" in said
-    assert all(name in said for name in COMMANDS)
+def test_an_unknown_command_is_told_with_what_was_meant(command: Command) -> None:
+    done = command("trak", "recording")
+    assert (done.code, done.err.count("\n")) == (2, 1)
+    assert "did you mean “track”" in done.err
+    assert all(name in done.err for name in COMMANDS)
 
 
+@pytest.mark.usefixtures("data")
 def test_a_list_of_patients_that_another_program_holds_is_left_where_it_is(
-    places: dict[str, Path], capsys: pytest.CaptureFixture[str]
+    places: dict[str, Path], command: Command
 ) -> None:
-    path = places["empty"].parent / "data" / STORE_FILE
-    holding = sqlite3.connect(path, isolation_level=None)
+    holding = sqlite3.connect(places["data"] / STORE_FILE, isolation_level=None)
     holding.execute("PRAGMA locking_mode = EXCLUSIVE")
     holding.execute("BEGIN EXCLUSIVE")
     holding.execute("UPDATE patient SET note = ''")
     try:
-        assert ended(["erase", "Fern 12"]) == 1
+        done = command("erase", "Fern 12")
     finally:
         holding.close()
-    said = capsys.readouterr().err
-    assert "close Carpus first" in said
-    assert "move" not in said
-    assert said.count("\n") == 1
+    assert (done.code, done.err.count("\n")) == (1, 1)
+    assert "close Carpus first" in done.err
+    assert "move" not in done.err
 
 
 def test_an_address_of_openni2_needs_no_kind() -> None:

@@ -27,10 +27,10 @@ from carpus.app.sources import places
 from carpus.core.errors import SchedulerUnreachable
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.reader import read_session
-from tests.rendered import DEVIATION, FLEXION, LEFT_DEVIATION, REPEATED_FLEXION, Rendered
+from tests.rendered import DEVIATION, FLEXION, LEFT_DEVIATION, Rendered
 
 ROOT = Path(__file__).parents[2]
-RECORDINGS = (FLEXION, REPEATED_FLEXION, DEVIATION, LEFT_DEVIATION)
+RECORDINGS = (FLEXION, DEVIATION, LEFT_DEVIATION)
 COUNT = len(RECORDINGS)
 LOCAL = """
 from distributed import LocalCluster
@@ -129,7 +129,6 @@ def test_a_cluster_made_in_python_tracks(recordings: Path, tmp_path: Path) -> No
     broken = replace(place, clicks=recordings / "none.json", session=tmp_path / "none.h5", name="none.h5")
     tasks = [Task(each, TrackSettings(smooth=False)) for each in (place, broken)]
     begun = subprocess.Popen([sys.executable, "-c", LOCAL], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-    assert begun.stdout is not None
     address = begun.stdout.readline().strip()
     found = {each.place.name: each for each in outcomes_on(address, tasks)}
     begun.communicate("", 60)

@@ -13,13 +13,13 @@ import pyarrow
 import pytest
 from pyarrow import parquet
 
-from carpus.app.__main__ import main
 from carpus.app.commands.track_many import MEASURES_FILE, OUTCOMES_FILE
 from carpus.core.formats import measures_files
 from carpus.core.results.figures import session_figures
 from carpus.core.results.measures_table import SessionFigure
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE
+from tests.commands import Command
 from tests.rendered import DEVIATION, FLEXION, Rendered
 
 
@@ -43,15 +43,13 @@ def rows(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_faults_are_gathered_and_what_is_done_is_left(
-    recordings: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_faults_are_gathered_and_what_is_done_is_left(recordings: Path, tmp_path: Path, command: Command) -> None:
     out = tmp_path / "out"
-    words = ["track", str(recordings), "--output", str(out), "--exercise", "WRIST_RU", "--jobs", "2", "--no-smooth"]
-    assert main(words) == 1
-    said = capsys.readouterr().out
-    assert "hand is null" in said
-    assert "tracked 2, done before 0, faults 1" in said
+    words = ("track", recordings, "--output", out, "--exercise", "WRIST_RU", "--jobs", "2", "--no-smooth")
+    done = command(*words)
+    assert done.code == 1
+    assert "hand is null" in done.out
+    assert "tracked 2, done before 0, faults 1" in done.out
     told = {row["session"]: row for row in rows(out / OUTCOMES_FILE)}
     assert {name: row["outcome"] for name, row in told.items()} == {
         "anna/first.h5": "tracked", "second.h5": "tracked", "third.h5": "fault",
@@ -61,8 +59,8 @@ def test_faults_are_gathered_and_what_is_done_is_left(
 
     alone = tmp_path / "alone.h5"
     first = recordings / "anna" / "first"
-    clicks = ("--calibration", str(first / CLICKS_FILE))
-    assert main(["track", str(first), *clicks, "--output", str(alone), "--exercise", "WRIST_RU", "--no-smooth"]) == 0
+    asked = ("--calibration", first / CLICKS_FILE, "--exercise", "WRIST_RU", "--no-smooth")
+    assert command("track", first, *asked, "--output", alone).code == 0
     session, by_itself = read_session(out / "anna" / "first.h5"), read_session(alone)
     assert np.array_equal(session.motion.angles_rad, by_itself.motion.angles_rad, equal_nan=True)
     assert session.header.exercise == "WRIST_RU"
@@ -81,7 +79,7 @@ def test_faults_are_gathered_and_what_is_done_is_left(
     left = out / "third.h5.0123abcd.part"
     left.write_bytes(b"half")
     before = {path: path.stat().st_mtime_ns for path in out.rglob("*.h5")}
-    assert main(words) == 0
+    assert command(*words).code == 0
     assert {path: path.stat().st_mtime_ns for path in before} == before
     told = {row["session"]: row["outcome"] for row in rows(out / OUTCOMES_FILE)}
     assert told == {"anna/first.h5": "kept", "second.h5": "kept", "third.h5": "tracked"}
@@ -92,77 +90,52 @@ def test_faults_are_gathered_and_what_is_done_is_left(
     ]  # fmt: skip
 
     # Sessions among them are tracked again, and say where they are from.
-    capsys.readouterr()
     again = tmp_path / "again"
-    assert main(["track", str(out / "second.h5"), str(out / "third.h5"), "--output", str(again), "--no-smooth"]) == 0
+    assert command("track", out / "second.h5", out / "third.h5", "--output", again, "--no-smooth").code == 0
     assert read_session(again / "second.h5").header.origin == read_session(out / "second.h5").header.session_id
-    assert main([*words, "--profile", "brisk"]) == 0
-    assert capsys.readouterr().out.count("tracked before with other settings") == 3
+    done = command(*words, "--profile", "brisk")
+    assert (done.code, done.out.count("tracked before with other settings")) == (0, 3)
 
 
-@pytest.mark.parametrize(
-    ("option", "word"), [(("--calibration", "c.json"), "--calibration"), (("--recorded", "2023-04-05"), "--recorded")]
-)
-def test_what_only_one_recording_has_is_refused(
-    option: tuple[str, str], word: str, made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["track", str(made), "--output", str(tmp_path / "out"), *option]) == 2
-    assert word in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()
+def test_many_into_one_file_is_refused(made: Path, tmp_path: Path, command: Command) -> None:
+    one, other, output = made / "second", made / "third", tmp_path / "s.h5"
+    done = command("track", one, other, "--output", output)
+    assert (done.code, "folder" in done.err) == (2, True)
+    assert command("track", one, "--calibration", one / CLICKS_FILE, "--output", output, "--jobs", "2").code == 2
 
 
-def test_many_into_one_file_is_refused(made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    both = [str(made / "second"), str(made / "third")]
-    assert main(["track", *both, "--output", str(tmp_path / "s.h5")]) == 2
-    assert "folder" in capsys.readouterr().err
-    one = ["track", both[0], "--calibration", str(made / "second" / CLICKS_FILE), "--output", str(tmp_path / "s.h5")]
-    assert main([*one, "--jobs", "2"]) == 2
-
-
-def test_nothing_to_track_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "empty").mkdir()
-    assert main(["track", str(tmp_path / "empty"), "--output", str(tmp_path / "out")]) == 1
-    assert "empty" in capsys.readouterr().err
-    assert main(["track", str(tmp_path / "gone"), str(tmp_path / "empty"), "--output", str(tmp_path / "out")]) == 1
-    assert "gone" in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()
-
-
-def test_somebody_elses_table_is_left_alone(made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_somebody_elses_table_is_left_alone(made: Path, tmp_path: Path, command: Command) -> None:
     out = tmp_path / "out"
     out.mkdir()
     (out / MEASURES_FILE).write_text("mine\n1\n")
-    assert main(["track", str(made), "--output", str(out)]) == 1
-    assert MEASURES_FILE in capsys.readouterr().err
+    done = command("track", made, "--output", out)
+    assert (done.code, MEASURES_FILE in done.err) == (1, True)
     assert (out / MEASURES_FILE).read_text() == "mine\n1\n"
     assert [path.name for path in out.iterdir()] == [MEASURES_FILE]
 
 
-def test_the_measures_of_all_sessions_are_one_table(
-    recordings: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_measures_of_all_sessions_are_one_table(recordings: Path, tmp_path: Path, command: Command) -> None:
     out, table = tmp_path / "out", tmp_path / "all.parquet"
     shutil.rmtree(recordings / "third")
-    words = ["track", str(recordings), "--output", str(out), "--jobs", "1", "--no-smooth", "--table"]
-    assert main([*words, str(table)]) == 0
+    words = ("track", recordings, "--output", out, "--jobs", "1", "--no-smooth", "--table")
+    assert command(*words, table).code == 0
     read = parquet.read_table(table).to_pylist()
     assert [(row["session"], row["measure"], row["of"]) for row in read] == [
         (row["session"], row["measure"], row["of"]) for row in rows(out / MEASURES_FILE)
     ]
     assert {row["session"] for row in read} == {"anna/first.h5", "second.h5"}
-    assert main([*words, str(table)]) == 0, "begun again with the same table"
+    assert command(*words, table).code == 0, "begun again with the same table"
     assert parquet.read_table(table).num_rows == len(read)
-    assert main([*words, str(tmp_path / "all.csv")]) == 0, "what was tracked before is in it too"
+    assert command(*words, tmp_path / "all.csv").code == 0, "what was tracked before is in it too"
     assert len(rows(tmp_path / "all.csv")) == len(read)
 
     # What is no table of measures is somebody else's.
-    capsys.readouterr()
     parquet.write_table(pyarrow.table({"mine": [1]}), table)
     (tmp_path / "all.csv").write_text("mine\n1\n")
     for name in ("all.parquet", "all.csv"):
         before = (tmp_path / name).read_bytes()
-        assert main([*words, str(tmp_path / name)]) == 1
-        assert name in capsys.readouterr().err
+        done = command(*words, tmp_path / name)
+        assert (done.code, name in done.err) == (1, True)
         assert (tmp_path / name).read_bytes() == before
 
 

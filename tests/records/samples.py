@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
+import shutil
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from datetime import UTC, date, datetime
 from pathlib import Path
@@ -14,6 +15,7 @@ from sqlalchemy import select
 
 from carpus.core.errors import CarpusFault
 from carpus.core.hand.protocols import WRIST6
+from carpus.core.records.library import Library
 from carpus.core.records.log import Log
 from carpus.core.records.patients import Patients
 from carpus.core.records.schema import OUTBOX
@@ -117,3 +119,15 @@ def traces(folder: Path, *words: str) -> list[str]:
         if any(word.encode() in content or word in str(path.relative_to(folder)) for word in words):
             found.append(path.name)
     return found
+
+
+def kept(folder: Path, patient: PatientEntry, *sessions: tuple[Path, datetime, str]) -> str:
+    """Copies of session files, each with its moment and who recorded it, in a data folder as those of a new patient,
+    whose identity is given."""
+    with closing(Library(folder)) as library:
+        patient_id = library.patients.add(patient)
+        for stored, when, by in sessions:
+            path = library.index.new_path(patient_id, patient.pseudonym, "WRIST_FE", "right", when)
+            shutil.copyfile(stored, path)
+            library.index.enter(path, patient_id, by)
+    return patient_id
