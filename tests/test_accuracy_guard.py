@@ -72,9 +72,6 @@ def test_wrist_is_tracked_as_well_as_it_was(pool: str, runs: dict[str, list[Run]
     carpus = [run for run in runs[pool] if run.method == CARPUS]
     live, back = score(carpus, COLUMNS), score(carpus, COLUMNS, smoothed=True)
     plain = score([run for run in runs[pool] if run.method == SIMPLEST], COLUMNS)
-    assert live is not None
-    assert back is not None
-    assert plain is not None
     measured, promised_deg = MEASURED[pool], np.array(MOST_RMSE_DEG[pool])
     not_kept, timid = np.array(NOT_KEPT[pool]), np.array(TIMID[pool])
     assert ((live.rmse > promised_deg) == not_kept).all(), live.rmse
@@ -98,7 +95,6 @@ def test_rendered_hand_is_tracked_as_well_as_it_was(tmp_path: Path, monkeypatch:
     with threadpool_limits(1):
         run, _, _, _ = run_on_pictures(mixed, mixed.seeds(1)[0], PICTURE_SECONDS)
     found = score([run], COLUMNS)
-    assert found is not None
     assert (found.rmse <= PICTURE_LIMIT_DEG).all(), found.rmse
     assert found.tracked > 0.98
     assert found.wrong < MOST_WRONG

@@ -61,6 +61,12 @@ def _within(owner: ast.AST, names: set[str]) -> set[str]:
     return own
 
 
+@cache
+def files() -> frozenset[str]:
+    """What files and folders of the checkout are called."""
+    return frozenset(path.name for path in ROOT.glob("[!.]*/**/*"))
+
+
 def is_there(told: str) -> bool:
     """Whether what stands between back-ticks exists, or is nothing that could."""
     if told.startswith("make ") and not PLACEHOLDER.search(told):
@@ -70,7 +76,7 @@ def is_there(told: str) -> bool:
     if PLACEHOLDER.search(told):
         return "/" not in told or (ROOT / told).parent.is_dir()
     if re.fullmatch(r"[\w./-]*(/[\w.-]*|\.(py|md|toml|lock|sh|ps1|yml))", told):
-        return (ROOT / told).exists() or ("/" not in told and any(ROOT.glob(f"[!.]*/**/{told}")))
+        return (ROOT / told).exists() or ("/" not in told and told in files())
     if re.fullmatch(r"_[a-z]\w{0,2}", told):  # the mark of a frame in a name
         return any(told in name for name in defined())
     if DOTTED.fullmatch(told) or OF_CODE.fullmatch(told):

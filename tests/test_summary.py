@@ -80,9 +80,6 @@ def test_ranges_are_the_figures_of_the_report(exercise: str) -> None:
     figures = session_figures(made)
     lines = {line.split()[0]: line for line in range_lines(made, figures)}
     flexion, extension, arc = (figures.row(name, 1) for name in ("flexion", "extension", "arc"))
-    assert flexion is not None
-    assert extension is not None
-    assert arc is not None
     ends = f"from {extension.mean_deg:.1f}° extension to {flexion.mean_deg:.1f}° flexion, arc {arc.mean_deg:.1f}°"
     counted = f", mean of {figures.counted} repetitions" if exercise == "WRIST_FE" else ""
     assert lines["flexion"].split(maxsplit=1)[1] == ends + counted

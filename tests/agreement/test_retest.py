@@ -5,27 +5,24 @@ from __future__ import annotations
 import csv
 import json
 import math
-import shutil
 import subprocess
 import uuid
+from collections.abc import Callable
 from dataclasses import replace
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app import compose
-from carpus.app.__main__ import main
-from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.app.compose import Desktop
 from carpus.core import so3
 from carpus.core.agreement.limits_file import LIMITS_FILE, read_limits, store_limits
 from carpus.core.agreement.retest import as_if_complete, plan_of, restated, retest, studies
 from carpus.core.errors import SettingsInvalid
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
-from carpus.core.records.library import Library
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.progress import compare
@@ -36,7 +33,9 @@ from carpus.core.types import TrackStatus
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.text import Text
 from carpus.ui.settings.screen import SettingsScreen
+from tests.commands import Command
 from tests.moments import with_moment
+from tests.records.samples import kept
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
 FIRST = datetime(2026, 11, 2, 9, 0, tzinfo=UTC)
@@ -113,22 +112,11 @@ def written(folder: Path, person: int, time: int, when: datetime, reach_deg: flo
             angle = math.radians(reach_deg) * math.sin(2.0 * math.pi * row / 90.0)
             turn = so3.exp(np.array([0.0, angle, 0.0]))
             moved = with_moment(
-                make_frame(row),
-                rotation_w2_w0=turn,
-                position_m=np.zeros(3),
-                w0_turn_rad=np.zeros(3),
-                angles_rad=np.array([0.0, angle, 0.0]),
-                angles_sd_rad=np.radians([0.5, 1.0, 1.0]),
-            )
-            writer.append(
-                replace(
-                    moved,
-                    timestamp_s=row / 30.0,
-                    status=TrackStatus.TRACKED,
-                    dropped_before=0,
-                    marker_measured_px=np.full((6, 2), 300.0),
-                )
-            )
+                make_frame(row), rotation_w2_w0=turn, position_m=np.zeros(3), w0_turn_rad=np.zeros(3),
+                angles_rad=np.array([0.0, angle, 0.0]), angles_sd_rad=np.radians([0.5, 1.0, 1.0]),
+            )  # fmt: skip
+            seen = {"timestamp_s": row / 30.0, "status": TrackStatus.TRACKED, "dropped_before": 0}
+            writer.append(replace(moved, **seen, marker_measured_px=np.full((6, 2), 300.0)))
     return path
 
 
@@ -146,66 +134,57 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def figures_of(folder: Path) -> list[SessionFigures]:
+@pytest.fixture(scope="module")
+def measured(folder: Path) -> list[SessionFigures]:
     return [session_figures(read_session(path)) for path in sorted(folder.glob("*.h5"))]
 
 
-def test_sessions_make_a_study(folder: Path) -> None:
-    measured = figures_of(folder)
+def test_sessions_make_a_study(measured: list[SessionFigures]) -> None:
     (one,) = studies(measured)
     assert (one.people, one.sessions) == (10, 20)
     assert sorted(left.reason for left in one.left_out) == ["once", "too_late"]
     by_hand: dict[str, list[float]] = {}
     for figures in measured:
         row = figures.row("flexion", 1)
-        assert row is not None
         by_hand.setdefault(figures.subject_id, []).append(row.mean_deg)
     pairs = np.array([values[:2] for values in by_hand.values() if len(values) > 1])
     expected = math.sqrt(float(((pairs[:, 1] - pairs[:, 0]) ** 2).mean()) / 2.0)
     assert one.found[("flexion", "flexion")].sem == pytest.approx(expected)
 
 
-@pytest.mark.usefixtures("qapp")
 def test_the_command_stores_limits_that_reports_name(
-    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: Command
 ) -> None:
     monkeypatch.setenv("CARPUS_DATA", str(tmp_path))
-    raters = tmp_path / "raters.csv"
+    raters, table, output = tmp_path / "raters.csv", tmp_path / "table.csv", tmp_path / "progress.pdf"
     raters.write_text("session,rater\nP01-1,MK\nP01-2,JS\nnobody,MK\n", encoding="utf-8")
-    table = tmp_path / "table.csv"
-    assert main(["retest", str(folder), "--output", str(table), "--raters", str(raters), "--store"]) == 0
-    said = capsys.readouterr()
-    assert "10 people, 20 sessions, 2 raters" in said.out
-    assert "no session is called nobody" in said.err
+    done = command("retest", folder, "--output", table, "--raters", raters, "--store")
+    assert done.code == 0
+    assert "10 people, 20 sessions, 2 raters" in done.out
+    assert "no session is called nobody" in done.err
     with table.open(encoding="utf-8", newline="") as file:
         rows = {(row["of"], row["movement"]): row for row in csv.DictReader(file)}
     (study,) = read_limits(tmp_path).studies
     assert (study.people, study.made) == (10, date.today().isoformat())
     own = study.limit_deg("flexion", "arc")
     assert own == math.ceil(float(rows[("flexion", "arc")]["mdc95_deg"]))
-    output = tmp_path / "progress.pdf"
-    assert main(["report", str(folder / "P01-1.h5"), str(folder / "P01-2.h5"), "--output", str(output)]) == 0
-    tool = shutil.which("pdftotext")
-    assert tool is not None, "pdftotext (poppler-utils) is needed to read the report back"
-    words = " ".join(
-        subprocess.run([tool, str(output), "-"], capture_output=True, text=True, check=True).stdout.split()
-    )
-    assert "measured by this clinic on" in words
-    assert "with 10 people" in words
-    assert f"error {own:.0f}°" in words
+    assert command("report", folder / "P01-1.h5", folder / "P01-2.h5", "--output", output).code == 0
+    read = subprocess.run(["pdftotext", str(output), "-"], capture_output=True, text=True, check=True).stdout
+    words = " ".join(read.split())
+    assert all(said in words for said in ("measured by this clinic on", "with 10 people", f"error {own:.0f}°"))
 
 
 def test_few_people_put_nothing_in_force(
-    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: Command
 ) -> None:
     monkeypatch.setenv("CARPUS_DATA", str(tmp_path))
-    paths = [str(path) for path in sorted(folder.glob("P0[1-4]-[12].h5"))]
-    assert main(["retest", *paths]) == 0
-    assert "4 people, 8 sessions" in capsys.readouterr().out
-    assert main(["retest", *paths, "--store"]) == 1
-    assert "4 people" in capsys.readouterr().err
+    paths = sorted(folder.glob("P0[1-4]-[12].h5"))
+    done = command("retest", *paths)
+    assert (done.code, "4 people, 8 sessions" in done.out) == (0, True)
+    done = command("retest", *paths, "--store")
+    assert (done.code, "4 people" in done.err) == (1, True)
     assert not (tmp_path / LIMITS_FILE).exists()
-    assert main(["retest", paths[0]]) == 1
+    assert command("retest", paths[0]).code == 1
 
 
 def limits(mdc_deg: float, people: int = 12) -> ErrorLimits:
@@ -213,8 +192,8 @@ def limits(mdc_deg: float, people: int = 12) -> ErrorLimits:
     return ErrorLimits((RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-27", people, 2 * people, 2, (one,)),))
 
 
-def test_a_change_is_judged_by_the_clinics_limit(folder: Path) -> None:
-    before = session_figures(read_session(folder / "P01-1.h5"))
+def test_a_change_is_judged_by_the_clinics_limit(measured: list[SessionFigures]) -> None:
+    before = measured[0]
     rows = tuple(replace(row, mean_deg=row.mean_deg + 9.0) for row in before.rows)
     after = replace(before, when=before.when + timedelta(days=1), rows=rows, recording_id="other")
 
@@ -254,25 +233,15 @@ def test_limits_are_read_as_stored_and_a_new_study_takes_the_place_of_its_like(t
     assert [path.name for path in tmp_path.iterdir()] == [LIMITS_FILE]
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "",
-        "[]",
-        '{"format": "else"}',
-        '{"format": "carpus-error-limits", "format_version": 1, "studies": [{}]}',
-        "NUMBER",
-    ],
-)
-def test_a_damaged_file_is_told(tmp_path: Path, text: str) -> None:
-    if text == "NUMBER":
-        store_limits(tmp_path, limits(6.6).studies)
-        said = json.loads((tmp_path / LIMITS_FILE).read_text())
-        said["studies"][0]["limits"][0]["mdc95_deg"] = -3
-        text = json.dumps(said)
-    (tmp_path / LIMITS_FILE).write_text(text)
-    with pytest.raises(SettingsInvalid):
-        read_limits(tmp_path)
+def test_a_damaged_file_is_told(tmp_path: Path) -> None:
+    store_limits(tmp_path, limits(6.6).studies)
+    negative = json.loads((tmp_path / LIMITS_FILE).read_text())
+    negative["studies"][0]["limits"][0]["mdc95_deg"] = -3
+    nothing = '{"format": "carpus-error-limits", "format_version": 1, "studies": [{}]}'
+    for text in ("", "[]", '{"format": "else"}', nothing, json.dumps(negative)):
+        (tmp_path / LIMITS_FILE).write_text(text)
+        with pytest.raises(SettingsInvalid):
+            read_limits(tmp_path)
 
 
 def words_of(widget: QWidget) -> str:
@@ -280,83 +249,64 @@ def words_of(widget: QWidget) -> str:
 
 
 def test_the_study_in_the_window_from_people_to_limits_in_force(
-    qapp: QApplication, qtbot: QtBot, folder: Path, tmp_path: Path
+    open_desktop: Callable[..., Desktop], qtbot: QtBot, folder: Path, measured: list[SessionFigures], tmp_path: Path
 ) -> None:
-    library = Library(tmp_path / "data")
     for person in range(1, 13):
-        patient = library.patients.add(PatientEntry(f"P{person:02d}", "right"))
-        for stored in sorted(folder.glob(f"P{person:02d}-*.h5")):
-            path = library.index.new_path(patient, "Linden 42", "WRIST_FE", "right", FIRST)
-            shutil.copyfile(stored, path)
-            library.index.enter(path, patient, "JS" if stored.stem.endswith("2") else "MK")
-    otter = library.patients.add(PatientEntry("Otter 29", "right"))
-    for day, reach_deg in ((0, 40.0), (9, 46.0)):
-        when = FIRST + timedelta(days=day)
-        path = library.index.new_path(otter, "Linden 42", "WRIST_FE", "right", when)
-        written(tmp_path, 29, day, when, reach_deg).rename(path)
-        library.index.enter(path, otter)
-    library.close()
-    settings = Settings(screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(tmp_path / "data")))
+        stored = sorted(folder.glob(f"P{person:02d}-*.h5"))
+        by = [(path, FIRST, "JS" if path.stem.endswith("2") else "MK") for path in stored]
+        kept(tmp_path / "data", PatientEntry(f"P{person:02d}", "right"), *by)
+    later = FIRST + timedelta(days=9)
+    otters = (written(tmp_path, 29, 0, FIRST, 40.0), FIRST, ""), (written(tmp_path, 29, 9, later, 46.0), later, "")
+    kept(tmp_path / "data", PatientEntry("Otter 29", "right"), *otters)
     today = (FIRST + timedelta(days=12)).date()
-    desktop = compose.compose(qapp, settings, settings_folder=tmp_path / "settings", today=today)
+    desktop = open_desktop(today=today)
     journey, screen = desktop.journey, desktop.journey.retest.screen
-    try:
-        desktop.show()
-        journey.way.show("settings")
-        settings_screen = desktop.shell.stage.currentWidget()
-        assert isinstance(settings_screen, SettingsScreen)
-        settings_screen.retest.click()
-        assert journey.place == "retest"
-        qtbot.waitUntil(lambda: not journey.background.busy)
-        assert "Nobody" in screen.answer.text()
-        screen.people_button.click()
-        for tick in journey.retest.sheet.ticks.values():
-            if "Otter" not in tick.text():
-                tick.click()
-        journey.retest.sheet.take.click()
-        qtbot.waitUntil(lambda: len(screen.plan.people) == 12)
-        states = [one.state for one in screen.plan.people]
-        assert states.count("complete") == 10
-        due = screen.plan.next_due
-        assert due is not None
-        assert (due.pseudonym, due.state, due.due_by) == ("P11", "due", (FIRST + timedelta(days=14)).date())
-        assert "P11" in screen.measure_button.text()
-        assert screen.plan.people[-1].state == "missing"
-        assert screen.plan.study is not None
-        assert (screen.plan.study.people, screen.plan.study.raters) == (10, 2)
-        same = studies(figures_of(folder))[0].found
-        assert screen.plan.study.found[("flexion", "flexion")].mdc95 == pytest.approx(
-            same[("flexion", "flexion")].mdc95
-        )
-        assert read_limits(tmp_path / "data").studies == ()
-        qtbot.waitUntil(lambda: "3 of 3 statements change" in words_of(screen))
-        assert "Otter 29, flexion, 2 Nov → 11 Nov" in words_of(screen)
-        assert words_of(screen).count("no change proven → improved") == 3
-        screen.use_button.click()
-        qtbot.waitUntil(lambda: journey.messages.busy)
-        (use,) = [one for one in desktop.shell.findChildren(Button) if one.text() == "Use these limits"]
-        use.click()
-        qtbot.waitUntil(lambda: bool(desktop.library.error_limits.studies) and not journey.background.busy)
-        (stored_study,) = read_limits(tmp_path / "data").studies
-        assert (stored_study.people, stored_study.made) == (10, today.isoformat())
-        said = " ".join(text.text() for text in settings_screen.findChildren(Text))
-        assert "On 14 Nov 2026 with 10 people in 20 sessions" in said
-        qtbot.waitUntil(lambda: "0 of 3 statements change" in words_of(screen))
-        screen.measure_button.click()
-        assert journey.now.patient is not None
-        assert journey.now.patient.pseudonym == "P11"
-    finally:
-        desktop.close()
-        qtbot.waitUntil(lambda: not journey.background.busy)
+    journey.way.show("settings")
+    settings_screen = desktop.shell.stage.currentWidget()
+    assert isinstance(settings_screen, SettingsScreen)
+    settings_screen.retest.click()
+    assert journey.place == "retest"
+    qtbot.waitUntil(lambda: not journey.background.busy)
+    assert "Nobody" in screen.answer.text()
+    screen.people_button.click()
+    for tick in journey.retest.sheet.ticks.values():
+        if "Otter" not in tick.text():
+            tick.click()
+    journey.retest.sheet.take.click()
+    qtbot.waitUntil(lambda: len(screen.plan.people) == 12)
+    states = [one.state for one in screen.plan.people]
+    assert states.count("complete") == 10
+    due = screen.plan.next_due
+    assert (due.pseudonym, due.state, due.due_by) == ("P11", "due", (FIRST + timedelta(days=14)).date())
+    assert "P11" in screen.measure_button.text()
+    assert screen.plan.people[-1].state == "missing"
+    assert (screen.plan.study.people, screen.plan.study.raters) == (10, 2)
+    same = studies(measured)[0].found
+    assert screen.plan.study.found[("flexion", "flexion")].mdc95 == pytest.approx(same[("flexion", "flexion")].mdc95)
+    assert read_limits(tmp_path / "data").studies == ()
+    qtbot.waitUntil(lambda: "3 of 3 statements change" in words_of(screen))
+    assert "Otter 29, flexion, 2 Nov → 11 Nov" in words_of(screen)
+    assert words_of(screen).count("no change proven → improved") == 3
+    screen.use_button.click()
+    qtbot.waitUntil(lambda: journey.messages.busy)
+    (use,) = [one for one in desktop.shell.findChildren(Button) if one.text() == "Use these limits"]
+    use.click()
+    qtbot.waitUntil(lambda: bool(desktop.library.error_limits.studies) and not journey.background.busy)
+    (stored_study,) = read_limits(tmp_path / "data").studies
+    assert (stored_study.people, stored_study.made) == (10, today.isoformat())
+    said = " ".join(text.text() for text in settings_screen.findChildren(Text))
+    assert "On 14 Nov 2026 with 10 people in 20 sessions" in said
+    qtbot.waitUntil(lambda: "0 of 3 statements change" in words_of(screen))
+    screen.measure_button.click()
+    assert journey.now.patient.pseudonym == "P11"
 
 
-def test_too_late_and_simulated_put_nothing_into_force(folder: Path) -> None:
-    figures = figures_of(folder)
-    alone = [one for one in figures if one.subject_id == "P11"]
+def test_too_late_and_simulated_put_nothing_into_force(measured: list[SessionFigures]) -> None:
+    alone = [one for one in measured if one.subject_id == "P11"]
     late = plan_of([("p11", "P11", alone)], "WRIST_FE", {}, (FIRST + timedelta(days=15)).date())
     assert [(one.state, one.due_by) for one in late.people] == [("too_late", None)]
     assert late.blocked == "nothing"
-    people = [(f"p{k}", f"P{k}", [one for one in figures if one.subject_id == f"P{k:02d}"]) for k in range(1, 11)]
+    people = [(f"p{k}", f"P{k}", [one for one in measured if one.subject_id == f"P{k:02d}"]) for k in range(1, 11)]
     today = (FIRST + timedelta(days=20)).date()
     assert plan_of(people, "WRIST_FE", {}, today).blocked == ""
     assert plan_of(people[:-1], "WRIST_FE", {}, today).blocked == "few"

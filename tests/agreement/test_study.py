@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.app.__main__ import main
 from carpus.core.agreement.compare import Pairs
 from carpus.core.agreement.compared_files import compare_files
 from carpus.core.agreement.statistics import NOTHING, Between
 from carpus.core.agreement.study import OfPeople, _few
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
+from tests.commands import Command
 from tests.formats.takes import stored
 
 OFFSETS = {"anna": (2.0, 2.4), "bert": (-1.0, -0.6), "cleo": (0.5, 0.7), "dora": (3.0,)}
@@ -61,7 +61,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_the_furthest_shift_and_what_was_left_out_reach_every_session(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
+    folder: Path, command: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[dict[str, Any]] = []
 
@@ -72,21 +72,19 @@ def test_the_furthest_shift_and_what_was_left_out_reach_every_session(
     left_out = RepetitionChoices({0: "pain"})
     monkeypatch.setattr("carpus.core.agreement.study.compare_files", compared)
     monkeypatch.setattr("carpus.app.of_file.read_choices", lambda _: left_out)
-    assert main(["compare", "--study", str(folder / "all.csv"), "--max-shift", "0.5"]) == 0
+    assert command("compare", "--study", folder / "all.csv", "--max-shift", "0.5").code == 0
     assert len(asked) == 7
     assert all(how["most_shift_s"] == 0.5 and how["choices"] is left_out for how in asked)
 
 
-def test_people_count_alike_and_all_is_in_one_table(
-    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["compare", "--study", str(folder / "all.csv"), "--output", str(tmp_path / "out")]) == 0
-    said = capsys.readouterr().out
-    assert "4 people, 7 sessions" in said
-    assert "sd between people" in said
-    names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert names == {"all.study.csv", "all.study.json", "all.flexion.png", "all.pdf"}
-    with (tmp_path / "out" / "all.study.csv").open(newline="", encoding="utf-8") as file:
+def test_people_count_alike_and_all_is_in_one_table(folder: Path, tmp_path: Path, command: Command) -> None:
+    out = tmp_path / "out"
+    done = command("compare", "--study", folder / "all.csv", "--output", out)
+    assert done.code == 0
+    assert "4 people, 7 sessions" in done.out
+    assert "sd between people" in done.out
+    assert {path.name for path in out.iterdir()} == {"all.study.csv", "all.study.json", "all.flexion.png", "all.pdf"}
+    with (out / "all.study.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     everybody, *each = rows
     assert everybody["of"] == "all people"
@@ -98,24 +96,20 @@ def test_people_count_alike_and_all_is_in_one_table(
     half = 3.182 * means.std(ddof=1) / 2.0
     assert float(everybody["bias_high_deg"]) - float(everybody["bias_deg"]) == pytest.approx(half, rel=0.05)
     assert everybody["icc_2_1"] == "", "pairs of several people have no ICC in common"
-    said_by_json = json.loads((tmp_path / "out" / "all.study.json").read_text(encoding="utf-8"))
+    said_by_json = json.loads((out / "all.study.json").read_text(encoding="utf-8"))
     assert len(said_by_json["sessions"]) == 7
     assert all(len(one["reference_sha256"]) == 64 for one in said_by_json["sessions"])
 
 
-def test_what_cannot_be_compared_is_left_out_and_told(
-    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_cannot_be_compared_is_left_out_and_told(folder: Path, tmp_path: Path, command: Command) -> None:
     turned = reference(folder / "turned.csv", folder / "anna-0.h5", 0.0, sign=-1.0)
     rows = [
         ("anna", "anna-0.h5", turned.name), ("bert", "bert-0.h5", "bert-0.csv"), ("cleo", "none.h5", "cleo-0.csv"),
     ]  # fmt: skip
     table = write_table(folder / "some.csv", rows)
-    assert main(["compare", "--study", str(table), "--output", str(tmp_path / "out")]) == 1
-    said = capsys.readouterr().out
-    assert "none.h5" in said
-    assert "opposite sign" in said
-    assert "too few" in said
+    done = command("compare", "--study", table, "--output", tmp_path / "out")
+    assert done.code == 1
+    assert all(words in done.out for words in ("none.h5", "opposite sign", "too few"))
     with (tmp_path / "out" / "some.study.csv").open(newline="", encoding="utf-8") as file:
         found = {(row["of"], row["person"]): row for row in csv.DictReader(file)}
     assert "opposite sign" in found["session", "anna"]["remarks"]
@@ -126,19 +120,16 @@ def test_what_cannot_be_compared_is_left_out_and_told(
 _HEAD = "person,session,reference,drift_percent,lag_s\n"
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
+def test_what_is_no_table_of_a_study_is_said(tmp_path: Path, command: Command) -> None:
+    for text in (
         "", "person,session\n1,2\n", "person,session,reference\n,a.h5,b.csv\n", "\x00\x01",
         f"{_HEAD}a,a.h5,b.csv,400,\n", f"{_HEAD}a,a.h5,b.csv,,nan\n",
-    ],
-)  # fmt: skip
-def test_what_is_no_table_of_a_study_is_said(text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "t.csv").write_text(text)
-    assert main(["compare", "--study", str(tmp_path / "t.csv")]) == 1
-    assert "t.csv" in capsys.readouterr().err
-    assert main(["compare"]) == 2
-    assert main(["compare", "--study", str(tmp_path / "t.csv"), "--lag", "1"]) == 2
+    ):  # fmt: skip
+        (tmp_path / "t.csv").write_text(text)
+        done = command("compare", "--study", tmp_path / "t.csv")
+        assert (done.code, "t.csv" in done.err) == (1, True), text
+    assert command("compare").code == 2
+    assert command("compare", "--study", tmp_path / "t.csv", "--lag", "1").code == 2
 
 
 def test_who_is_not_in_the_figures_of_all_is_named() -> None:

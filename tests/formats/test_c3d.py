@@ -17,6 +17,7 @@ from carpus.core.formats import c3d_write
 from carpus.core.formats.c3d_read import read_c3d
 from carpus.core.formats.take import Take, joint_centres_cam_m
 from carpus.core.session.reader import read_session
+from carpus.core.session.values import Session
 from carpus.core.types import TrackStatus
 from tests.formats.takes import hand_take, stopping, stored, take_of, wrist_take
 
@@ -91,20 +92,28 @@ def test_repetitions_are_events(tmp_path: Path) -> None:
     assert len(wanted) == 9
 
 
+def of_rows(session: Session, rows: np.ndarray, dropped_before: np.ndarray) -> Session:
+    """A session of some of its frames."""
+    seen = session.markers
+    return replace(
+        session,
+        timestamp_s=session.timestamp_s[rows],
+        status=session.status[rows],
+        markers=replace(seen, position_cam_m=seen.position_cam_m[rows], measured_px=seen.measured_px[rows]),
+        quality=replace(session.quality, dropped_before=dropped_before),
+    )
+
+
 def test_an_hour_keeps_its_last_frame(tmp_path: Path) -> None:
     session = read_session(stored(tmp_path, frames=10))
     count, times = 70_001, 12
     rows = np.arange(count) % 10
+    repeated = of_rows(session, rows, np.zeros(count, dtype=np.int64))
+    wandering_m = repeated.markers.position_cam_m + 1e-6 * np.arange(count)[:, None, None]
     long = replace(
-        session,
+        repeated,
         timestamp_s=np.arange(count) / 30.0,
-        status=session.status[rows],
-        markers=replace(
-            session.markers,
-            position_cam_m=session.markers.position_cam_m[rows] + 1e-6 * np.arange(count)[:, None, None],
-            measured_px=session.markers.measured_px[rows],
-        ),
-        quality=replace(session.quality, dropped_before=np.zeros(count, dtype=np.int64)),
+        markers=replace(repeated.markers, position_cam_m=wandering_m),
         events=session.events[:1] * (300 - times),
     )
     take = Take(long, take_of(session).figures, "long", take_of(session).provenance)
@@ -131,18 +140,7 @@ def test_a_dropped_frame_keeps_the_time_of_the_rest(tmp_path: Path) -> None:
     kept = np.delete(np.arange(len(session)), [10, 11])
     dropped = np.zeros(len(kept), dtype=np.int64)
     dropped[10] = 2
-    short = replace(
-        session,
-        timestamp_s=session.timestamp_s[kept],
-        status=session.status[kept],
-        markers=replace(
-            session.markers,
-            position_cam_m=session.markers.position_cam_m[kept],
-            measured_px=session.markers.measured_px[kept],
-        ),
-        quality=replace(session.quality, dropped_before=dropped),
-    )
-    (path,) = c3d_write.write(replace(take, session=short), tmp_path / "out")
+    (path,) = c3d_write.write(replace(take, session=of_rows(session, kept, dropped)), tmp_path / "out")
     _, points, rate = by_c3d(path)
     assert (len(points), rate) == (len(session), 30.0)
     assert (points[10:12, :, 3] == -1).all()

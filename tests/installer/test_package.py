@@ -39,8 +39,6 @@ def script(path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
     """A script of the installer as a module."""
     monkeypatch.setattr(sys, "path", [str(HERE), *sys.path])
     spec = importlib.util.spec_from_file_location(path.stem, path)
-    assert spec is not None
-    assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
@@ -91,7 +89,6 @@ def test_the_package_lies_where_the_system_looks(tmp_path: Path, monkeypatch: py
         subprocess.run([tool("sh"), "-n", str(tmp_path / "DEBIAN" / name)], check=True)
         assert "/home" not in (tmp_path / "DEBIAN" / name).read_text(), "patients' data are nobody's to remove"
     released = ElementTree.parse(tmp_path / "usr/share/metainfo/carpus.metainfo.xml").find("releases/release")
-    assert released is not None
     assert released.attrib == {"version": "1.0", "date": date}
     told = [tool("appstreamcli"), "validate", "--no-net", "--pedantic", str(tmp_path / place)]
     done = subprocess.run(told, capture_output=True, text=True, check=False)
@@ -136,12 +133,9 @@ def test_the_metainfo_names_the_same_program() -> None:
 
 def test_the_file_type_knows_our_sessions_and_no_others(tmp_path: Path) -> None:
     kind = ElementTree.parse(LINUX / "carpus.xml").getroot().find("m:mime-type", NAMESPACE)
-    assert kind is not None
     assert kind.attrib["type"] == MIME
     outer = kind.find("m:magic/m:match", NAMESPACE)
-    assert outer is not None
     inner = outer.find("m:match", NAMESPACE)
-    assert inner is not None
     begins = outer.attrib["value"].encode().decode("unicode_escape").encode("latin-1")
     first, last = map(int, inner.attrib["offset"].split(":"))
     word = inner.attrib["value"].encode()

@@ -22,24 +22,24 @@ def moving() -> FloatArray:
     return np.radians(np.outer(swing, [-20.0, 35.0, 30.0, 2.0, 25.0]) + 5.0)
 
 
-def tip(angles_rad: FloatArray) -> FloatArray:
-    return np.column_stack((0.1 * angles_rad[:, 0], 0.1 * angles_rad[:, 1], 0.0 * angles_rad[:, 0]))
-
-
-def of(angles_rad: FloatArray, sd_deg: float = 4.0) -> Coherence:
+def of(
+    angles_rad: FloatArray, sd_deg: float = 4.0, off_m: float = 0.0, hidden: FloatArray = HIDDEN, known: bool = True
+) -> Coherence:
+    """Of a thumb whose tip goes with its first two angles, and lies so far off while it is hidden."""
+    tip_m = np.column_stack((0.1 * angles_rad[:, 0], 0.1 * angles_rad[:, 1], 0.0 * angles_rad[:, 0]))
+    tip_m[hidden, 0] += off_m
     sds = np.radians(np.full(angles_rad.shape, sd_deg))
-    known = np.ones(COUNT, dtype=bool)
-    return digit_coherence(TIME_S, NAMES, angles_rad, sds, tip(angles_rad), HIDDEN, known)
+    return digit_coherence(TIME_S, NAMES, angles_rad, sds, tip_m, hidden, np.full(COUNT, known))
 
 
 def test_a_thumb_that_moves_on_while_hidden_is_coherent() -> None:
-    angles = moving()
-    sds = np.radians(np.full(angles.shape, 4.0))
-    found = digit_coherence(TIME_S, NAMES, angles, sds, tip(angles), HIDDEN, np.ones(COUNT, dtype=bool))
+    found = of(moving())
     assert found.hidden_share == pytest.approx(1.0 / 3.0, abs=0.02)
     assert (found.coherent_share, found.known_share) == (1.0, 1.0)
     assert len(found.jumps_m) == 1
     assert found.jumps_m[0] < 0.005
+    lost = of(moving(), off_m=0.03)
+    assert lost.jumps_m[0] == pytest.approx(0.03, abs=0.005), "told when it is seen again"
 
 
 def test_a_guess_a_pose_that_no_hand_takes_and_a_jump_are_not() -> None:
@@ -53,20 +53,8 @@ def test_a_guess_a_pose_that_no_hand_takes_and_a_jump_are_not() -> None:
     assert of(flickering).coherent_share < 0.1
 
 
-def test_where_it_was_lost_is_told_by_the_jump_when_it_is_seen_again() -> None:
-    angles = moving()
-    places = tip(angles)
-    places[HIDDEN] += [0.03, 0.0, 0.0]
-    sds = np.radians(np.full(angles.shape, 4.0))
-    found = digit_coherence(TIME_S, NAMES, angles, sds, places, HIDDEN, np.ones(COUNT, dtype=bool))
-    assert found.jumps_m[0] == pytest.approx(0.03, abs=0.005)
-
-
 def test_what_is_never_hidden_or_never_known_says_nothing() -> None:
-    angles, never = moving(), np.zeros(COUNT, dtype=bool)
-    sds = np.radians(np.full(angles.shape, 4.0))
-    seen = digit_coherence(TIME_S, NAMES, angles, sds, tip(angles), never, ~never)
+    seen = of(moving(), hidden=np.zeros(COUNT, dtype=bool))
     assert seen.hidden_share == 0.0
     assert math.isnan(seen.coherent_share)
-    lost = digit_coherence(TIME_S, NAMES, angles, sds, tip(angles), HIDDEN, never)
-    assert math.isnan(lost.hidden_share)
+    assert math.isnan(of(moving(), known=False).hidden_share)

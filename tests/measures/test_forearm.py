@@ -21,10 +21,13 @@ def bending(centre_m: FloatArray, degrees: float = 60.0, count: int = 300) -> tu
     return centre_m - rotation @ centre_m, rotation
 
 
+def noisy(position_m: FloatArray) -> FloatArray:
+    return position_m + np.random.default_rng(2).normal(0.0, 0.0005, position_m.shape)
+
+
 def test_the_centre_of_bending_is_found_and_does_not_move() -> None:
     position, rotation = bending(CENTRE_M)
-    noisy = position + np.random.default_rng(2).normal(0.0, 0.0005, position.shape)
-    found = wrist_centre(noisy, rotation, np.ones(len(position), dtype=bool))
+    found = wrist_centre(noisy(position), rotation, np.ones(len(position), dtype=bool))
     assert np.linalg.norm(position - position[0], axis=1).max() > 0.015, "the disc itself does"
     assert found.centre_w2_m == pytest.approx(CENTRE_M, abs=1e-3)
     assert found.residual_m == pytest.approx(0.0005 * math.sqrt(3.0), rel=0.2)
@@ -41,15 +44,10 @@ def test_a_forearm_that_moves_is_seen_beside_the_bending(moved_m: float) -> None
     assert found.moved_m[:200].max() < 0.003
 
 
-def test_a_hand_that_hardly_turns_has_the_usual_centre() -> None:
+def test_a_hand_that_hardly_turns_has_the_usual_centre_and_nothing_seen_is_unknown() -> None:
     position, rotation = bending(CENTRE_M, degrees=1.0)
-    noisy = position + np.random.default_rng(2).normal(0.0, 0.0005, position.shape)
-    found = wrist_centre(noisy, rotation, np.ones(len(position), dtype=bool))
+    found = wrist_centre(noisy(position), rotation, np.ones(len(position), dtype=bool))
     assert np.linalg.norm(found.centre_w2_m - [0.0, 0.0, -0.015]) < 0.015
-
-
-def test_nothing_seen_is_unknown() -> None:
-    position, rotation = bending(CENTRE_M)
-    found = wrist_centre(position, rotation, np.zeros(len(position), dtype=bool))
-    assert math.isnan(found.residual_m)
-    assert np.isnan(found.moved_m).all()
+    unseen = wrist_centre(position, rotation, np.zeros(len(position), dtype=bool))
+    assert math.isnan(unseen.residual_m)
+    assert np.isnan(unseen.moved_m).all()

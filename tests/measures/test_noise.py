@@ -12,9 +12,9 @@ from carpus.core.measures.noise import FILTER_CORRELATION_S, Noise, cutoff_for_s
 from carpus.core.measures.repetitions import Stroke, find_repetitions
 from carpus.core.measures.signals import Signal, even_signal, low_pass
 from carpus.core.measures.speed import StrokeMeasures, measure_stroke
-from carpus.core.types import FloatArray
-from tests.measures.tracked import Tracked, tracked
+from tests.measures.tracked import ONE_PROCESS, Tracked, tracked
 
+pytestmark = ONE_PROCESS
 RATE = 30.0
 
 
@@ -85,26 +85,28 @@ def test_what_is_lost_in_noise_is_not_judged_instead_of_called_jerky(smoothed: b
         assert math.isnan(other.peaks) or other.peaks == 1.0
 
 
-def stroke_and_back(duration_s: float) -> FloatArray:
+def there_and_back(duration_s: float) -> Signal:
+    """60 degrees of minimum jerk, with holds before, between and after."""
     tau = np.arange(0.0, 1.0 - 1e-9, 1.0 / (duration_s * RATE))
     up = 60.0 * (10 * tau**3 - 15 * tau**4 + 6 * tau**5)
-    return np.radians(np.concatenate((np.zeros(30), up, np.full(30, 60.0), up[::-1], np.zeros(30))))
+    angle = np.radians(np.concatenate((np.zeros(30), up, np.full(30, 60.0), up[::-1], np.zeros(30))))
+    return even_signal(np.arange(len(angle)) / RATE, angle)
+
+
+def measured(signal: Signal) -> list[StrokeMeasures]:
+    return [measure_stroke(signal, stroke) for stroke in find_repetitions(signal).strokes]
 
 
 @pytest.mark.parametrize(("duration_s", "ldlj"), [(1.0, -5.25), (0.6, -5.20)])
 def test_a_minimum_jerk_stroke_has_the_published_smoothness(duration_s: float, ldlj: float) -> None:
-    angle = stroke_and_back(duration_s)
-    signal = even_signal(np.arange(len(angle)) / RATE, angle)
-    found = [measure_stroke(signal, stroke) for stroke in find_repetitions(signal).strokes]
+    found = measured(there_and_back(duration_s))
     assert mean(found, "ldlj") == pytest.approx(ldlj, abs=0.3)
     assert mean(found, "sparc") == pytest.approx(-1.40, abs=0.05)
 
 
 def test_a_quick_stroke_keeps_its_peak() -> None:
-    angle = stroke_and_back(0.4)
-    signal = even_signal(np.arange(len(angle)) / RATE, angle)
-    found = [measure_stroke(signal, stroke) for stroke in find_repetitions(signal).strokes]
-    assert math.degrees(mean(found, "peak_speed_rad_s")) == pytest.approx(1.875 * 60.0 / 0.4, rel=0.02)
+    peak_rad_s = mean(measured(there_and_back(0.4)), "peak_speed_rad_s")
+    assert math.degrees(peak_rad_s) == pytest.approx(1.875 * 60.0 / 0.4, rel=0.02)
 
 
 def test_the_speed_of_noise_is_what_it_is_said_to_be() -> None:
@@ -182,21 +184,16 @@ def test_extremes_of_finger_joints_are_within_three_degrees() -> None:
 
 
 def test_the_speed_of_a_stroke_that_goes_out_of_sight_is_not_known() -> None:
-    angle = stroke_and_back(1.0)
-    time_s = np.arange(len(angle)) / RATE
-    whole = even_signal(time_s, angle)
+    whole = there_and_back(1.0)
+    time_s = whole.time_s
     gone = (time_s > 3.2) & (time_s < 3.9)  # in the middle of the way back, at its fastest
-    cut = even_signal(time_s, angle, ~gone)
-    out, *back = [measure_stroke(cut, stroke) for stroke in find_repetitions(cut).strokes]
-    assert out.peak_speed_rad_s == pytest.approx(
-        measure_stroke(whole, find_repetitions(whole).strokes[0]).peak_speed_rad_s, rel=1e-3
-    )
+    out, *back = measured(even_signal(time_s, whole.value, ~gone))
+    assert out.peak_speed_rad_s == pytest.approx(measured(whole)[0].peak_speed_rad_s, rel=1e-3)
     assert back
     assert all(math.isnan(stroke.peak_speed_rad_s) for stroke in back)
     # A hand that comes back into the picture in the middle of a movement is as little known.
-    late = even_signal(time_s, angle, time_s > 3.4)
-    strokes = [Stroke(float(late.time_s[0]), 4.0, rising=False)]
-    assert all(math.isnan(measure_stroke(late, stroke).peak_speed_rad_s) for stroke in strokes)
+    late = even_signal(time_s, whole.value, time_s > 3.4)
+    assert math.isnan(measure_stroke(late, Stroke(float(late.time_s[0]), 4.0, rising=False)).peak_speed_rad_s)
 
 
 @pytest.mark.parametrize("smoothed", [True, False], ids=["looked back", "live"])

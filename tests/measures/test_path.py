@@ -12,8 +12,9 @@ from carpus.core.measures.reach import WRIST_NOISE, find_reaches, measure_path
 from carpus.core.measures.signals import Signal, even_signal
 from carpus.core.measures.speed import speed_peaks
 from carpus.core.types import FloatArray
-from tests.measures.tracked import tracked
+from tests.measures.tracked import ONE_PROCESS, tracked
 
+pytestmark = ONE_PROCESS
 RATE = 30.0
 
 

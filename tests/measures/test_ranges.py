@@ -36,12 +36,8 @@ def min_jerk(start: float, end: float, duration_s: float) -> FloatArray:
 def exercise_deg(tops: list[float], move_s: float = 1.0, hold_s: float = 1.0) -> FloatArray:
     parts = [np.zeros(30)]
     for top in tops:
-        parts += [
-            min_jerk(0.0, top, move_s),
-            np.full(int(hold_s * RATE), top),
-            min_jerk(top, 0.0, move_s),
-            np.zeros(20),
-        ]
+        hold = np.full(int(hold_s * RATE), top)
+        parts += [min_jerk(0.0, top, move_s), hold, min_jerk(top, 0.0, move_s), np.zeros(20)]
     return np.concatenate(parts)
 
 
@@ -163,12 +159,9 @@ def test_a_top_out_of_sight_is_said_to_be_limited() -> None:
 
 def test_a_hand_that_leaves_at_the_top_for_good_is_limited_too() -> None:
     value = np.concatenate((exercise_deg([40.0] * 3), min_jerk(0.0, 80.0, 1.0)))
-    valid = np.ones(len(value), dtype=bool)
-    valid[value > 45.0] = False
-    found = summary_of(value, valid=valid).range
+    found = summary_of(value, valid=value <= 45.0).range
     assert math.degrees(found.maximum.best) == pytest.approx(40.0, abs=0.5)
-    whole = summary_of(value[-30:], valid=valid[-30:]).range
-    assert whole.top_limited
+    assert summary_of(value[-30:], valid=value[-30:] <= 45.0).range.top_limited
 
 
 def test_strokes_of_minimum_jerk() -> None:
@@ -185,10 +178,8 @@ def test_strokes_of_minimum_jerk() -> None:
 
 
 def test_directions_are_told_apart() -> None:
-    value = np.concatenate(
-        [np.concatenate((min_jerk(0, 50, 0.7), np.full(10, 50.0), min_jerk(50, 0, 2.0), np.zeros(10)))] * 4
-    )
-    found = summary_of(value)
+    one = np.concatenate((min_jerk(0, 50, 0.7), np.full(10, 50.0), min_jerk(50, 0, 2.0), np.zeros(10)))
+    found = summary_of(np.tile(one, 4))
     assert found.stroke_mean("movement_time_s", rising=True) < 0.5 * found.stroke_mean("movement_time_s", rising=False)
 
 

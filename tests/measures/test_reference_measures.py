@@ -14,8 +14,9 @@ from carpus.core.measures.signals import even_signal, low_pass
 from carpus.core.measures.together import co_flexion, enslaving_share, synergy_share, tremor
 from carpus.core.results.norms import total_grade, total_share
 from carpus.core.types import FloatArray
-from tests.measures.tracked import tracked
+from tests.measures.tracked import ONE_PROCESS, tracked
 
+pytestmark = ONE_PROCESS
 RATE = 30.0
 
 

@@ -16,8 +16,10 @@ from carpus.core.measures.signals import even_signal, low_pass
 from carpus.core.measures.speed import StrokeMeasures, log_dimensionless_jerk, measure_stroke, sparc
 from carpus.core.types import FloatArray
 from tests.measures.test_noise import angle_of
-from tests.measures.tracked import tracked
+from tests.measures.tracked import ONE_PROCESS, tracked
 from tests.measures.ways import RATE, Part, way
+
+pytestmark = ONE_PROCESS
 
 
 def there_and_back(parts: list[Part], hold_s: float = 1.0) -> FloatArray:

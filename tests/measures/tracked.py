@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+import pytest
 
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.pipeline.track import from_neutral, learnt_from
@@ -18,6 +19,9 @@ from carpus.core.types import FloatArray
 from tests.accuracy.carpus import measured_hand
 from tests.simulation.measurements import measurement_sequence
 
+ONE_PROCESS = pytest.mark.xdist_group("tracked exercises")
+"""Of all tests that ask for tracked exercises: else each process tracks them."""
+
 
 @dataclass(frozen=True)
 class Tracked:
@@ -29,7 +33,7 @@ class Tracked:
     status: FloatArray
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=32)
 def tracked(
     motion: str,
     seconds: float,

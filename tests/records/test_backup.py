@@ -66,6 +66,15 @@ def restored(place: Path, made: Backup, target: Path, settings: Path | None = No
     restore(made, content_of(place), target, settings_folder=settings).put_in_place(NOW)
 
 
+def kept_on(data: Path, place: Path, *days: int) -> list[Backup]:
+    """Back-ups made so many days ago, each of something else."""
+    made = []
+    for day in days:
+        (data / "set_ups.json").write_text(json.dumps({"day": day}))
+        made.append(back_up(data, place, software_version="1", now=NOW - timedelta(days=day)))
+    return made
+
+
 def test_everything_is_restored_on_another_computer(data: Path, tmp_path: Path) -> None:
     settings = tmp_path / "settings"
     settings.mkdir()
@@ -125,6 +134,8 @@ def test_the_same_content_is_stored_once(data: Path, tmp_path: Path) -> None:
     kept = [path for path in objects if objects[path] == after.get(path)]
     assert len(after) <= len(objects) + 1
     assert len(kept) >= len(objects) - 1, "only the store is copied anew"
+    back_up(data, place, software_version="1", now=NOW)
+    assert len(backups(place)) == 3, "two of one second are two"
 
 
 @pytest.mark.parametrize("place", [0, -1])
@@ -197,9 +208,7 @@ def test_what_a_restore_changes_is_known_before_and_the_old_folder_is_kept(data:
 
 def test_the_newest_and_one_of_each_month_are_kept(data: Path, tmp_path: Path) -> None:
     place = tmp_path / "disk"
-    for days in (0, 1, 2, 40, 41, 70, 900):
-        (data / "set_ups.json").write_text(json.dumps({"day": days}))
-        back_up(data, place, software_version="1", now=NOW - timedelta(days=days))
+    kept_on(data, place, 0, 1, 2, 40, 41, 70, 900)
     assert thin_out(place, 2, 24, NOW) == 3
     left = [(NOW - one.made).days for one in backups(place)]
     assert left == [0, 1, 40, 70]
@@ -211,11 +220,8 @@ def test_the_newest_and_one_of_each_month_are_kept(data: Path, tmp_path: Path) -
 
 def test_what_a_back_up_of_a_newer_program_needs_is_not_thinned_out(data: Path, tmp_path: Path) -> None:
     place = tmp_path / "disk"
-    for days in (900, 800, 0):
-        (data / "set_ups.json").write_text(json.dumps({"day": days}))
-        made = back_up(data, place, software_version="1", now=NOW - timedelta(days=days))
-        if days == 800:
-            path, newer = place / BACKUPS / f"{made.name}.json", made
+    _, newer, _ = kept_on(data, place, 900, 800, 0)
+    path = place / BACKUPS / f"{newer.name}.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {"format_version": 99}))
     assert thin_out(place, 1, 0, NOW) == 1
     compare(place, newer)
@@ -250,12 +256,6 @@ def test_when_a_person_is_reminded() -> None:
     assert is_due(None, 3, NOW)
     assert not is_due(NOW, 3, NOW + timedelta(days=3))
     assert is_due(NOW, 3, NOW + timedelta(days=3, minutes=1))
-
-
-def test_two_of_one_second_are_two(data: Path, tmp_path: Path) -> None:
-    for _ in range(2):
-        back_up(data, tmp_path / "disk", software_version="1", now=NOW)
-    assert len(backups(tmp_path / "disk")) == 2
 
 
 @pytest.mark.parametrize("text", ['{"running": 1e999}', "[", "[1]", '"x"', "null", "\udcff", "[" * 5000])
@@ -339,9 +339,7 @@ def test_fewer_files_than_the_store_knows_is_no_success(data: Path, tmp_path: Pa
 
 def test_thinning_out_touches_nothing_that_a_link_leads_to(data: Path, tmp_path: Path) -> None:
     place, mine = tmp_path / "disk", tmp_path / "mine"
-    for days in (0, 40):
-        (data / "set_ups.json").write_text(json.dumps({"day": days}))
-        back_up(data, place, software_version="1", now=NOW - timedelta(days=days))
+    kept_on(data, place, 0, 40)
     mine.mkdir()
     for name in ("thesis.txt", "0" * 64):
         (mine / name).write_text("years of work")

@@ -13,7 +13,6 @@ import pytest
 from sqlalchemy import delete, insert, select, update
 from sqlalchemy.exc import DatabaseError
 
-from carpus.app.__main__ import main
 from carpus.core.errors import LogUnguarded, OutputNotWritable, ServerGone
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.library import Library
@@ -21,6 +20,7 @@ from carpus.core.records.log import Log, fingerprint, read_log
 from carpus.core.records.new_sessions import recover
 from carpus.core.records.schema import DEED
 from carpus.core.records.store import Store
+from tests.commands import Command
 from tests.records.samples import opened, settled, traces
 
 
@@ -99,37 +99,34 @@ def test_a_log_that_cannot_be_written_is_told(tmp_path: Path, monkeypatch: pytes
             house.log.note("locked", "program")
 
 
-def test_the_command_says_it_and_writes_a_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_says_it_and_writes_a_table(tmp_path: Path, command: Command) -> None:
     with Store(tmp_path) as store:
         Log(store, "window", lambda: "AB").note("backed_up", "everything", sessions=7)
-    assert main(["log", "--data-folder", str(tmp_path)]) == 0
-    said = capsys.readouterr().out
-    assert "AB" in said
-    assert "backed_up" in said
-    assert "sessions=7" in said
+    said = command("log", "--data-folder", tmp_path)
+    assert said.code == 0
+    assert all(word in said.out for word in ("AB", "backed_up", "sessions=7"))
     table = tmp_path / "log.csv"
-    assert main(["log", "--data-folder", str(tmp_path), "--output", str(table)]) == 0
+    assert command("log", "--data-folder", tmp_path, "--output", table).code == 0
     with table.open(newline="", encoding="utf-8") as file:
         (row,) = csv.DictReader(file)
     assert (row["who"], row["did"], row["facts"]) == ("AB", "backed_up", "sessions=7")
-    assert main(["log", "--data-folder", str(tmp_path), "--output", str(table)]) == 1
+    assert command("log", "--data-folder", tmp_path, "--output", table).code == 1
 
 
-def test_the_command_makes_no_store_where_none_is(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_makes_no_store_where_none_is(tmp_path: Path, command: Command) -> None:
     tmp_path.chmod(0o755)
-    for command in (["log"], ["erase", "Linden 42"]):
-        assert main([*command, "--data-folder", str(tmp_path)]) == 1
-        assert "no data folder" in capsys.readouterr().err
+    for words in (("log",), ("erase", "Linden 42")):
+        done = command(*words, "--data-folder", tmp_path)
+        assert (done.code, "no data folder" in done.err) == (1, True)
     assert (list(tmp_path.iterdir()), tmp_path.stat().st_mode & 0o777) == ([], 0o755)
 
 
-def test_a_damaged_line_is_left_out_and_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_damaged_line_is_left_out_and_told(tmp_path: Path, command: Command) -> None:
     with opened(tmp_path) as house:
         house.store.own(insert(DEED).values(id="x", at_ns=0, facts="{"))
         house.log.note("locked", "program")
-    assert main(["log", "--data-folder", str(tmp_path)]) == 0
-    said = capsys.readouterr()
-    assert ("     2  " in said.out, "left out" in said.err) == (True, True)
+    said = command("log", "--data-folder", tmp_path)
+    assert (said.code, "     2  " in said.out, "left out" in said.err) == (0, True, True)
 
 
 def test_what_the_store_tells_before_anybody_listens_is_told_at_the_start(tmp_path: Path) -> None:

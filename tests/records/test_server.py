@@ -12,7 +12,7 @@ from datetime import timedelta
 from pathlib import Path
 
 import pytest
-from sqlalchemy import create_engine, delete, func, insert, select, text, update
+from sqlalchemy import Engine, create_engine, delete, func, insert, select, text, update
 from sqlalchemy.exc import DBAPIError
 from sqlalchemy.pool import NullPool
 
@@ -43,9 +43,12 @@ def there(cluster: Cluster) -> str:
     return cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
 
 
+def engine_of(url: str) -> Engine:
+    return create_engine(url.replace("postgresql", "postgresql+psycopg"), poolclass=NullPool)
+
+
 def count(url: str, table: str) -> int:
-    engine = create_engine(url.replace("postgresql", "postgresql+psycopg"), poolclass=NullPool)
-    with engine.connect() as connection:
+    with engine_of(url).connect() as connection:
         return int(connection.execute(text(f"SELECT count(*) FROM {table}")).scalar() or 0)
 
 
@@ -89,13 +92,11 @@ def test_the_practice_patient_s_sessions_are_of_no_server_wherever_they_lie(tmp_
         assert a.index.owner(session_id) == b.index.owner(session_id) == PRACTICE, "whatever a server says of it"
 
 
-def test_closing_waits_for_no_server_that_is_frozen(tmp_path: Path, cluster: Cluster) -> None:
-    there = cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
+def test_closing_waits_for_no_server_that_is_frozen(tmp_path: Path, cluster: Cluster, there: str) -> None:
     wire = Wire(cluster.port)
     with opened(tmp_path, there.replace(str(cluster.port), str(wire.port))) as house:
         settled(house)
         server = house.store._server
-        assert server is not None
         wire.answers_come = False
         house.patients.add(LINDEN)
         house.store.close()
@@ -171,8 +172,9 @@ def test_what_was_refused_as_the_program_ended_is_told_at_the_next_start(tmp_pat
     assert [(type(one), one.subject) for one in told] == [(ChangedMeanwhile, "patient")]
 
 
-def test_a_server_that_falls_silent_while_it_is_read_holds_up_nobody(tmp_path: Path, cluster: Cluster) -> None:
-    there = cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
+def test_a_server_that_falls_silent_while_it_is_read_holds_up_nobody(
+    tmp_path: Path, cluster: Cluster, there: str
+) -> None:
     wire = Wire(cluster.port)
     with opened(tmp_path, there.replace(str(cluster.port), str(wire.port))) as house:
         session_id = measure(house, house.patients.add(LINDEN), T0)
@@ -192,8 +194,7 @@ def test_a_server_that_falls_silent_while_it_is_read_holds_up_nobody(tmp_path: P
     assert count(there, "comment") == 30
 
 
-def test_measuring_never_waits_and_what_is_new_arrives_once(tmp_path: Path, cluster: Cluster) -> None:
-    there = cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
+def test_measuring_never_waits_and_what_is_new_arrives_once(tmp_path: Path, cluster: Cluster, there: str) -> None:
     told_a: list[CarpusFault] = []
     told_b: list[CarpusFault] = []
     with opened(tmp_path / "a", there, told_a.append) as a, opened(tmp_path / "b", there, told_b.append) as b:
@@ -360,7 +361,7 @@ def test_the_log_of_the_server_is_only_added_to_as_well(tmp_path: Path, there: s
     with opened(tmp_path / "a", there) as a:
         a.log.note("locked", "program")
         settled(a)
-    engine = create_engine(there.replace("postgresql", "postgresql+psycopg"), poolclass=NullPool)
+    engine = engine_of(there)
     for statement in ("UPDATE deed SET who = 'XY'", "DELETE FROM deed", "TRUNCATE deed"):
         with pytest.raises(DBAPIError, match="only added to"), engine.begin() as connection:
             connection.execute(text(statement))
@@ -378,8 +379,9 @@ def test_no_server_at_all_is_told_and_holds_up_nothing(tmp_path: Path) -> None:
         assert house.names() == ["Linden 42"]
 
 
-def test_erased_while_the_server_is_away_leaves_no_name_in_what_waits(tmp_path: Path, cluster: Cluster) -> None:
-    there = cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
+def test_erased_while_the_server_is_away_leaves_no_name_in_what_waits(
+    tmp_path: Path, cluster: Cluster, there: str
+) -> None:
     with opened(tmp_path, there) as house:
         settled(house)
         cluster.stop()
@@ -407,7 +409,7 @@ def test_what_the_server_may_not_write_waits(tmp_path: Path, there: str) -> None
     with opened(tmp_path, there) as house:
         session_id = measure(house, house.patients.add(LINDEN), T0)
         settled(house)
-    engine = create_engine(there.replace("postgresql", "postgresql+psycopg"), poolclass=NullPool)
+    engine = engine_of(there)
     for only_read in (True, False):
         with engine.connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
             connection.execute(text("SET default_transaction_read_only = off"))
@@ -453,8 +455,7 @@ def test_a_server_of_a_newer_carpus_is_told_also_where_it_is_known(tmp_path: Pat
     told: list[CarpusFault] = []
     with opened(tmp_path, there) as house:
         settled(house)
-    engine = create_engine(there.replace("postgresql", "postgresql+psycopg"), poolclass=NullPool)
-    with engine.begin() as connection:
+    with engine_of(there).begin() as connection:
         connection.execute(text("UPDATE alembic_version SET version_num = '99'"))
     with opened(tmp_path, there, told.append):
         until(lambda: bool(told))

@@ -19,7 +19,6 @@ from pathlib import Path
 import pytest
 from sqlalchemy import select, update
 
-from carpus.app.settings import default_data_folder
 from carpus.core.errors import (
     CarpusFault,
     ChangedMeanwhile,
@@ -49,6 +48,8 @@ from carpus.core.session.reader import read_outline
 from tests.records.first_version import statements
 from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record
 
+BESIDE = (".jpg", ".carpusraw")
+"""What :func:`measure` puts beside a session, as the tests write it."""
 VERSIONS = Path(schema.__file__).parent / "migrations" / "versions"
 
 
@@ -67,8 +68,13 @@ def test_what_is_entered_is_found_again(tmp_path: Path, url: str) -> None:
         assert (session.complete, session.by) == (True, "AB")
         assert house.index.one(session_id) == session
         row = house.store.row(select(schema.SESSION))
-        assert row is not None
         assert row.size == session.path.stat().st_size
+        version = house.patients.one(patient_id).version
+        measure(house, patient_id, T0)
+        house.patients.change(patient_id, PatientEntry("Oak 11", "right"), version)  # a session is no change of it
+        house.files.take_in()
+        assert house.names() == ["Oak 11"], "a new name keeps its sessions"
+        assert len(house.index.of_patient(patient_id)) == 2
 
 
 def test_the_last_session_comes_first(tmp_path: Path, url: str) -> None:
@@ -118,16 +124,6 @@ def test_a_pseudonym_belongs_to_one_patient(tmp_path: Path, url: str) -> None:
             house.patients.one("nobody")
         with pytest.raises(KeyError):
             house.index.one("nothing")
-
-
-def test_a_new_name_keeps_the_sessions_through_a_rebuild(tmp_path: Path, url: str) -> None:
-    with opened(tmp_path, url) as house:
-        patient_id = house.patients.add(LINDEN)
-        measure(house, patient_id, T0)
-        house.patients.change(patient_id, PatientEntry("Oak 11", "right"))
-        house.files.take_in()
-        assert house.names() == ["Oak 11"]
-        assert len(house.index.of_patient(patient_id)) == 1
 
 
 def test_a_lost_list_of_sessions_is_made_again_from_the_files(tmp_path: Path) -> None:
@@ -221,44 +217,32 @@ def test_a_time_that_is_none_hides_nothing(tmp_path: Path) -> None:
         assert house.patients.archived() == {linden: T0}
         assert [one.text for one in of_sessions.comments(house.store, session_id)] == ["well"]
         last = of_clinic.last_backup(house.store)
-        assert last is not None
         assert last.missing == 1, "nobody knows since when"
         assert [one.patient_id for one in due(house.store, 10, date(2050, 1, 1))] == [linden]
         assert len(read_log(house.store)) == 1
 
 
-def test_the_data_folder_can_be_moved(tmp_path: Path) -> None:
-    with opened(tmp_path / "old") as house:
+def test_the_data_folder_is_its_owners_only_names_are_in_the_store_only_and_it_can_be_moved(tmp_path: Path) -> None:
+    old, new = tmp_path / "old", tmp_path / "new"
+    old.mkdir(mode=0o755)
+    with opened(old) as house:
         patient_id = house.patients.add(LINDEN)
         measure(house, patient_id, T0)
-    (tmp_path / "old").rename(tmp_path / "new")
-    with opened(tmp_path / "new") as house:
+        house.index.new_path(patient_id, "Linden 42", "WRIST_FE", "right", T0)
+        found = {p: stat.S_IMODE(p.stat().st_mode) for p in (old, *old.rglob("*")) if p.suffix not in BESIDE}
+        assert any(p.name.endswith("-wal") for p in found)
+        for p, mode in found.items():
+            assert mode == (0o700 if p.is_dir() else 0o600), p
+    holding = {p.name for p in old.rglob("*") if p.is_file() and b"Mustermann" in p.read_bytes()}
+    assert holding == {STORE_FILE}
+    old.rename(new)
+    with opened(new) as house:
         (session,) = house.index.of_patient(patient_id)
         assert session.path.is_file()
-        assert session.path.is_relative_to(tmp_path / "new")
+        assert session.path.is_relative_to(new)
 
 
-def test_folders_and_files_are_for_their_owner_only(tmp_path: Path) -> None:
-    folder = tmp_path / "data"
-    folder.mkdir(mode=0o755)
-    with opened(folder) as house:
-        patient_id = house.patients.add(LINDEN)
-        path = house.index.new_path(patient_id, "Linden 42", "WRIST_FE", "right", T0)
-        found = {p: stat.S_IMODE(p.stat().st_mode) for p in (folder, *folder.rglob("*"))}
-    assert path.parent in found
-    assert any(p.name.endswith("-wal") for p in found)
-    for p, mode in found.items():
-        assert mode == (0o700 if p.is_dir() else 0o600), p
-
-
-def test_names_are_in_the_store_only(tmp_path: Path) -> None:
-    with opened(tmp_path) as house:
-        measure(house, house.patients.add(LINDEN), T0)
-    holding = {p.name for p in tmp_path.rglob("*") if p.is_file() and b"Mustermann" in p.read_bytes()}
-    assert holding == {STORE_FILE}
-
-
-def test_paths_of_new_sessions_are_free_and_speak(tmp_path: Path) -> None:
+def test_paths_of_new_sessions_are_free_and_speak_and_no_two_patients_share_a_folder(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         patient_id = house.patients.add(LINDEN)
         first = house.index.new_path(patient_id, "Linden 42", "wrist: up/down", "left", T0)
@@ -267,6 +251,11 @@ def test_paths_of_new_sessions_are_free_and_speak(tmp_path: Path) -> None:
         second = house.index.new_path(patient_id, "Linden 42", "wrist: up/down", "left", T0)
         assert second != first
         assert second.parent == first.parent
+        folders = set()
+        for pseudonym in ("Fir 11", "Fir-11", "Fir_11", "fir.11"):
+            patient_id = house.patients.add(PatientEntry(pseudonym, "left"))
+            folders.add(house.index.new_path(patient_id, pseudonym, "WRIST_FE", "left", T0).parent)
+        assert len(folders) == 4
 
 
 def test_several_threads_and_two_programs_at_once(tmp_path: Path, url: str) -> None:
@@ -299,12 +288,7 @@ def test_a_data_folder_that_cannot_be_made(tmp_path: Path) -> None:
         Store(tmp_path / "file" / "data")
 
 
-def test_the_data_folder_is_the_user_s(own_folders: Path) -> None:
-    assert default_data_folder().name == "carpus"
-    assert default_data_folder().is_relative_to(own_folders)
-
-
-def test_pseudonyms_are_speakable_free_and_without_end() -> None:
+def test_pseudonyms_are_speakable_free_and_without_end(tmp_path: Path) -> None:
     assert len(set(WORDS)) == len(WORDS)
     assert all(word.isalpha() and len(word) <= 8 for word in WORDS)
     taken = {f"{word} {number}" for word in WORDS for number in range(10, 100)}
@@ -313,9 +297,6 @@ def test_pseudonyms_are_speakable_free_and_without_end() -> None:
     assert suggest_pseudonym({name.upper() for name in taken}) == f"{WORDS[0]} 100"
     assert suggest_pseudonym((), random.Random(1)) == suggest_pseudonym((), random.Random(1))
     assert len({suggest_pseudonym((), random.Random(seed)) for seed in range(50)}) > 40
-
-
-def test_the_store_suggests_what_nobody_has(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
         first = house.patients.suggest_pseudonym(random.Random(3))
         house.patients.add(PatientEntry(first, "left"))
@@ -358,14 +339,6 @@ def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path, url:
             assert of_sessions.choices(other.store, session_id)[0].left_out == mine
 
 
-def test_a_session_that_comes_meanwhile_is_no_change_of_the_patient_s_entry(tmp_path: Path, url: str) -> None:
-    with opened(tmp_path, url) as house:
-        linden = house.patients.add(LINDEN)
-        version = house.patients.one(linden).version
-        measure(house, linden, T0)
-        house.patients.change(linden, HERON, version)
-
-
 def test_programs_comment_on_one_session_at_once_and_nothing_is_lost(tmp_path: Path, url: str) -> None:
     with opened(tmp_path, url) as house:
         session_id = measure(house, house.patients.add(LINDEN), T0)
@@ -384,43 +357,20 @@ def test_programs_comment_on_one_session_at_once_and_nothing_is_lost(tmp_path: P
         assert [text for text in texts if text.startswith("one")] == [f"one {number}" for number in range(40)]
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "Lin\u00adden 42",
-        "Linden\u200b 42",
-        "\u202eLinden",
-        "Lin\nden",
-        "Lin\ud800den",
-        "Lin\0den",
-        "Lin\u3164den",
-        "Fir\ufe0f",
-        "x" * 101,
-    ],
-)
-def test_a_name_with_signs_that_nobody_sees_is_refused(tmp_path: Path, text: str) -> None:
-    with opened(tmp_path) as house:
-        with pytest.raises(NameUnsuited):
-            house.patients.add(PatientEntry(text, "left"))
-        with pytest.raises(NameUnsuited):
-            house.patients.add(PatientEntry("Oak 11", "left", name=text))
-        assert house.names() == []
+UNSEEN = ("\u00ad", "\u200b", "\u202e", "\n", "\ud800", "\0", "\u3164", "\ufe0f")
 
 
-def test_names_are_composed_and_of_any_language() -> None:
+def test_names_are_composed_of_any_language_and_without_signs_that_nobody_sees(tmp_path: Path) -> None:
     assert name_of("Zoe\u0308 3") == "Zo\u00eb 3"
     assert name_of("Fir  11") == "Fir 11"
     for name in ("Müller-Lüdenscheidt", "李 小龍", "Ольга 7", "O’Neill 12"):
         assert name_of(f"  {name} ") == name
-
-
-def test_pseudonyms_that_differ_by_a_stroke_share_no_folder(tmp_path: Path) -> None:
     with opened(tmp_path) as house:
-        folders = set()
-        for pseudonym in ("Fir 11", "Fir-11", "Fir_11", "fir.11"):
-            patient_id = house.patients.add(PatientEntry(pseudonym, "left"))
-            folders.add(house.index.new_path(patient_id, pseudonym, "WRIST_FE", "left", T0).parent)
-        assert len(folders) == 4
+        for text in (*(f"Lin{sign}den" for sign in UNSEEN), "\u202eLinden", "Fir\ufe0f", "x" * 101):
+            for entry in (PatientEntry(text, "left"), PatientEntry("Oak 11", "left", name=text)):
+                with pytest.raises(NameUnsuited):
+                    house.patients.add(entry)
+                assert house.names() == [], repr(text)
 
 
 @pytest.mark.parametrize("content", [b"this is no store at all" * 100, b"SQLite format 3\0" + b"x" * 5000])

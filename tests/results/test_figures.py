@@ -17,6 +17,7 @@ from carpus.core.results.norms import total_norm, wrist_norm
 from carpus.core.results.progress import compare, other_hand_of, previous_of, progress, unfair_reasons
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event
+from tests.results.days import days_ago
 from tests.ui.fakes import NOW, session
 
 
@@ -32,9 +33,6 @@ def test_means_are_those_of_the_extremes_of_each_repetition(figures: SessionFigu
     inside = [(time >= rep.start_s) & (time <= rep.end_s) for rep in figures.repetitions]
     tops, bottoms = [angle[part].max() for part in inside], [angle[part].min() for part in inside]
     flexion, extension, arc = (figures.row(name, 1) for name in ("flexion", "extension", "arc"))  # type: ignore[arg-type]
-    assert flexion is not None
-    assert extension is not None
-    assert arc is not None
     # A repetition begins where the hand leaves its turning place: the extreme itself may lie just before.
     assert flexion.mean_deg == pytest.approx(np.mean(tops), abs=0.5)
     assert extension.mean_deg == pytest.approx(-np.mean(bottoms), abs=0.3)
@@ -45,17 +43,10 @@ def test_means_are_those_of_the_extremes_of_each_repetition(figures: SessionFigu
 
 def test_a_repetition_left_out_leaves_the_mean(figures: SessionFigures) -> None:
     arc = figures.row("arc", 1)
-    assert arc is not None
     without = session_figures(session(), RepetitionChoices({6: "pain"}))
-    shorter = without.row("arc", 1)
-    assert shorter is not None
     assert without.counted == 8
     assert without.repetitions[6].reason == "pain"
-    expected = (sum(arc.values_deg) - arc.values_deg[6]) / 8
-    assert shorter.mean_deg == pytest.approx(expected)
-
-
-def test_with_all_left_out_nothing_is_measured() -> None:
+    assert without.row("arc", 1).mean_deg == pytest.approx((sum(arc.values_deg) - arc.values_deg[6]) / 8)
     nothing = session_figures(session(), RepetitionChoices(dict.fromkeys(range(9), "trial")))
     assert nothing.rows == ()
     assert nothing.speed.peak_speed.count == 0
@@ -66,8 +57,6 @@ def test_an_edge_moved_by_a_person_changes_that_repetition_only(figures: Session
     middle = 0.5 * (rep.start_s + rep.end_s)
     moved = session_figures(session(), RepetitionChoices({}, {3: (rep.start_s, middle - 1.5)}))
     before, after = figures.row("arc", 1), moved.row("arc", 1)
-    assert before is not None
-    assert after is not None
     assert after.values_deg[3] < before.values_deg[3] - 10
     assert after.values_deg[:3] == pytest.approx(before.values_deg[:3])
 
@@ -80,15 +69,6 @@ def test_hidden_stretches_do_not_count(figures: SessionFigures) -> None:
     assert any(r.unmeasured == "hidden" for r in seen.repetitions) or len(seen.repetitions) < len(figures.repetitions)
     assert seen.quality.measured_share < 0.95
     assert seen.quality.hidden_share == pytest.approx(4 / 6 * (1 - seen.quality.measured_share), abs=0.01)
-
-
-def test_a_left_hand_is_measured_as_a_right_one(figures: SessionFigures) -> None:
-    left = session_figures(session(side="left"))
-    assert left.side == "left"
-    for row in left.rows:
-        twin = figures.row(row.movement, row.angle)
-        assert twin is not None
-        assert row.mean_deg == pytest.approx(twin.mean_deg, abs=3.0)
 
 
 def test_free_movement_reports_every_angle_and_is_never_judged() -> None:
@@ -114,10 +94,7 @@ def test_two_repetitions_are_never_compared(figures: SessionFigures) -> None:
 
 
 def test_a_session_with_another_camera_height_is_shown_but_not_compared(figures: SessionFigures) -> None:
-    days = (21, 14, 7, 0)
-    sessions = [
-        replace(figures, when=NOW - timedelta(days=day), session_id=str(day), recording_id=str(day)) for day in days
-    ]
+    sessions = [days_ago(figures, day) for day in (21, 14, 7, 0)]
     sessions[2] = replace(sessions[2], quality=replace(sessions[2].quality, distance_m=0.9))
     course = progress(sessions[::-1])
     assert [point.fair for point in course.points] == [True, True, False, True]
@@ -150,9 +127,11 @@ def test_what_the_progress_leaves_out_is_judged_nowhere(figures: SessionFigures,
         "distance": {"quality": replace(quality, distance_m=quality.distance_m + 0.2)},
     }[reason]
     better = tuple(replace(row, mean_deg=row.mean_deg + 30) for row in figures.rows)
-    before, after = figures, replace(figures, when=NOW + timedelta(days=1), recording_id="2", rows=better)
+    before, after = figures, days_ago(figures, -1, rows=better)
     assert {item.verdict for item in compare(before, after)} == {"improved"}
-    spoilt = (replace(before, **unfair), after) if which == "before" else (before, replace(after, **unfair))  # type: ignore[arg-type]
+    headline = progress([before, after]).headline
+    assert (headline.movement, headline.verdict) == ("arc", "improved"), "the answer is about the arc first"
+    spoilt = (replace(before, **unfair), after) if which == "before" else (before, replace(after, **unfair))
     changes = compare(*spoilt)
     assert {item.verdict for item in changes} == {"not_judged"}
     assert all(reason in item.reasons for item in changes)
@@ -165,11 +144,7 @@ def test_a_doubt_that_leaves_the_angles_what_they_are_is_kept_but_compared(figur
 
 
 def test_simulated_sessions_are_compared_with_each_other_only(figures: SessionFigures) -> None:
-    days = (9, 6, 3, 0)
-    sessions = [
-        replace(figures, when=NOW - timedelta(days=day), session_id=str(day), recording_id=str(day), simulated=True)
-        for day in days
-    ]
+    sessions = [days_ago(figures, day, simulated=True) for day in (9, 6, 3, 0)]
     assert all(point.fair for point in progress(sessions).points)
     sessions[2] = replace(sessions[2], simulated=False)
     course = progress(sessions)
@@ -178,22 +153,7 @@ def test_simulated_sessions_are_compared_with_each_other_only(figures: SessionFi
     assert previous_of(sessions, sessions[3]) is sessions[1]
 
 
-def test_the_previous_session_is_one_that_counts(figures: SessionFigures) -> None:
-    early, later = (
-        replace(figures, when=NOW - timedelta(days=day), session_id=str(day), recording_id=str(day)) for day in (9, 5)
-    )
-    assert previous_of([early, replace(later, not_counted=True)], figures) is early
-
-
-def test_the_findings_of_the_calibration_stay_with_the_figures() -> None:
-    stored = session()
-    doubted = CalibrationFinding("tilt", (), 22.0, 15.0, "deg")
-    verdict = replace(stored.calibration.verdict, findings=(doubted,))
-    stored = replace(stored, calibration=replace(stored.calibration, verdict=verdict))
-    assert session_figures(stored).findings == (doubted,)
-
-
-def test_a_simulated_source_and_the_targets_are_read_from_the_parameters() -> None:
+def test_source_targets_and_the_calibrations_findings_stay_with_the_figures() -> None:
     stored = session()
 
     def with_parameters(content: dict[str, object]) -> SessionFigures:
@@ -202,29 +162,21 @@ def test_a_simulated_source_and_the_targets_are_read_from_the_parameters() -> No
 
     assert with_parameters({"source": {"simulated": "yes"}}).simulated
     assert not with_parameters({"source": {"format": "tum"}}).simulated
-    assert with_parameters({"set_up": {"targets_deg": [40.0, None]}}).targets_deg[0] == 40.0
-    assert np.isnan(with_parameters({"set_up": {"targets_deg": [40.0, None]}}).targets_deg[1])
+    assert with_parameters({"set_up": {"targets_deg": [40.0, None]}}).targets_deg == pytest.approx(
+        (40.0, np.nan), nan_ok=True
+    )
     assert np.isnan(with_parameters({}).targets_deg).all()
+    doubted = CalibrationFinding("tilt", (), 22.0, 15.0, "deg")
+    verdict = replace(stored.calibration.verdict, findings=(doubted,))
+    stored = replace(stored, calibration=replace(stored.calibration, verdict=verdict))
+    assert session_figures(stored).findings == (doubted,)
 
 
-def test_the_answer_is_about_the_arc_first(figures: SessionFigures) -> None:
-    better = tuple(replace(row, mean_deg=row.mean_deg + 30) for row in figures.rows)
-    course = progress([figures, replace(figures, when=NOW + timedelta(days=1), recording_id="2", rows=better)])
-    assert course.headline is not None
-    assert (course.headline.movement, course.headline.verdict) == ("arc", "improved")
-
-
-def test_previous_and_other_hand_are_the_last_of_their_kind(figures: SessionFigures) -> None:
-    def at(days: int, **changes: object) -> SessionFigures:
-        return replace(
-            figures, when=NOW - timedelta(days=days), session_id=str(days), recording_id=str(days), **changes
-        )  # type: ignore[arg-type]
-
-    history = [at(9), at(5), at(3, side="left"), at(2, side="left"), at(-1), figures]
-    found, other = previous_of(history, figures), other_hand_of(history, figures)
-    assert found is not None
-    assert other is not None
-    assert (found.session_id, other.session_id) == ("5", "2")
+def test_previous_and_other_hand_are_the_last_of_their_kind_that_count(figures: SessionFigures) -> None:
+    history = [days_ago(figures, days) for days in (9, 5, -1)]
+    history += [days_ago(figures, days, side="left") for days in (3, 2)] + [figures]
+    assert (previous_of(history, figures).session_id, other_hand_of(history, figures).session_id) == ("5", "2")
+    assert previous_of([history[0], replace(history[1], not_counted=True)], figures) is history[0]
 
 
 def test_pain_and_notes_come_from_the_events() -> None:
@@ -250,7 +202,6 @@ def test_usual_values_stand_beside_what_their_source_covers_and_name_it() -> Non
     assert ends("flexion", 1, "FREE") is None
     assert total_norm(3, exercise_named("FIST_HOOK")) is None, "the source speaks of a fist"
     for norm in (wrist_norm("flexion", 1, exercise_named("WRIST_FE")), total_norm(3, exercise_named("FIST_COMPOSITE"))):
-        assert norm is not None
         assert norm.source in norm.sentence()
         assert "adults" in norm.sentence()
         assert "women and men" in norm.sentence()

@@ -64,6 +64,18 @@ def test_thumb_opposition_counts_touches_and_measures_the_thumb_s_own_way() -> N
     assert np.allclose(named(moved, "path length", "thumb across").values, across.values, atol=1e-6)
 
 
+@pytest.mark.parametrize(("least_mm", "touches"), [(14.0, 2.0), (16.0, 0.0)])
+def test_tips_touch_that_come_nearer_than_fifteen_millimetres(least_mm: float, touches: float) -> None:
+    made = hand_session(exercise="THUMB_OPP", motion="opposition")
+    tips = made.motion.joint_position_m.copy()
+    away = tips[:, 4] - tips[:, 8]
+    distance = np.linalg.norm(away, axis=1, keepdims=True)
+    tips[:, 4] += away / distance * (1e-3 * least_mm - np.nanmin(distance))
+    figures = session_figures(replace(made, motion=replace(made.motion, joint_position_m=tips)))
+    assert named(figures, "least distance", "TIP1-TIP2").mean == pytest.approx(least_mm, abs=0.1)
+    assert named(figures, "touches", "TIP1-TIP2").mean == touches
+
+
 def test_a_thumb_that_is_never_touched_to_a_finger_touches_none() -> None:
     figures = session_figures(hand_session(exercise="THUMB_OPP", motion="abduction"))
     assert [named(figures, "touches", f"TIP1-TIP{k}").mean for k in (2, 3, 4, 5)] == [0.0] * 4
@@ -89,7 +101,6 @@ def test_a_fist_has_graded_totals_and_fingers_that_move_together() -> None:
     assert {grade.finger for grade in figures.grades} <= {1, 2, 3, 4, 5}
     for grade in figures.grades:
         row = figures.row("arc", -1, f"TAM{grade.finger}")
-        assert row is not None
         assert grade.share == row.mean_deg / (140.0 if grade.finger == 1 else 260.0)
         assert (grade.grade is None) == row.limited
     other = session_figures(hand_session(exercise="FIST_COMPOSITE", motion="fist", share=0.6, hides_beyond_deg=999.0))
@@ -109,7 +120,6 @@ def test_a_wrist_that_does_not_come_back_has_its_deficit_in_a_row_of_its_own() -
     angles[:, 1] = np.radians(20.0) + (flexion - low) / (high - low) * np.radians(40.0)
     figures = session_figures(replace(made, motion=replace(motion, angles_rad=angles)))
     row = figures.row("extension", 1)
-    assert row is not None
     assert -24.0 < row.mean_deg < -12.0
     shown = {line.movement: line.today for line in table_rows(figures, None, None)}
     assert "Extension deficit" in shown

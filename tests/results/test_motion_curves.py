@@ -5,29 +5,31 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from carpus.core.results.motion_curves import motion_columns, motion_curves
 from tests.ui.fakes import session
 from tests.ui.hand_fakes import hand_session
 
 
-def test_curves_and_table_agree() -> None:
+def test_curves_and_table_are_those_of_the_session() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp", lost=[(5.0, 6.0)])
-    curves = motion_curves(made)
+    curves, motion = motion_curves(made), made.motion
     table = {column.name: column.values for column in motion_columns(made, made.motion)}
-    for axis, letter in enumerate("xyz"):
-        pairs = (
-            (curves.position_mm, f"position_{letter}_mm"),
-            (curves.velocity_mm_s, f"velocity_{letter}_mm_s"),
-            (curves.turning_deg_s, f"angular_velocity_{letter}_deg_s"),
-        )
-        for values, name in pairs:
-            assert np.allclose(values[:, axis], table[name], equal_nan=True)
+    tip = curves.joint_mm[:, curves.joint_names.index("TIP3")]
+    stored_tip_m = motion.joint_position_m[:, made.header.protocol.markers.index("TIP3")]
+    for drawn, stored, name in (
+        (curves.position_mm, 1e3 * motion.position_m, "position_{}_mm"),
+        (curves.velocity_mm_s, 1e3 * motion.velocity_m_s, "velocity_{}_mm_s"),
+        (curves.turning_deg_s, np.degrees(motion.angular_velocity_rad_s), "angular_velocity_{}_deg_s"),
+        (tip, 1e3 * stored_tip_m, "joint_TIP3_{}_mm"),
+    ):
+        told = np.column_stack([table[name.format(letter)] for letter in "xyz"])
+        assert np.allclose(drawn, told, equal_nan=True), name
+        assert np.allclose(told, stored, equal_nan=True), name
     for k, name in enumerate(("alpha", "beta", "gamma")):
         assert np.allclose(curves.zyz_deg[:, k], table[f"zyz_{name}_deg"], equal_nan=True)
         assert np.allclose(curves.zyz_sd_deg[:, k], table[f"zyz_{name}_sd_deg"], equal_nan=True)
-    tip = curves.joint_names.index("TIP3")
-    assert np.allclose(curves.joint_mm[:, tip, 2], table["joint_TIP3_z_mm"], equal_nan=True)
     gone = (curves.time_s >= 5.0) & (curves.time_s < 6.0)
     assert np.isnan(curves.position_mm[gone]).all()
     assert np.isnan(curves.joint_mm[gone]).all()
@@ -41,3 +43,16 @@ def test_the_axes_are_those_of_the_hand_in_the_frame_of_the_places() -> None:
     plain = np.arctan2(made.motion.rotation_w2_w0[0, 1, 0], made.motion.rotation_w2_w0[0, 0, 0])
     assert abs(angle - plain - 0.2) < 1e-3
     assert curves.joint_names == ()
+
+
+def test_zyz_turns_back_into_the_rotation_wherever_it_is_given() -> None:
+    made = session()
+    table = {column.name: column.values for column in motion_columns(made, made.motion)}
+    zyz = np.column_stack([table[f"zyz_{name}_deg"] for name in ("alpha", "beta", "gamma")])
+    known = np.isfinite(zyz[:, 0])
+    assert known.mean() > 0.8
+    turned = Rotation.from_euler("ZYZ", zyz[known], degrees=True).as_matrix()
+    assert np.allclose(turned, made.motion.rotation_w2_w0[known], atol=1e-9)
+    assert (table["zyz_alpha_sd_deg"][known] <= 30.0).all()
+    assert np.isfinite(zyz[:, 1]).all(), "beta is known also where the other two are not"
+    assert np.isfinite(table["zyz_alpha_plus_gamma_deg"]).mean() > 0.95

@@ -26,7 +26,6 @@ from carpus.core.results.repetition_rows import (
     repetitions_of,
 )
 from carpus.core.results.session_lines import repetition_lines
-from carpus.core.session import schema
 from carpus.core.session.reader import read_session, verify
 from carpus.core.session.values import RepetitionRow, Session
 from tests.formats.takes import stopping
@@ -84,7 +83,6 @@ def test_file_figures_and_recount_are_the_same(which: str, session: Session) -> 
         assert (one.start_s + start_s, one.end_s + start_s) == pytest.approx((row.start_s, row.end_s))
         assert row.start_s < row.peak_s < row.end_s
     if which == "stopping":
-        assert chosen.repetitions is not None
         assert list(map(astuple, chosen.repetitions.rows)) == [
             pytest.approx(astuple(row), nan_ok=True) for row in found.rows
         ]
@@ -95,9 +93,7 @@ def test_choices_of_a_person_change_what_is_shown_and_not_the_file(session: Sess
     rows = [one.row for one in figures.repetitions]
     assert [row.reason for row in rows if row] == ["", "pain", ""]
     assert [row.counted for row in rows if row] == [True, False, True]
-    assert rows[2] is not None
     assert (rows[2].start_s, rows[2].end_s) == (11.0, 15.0)
-    assert session.repetitions is not None
     assert all(row.counted for row in session.repetitions.rows)
 
 
@@ -108,12 +104,6 @@ def test_a_repetition_that_was_hardly_seen_says_so(session: Session) -> None:
     rows = repetitions_of(replace(session, status=status)).rows
     assert [row.reason for row in rows] == ["", HIDDEN, ""]
     assert [row.counted for row in rows] == [True, False, True]
-
-
-def test_every_column_says_what_it_is() -> None:
-    assert all(column.description for column in schema.REPETITION_COLUMNS)
-    page = Path("resources/session-format.md").read_text(encoding="utf-8")
-    assert all(f"| `{column.name}` |" in page for column in schema.REPETITION_COLUMNS)
 
 
 def test_the_summary_has_a_line_for_each(session: Session) -> None:

@@ -18,6 +18,7 @@ from carpus.core.results.motion_curves import mean_repetition, seen_angles
 from carpus.core.results.ranges import finger_keys
 from carpus.core.results.repetition_rows import RepetitionChoices, ShownRepetition
 from carpus.core.results.side_by_side import Step, in_step, ordered, pair_reasons, partner_of, side_by_side
+from tests.results.days import days_ago
 from tests.ui.fakes import NOW, session
 from tests.ui.hand_fakes import hand_session
 
@@ -232,10 +233,7 @@ def test_the_affected_hand_and_the_newer_date_stand_first(figures: SessionFigure
 def test_a_partner_is_the_other_hand_of_the_day_then_the_last_fair_session(
     figures: SessionFigures, left: SessionFigures
 ) -> None:
-    def at(one: SessionFigures, days: int, key: str) -> SessionFigures:
-        return replace(one, when=NOW - timedelta(days=days), session_id=key, recording_id=key)
-
-    older, oldest, before = at(figures, 7, "older"), at(figures, 30, "oldest"), at(left, 20, "left-20")
+    older, oldest, before = days_ago(figures, 7), days_ago(figures, 30), days_ago(left, 20)
     far = replace(older, quality=replace(older.quality, distance_m=0.95))
     assert partner_of([figures, left, older], figures) == left
     assert partner_of([figures, before, older, oldest], figures) == older
@@ -254,13 +252,11 @@ def test_of_the_whole_hand_the_fingers_compare() -> None:
     first, second = session_figures(other), session_figures(stored)
     both = side_by_side(first, second, finger_keys(0))
     assert [one.first.joint for one in both.ranges] == [f"TAM{k}" for k in (1, 2, 3, 4, 5)]
-    assert both.main is not None
     assert both.main.beyond
     assert both.main.comparison.difference_deg < 0.0
     seen = seen_angles(stored)
     total = mean_repetition(seen.time_s, seen.of(("TAM3", -1)), second.repetitions)
     row = second.row("arc", -1, "TAM3")
-    assert row is not None
     assert np.nanmax(total.mean_deg) == pytest.approx(row.mean_deg, abs=12.0)
     assert not seen.of(("no such joint", -1)).any() or np.isnan(seen.of(("no such joint", -1))).all()
     assert np.isnan(seen_angles(session()).of(("TAM3", -1))).all()

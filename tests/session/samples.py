@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import uuid
 from datetime import UTC, datetime
+from functools import lru_cache
 
 import numpy as np
 
@@ -62,6 +63,7 @@ def make_calibration(protocol: MarkerProtocol = WRIST6) -> Calibration:
     )
 
 
+@lru_cache(maxsize=2000)
 def make_frame(row: int, protocol: MarkerProtocol = WRIST6, joints: int | None = None) -> TrackedFrame:
     """Row ``row`` of a session at 30 frames a second; every fifth row is lost, some markers are never measured."""
     rng = np.random.default_rng(row)

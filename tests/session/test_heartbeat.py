@@ -11,6 +11,7 @@ import sys
 import time
 import uuid
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import h5py
@@ -72,7 +73,6 @@ def test_a_killed_recorder_is_no_running_one(tmp_path: Path) -> None:
     )
     command = [sys.executable, "-c", code, str(tmp_path / "s.h5")]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as recorder:
-        assert recorder.stdout is not None
         assert recorder.stdout.readline() == "begun\n"
         assert recover_folder(tmp_path).recovered == ()  # another process, alive
         recorder.send_signal(signal.SIGKILL)
@@ -136,35 +136,53 @@ def replaced(folder: Path) -> None:
     folder.mkdir()
 
 
+@dataclass
+class Away:
+    """A session whose folder may go away, the other place, and what is told."""
+
+    home: Path
+    other: Path
+    told: list[CarpusFault] = field(default_factory=list)
+
+    def begun(self, *, raw: bool = False, rows: int = 20) -> SessionWriter:
+        """So many rows of it on disk."""
+        session = begun(self.home / "s.h5", Fallback(lambda: self.other, self.told.append), raw=raw)
+        for row in range(rows):
+            session.append(make_frame(row), pictures(row) if raw else None)
+        session.flush()
+        return session
+
+
+@pytest.fixture
+def away(tmp_path: Path) -> Away:
+    made = Away(tmp_path / "home", tmp_path / "other")
+    made.home.mkdir()
+    made.other.mkdir()
+    return made
+
+
 @pytest.mark.parametrize("gone", [removed, renamed, replaced])
 @pytest.mark.parametrize("raw", [False, True])
-def test_a_recording_goes_on_when_its_folder_goes_away(tmp_path: Path, gone: Callable[[Path], None], raw: bool) -> None:
-    home, other = tmp_path / "home", tmp_path / "other"
-    home.mkdir()
-    other.mkdir()
-    told: list[CarpusFault] = []
-    session = begun(home / "s.h5", Fallback(lambda: other, told.append), raw=raw)
-    for row in range(20):
-        session.append(make_frame(row), pictures(row) if raw else None)
-    session.flush()
+def test_a_recording_goes_on_when_its_folder_goes_away(away: Away, gone: Callable[[Path], None], raw: bool) -> None:
+    session = away.begun(raw=raw)
     for row in range(20, 25):  # not yet on any disk
         session.append(make_frame(row), pictures(row) if raw else None)
-    gone(home)
+    gone(away.home)
     start_s = time.monotonic()
     row = 25
-    while not told:
+    while not away.told:
         assert time.monotonic() - start_s < 60.0
         session.append(make_frame(row), pictures(row) if raw else None)
         row += 1
         time.sleep(0.005)
-    (fault,) = told
+    (fault,) = away.told
     assert isinstance(fault, RecordingMoved)
-    assert fault.subject == str(other / "s.h5")
+    assert fault.subject == str(away.other / "s.h5")
     for more in range(row, row + 10):
         session.append(make_frame(more), pictures(more) if raw else None)
     session.add_event(time_of(3), "note", "after the move")
     session.close()
-    assert session.path == other / "s.h5"
+    assert session.path == away.other / "s.h5"
     result = read_session(session.path)
     assert result.timestamp_s.tolist() == [time_of(number) for number in range(row + 10)]
     for number in (0, 19, 20, 24, 25, row + 9):
@@ -172,20 +190,15 @@ def test_a_recording_goes_on_when_its_folder_goes_away(tmp_path: Path, gone: Cal
     assert verify(session.path).sealed
     if raw:
         assert list(read_raw(session.path)) == [pictures(number) for number in range(row + 10)]
-    assert [path.name for path in other.iterdir()] == ["s.h5"]
+    assert [path.name for path in away.other.iterdir()] == ["s.h5"]
 
 
 @pytest.mark.parametrize("reached", [False, True])
 def test_a_disk_that_fails_as_the_first_smoothed_rows_come_is_left(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, reached: bool
+    away: Away, monkeypatch: pytest.MonkeyPatch, reached: bool
 ) -> None:
     """What is read back of it has none of the new tables, or the first of them."""
-    told: list[CarpusFault] = []
-    (tmp_path / "other").mkdir()
-    session = begun(tmp_path / "s.h5", Fallback(lambda: tmp_path / "other", told.append))
-    for row in range(6):
-        session.append(make_frame(row))
-    session.flush()
+    session = away.begun(rows=6)
     on_disk, create = session.part_path.read_bytes(), part_file.create_smoothed
 
     def read_only(file: h5py.File, layout: TableLayout) -> dict[str, h5py.Dataset]:
@@ -206,91 +219,70 @@ def test_a_disk_that_fails_as_the_first_smoothed_rows_come_is_left(
     session.flush()
     session.add_smoothed(motion_of([make_frame(row) for row in range(3, 6)]))
     session.close()
-    assert [type(fault) for fault in told] == [RecordingMoved]
+    assert [type(fault) for fault in away.told] == [RecordingMoved]
     result = read_session(session.path)
-    assert result.smoothed is not None
     np.testing.assert_array_equal(result.smoothed.angles_rad, result.motion.angles_rad)
     assert verify(session.path).sealed
 
 
-def test_what_cannot_be_read_any_more_stays_behind_and_is_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    home, other = tmp_path / "home", tmp_path / "other"
-    home.mkdir()
-    other.mkdir()
-    told: list[CarpusFault] = []
-    session = begun(home / "s.h5", Fallback(lambda: other, told.append))
-    for row in range(20):
-        session.append(make_frame(row))
-    session.flush()
+def test_what_cannot_be_read_any_more_stays_behind_and_is_named(away: Away, monkeypatch: pytest.MonkeyPatch) -> None:
+    session = away.begun()
     session.append(make_frame(20))
 
     def unplugged(*_: object) -> None:
         raise OSError(5, "Input/output error")
 
     monkeypatch.setattr(part_file, "copy_open_file", unplugged)
-    home.rename(tmp_path / "unplugged")
-    session._part._heart.trouble = FolderGone(home)
+    gone = away.home.rename(away.home.with_name("unplugged"))
+    session._part._heart.trouble = FolderGone(away.home)
     session.append(make_frame(21))
     session.close()
-    (fault,) = told
+    (fault,) = away.told
     assert "20 rows" in fault.detail
-    result = read_session(other / "s.h5")
+    result = read_session(away.other / "s.h5")
     assert result.timestamp_s.tolist() == [time_of(20), time_of(21)]
     assert [event.kind for event in result.events] == ["moved"]
-    assert verify(other / "s.h5").sealed
-    recovery.remove(next((tmp_path / "unplugged").glob("*.part")))
-    (target,) = recover_folder(tmp_path / "unplugged").recovered  # the disk comes back
+    assert verify(away.other / "s.h5").sealed
+    recovery.remove(next(gone.glob("*.part")))
+    (target,) = recover_folder(gone).recovered  # the disk comes back
     assert len(read_session(target)) == 20
     assert read_session(target).header.session_id != result.header.session_id
 
 
-def test_a_disk_that_cannot_be_written_any_more(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    home, other = tmp_path / "home", tmp_path / "other"
-    home.mkdir()
-    other.mkdir()
-    told: list[CarpusFault] = []
-    session = begun(home / "s.h5", Fallback(lambda: other, told.append))
-    for row in range(20):
-        session.append(make_frame(row))
-    session.flush()
-    real = part_file.reserve
+def test_a_disk_that_cannot_be_written_any_more(away: Away, monkeypatch: pytest.MonkeyPatch) -> None:
+    session, real = away.begun(), part_file.reserve
 
     def read_only(descriptor: int, path: Path, begin: int, length: int) -> None:
-        if path.parent == home:
+        if path.parent == away.home:
             raise OutputNotWritable(path, "Read-only file system")
         real(descriptor, path, begin, length)
 
     monkeypatch.setattr(part_file, "reserve", read_only)
     session.append(make_frame(20))
     session.close()
-    assert len(told) == 1
-    assert len(read_session(other / "s.h5")) == 21
-    assert verify(other / "s.h5").sealed
+    assert len(away.told) == 1
+    assert len(read_session(away.other / "s.h5")) == 21
+    assert verify(away.other / "s.h5").sealed
 
 
-def test_without_another_place_it_is_told(tmp_path: Path) -> None:
-    home = tmp_path / "home"
-    home.mkdir()
-    session = begun(home / "s.h5")
+def test_without_another_place_it_is_told(away: Away) -> None:
+    session = begun(away.home / "s.h5")
     session.append(make_frame(0))
-    shutil.rmtree(home)
+    shutil.rmtree(away.home)
     with pytest.raises(FolderGone):
         session.close()
     session.abandon()
 
 
-def test_a_full_disk_is_no_reason_to_move(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    told: list[CarpusFault] = []
-    session = begun(tmp_path / "s.h5", Fallback(lambda: tmp_path, told.append))
-    session.append(make_frame(0))
+def test_a_full_disk_is_no_reason_to_move(away: Away, monkeypatch: pytest.MonkeyPatch) -> None:
+    session = away.begun(rows=1)
 
     def full(_: int, path: Path, *__: object) -> None:
         raise DiskFull(path)
 
     monkeypatch.setattr(part_file, "reserve", full)
+    session.append(make_frame(1))
     with pytest.raises(DiskFull):
         session.flush()
     session.abandon()
-    assert told == []
+    assert away.told == []

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -75,12 +74,6 @@ def test_what_was_written_is_read(tmp_path: Path, protocol: MarkerProtocol) -> N
     for row, frame in enumerate(frames):
         assert_same(table.of_frame(row), frame.detections)
     assert not has_raw(session.path)
-
-
-def test_arrays_are_read_only(tmp_path: Path) -> None:
-    session = read_session(write(tmp_path / "s.h5"))
-    with pytest.raises(ValueError):
-        session.motion.angles_rad[0] = 0.0
 
 
 def test_a_lost_frame_is_unknown_everywhere_and_nowhere_zero(tmp_path: Path) -> None:
@@ -173,9 +166,8 @@ def test_a_file_with_only_what_the_contract_asks_is_read(tmp_path: Path) -> None
             del file[f"/calibration/{name}"]
         for name in list(file["/calibration"].attrs):
             del file["/calibration"].attrs[name]
-        for name in ("/quality/nis_dof", "/detections/count", "/smoothed", "/camera"):
-            if name != "/camera":
-                del file[name]
+        for name in ("/quality/nis_dof", "/detections/count", "/smoothed"):
+            del file[name]
         del file["/camera"].attrs["origin"]
         del file.attrs["origin"]
         file["/more/to/come"] = np.zeros(3)
@@ -187,12 +179,6 @@ def test_a_file_with_only_what_the_contract_asks_is_read(tmp_path: Path) -> None
     assert (session.quality.nis_dof == -1).all()
 
 
-def test_a_copy_elsewhere_reads_the_same(tmp_path: Path) -> None:
-    path = write(tmp_path / "s.h5")
-    copy = Path(shutil.copy(path, tmp_path / "renamed.hdf5"))
-    assert_same(read_session(copy).motion, read_session(path).motion)
-
-
 def test_a_header_without_zone_or_with_wrong_joints_is_not_made() -> None:
     header = make_header()
     with pytest.raises(ValueError, match="zone"):
@@ -201,12 +187,8 @@ def test_a_header_without_zone_or_with_wrong_joints_is_not_made() -> None:
         dataclasses.replace(header, joint_names=("CMC1_extension",))
     with pytest.raises(ValueError):
         dataclasses.replace(header, parameters="not JSON")
-
-
-def test_a_new_header_has_its_own_id_and_a_zone() -> None:
     first, second = (new_header(hand="right", protocol=HAND21, software_version="0.1.0") for _ in range(2))
     assert first.session_id != second.session_id
-    assert len(first.joint_names) == 17
 
 
 @pytest.mark.parametrize(
@@ -215,6 +197,7 @@ def test_a_new_header_has_its_own_id_and_a_zone() -> None:
         ("[]", False, (np.nan, np.nan)),
         ('{"source": [], "set_up": 3}', False, (np.nan, np.nan)),
         ('{"set_up": {"targets_deg": [1]}}', False, (np.nan, np.nan)),
+        ('{"set_up": {"targets_deg": [Infinity, -1e9]}}', False, (np.nan, np.nan)),
         ('{"source": {"simulated": "yes"}, "set_up": {"targets_deg": ["a", -20]}}', True, (np.nan, -20.0)),
     ],
 )

@@ -52,11 +52,6 @@ def test_the_day_is_that_of_the_movement(tmp_path: Path) -> None:
         assert file.attrs["recording_id"] == recording
 
 
-def test_a_session_of_its_own_begins_a_recording(tmp_path: Path) -> None:
-    header = read_session(write(tmp_path / "s.h5")).header
-    assert uuid.UUID(header.recording_id) == uuid.UUID(header.session_id)
-
-
 def to_version_1(path: Path, origin: str = "", camera_clock: bool = False) -> Path:
     with h5py.File(path, "r+") as file:
         file.attrs.modify("format_version", 1)

@@ -27,7 +27,7 @@ N = 10
 NOW = datetime(2026, 11, 14, 8, 0, tzinfo=UTC)
 
 
-def interrupt(target: Path, rows: int = N, smoothed: bool = False) -> Path:
+def interrupt(target: Path, rows: int = N, smoothed: int = 0) -> Path:
     """A part file as a kill leaves it."""
     session = SessionWriter.create(target, make_header(session_id=uuid.uuid4()), CAMERA, make_calibration())
     for row in range(rows):
@@ -35,7 +35,7 @@ def interrupt(target: Path, rows: int = N, smoothed: bool = False) -> Path:
     if rows:
         session.add_event(time_of(1), "note", "x")
     if smoothed:
-        session.write_smoothed(motion_of([make_frame(row) for row in range(rows)]))
+        session.add_smoothed(motion_of([make_frame(row) for row in range(smoothed)]))
     session.abandon()
     return session.part_path
 
@@ -43,7 +43,7 @@ def interrupt(target: Path, rows: int = N, smoothed: bool = False) -> Path:
 def test_an_interrupted_session_is_finished(tmp_path: Path) -> None:
     folder = tmp_path / "Linden-42"
     folder.mkdir()
-    interrupt(folder / "s.h5", smoothed=True)
+    interrupt(folder / "s.h5", smoothed=N)
     recovery = recover_folder(tmp_path, NOW)
     assert recovery.recovered == (folder / "s.h5",)
     session = read_session(folder / "s.h5")
@@ -53,9 +53,20 @@ def test_an_interrupted_session_is_finished(tmp_path: Path) -> None:
     assert [path.name for path in folder.iterdir()] == ["s.h5"]
 
 
-def test_a_folder_that_is_not_there(tmp_path: Path) -> None:
+def test_a_folder_that_is_not_there_and_files_of_others(tmp_path: Path) -> None:
+    (tmp_path / "download.part").write_text("not ours")
+    assert interrupted_sessions(tmp_path) == []
+    assert target_of_part(tmp_path / "download.part") is None
+    assert recover_folder(tmp_path).recovered == ()
     with pytest.raises(RecordingMissing):
         recover_folder(tmp_path / "nowhere")
+
+
+ROWS = ("frames", "wrist", "markers", "quality")
+
+
+def blobs_of(rows: int) -> int:
+    return sum(len(make_frame(row).detections) for row in range(rows))
 
 
 @pytest.mark.parametrize("short", ["/frames/timestamp", "/wrist/angles", "/markers/measured", "/quality/nis"])
@@ -66,33 +77,24 @@ def test_rows_are_cut_to_what_every_dataset_holds(tmp_path: Path, short: str) ->
     assert len(read_session(part)) == N - 3
     (target,) = recover_folder(tmp_path).recovered
     with h5py.File(target, "r") as file:
-        for group in ("frames", "wrist", "markers", "quality"):
-            for dataset in file[group].values():
-                assert dataset.shape[0] == N - 3
-        blobs = sum(len(make_frame(row).detections) for row in range(N - 3))
-        assert {dataset.shape[0] for name, dataset in file["detections"].items() if name != "count"} == {blobs}
+        assert {dataset.shape[0] for group in ROWS for dataset in file[group].values()} == {N - 3}
+        assert {table.shape[0] for name, table in file["detections"].items() if name != "count"} == {blobs_of(N - 3)}
 
 
-def test_a_frame_whose_blobs_are_missing_is_cut_too(tmp_path: Path) -> None:
-    part = interrupt(tmp_path / "s.h5")
-    blobs = sum(len(make_frame(row).detections) for row in range(6))
+@pytest.mark.parametrize(("what", "whole"), [("blobs missing", 6), ("rows announced", N)])
+def test_a_frame_whose_blobs_are_missing_or_that_was_only_announced_is_cut_too(
+    tmp_path: Path, what: str, whole: int
+) -> None:
     assert len(make_frame(6).detections) > 0
-    with h5py.File(part, "r+") as file:
-        file["/detections/area"].resize(blobs, axis=0)
-    (target,) = recover_folder(tmp_path).recovered
-    assert len(read_session(target)) == 6
-    assert len(read_detections(target).blobs) == blobs
-
-
-def test_rows_announced_but_never_written_are_cut(tmp_path: Path) -> None:
-    part = interrupt(tmp_path / "s.h5")
-    with h5py.File(part, "r+") as file:
-        for group in ("frames", "wrist", "markers", "quality"):
-            for dataset in file[group].values():
+    with h5py.File(interrupt(tmp_path / "s.h5"), "r+") as file:
+        if what == "blobs missing":
+            file["/detections/area"].resize(blobs_of(whole), axis=0)
+        else:
+            for dataset in (*(one for group in ROWS for one in file[group].values()), file["/detections/count"]):
                 dataset.resize(N + 5, axis=0)
-        file["/detections/count"].resize(N + 5, axis=0)
     (target,) = recover_folder(tmp_path).recovered
-    assert len(read_session(target)) == N
+    assert len(read_session(target)) == whole
+    assert len(read_detections(target).blobs) == blobs_of(whole)
 
 
 def test_pictures_are_cut_with_their_frames(tmp_path: Path) -> None:
@@ -107,25 +109,15 @@ def test_pictures_are_cut_with_their_frames(tmp_path: Path) -> None:
     assert [len(raw.color) for raw in read_raw(target)] == [1, 2, 3, 4, 5, 6, 7]
 
 
-def test_a_smoothed_result_that_had_not_come_to_all_frames_is_left_out(tmp_path: Path) -> None:
-    session = SessionWriter.create(tmp_path / "s.h5", make_header(), CAMERA, make_calibration())
-    for row in range(N):
-        session.append(make_frame(row))
-    session.add_smoothed(motion_of([make_frame(row) for row in range(N // 2)]))
-    session.abandon()
-    assert recover_folder(tmp_path, NOW).recovered == (tmp_path / "s.h5",)
-    read = read_session(tmp_path / "s.h5")
-    assert (len(read), read.smoothed) == (N, None)
-
-
-def test_half_a_smoothed_result_is_left_out(tmp_path: Path) -> None:
-    part = interrupt(tmp_path / "s.h5", smoothed=True)
-    with h5py.File(part, "r+") as file:
-        del file["/smoothed/wrist/angles"]
+@pytest.mark.parametrize("half", ["of the frames", "of the tables"])
+def test_half_a_smoothed_result_is_left_out(tmp_path: Path, half: str) -> None:
+    part = interrupt(tmp_path / "s.h5", smoothed=N // 2 if half == "of the frames" else N)
+    if half == "of the tables":
+        with h5py.File(part, "r+") as file:
+            del file["/smoothed/wrist/angles"]
     (target,) = recover_folder(tmp_path).recovered
     session = read_session(target)
-    assert session.smoothed is None
-    assert len(session) == N
+    assert (len(session), session.smoothed) == (N, None)
 
 
 def test_an_end_of_file_written_too_early_is_mended(tmp_path: Path) -> None:
@@ -197,10 +189,3 @@ def test_a_session_ended_between_the_last_two_steps(tmp_path: Path, linked: bool
     assert recover_folder(tmp_path).recovered == (target,)
     assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
     assert read_session(target).recovered == ""
-
-
-def test_other_files_are_not_part_files(tmp_path: Path) -> None:
-    (tmp_path / "download.part").write_text("not ours")
-    assert interrupted_sessions(tmp_path) == []
-    assert target_of_part(tmp_path / "download.part") is None
-    assert recover_folder(tmp_path).recovered == ()

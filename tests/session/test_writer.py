@@ -18,7 +18,7 @@ import pytest
 from carpus.core.errors import CarpusFault, DiskFull, OutputExists, OutputNotWritable, TimesUnordered
 from carpus.core.hand.protocols import HAND21
 from carpus.core.session import disk, part_file, writer
-from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_detections, read_raw, read_session, verify
+from carpus.core.session.reader import has_raw, raw_depth_unit_m, read_raw, read_session, verify
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import Motion, RawPictures, motion_of
 from carpus.core.session.writer import FLUSH_EVERY_S, SessionWriter
@@ -118,15 +118,12 @@ def no_links(*_: object) -> None:
     raise OSError(errno.EPERM, "no hard links on this disk")
 
 
-def test_a_disk_without_hard_links_gets_the_file_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(os, "link", no_links)
-    with create(tmp_path / "s.h5") as session:
-        session.append(make_frame(0))
-    assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
-    assert read_session(tmp_path / "s.h5").complete
-
-
-def test_the_name_appears_only_when_the_session_is_whole(tmp_path: Path) -> None:
+@pytest.mark.parametrize("links", [True, False])
+def test_the_name_appears_only_when_the_session_is_whole(
+    tmp_path: Path, links: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if not links:
+        monkeypatch.setattr(os, "link", no_links)
     target = tmp_path / "s.h5"
     session = create(target)
     session.append(make_frame(0))
@@ -137,6 +134,7 @@ def test_the_name_appears_only_when_the_session_is_whole(tmp_path: Path) -> None
     session.close()
     session.close()
     assert [path.name for path in tmp_path.iterdir()] == ["s.h5"]
+    assert read_session(target).complete
 
 
 def test_a_fault_on_the_way_leaves_the_part_and_no_session(tmp_path: Path) -> None:
@@ -150,13 +148,6 @@ def test_a_fault_on_the_way_leaves_the_part_and_no_session(tmp_path: Path) -> No
     (part,) = tmp_path.iterdir()
     assert part.suffix == ".part"
     assert len(read_session(part)) == 1
-
-
-def test_discarded_work_leaves_nothing(tmp_path: Path) -> None:
-    session = create(tmp_path / "s.h5")
-    session.append(make_frame(0))
-    session.discard()
-    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("place", ["nowhere/s.h5", "file/s.h5"])
@@ -176,38 +167,17 @@ def test_a_folder_without_permission(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert caught.value.subject == str(tmp_path)
 
 
-def test_times_that_do_not_rise_are_refused(tmp_path: Path) -> None:
+def test_times_that_do_not_rise_and_wrong_shapes_are_refused(tmp_path: Path) -> None:
     session = create(tmp_path / "s.h5")
     session.append(make_frame(1))
     with pytest.raises(TimesUnordered):
         session.append(make_frame(0))
-    session.discard()
-
-
-def test_a_wrong_shape_is_not_stretched_to_fit(tmp_path: Path) -> None:
-    session = create(tmp_path / "s.h5")
-    session.append(with_moment(make_frame(0), position_m=np.array(0.0)))
+    session.flush()
+    session.append(with_moment(make_frame(2), position_m=np.array(0.0)))
     with pytest.raises(ValueError, match="/wrist/position"):
         session.flush()
     session.discard()
-
-
-def test_a_session_without_a_frame_is_a_session(tmp_path: Path) -> None:
-    with create(tmp_path / "s.h5"):
-        pass
-    session = read_session(tmp_path / "s.h5")
-    assert len(session) == 0
-    assert session.motion.position_m.shape == (0, 3)
-    assert len(read_detections(tmp_path / "s.h5").blobs) == 0
-
-
-def test_the_smoothed_result_has_a_row_for_every_frame(tmp_path: Path) -> None:
-    session = create(tmp_path / "s.h5")
-    for row in range(3):
-        session.append(make_frame(row))
-    with pytest.raises(ValueError, match="/smoothed"):
-        session.write_smoothed(motion_of([make_frame(0)]))
-    session.discard()
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_smoothed_result_that_comes_bit_by_bit_is_stored_as_one_that_comes_at_once(tmp_path: Path) -> None:
@@ -225,6 +195,8 @@ def test_a_smoothed_result_that_comes_bit_by_bit_is_stored_as_one_that_comes_at_
             assert bits.stored == row + 1
             bits.add_smoothed(motion_of(smoothed[bits.smoothed : row]))
             assert bits.smoothed == row
+    with pytest.raises(ValueError, match="/smoothed"):
+        whole.write_smoothed(motion_of(smoothed[:1]))
     whole.write_smoothed(motion_of(smoothed))
     bits.add_smoothed(motion_of(smoothed[8:]))
     with pytest.raises(ValueError, match="/smoothed"):

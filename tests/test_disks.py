@@ -1,18 +1,22 @@
-"""Whether a disk is encrypted, of systems that are files here: mounts and devices as Linux shows them."""
+"""Whether a disk is encrypted and whether two folders lie on one disk, of systems that are files here."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
+from carpus.core import disks
 from carpus.core.disks import (
     bitlocker_state,
     disk_encryption_finding,
     disk_state,
     filevault_state,
     linux_state,
+    on_same_disk,
     switching_on,
 )
 
@@ -136,3 +140,40 @@ def test_only_an_encrypted_disk_is_good_and_every_other_has_a_remedy() -> None:
     assert "BitLocker" in switching_on("win32")
     assert "FileVault" in switching_on("darwin")
     assert "LUKS" in switching_on("linux")
+
+
+@pytest.fixture
+def devices(tmp_path: Path) -> Path:
+    """``sda`` with two partitions, the second under encryption (253:0), and ``sdb`` with one."""
+    table, blocks = tmp_path / "dev", tmp_path / "block"
+    table.mkdir()
+    for number, name in {"8:1": "sda/sda1", "8:2": "sda/sda2", "8:17": "sdb/sdb1", "253:0": "dm-0"}.items():
+        block = blocks / name
+        block.mkdir(parents=True)
+        if "/" in name:
+            (block / "partition").write_text("1")
+        (table / number).symlink_to(block)
+    (blocks / "dm-0" / "slaves").mkdir()
+    (blocks / "dm-0" / "slaves" / "sda2").symlink_to(blocks / "sda/sda2")
+    return table
+
+
+def folder(major: int, minor: int) -> Path:
+    return SimpleNamespace(stat=lambda: SimpleNamespace(st_dev=os.makedev(major, minor)))  # type: ignore[return-value]
+
+
+def test_partitions_and_what_lies_on_them_are_one_disk(devices: Path) -> None:
+    first, second, encrypted, other, unknown = folder(8, 1), folder(8, 2), folder(253, 0), folder(8, 17), folder(0, 40)
+    assert on_same_disk(first, second, devices)
+    assert on_same_disk(first, encrypted, devices)
+    assert not on_same_disk(first, other, devices)
+    assert not on_same_disk(encrypted, other, devices)
+    assert not on_same_disk(first, unknown, devices)
+    assert on_same_disk(unknown, unknown, devices)
+
+
+def test_without_a_table_of_disks_the_file_system_decides(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(disks, "os", SimpleNamespace())
+    (tmp_path / "a").mkdir()
+    assert on_same_disk(tmp_path, tmp_path / "a")
+    assert not on_same_disk(tmp_path, tmp_path / "not there")
