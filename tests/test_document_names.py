@@ -24,10 +24,11 @@ MADE = {
     "build/package-test",
     "parts/PySide6",
     "slim.py",
+    "/raw",
     "/dev/shm",
     "/var/tmp",
 }
-"""Files made by a command, of the system, or of what another program installs."""
+"""Files made by a command, of the system, or of what another program installs; and a part of a session file."""
 DOTTED = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)+")
 OF_CODE = re.compile(r"[A-Z]\w*[a-z]\w*|[A-Z]+_\w+|_?[a-z]\w*_\w+|_[A-Z]\w+")
 """CamelCase, CONSTANTS and snake_case: no plain word."""
