@@ -81,16 +81,9 @@ def simulated(
 
 
 @lru_cache(maxsize=32)
-def picture(
-    motion: str = "flexion",
-    number: int = 0,
-    seconds: float = 20.0,
-    side: str = "right",
-    protocol: str = "wrist6",
-    speed_hz: float = 0.16,
-) -> ByteImage:
-    """One colour picture."""
-    pictures = simulated(motion, seconds, speed_hz, side, protocol)
+def picture(pictures: SimulatedPictures | None = None, number: int = 0) -> ByteImage:
+    """One colour picture, of flexion unless told otherwise."""
+    pictures = pictures or simulated()
     return pictures.sensed(number, pictures.clean(number))[0]
 
 
@@ -222,9 +215,7 @@ class FakeFeed:
 
     def _frame(self, place: int) -> Frame:
         number = place if self.picture_number is None else self.picture_number
-        spec = self.pictures.spec
-        color = picture(spec.motion, number, spec.seconds, protocol=spec.protocol, speed_hz=spec.speed_hz or 0.16)
-        return Frame(place, self.frames[place].timestamp_s, color, None, 0.001)
+        return Frame(place, self.frames[place].timestamp_s, picture(self.pictures, number), None, 0.001)
 
     def newest_frame(self) -> Frame | None:
         return self._frame(max(self.place, 0))
@@ -522,8 +513,7 @@ class FakeCalibrator:
         return self.pictures.truth.disc_pixel[0]
 
     def newest_frame(self) -> Frame:
-        spec = self.pictures.spec
-        return Frame(0, 0.0, picture(spec.motion, protocol=spec.protocol), None, 0.001)
+        return Frame(0, 0.0, picture(self.pictures), None, 0.001)
 
     hold = newest_frame
 
@@ -602,8 +592,7 @@ class FakeSessions:
     def picture(self, session_id: str, row: int) -> ByteImage | None:
         if not self.pictures:
             return None
-        pictures = self.pictures_of(self.sessions[session_id].header.hand)
-        return pictures.sensed(row, pictures.clean(row))[0]
+        return picture(self.pictures_of(self.sessions[session_id].header.hand), row)
 
     def results_of(self, session_id: str) -> list[SessionEntry]:
         return list(self.results)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from datetime import timedelta
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,7 @@ from tests.ui.printed import words_of
 HELPED_S = 35.0
 
 
+@cache
 def helped_session(*events: tuple[float, str]) -> Session:
     """Of nine repetitions the first ones go six tenths as far as those after :data:`HELPED_S`."""
     made = session()
@@ -36,8 +38,7 @@ def helped_session(*events: tuple[float, str]) -> Session:
 
 
 def mean_of(figures: SessionFigures | None) -> float:
-    row = figures.row("flexion", 1)
-    return row.mean_deg
+    return figures.row("flexion", 1).mean_deg
 
 
 def test_what_was_said_to_be_passive_counts_apart_and_never_as_active() -> None:
@@ -59,8 +60,7 @@ def test_where_no_repetitions_are_counted_what_was_helped_is_not_measured(exerci
         made = helped_session(*events)
         return figures_once(replace(made, header=replace(made.header, exercise=exercise)))
 
-    row, whole = free((HELPED_S, PASSIVE)).row("flexion", 1), free().row("flexion", 1)
-    assert row.best_deg < 0.75 * whole.best_deg
+    assert free((HELPED_S, PASSIVE)).row("flexion", 1).best_deg < 0.75 * free().row("flexion", 1).best_deg
     assert not free((0.0, PASSIVE)).rows, "nothing was active"
     assert repetition_words(free((HELPED_S, PASSIVE))).endswith("without what was passive")
     assert "passive" not in repetition_words(free())

@@ -34,6 +34,7 @@ from carpus.ui.plot.course import Goals, still
 from carpus.ui.setup.exercise import ExerciseScreen
 from carpus.ui.setup.set_sheet import SetSheet
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import FakeFeed, FakeMeasuring, FakeStore, session, set_up
 
@@ -92,13 +93,13 @@ def test_goals_are_kept_for_each_exercise_and_hand_and_go_into_sets(tmp_path: Pa
     library.close()
 
 
-def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(qtbot: QtBot, theme: Theme) -> None:
-    screen = ExerciseScreen(theme)
-    qtbot.addWidget(screen)
+def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(
+    theme: Theme, show: Show[ExerciseScreen]
+) -> None:
+    screen = show(ExerciseScreen(theme))
     row = FakeStore().rows[5]
     last = set_up(target_deg=math.nan)
     screen.begin(row, last, "right", False, goals={("WRIST_RU", "right"): (15.0, math.nan)})
-    screen.show()
     assert not screen.accept.isVisible()
     figures = session_figures(session(seconds=26.0))
     screen.show_history("somebody else", [figures])
@@ -130,15 +131,15 @@ def test_a_set_runs_part_after_part_with_its_rest(qtbot: QtBot, theme: Theme) ->
     live.recording.stop = lambda: stops.append(1.0)  # type: ignore[method-assign]
     run.begun(now.set_up)
     assert "1 of 2" in live.course.text()
-    recording = {"state": "recording", "asked": 2}
-    live.glanced.emit(Glance(0.0, 10.0, True, found=2, **recording))  # type: ignore[arg-type]
-    assert not stops
-    live.glanced.emit(Glance(1.0, 10.0, True, found=1, **recording))  # type: ignore[arg-type]
-    live.glanced.emit(Glance(1.1, 10.0, True, found=2, **recording))  # type: ignore[arg-type]
-    live.glanced.emit(Glance(LINGER_S + 0.1, 10.0, True, found=2, **recording))  # type: ignore[arg-type]
-    assert not stops, "what looked like a repetition was none"
-    live.glanced.emit(Glance(LINGER_S + 1.2, 10.0, True, found=2, **recording))  # type: ignore[arg-type]
-    assert stops
+
+    def found(count: int, at_s: float) -> list[float]:
+        live.glanced.emit(Glance(at_s, 10.0, True, found=count, state="recording", asked=2))
+        return stops
+
+    assert not found(2, 0.0)
+    for count, at_s in ((1, 1.0), (2, 1.1), (2, LINGER_S + 0.1)):
+        assert not found(count, at_s), "what looked like a repetition was none"
+    assert found(2, LINGER_S + 1.2)
     with qtbot.waitSignal(run.wanted):
         assert run.goes_on()
     assert measuring.chosen.exercise.id == "FREE"

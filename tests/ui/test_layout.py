@@ -72,14 +72,8 @@ def test_nothing_is_cut_and_nothing_overlaps(gallery: Gallery, state: str) -> No
         shown = [said.get(text, {text}) for text in texts]
         letters = Counter(letter_of(*one) for one in shown if len(one) == 1)  # else it is said otherwise elsewhere
         assert not [letter for letter, count in letters.items() if count > 1], texts
-    signed = state.startswith(SIGNED)
-    main = state in MAIN
-    for size, scale in (
-        *((USUAL, LARGE) if main else ()),
-        SMALL,
-        *(() if main else (LARGE,)),
-        *((LOW,) if signed else ()),
-    ):
+    large = (LARGE, LOW) if state.startswith(SIGNED) else (LARGE,)
+    for size, scale in (USUAL, *large, SMALL) if state in MAIN else (SMALL, *large):
         gallery.shell.sign.show_lines([SIGN] if (size, scale) == LOW else [])
         gallery.theme.choose(text_scale=scale)
         gallery.shell.resize(*size)

@@ -159,12 +159,8 @@ def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(shown: Sho
     store.sessions = {"hand-7": made}
     screen = shown(store, "hand-7")
     names = {row.name for row in screen.card.tables.further.rows}
-    assert {
-        "Movement time, out",
-        "Peak speed, back",
-        "Way / straight line, out",
-        "Widest opening, thumb–index",
-    } <= names
+    for name in ("Movement time, out", "Peak speed, back", "Way / straight line, out", "Widest opening, thumb–index"):
+        assert name in names
     assert screen.card.tables.further.isVisibleTo(screen)
     screen.player.view.setCurrentIndex(screen.player.view.findData("path"))
     for finger, joints in ((0, 5), (1, 4), (3, 4), (WRIST, 1)):
@@ -233,24 +229,3 @@ def test_the_second_page_has_the_papers_figures(tmp_path: Path) -> None:
         assert words in second, words
     assert "Out in 1." in first
     assert "TAM" not in first
-
-
-def test_what_explains_the_table_of_the_fingers_stands_right_under_it(shown: Shown) -> None:
-    screen = shown(FakeHandSessions(pictures=False), "hand-7")
-    tops = [
-        widget.y()
-        for widget in (
-            screen.card.tables.hand,
-            screen.card.tables.limits,
-            screen.card.tables.notes,
-            screen.card.tables.further,
-        )
-    ]
-    assert tops == sorted(tops)
-    assert screen.card.tables.further.rows
-
-
-def test_a_pain_score_is_in_the_review(shown: Shown) -> None:
-    screen = shown(FakeSessions(), "session-7")
-    assert screen.figures.pain
-    assert f"Pain (0–10): {', '.join(map(str, screen.figures.pain))}" in screen.card.tables.notes.text()

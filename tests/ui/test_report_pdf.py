@@ -122,8 +122,13 @@ def test_a_single_pain_is_said_with_its_time_and_two_as_first_and_last() -> None
     assert dict(other_lines(replace(figures, pain=(), pain_s=())))["Pain (0–10)"] == "not asked"
 
 
-def test_curves_are_vectors_not_pictures(report: Path) -> None:
+def test_curves_are_printed_with_their_axes_as_vectors_not_pictures(report: Path) -> None:
     assert tool("pdfimages", "-list", str(report)).splitlines()[2:] == []
+    first, second = (words_of(report, page).split() for page in (1, 2))
+    assert {"Radial", "Ulnar", "Supination"} <= set(first)
+    assert {"mm/s", "+100°/s", "Turning"} <= set(second)
+    paths = [tool("pdftocairo", "-svg", "-f", page, "-l", page, str(report), "-").count("<path") for page in "12"]
+    assert min(paths) > 480, "about 70 and 240 of them are the plots'"
 
 
 @pytest.mark.parametrize("number", ["1", "2"])

@@ -68,8 +68,10 @@ def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewS
     assert screen.figures.repetitions[screen.current].reason == "pain"
 
 
-def test_notes_of_the_session_are_read_in_the_review(screen: ReviewScreen) -> None:
+def test_notes_and_pain_of_the_session_are_read_in_the_review(screen: ReviewScreen) -> None:
     assert screen.figures.notes
+    assert screen.figures.pain
+    assert f"Pain (0–10): {', '.join(map(str, screen.figures.pain))}" in screen.card.tables.notes.text()
     for _, text in screen.figures.notes:
         assert text in screen.card.tables.notes.text()
     assert screen.card.tables.notes.isVisible()

@@ -106,7 +106,11 @@ def test_the_table_says_what_is_at_least_and_why(screen: ReviewScreen) -> None:
             assert cell.main.startswith("≥") == (found is not None and found.limited)
     fingers_limited = any(cell.limited for row in rows for cell in row.cells)
     assert ("camera’s view" in limits_words(screen.figures)) == fingers_limited
-    assert "DIP not measured" in screen.card.tables.limits.text()
+    tables = screen.card.tables
+    assert "DIP not measured" in tables.limits.text()
+    assert tables.further.rows
+    tops = [part.y() for part in (tables.hand, tables.limits, tables.notes, tables.further)]
+    assert tops == sorted(tops), "what explains the table stands right under it"
 
 
 def test_space_plays_with_a_finger_chosen_and_the_curves_keep_step(qtbot: QtBot, screen: ReviewScreen) -> None:
