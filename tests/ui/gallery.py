@@ -164,8 +164,8 @@ class GalleryWindow:
         self.settle()
 
     def settle(self) -> None:
-        """Let everything finish that is under way."""
-        for _ in range(3):
+        """Let everything finish that is under way; a page lays its parts out one after the other."""
+        for _ in range(6):
             self.application.processEvents()
             while self.background.busy:
                 self.background.wait()

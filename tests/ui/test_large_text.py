@@ -55,6 +55,20 @@ def test_tables_are_read_whole(gallery: Gallery) -> None:
         assert page.verticalScrollBar().maximum() > 0
 
 
+def test_tables_are_as_high_on_a_window_made_smaller_as_on_one_that_was_small(gallery: Gallery) -> None:
+    heights_px = []
+    for sizes in (((1280, 720), (1024, 700)), ((1024, 700),)):
+        gallery.review_hand()
+        screen = gallery.shell.stage.currentWidget()
+        assert isinstance(screen, ReviewScreen)
+        for size in sizes:
+            gallery.shell.resize(*size)
+            gallery.settle()
+        heights_px.append(screen.card.tables.height())
+    gallery.shell.resize(1280, 800)
+    assert heights_px[0] == heights_px[1]
+
+
 def test_no_finger_loses_the_end_of_its_name(gallery: Gallery) -> None:
     gallery.review_hand()
     screen = gallery.shell.stage.currentWidget()

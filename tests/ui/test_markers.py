@@ -467,6 +467,20 @@ def test_a_proposed_name_dropped_on_a_taken_disc_changes_places_with_it() -> Non
     assert clicking.complete
 
 
+def test_names_that_are_proposed_leave_the_marker_that_a_person_has_gone_to() -> None:
+    clicking = Clicking(HAND21, "right")
+    proposed = {"WRIST": ProposedMarker(np.array([20.0, 0.0]), 9.0, True)}
+    clicking.propose(proposed)
+    assert clicking.current == HAND21.markers[1], "the first that has no name"
+    clicking.step(3)
+    gone_to = clicking.current
+    clicking.propose(proposed)
+    assert clicking.current == gone_to
+    clicking.place(np.array([90.0, 0.0]), 9.0)
+    clicking.propose(proposed)
+    assert clicking.current == HAND21.markers[1]
+
+
 def test_the_loupe_keeps_off_the_discs(marking: Marking) -> None:
     picture = marking.screen.picture
     for pixel in marking.propose().disc_px:

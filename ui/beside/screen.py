@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeVar
 
-from PySide6.QtCore import QObject, Qt, QTimer, Signal, SignalInstance
+from PySide6.QtCore import QObject, Qt, Signal, SignalInstance
 
 from carpus.core.results.side_by_side import Step, ordered
 from carpus.core.session.values import Session
@@ -96,10 +96,6 @@ class BesideScreen(Fitted):
         )
         self._column.addStretch(0)
         in_column(page(self._column), margins=(0, 0, 0, 0), within=self)
-
-    def _fit_soon(self) -> None:
-        """Again when every part has taken its new size."""
-        QTimer.singleShot(0, self, self._fit)
 
     def _fit(self) -> None:
         """With large text smaller pictures and fewer words at the buttons."""

@@ -20,7 +20,8 @@ SAME_DISC_PX = 3.0
 class Clicking:
     """Pixels by marker name, in the order they were set; ``current`` is the one to be clicked next.
 
-    ``proposed`` are names the program has put on discs and no person has confirmed.
+    ``proposed`` are names the program has put on discs and no person has confirmed. ``chosen``: a person has gone to
+    the current one.
     """
 
     protocol: MarkerProtocol
@@ -28,6 +29,7 @@ class Clicking:
     pixel: dict[str, FloatArray] = field(default_factory=dict)
     widths_px: dict[str, float] = field(default_factory=dict)
     current: str = ""
+    chosen: bool = False
     proposed: dict[str, ProposedMarker] = field(default_factory=dict)
     straight_fingers: tuple[bool, ...] = ALL_STRAIGHT
 
@@ -59,7 +61,8 @@ class Clicking:
     def propose(self, proposed: Mapping[str, ProposedMarker]) -> None:
         """Take the program's names for what no person has named; they replace earlier ones."""
         self.proposed = {name: proposed[name] for name in self.missing if name in proposed}
-        self.current = (self.unnamed or self.missing or (self.current,))[0]
+        if not (self.chosen and self.current in self.missing):
+            self.current = (self.unnamed or self.missing or (self.current,))[0]
 
     def take_all(self) -> None:
         for name in self.order:
@@ -131,7 +134,7 @@ class Clicking:
         if not names:
             self.pixel.clear()
             self.proposed.clear()
-            self.current = self.order[0]
+            self.current, self.chosen = self.order[0], False
         else:
             self._go_on()
 
@@ -139,7 +142,11 @@ class Clicking:
         self.pixel[one], self.pixel[other] = self.pixel[other], self.pixel[one]
 
     def step(self, by: int) -> None:
-        self.current = self.order[(self.order.index(self.current) + by) % len(self.order)]
+        self.choose(self.order[(self.order.index(self.current) + by) % len(self.order)])
+
+    def choose(self, name: str) -> None:
+        """A person goes to a marker; names that are proposed meanwhile lead nowhere else."""
+        self.current, self.chosen = name, True
 
     def near(self, pixel: FloatArray, reach_px: float) -> str:
         """The marker clicked or proposed within reach of a pixel, empty for none."""
@@ -154,6 +161,7 @@ class Clicking:
         )
 
     def _go_on(self) -> None:
+        self.chosen = False
         missing = self.unnamed or self.missing
         if missing:
             after = [name for name in missing if self.order.index(name) > self.order.index(self.current)]

@@ -230,7 +230,7 @@ class MarkersScreen(Fitted):
 
     def _grab(self, name: str) -> None:
         if self.clicking is not None:
-            self.clicking.current = name
+            self.clicking.choose(name)
             self._refresh()
 
     def accept(self) -> None:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QWidget
 
 from carpus.core.results.figures import SessionFigures
@@ -78,12 +78,8 @@ class ReviewScreen(Fitted):
         in_column(page(self._column), margins=(0, 0, 0, 0), within=self)
         self._connect()
         self._bind(keys)
-        # At once, and again when every part has taken its new size.
         theme.changed.connect(self._fit)
         theme.changed.connect(self._fit_soon)
-
-    def _fit_soon(self) -> None:
-        QTimer.singleShot(0, self, self._fit)
 
     def _fit(self) -> None:
         self.bubble.give_room(self.height() >= LEAST_SCREEN_PX * self._theme.text_scale)
