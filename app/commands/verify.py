@@ -7,7 +7,7 @@ from pathlib import Path
 
 from carpus.app.command_line import bar, tell
 from carpus.app.of_file import data_folder_of, note
-from carpus.core.errors import CarpusFault, PicturesLost, RecordingMissing
+from carpus.core.errors import CarpusFault, PicturesLost, RecordingDamaged, RecordingMissing
 from carpus.core.session.reader import read_outline, verify
 
 EXAMPLE = "carpus verify session.h5"
@@ -49,10 +49,10 @@ def _recording(path: Path) -> int:
                 progress(frames, source.info.frame_count)
     finally:
         source.close()
-    lost = [fault for fault in told if isinstance(fault, PicturesLost)]
-    for fault in lost:
+    damage = [fault for fault in told if isinstance(fault, (PicturesLost, RecordingDamaged))]
+    for fault in damage:
         tell(fault)
-    if lost:
+    if damage:
         return 1
     if source.info.settings.get("complete", "").startswith("no"):
         print(f"Cut short, and whole up to there: {path} ({frames} frames).")

@@ -5720,6 +5720,10 @@
         <translation>Winkel aus {format}</translation>
     </message>
     <message>
+        <source>bytes that follow its end: {count}</source>
+        <translation>Bytes, die auf ihr Ende folgen: {count}</translation>
+    </message>
+    <message>
         <source>camera_matrix has {count} numbers, 9 expected</source>
         <translation>camera_matrix hat {count} Zahlen, erwartet sind 9</translation>
     </message>
@@ -6030,10 +6034,6 @@
     <message>
         <source>its columns are not what its names say</source>
         <translation>ihre Spalten sind nicht, was ihre Namen sagen</translation>
-    </message>
-    <message>
-        <source>its head is damaged</source>
-        <translation>ihr Kopf ist beschädigt</translation>
     </message>
     <message>
         <source>its process ended</source>
@@ -6890,6 +6890,10 @@
     <message>
         <source>distortion_coefficients are no lens’s: points do not find back to their places</source>
         <translation>distortion_coefficients gehören zu keinem Objektiv: Punkte finden nicht an ihren Platz zurück</translation>
+    </message>
+    <message>
+        <source>its head is damaged; pictures that are there: {count}</source>
+        <translation>ihr Kopf ist beschädigt; Bilder, die da sind: {count}</translation>
     </message>
     <message>
         <source>there are none yet</source>

@@ -5708,6 +5708,10 @@
         <translation>angoli da {format}</translation>
     </message>
     <message>
+        <source>bytes that follow its end: {count}</source>
+        <translation>byte che seguono la sua fine: {count}</translation>
+    </message>
+    <message>
         <source>camera_matrix has {count} numbers, 9 expected</source>
         <translation>camera_matrix ha {count} numeri, attesi 9</translation>
     </message>
@@ -6018,10 +6022,6 @@
     <message>
         <source>its columns are not what its names say</source>
         <translation>le sue colonne non sono ciò che dicono i nomi</translation>
-    </message>
-    <message>
-        <source>its head is damaged</source>
-        <translation>la sua intestazione è danneggiata</translation>
     </message>
     <message>
         <source>its process ended</source>
@@ -6878,6 +6878,10 @@
     <message>
         <source>distortion_coefficients are no lens’s: points do not find back to their places</source>
         <translation>distortion_coefficients non è di alcun obiettivo: i punti non ritrovano il loro posto</translation>
+    </message>
+    <message>
+        <source>its head is damaged; pictures that are there: {count}</source>
+        <translation>la sua intestazione è danneggiata; immagini presenti: {count}</translation>
     </message>
     <message>
         <source>there are none yet</source>

@@ -249,6 +249,28 @@ def test_info_says_that_a_raw_recording_was_cut_short(recording: Path, tmp_path:
     assert [(one.code, "cut short" in one.out) for one in (whole, cut)] == [(0, False), (0, True)]
 
 
+def test_a_damaged_raw_recording_is_not_said_to_be_whole(recording: Path, tmp_path: Path, command: Command) -> None:
+    path = tmp_path / "r.carpusraw"
+    assert command("record", "--from", recording, "--output", path).code == 0
+    data = path.read_bytes()
+    third = [place.start() for place in re.finditer(b"FRAM", data)][2]
+
+    def said(content: bytes) -> tuple[int, str]:
+        path.write_bytes(content)
+        done = command("verify", path)
+        return done.code, done.out + done.err
+
+    count = TumFolder(recording).info.frame_count
+    assert said(data) == (0, f"Whole: {path} ({count} frames).\n")
+    code, cut = said(data[: third + 100])
+    assert (code, cut) == (0, f"Cut short, and whole up to there: {path} (2 frames).\n")
+    for letters in (b"fRAM", b""):  # a record that is not seen as one
+        code, damaged = said(data[:third] + letters + data[third + 4 :])
+        assert (code, f"1 of {count} frames" in damaged) == (1, True)
+    code, longer = said(data + b"hello")
+    assert (code, "damaged" in longer) == (1, True)
+
+
 def test_depth_beside_colour_is_told_also_where_a_marker_has_none(
     recording: Path, tmp_path: Path, command: Command
 ) -> None:

@@ -17,7 +17,7 @@ import pytest
 
 from carpus.core.camera import Camera
 from carpus.core.capture.files.pictures import decode_color, decode_depth, encode_color, encode_depth
-from carpus.core.capture.files.raw import RawRecording, RawWriter, _record, is_raw_recording
+from carpus.core.capture.files.raw import MAX_FRAMES, RawRecording, RawWriter, _record, is_raw_recording
 from carpus.core.capture.source import SourceInfo
 from carpus.core.depth_sensor import D435
 from carpus.core.errors import (
@@ -26,6 +26,7 @@ from carpus.core.errors import (
     OutputNotWritable,
     PictureSizeChanged,
     PicturesLost,
+    RecordingDamaged,
     RecordingEmpty,
     RecordingMissing,
     RecordingUnreadable,
@@ -158,6 +159,125 @@ def test_an_altered_frame_is_left_out_and_counted(tmp_path: Path) -> None:
     assert [frame.dropped_before for frame in back] == [0, 0, 3 + 1, 0, 0]
     assert [frame.index for frame in back] == [0, 1, 2, 3, 4]
     assert [(type(fault), fault.detail) for fault in told] == [(PicturesLost, "1 of 6 frames")]
+
+
+def records(data: bytes) -> list[bytes]:
+    """Start, head, frames and end of a recording, each by itself."""
+    found, position = [data[:12]], 12
+    while position < len(data):
+        end = position + 32 + sum(struct.unpack_from("<II", data, position + 24))
+        found.append(data[position:end])
+        position = end
+    return found
+
+
+def read_back(path: Path, parts: list[bytes]) -> tuple[RawRecording, list[Frame], list[CarpusFault]]:
+    path.write_bytes(b"".join(parts))
+    told: list[CarpusFault] = []
+    recording = RawRecording(path, notice=told.append)
+    return recording, list(recording.frames()), told
+
+
+LETTERS, NUMBER, COLOR_SIZE, DEPTH_SIZE = 0, 20, 24, 28
+
+
+@pytest.mark.parametrize("bit", [1, 1 << 7])
+@pytest.mark.parametrize("place", [LETTERS, LETTERS + 3, NUMBER, NUMBER + 3, *range(COLOR_SIZE, DEPTH_SIZE + 4)])
+def test_one_damaged_byte_of_a_record_loses_that_frame_alone(tmp_path: Path, place: int, bit: int) -> None:
+    path = write(tmp_path / "take.carpusraw", 8)
+    parts = records(path.read_bytes())
+    for number in (0, 4, 7):
+        damaged = bytearray(parts[2 + number])
+        damaged[place] ^= bit
+        recording, back, told = read_back(path, [*parts[: 2 + number], bytes(damaged), *parts[3 + number :]])
+        assert recording.complete
+        others = [frame for frame in frames(8) if frame.index != number]
+        for read, written in zip(back, others, strict=True):
+            assert_same(read, written)
+            assert read.dropped_before == written.dropped_before + (written.index == number + 1)
+        assert [(type(fault), fault.detail) for fault in told] == [(PicturesLost, "1 of 8 frames")]
+
+
+def test_frames_that_a_damaged_size_covers_are_found(tmp_path: Path) -> None:
+    path = write(tmp_path / "take.carpusraw", 8)
+    parts = records(path.read_bytes())
+    size = struct.pack("<I", struct.unpack_from("<I", parts[4], COLOR_SIZE)[0] + sum(map(len, parts[5:8])) + 9)
+    damaged = parts[4][:COLOR_SIZE] + size + parts[4][COLOR_SIZE + 4 :]
+    _, back, told = read_back(path, [*parts[:4], damaged, *parts[5:]])
+    assert len(back) == 7
+    assert [fault.detail for fault in told] == ["1 of 8 frames"]
+
+
+@pytest.mark.parametrize(("gone", "given"), [((4,), 7), ((0,), 7), ((7,), 7), ((3, 4, 6), 5)])
+def test_missing_frames_are_counted_and_told(tmp_path: Path, gone: tuple[int, ...], given: int) -> None:
+    path = write(tmp_path / "take.carpusraw", 8)
+    parts = records(path.read_bytes())
+    _, back, told = read_back(path, [part for at, part in enumerate(parts) if at - 2 not in gone])
+    assert len(back) == given
+    own = sum(frame.dropped_before for frame in frames(8) if frame.index not in gone)
+    assert sum(frame.dropped_before for frame in back) == own + sum(number < 7 for number in gone)
+    assert [(type(fault), fault.detail) for fault in told] == [(PicturesLost, f"{len(gone)} of 8 frames")]
+
+
+def test_a_frame_twice_is_told(tmp_path: Path) -> None:
+    path = write(tmp_path / "take.carpusraw", 6)
+    parts = records(path.read_bytes())
+    _, back, told = read_back(path, [*parts[:5], parts[4], *parts[5:]])
+    assert [frame.dropped_before for frame in back] == [frame.dropped_before for frame in frames(6)]
+    assert [fault.detail for fault in told] == ["1 of 6 frames"]
+
+
+def test_what_follows_the_end_is_told(tmp_path: Path) -> None:
+    path = write(tmp_path / "take.carpusraw", 3)
+    parts = records(path.read_bytes())
+    for surplus in (b"hello", b"".join(parts)):
+        recording, back, told = read_back(path, [*parts, surplus])
+        assert (recording.complete, len(back)) == (True, 3)
+        assert [type(fault) for fault in told] == [RecordingDamaged]
+        assert str(len(surplus)) in told[0].detail
+
+
+@pytest.mark.parametrize("place", [0, 4, NUMBER])
+def test_a_damaged_end_is_none(tmp_path: Path, place: int) -> None:
+    path = write(tmp_path / "take.carpusraw", 3)
+    parts = records(path.read_bytes())
+    end = bytearray(parts[-1])
+    end[place] ^= 1
+    recording, back, told = read_back(path, [*parts[:-1], bytes(end)])
+    assert (recording.complete, len(back), told) == (False, 3, [])
+
+
+@pytest.mark.parametrize(("dropped", "number"), [(2**32 - 1, 2), (MAX_FRAMES + 1, 2), (0, 2**32 - 1), (0, MAX_FRAMES)])
+def test_a_frame_that_says_more_than_can_be_is_left_out(tmp_path: Path, dropped: int, number: int) -> None:
+    path = write(tmp_path / "take.carpusraw", 6)
+    parts = records(path.read_bytes())
+    time_s, size = frames(6)[2].timestamp_s, struct.unpack_from("<I", parts[4], COLOR_SIZE)[0]
+    altered = _record(b"FRAM", time_s, dropped, number, parts[4][32 : 32 + size], parts[4][32 + size :])
+    _, back, told = read_back(path, [*parts[:4], altered, *parts[5:]])
+    assert [frame.dropped_before for frame in back] == [0, 0, 3 + 1, 0, 0]
+    assert [fault.detail for fault in told] == ["1 of 6 frames"]
+
+
+@pytest.mark.parametrize("place", [12, 16, 12 + COLOR_SIZE, 12 + COLOR_SIZE + 2, 60])
+def test_a_damaged_head_is_told_with_the_pictures_that_are_there(tmp_path: Path, place: int) -> None:
+    path = write(tmp_path / "take.carpusraw", 4)
+    data = bytearray(path.read_bytes())
+    data[place] ^= 1
+    path.write_bytes(data)
+    with pytest.raises(RecordingUnreadable, match=r"head is damaged.*: 4\b"):
+        RawRecording(path)
+
+
+def test_the_search_for_a_record_takes_time_with_the_size_alone(tmp_path: Path) -> None:
+    """Every 32 bytes a record with a wrong check sum that would reach to the end of the file."""
+    path = write(tmp_path / "take.carpusraw", 2)
+    parts = records(path.read_bytes())
+    count = 60_000
+    false = [struct.pack("<4sIdIIII", b"FRAM", 1, 9.0, 0, 7, 32 * (count - at - 1), 0) for at in range(count)]
+    began_s = time.process_time()
+    recording, back, _ = read_back(path, [*parts[:3], *false])
+    assert (recording.complete, len(back)) == (False, 1)
+    assert time.process_time() - began_s < 5.0  # 0.1 s; each sum to the end would be 58 GB
 
 
 def test_any_one_altered_byte_gives_no_wrong_picture(tmp_path: Path) -> None:

@@ -4,7 +4,8 @@ Nothing that was written is touched again, so a crash or a full disk costs at mo
 no lock that others wait for. Layout, little-endian: ``CARPUSRW``, u32 version, then records. A record is a header of
 32 bytes (4 letters, u32 check sum of all that follows, f64 time in seconds, u32 frames missing before, u32 number,
 u32 size of colour, u32 size of depth) and the two pictures in tiles (:mod:`.pictures`), JPEG or PNG each. ``HEAD``
-comes first with JSON instead of colour, ``FRAM`` is a frame, ``DONE`` ends a recording that was closed.
+comes first with JSON instead of colour, ``FRAM`` is a frame, numbered from 0; ``DONE`` ends a recording that was closed
+and has the count of its frames as number.
 """
 
 from __future__ import annotations
@@ -13,15 +14,16 @@ import errno
 import json
 import math
 import os
+import re
 import struct
 import time
 import zlib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
 
@@ -36,6 +38,7 @@ from carpus.core.errors import (
     OutputNotWritable,
     PictureSizeChanged,
     PicturesLost,
+    RecordingDamaged,
     RecordingEmpty,
     RecordingMissing,
     RecordingUnreadable,
@@ -56,6 +59,9 @@ _CHECKED_FROM = 8
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 LOOK_EVERY_S = 0.8
 MAX_PICTURE_BYTES = 1 << 27
+MAX_FRAMES = 1 << 24
+"""Six days at 30 a second: a record that says more, of frames or of missing ones, is damaged."""
+_LETTERS = re.compile(b"HEAD|FRAM|DONE")
 _NO_COLOR, _NO_DEPTH = np.empty((0, 0, 3), np.uint8), np.empty((0, 0), np.uint16)
 
 
@@ -204,14 +210,20 @@ class RawWriter(Writing):
 
 @dataclass(frozen=True, slots=True)
 class _Entry:
-    """Where one frame lies in the file."""
+    """Where one record lies in the file."""
 
     position: int
+    kind: bytes
+    check: int
     timestamp_s: float
     dropped_before: int
+    number: int
     color_size: int
     depth_size: int
-    check: int
+
+    @property
+    def end(self) -> int:
+        return self.position + _RECORD.size + self.color_size + self.depth_size
 
 
 @dataclass(frozen=True, slots=True)
@@ -236,8 +248,8 @@ class PackedFrame:
 class RawRecording:
     """A raw recording as a source of frames. One that was cut short is read up to its last whole frame.
 
-    Frames that do not pass their check sum are left out: the next one counts them as missing, and ``notice`` hears
-    :class:`PicturesLost` at the end.
+    Frames that do not pass their check sum are left out: the next one counts them, and those that are gone, as missing,
+    and ``notice`` hears :class:`PicturesLost` at the end; :class:`RecordingDamaged` where something follows the end.
     """
 
     def __init__(self, path: Path, *, notice: Notice = ignore) -> None:
@@ -247,34 +259,39 @@ class RawRecording:
         self._notice = notice
         try:
             with path.open("rb") as file:
-                head, self._entries, self.complete = _index(path, file)
+                head, self._entries, done, self._surplus_bytes = _index(path, file)
+                said = b"" if head is None else _read(file, head)
         except OSError as cause:
             raise RecordingUnreadable(path, cause.strerror or "") from cause
         if not self._entries:
             raise RecordingEmpty(path)
+        self.complete = done is not None
+        self._count = max(entry.number for entry in self._entries) + 1 if done is None else done.number
         self._times_s = np.array([entry.timestamp_s for entry in self._entries])
         try:
-            camera = dict(head["camera"])
+            content = json.loads(said or b"")
+            camera = dict(content["camera"])
             camera["distortion"] = tuple(camera["distortion"])
             if len(camera["distortion"]) != COEFFICIENTS[camera.get("distortion_model", "plumb_bob")]:
                 raise ValueError("a lens of no kind")
-            camera["sensor"] = sensor_of(head["depth_sensor"]) if "depth_sensor" in head else ASSUMED_SENSOR
-            self._depth_unit_m = float(head["depth_unit_m"])
+            camera["sensor"] = sensor_of(content["depth_sensor"]) if "depth_sensor" in content else ASSUMED_SENSOR
+            self._depth_unit_m = float(content["depth_unit_m"])
             lens = Camera(**camera)
             _check(lens, self._depth_unit_m)
             self._info = SourceInfo(
-                str(head["name"]),
+                str(content["name"]),
                 lens,
-                bool(head["has_depth"]) and any(entry.depth_size for entry in self._entries),
+                bool(content["has_depth"]) and any(entry.depth_size for entry in self._entries),
                 len(self._entries),
-                float(head["nominal_fps"]),
-                {str(key): str(value) for key, value in head["settings"].items()}
+                float(content["nominal_fps"]),
+                {str(key): str(value) for key, value in content["settings"].items()}
                 | ({} if self.complete else {"complete": "no: cut short, read up to its last whole frame"}),
-                str(head.get("recording_id", "")),
-                str(head.get("recorded", "")),
+                str(content.get("recording_id", "")),
+                str(content.get("recorded", "")),
             )
-        except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as cause:
-            raise RecordingUnreadable(path, phrase("its head is damaged")) from cause
+        except (KeyError, TypeError, ValueError, AttributeError, OverflowError, RecursionError) as cause:
+            detail = phrase("its head is damaged; pictures that are there: {count}", count=len(self._entries))
+            raise RecordingUnreadable(path, detail) from cause
 
     @property
     def info(self) -> SourceInfo:
@@ -287,16 +304,16 @@ class RawRecording:
 
     def packed_frames(self) -> Iterator[PackedFrame]:
         """As :meth:`frames`, each unpacked only where somebody looks."""
-        lost = missing = index = 0
+        left_out = index = number = 0
         last_s = -math.inf
         camera = self._info.camera
         size_px = (camera.width_px, camera.height_px)
         with self._path.open("rb") as file:
             for entry in self._entries:
                 pictures = _read(file, entry)
-                if not pictures or not last_s < entry.timestamp_s < math.inf:
-                    lost += 1
-                    missing += 1 + entry.dropped_before
+                in_order = last_s < entry.timestamp_s < math.inf and number <= entry.number < self._count
+                if not pictures or not in_order:
+                    left_out += 1
                     continue
                 color, depth = self._color(pictures, entry), None
                 if entry.depth_size:
@@ -309,13 +326,15 @@ class RawRecording:
                     color,
                     depth,
                     self._depth_unit_m,
-                    entry.dropped_before + missing,
+                    entry.dropped_before + entry.number - number,
                 )
-                index, missing, last_s = index + 1, 0, entry.timestamp_s
+                index, number, last_s = index + 1, entry.number + 1, entry.timestamp_s
+        lost = max(left_out, self._count - index)
         if lost:
-            self._notice(
-                PicturesLost(self._path, phrase("{lost} of {count} frames", lost=lost, count=len(self._entries)))
-            )
+            self._notice(PicturesLost(self._path, phrase("{lost} of {count} frames", lost=lost, count=self._count)))
+        if self._surplus_bytes:
+            detail = phrase("bytes that follow its end: {count}", count=self._surplus_bytes)
+            self._notice(RecordingDamaged(self._path, detail))
 
     def color_at(self, timestamp_s: float) -> ByteImage | None:
         """The colour picture of that time, None when it was not stored or is damaged."""
@@ -349,8 +368,8 @@ def _record(kind: bytes, time_s: float, dropped: int, number: int, color: bytes,
     return kind + struct.pack("<I", zlib.crc32(rest)) + rest
 
 
-def _index(path: Path, file: BinaryIO) -> tuple[Mapping[str, Any], list[_Entry], bool]:
-    """Head, frames and whether the recording was closed; a torn end is passed over."""
+def _index(path: Path, file: BinaryIO) -> tuple[_Entry | None, list[_Entry], _Entry | None, int]:
+    """Head, frames, end where the recording was closed, and how many bytes follow it; a torn end is passed over."""
     size = file.seek(0, os.SEEK_END)
     file.seek(0)
     start = file.read(_START.size)
@@ -361,24 +380,71 @@ def _index(path: Path, file: BinaryIO) -> tuple[Mapping[str, Any], list[_Entry],
         raise RecordingUnreadable(
             path, phrase("format version {version}, this Carpus reads {newest}", version=version, newest=VERSION)
         )
-    head: Mapping[str, Any] = {}
+    head: _Entry | None = None
     entries: list[_Entry] = []
-    position = _START.size
-    while position + _RECORD.size <= size:
-        file.seek(position)
-        kind, check, time_s, dropped, _, color_size, depth_size = _RECORD.unpack(file.read(_RECORD.size))
-        end = position + _RECORD.size + color_size + depth_size
-        if kind == b"DONE":
-            return head, entries, True
-        if kind not in (b"HEAD", b"FRAM") or end > size or max(color_size, depth_size) > MAX_PICTURE_BYTES:
-            break
-        entry = _Entry(position, time_s, dropped, color_size, depth_size, check)
-        if kind == b"HEAD":
-            head = _json(path, _read(file, entry))
+    for record in _records(file, size):
+        if record.kind == b"DONE":
+            return head, entries, record, size - record.end
+        if record.kind == b"FRAM":
+            entries.append(record)
         else:
-            entries.append(entry)
-        position = end
-    return head, entries, False
+            head = head or record
+    return head, entries, None, 0
+
+
+def _records(file: BinaryIO, size: int) -> Iterator[_Entry]:
+    """Each record where the one before ends; where none with the next number begins, the next with a right check sum.
+
+    Its search begins in the one before when that is damaged: it may be its size. What is summed in vain stays within
+    four times the size of the file.
+    """
+    left = 4 * size
+
+    def is_right(record: _Entry) -> bool:
+        nonlocal left
+        if _read(file, record) is not None:
+            return True
+        left -= record.end - record.position
+        return False
+
+    position, number = _START.size, 0
+    last: _Entry | None = None
+    while position < size:
+        record = _record_at(file, position, size)
+        if record is None or record.number != number or (record.kind == b"DONE" and not is_right(record)):
+            begin = position if last is None or is_right(last) else last.position + 1
+            candidates = (_record_at(file, place, size) for place in _lettered(file, begin))
+            record = next((one for one in candidates if left < 0 or (one is not None and is_right(one))), None)
+            if record is None or left < 0:
+                return
+        yield record
+        position, number, last = record.end, record.number + (record.kind == b"FRAM"), record
+
+
+def _record_at(file: BinaryIO, position: int, size: int) -> _Entry | None:
+    """The record there, whatever its check sum; None for what can be none."""
+    file.seek(position)
+    data = file.read(_RECORD.size)
+    if len(data) < _RECORD.size or not _LETTERS.match(data):
+        return None
+    entry = _Entry(position, *_RECORD.unpack(data))
+    if entry.end > size or max(entry.color_size, entry.depth_size) > MAX_PICTURE_BYTES:
+        return None
+    return entry if max(entry.number, entry.dropped_before) <= MAX_FRAMES else None
+
+
+def _lettered(file: BinaryIO, position: int) -> Iterator[int]:
+    """Where the letters of a record are, from a place on; little is read where they are near."""
+    length = 256
+    while True:
+        file.seek(position)
+        data = file.read(length)
+        for found in _LETTERS.finditer(data):
+            yield position + found.start()
+        if len(data) < length:
+            return
+        position += length - 3  # letters may lie across
+        length = min(2 * length, 1 << 20)
 
 
 def _check(camera: Camera, depth_unit_m: float) -> None:
@@ -390,21 +456,11 @@ def _check(camera: Camera, depth_unit_m: float) -> None:
         raise ValueError("no camera's size")
 
 
-def _json(path: Path, data: bytes) -> Mapping[str, Any]:
-    try:
-        content = json.loads(data)
-    except (ValueError, RecursionError) as cause:
-        raise RecordingUnreadable(path, phrase("its head is damaged")) from cause
-    if not isinstance(content, dict):
-        raise RecordingUnreadable(path, phrase("its head is damaged"))
-    return content
-
-
-def _read(file: BinaryIO, entry: _Entry) -> bytes:
-    """Both pictures of a frame, one after the other; empty when the check sum differs."""
+def _read(file: BinaryIO, entry: _Entry) -> bytes | None:
+    """Both pictures of a frame, one after the other; None when the check sum differs."""
     file.seek(entry.position + _CHECKED_FROM)
-    rest = file.read(_RECORD.size - _CHECKED_FROM + entry.color_size + entry.depth_size)
-    return rest[_RECORD.size - _CHECKED_FROM :] if zlib.crc32(rest) == entry.check else b""
+    rest = file.read(entry.end - entry.position - _CHECKED_FROM)
+    return rest[_RECORD.size - _CHECKED_FROM :] if zlib.crc32(rest) == entry.check else None
 
 
 def _create(path: Path) -> BinaryIO:
