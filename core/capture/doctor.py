@@ -35,7 +35,7 @@ from carpus.core.errors import (
     OtherCamera,
 )
 from carpus.core.installing import Finding, how_to_install, is_packed
-from carpus.core.kernels.choice import NUMPY, VARIABLE, in_c
+from carpus.core.kernels.choice import NUMPY, VARIABLE, damaged, in_c
 from carpus.core.phrase import phrase
 from carpus.core.types import Frame
 from carpus.core.words import words_of
@@ -127,6 +127,13 @@ def packages_finding(names: tuple[str, ...] = PACKAGES) -> Finding:
 
 def kernels_finding() -> Finding:
     """Whether the costly steps run in C, or in NumPy at half the speed."""
+    if spoilt := damaged():
+        return Finding(
+            phrase("Kernels"),
+            "warning",
+            phrase("{name} is damaged and not used; tracking takes longer", name=spoilt[0].name),
+            phrase("Install Carpus anew."),
+        )
     if (kernels := in_c()) is not None:
         return Finding(phrase("Kernels"), "good", phrase("in C, {level}", level=kernels.level))
     if os.environ.get(VARIABLE) == NUMPY:

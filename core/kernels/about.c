@@ -1,4 +1,4 @@
-/* What the loader asks before it trusts the library. */
+/* What the loader asks before it trusts the library, once its last bytes have told that it is whole. */
 #include "kernels.h"
 
 const char *kernels_digest(void)

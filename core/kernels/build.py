@@ -1,7 +1,8 @@
 """Builds the kernels with this computer's C compiler: ``python core/kernels/build.py``; needs nothing but Python.
 
 A library is called by a digest of what it is made of, so that none of another source, flag or kind of computer is ever
-taken for it. Set-up, the wheel's build and the loader all ask here what it is called.
+taken for it, and ends in a digest of all that stands before, so that one that was cut short or damaged is not loaded:
+the system would end the program. Set-up, the wheel's build and the loader all ask here.
 """
 
 from __future__ import annotations
@@ -31,6 +32,7 @@ _FLAGS = (
     "-shared",
 )
 _WIDE_FLAGS = ("-mavx2", "-mfma", "-ffp-contract=fast")
+_SEAL_BYTES = 32
 PLAIN, WIDE = "plain", "wide"
 """For every processor of this kind; and for those of x86-64 with AVX2 and FMA, on which a frame takes a tenth less."""
 
@@ -58,14 +60,29 @@ def library(level: str, made_of: str) -> Path:
     return HERE / f"kernels-{made_of}-{level}{SUFFIX}"
 
 
+def is_whole(path: Path) -> bool:
+    """Whether a library is there as it was built: takes half a millisecond. What a system loads as a library may end
+    in anything."""
+    try:
+        content = path.read_bytes()
+    except OSError:
+        return False
+    return content[-_SEAL_BYTES:] == _seal(content[:-_SEAL_BYTES])
+
+
+def _seal(content: bytes) -> bytes:
+    return hashlib.sha256(content).digest()
+
+
 def built() -> list[Path]:
-    """The libraries of this source that are there, built where they are missing; none where there is no compiler.
+    """The libraries of this source that are there, built where they are missing or not whole; none where there is no
+    compiler.
 
     Raises ``OSError`` where they cannot be written, ``RuntimeError`` where the compiler fails.
     """
     made_of = digest()
     wanted = {level: library(level, made_of) for level in levels()}
-    if all(path.exists() for path in wanted.values()):
+    if all(is_whole(path) for path in wanted.values()):
         return list(wanted.values())
     compiler = next(filter(None, map(shutil.which, (os.environ.get("CC", "cc"), "gcc", "clang"))), None)
     if compiler is None:
@@ -88,6 +105,8 @@ def _compile(compiler: str, path: Path, flags: tuple[str, ...]) -> None:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
             raise RuntimeError(f"{compiler} failed: {done.stderr.strip()[-2000:]}")
+        content = out.read_bytes()
+        out.write_bytes(content + _seal(content))
         out.replace(path)
 
 

@@ -17,9 +17,10 @@ from typing import Any
 import _cffi_backend  # cffi without its parser of C, which takes longer to load than all of NumPy
 import numpy as np
 
-from carpus.core.kernels.build import HERE, PLAIN, WIDE, digest, levels, library
+from carpus.core.kernels.build import HERE, PLAIN, WIDE, digest, is_whole, levels, library
 
 VARIABLE, NUMPY = "CARPUS_KERNELS", "numpy"
+TO_ASK_FOR = (NUMPY, PLAIN)
 
 _FFI = _cffi_backend.FFI()
 NOTHING = _FFI.NULL
@@ -57,8 +58,10 @@ class Kernels:
     of it."""
 
     def __init__(self, path: Path, level: str) -> None:
-        """Raises ``OSError`` where the library cannot be loaded or is of another source."""
+        """Raises ``OSError`` where the library is not whole, cannot be loaded or is of another source."""
         self.level = level
+        if not is_whole(path):
+            raise OSError(f"{path.name} is not whole")
         loaded = _cffi_backend.load_library(str(path), 0)
         try:
             told = loaded.load_function(_FFI.typeof("char *(*)(void)"), "kernels_digest")()
@@ -147,6 +150,12 @@ def _loaded(asked: str) -> Kernels | None:
         except OSError:
             return plain
     return plain
+
+
+def damaged() -> list[Path]:
+    """Libraries of this source that are there and not whole."""
+    there = (library(level, digest()) for level in levels())
+    return [path for path in there if path.exists() and not is_whole(path)]
 
 
 _chosen: Kernels | None = _loaded(os.environ.get(VARIABLE, ""))

@@ -5256,6 +5256,10 @@
         <translation>ChArUco-Tafel {columns} x {rows}, Felder von {size} mm</translation>
     </message>
     <message>
+        <source>Install Carpus anew.</source>
+        <translation>Carpus neu installieren.</translation>
+    </message>
+    <message>
         <source>It needs a USB 2 port.</source>
         <translation>Sie braucht einen USB-2-Anschluss.</translation>
     </message>
@@ -6482,6 +6486,10 @@
     <message>
         <source>{name} ({vendor}:{product}) at {node}, {speed_mbit} Mbit/s</source>
         <translation>{name} ({vendor}:{product}) an {node}, {speed_mbit} Mbit/s</translation>
+    </message>
+    <message>
+        <source>{name} is damaged and not used; tracking takes longer</source>
+        <translation>{name} ist beschädigt und wird nicht verwendet; das Verfolgen dauert länger</translation>
     </message>
     <message>
         <source>{own_s} s while {here_s} s passed here</source>

@@ -5264,6 +5264,10 @@
         <translation>tavola ChArUco {columns} x {rows}, quadrati di {size} mm</translation>
     </message>
     <message>
+        <source>Install Carpus anew.</source>
+        <translation>Installare di nuovo Carpus.</translation>
+    </message>
+    <message>
         <source>Install the package {package}, which comes beside that of Carpus.</source>
         <translation>Installare il pacchetto {package}, che si trova accanto a quello di Carpus.</translation>
     </message>
@@ -6470,6 +6474,10 @@
     <message>
         <source>{name} ({vendor}:{product}) at {node}, {speed_mbit} Mbit/s</source>
         <translation>{name} ({vendor}:{product}) in {node}, {speed_mbit} Mbit/s</translation>
+    </message>
+    <message>
+        <source>{name} is damaged and not used; tracking takes longer</source>
+        <translation>{name} è danneggiato e non viene usato; il tracciamento dura di più</translation>
     </message>
     <message>
         <source>{own_s} s while {here_s} s passed here</source>

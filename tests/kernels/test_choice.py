@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -68,6 +69,32 @@ def test_what_is_no_library_is_not_loaded(tmp_path: Path, content: bytes) -> Non
     path.write_bytes(content)
     with pytest.raises(OSError):
         choice.Kernels(path, "plain")
+
+
+@pytest.mark.parametrize(
+    "spoil", [lambda whole: whole[: len(whole) // 2], lambda whole: whole[:9000] + b"?" + whole[9001:]]
+)
+def test_a_library_that_is_not_whole_is_told_not_used_and_built_again(
+    spoil: Callable[[bytes], bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The system would end the program with a signal."""
+    for name in ("about.c", "kernels.h"):
+        shutil.copy(build.HERE / name, tmp_path)
+    monkeypatch.setattr(build, "HERE", tmp_path)
+    monkeypatch.setattr(build, "levels", lambda: ("plain",))
+    monkeypatch.setattr(choice, "levels", lambda: ("plain",))
+    (built,) = build.built()
+    assert kernels_finding().state == "good"
+    built.write_bytes(spoil(built.read_bytes()))
+    with pytest.raises(OSError, match="not whole"):
+        choice.Kernels(built, "plain")
+    assert choice._loaded("") is None
+    finding = kernels_finding()
+    assert finding.state == "warning"
+    assert built.name in finding.found
+    assert build.built() == [built]
+    assert build.is_whole(built)
+    assert kernels_finding().state == "good"
 
 
 def test_without_a_compiler_all_runs_and_one_line_says_so(
