@@ -8,6 +8,15 @@ import os
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
 
+import signal
+from contextlib import suppress
+
+# Ctrl+C while all this loads ends the program as the system does, without a traceback; what comes then main settles.
+_INTERRUPTED = signal.getsignal(signal.SIGINT)
+if _INTERRUPTED is signal.default_int_handler:
+    with suppress(ValueError):  # loaded by a thread
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
 import sys
 import textwrap
 from collections.abc import Sequence
@@ -22,6 +31,10 @@ from carpus.core.errors import CarpusFault
 from carpus.core.purpose import PURPOSE
 
 EXIT_DONE, EXIT_COULD_NOT = 0, 1
+
+if _INTERRUPTED is signal.default_int_handler:
+    with suppress(ValueError):
+        signal.signal(signal.SIGINT, _INTERRUPTED)
 
 
 def parser(asked: Sequence[str]) -> CommandParser:
@@ -89,6 +102,11 @@ def _run(asked: Sequence[str]) -> int:
     arguments, extra = top.parse_known_args(asked)
     if extra:
         getattr(arguments, "parser", top).refuse(extra)
+    if kernels := os.environ.get("CARPUS_KERNELS"):
+        from carpus.core.kernels.choice import TO_ASK_FOR, VARIABLE
+
+        if kernels not in TO_ASK_FOR:
+            say(f"{VARIABLE}={kernels} is not known; it can be {' or '.join(TO_ASK_FOR)}. It is as if it were not set.")
     if arguments.command is None:
         from carpus.app.commands import desktop
 

@@ -196,6 +196,23 @@ def test_what_a_parent_told_to_ignore_is_ignored(tmp_path: Path) -> None:
     assert (folder / COLOR_LIST).exists()
 
 
+def test_stopped_while_modules_load_it_ends_without_a_traceback() -> None:
+    stop = "import os, signal, sys\nclass Stop:\n    def find_spec(name, *_):\n"
+    stop += "        if name == 'carpus.app.command_line': os.kill(os.getpid(), signal.SIGINT)\n"
+    stop += "sys.meta_path.insert(0, Stop)\nimport carpus.app.__main__\n"
+    assert signalled([sys.executable, "-c", stop], lambda: True) == (-signal.SIGINT, "")
+    after = "import signal, carpus.app.__main__\nassert signal.getsignal(2) is signal.default_int_handler\n"
+    assert signalled([sys.executable, "-c", after], lambda: True) == (0, "")
+
+
+@pytest.mark.parametrize(("asked", "lines"), [("bogus", 1), ("plain", 0), ("", 0)])
+def test_kernels_that_there_are_not_are_told(asked: str, lines: int, session: Path) -> None:
+    environment = os.environ | {"CARPUS_KERNELS": asked}
+    done = subprocess.run([*COMMAND, "info", session], cwd=ROOT, env=environment, capture_output=True, text=True)
+    assert (done.returncode, done.stderr.count("\n")) == (0, lines)
+    assert ("numpy or plain" in done.stderr) == bool(lines)
+
+
 def test_stopped_while_tracking_leaves_no_part(recording: Path, tmp_path: Path) -> None:
     """What can be tracked again is not kept by halves."""
     words = ["track", str(recording), "--calibration", str(recording / CLICKS_FILE), "--output", str(tmp_path / "s.h5")]
