@@ -19,6 +19,7 @@ from carpus.core.session.reader import read_outline
 
 if TYPE_CHECKING:
     from carpus.core.formats.formats import Exported
+    from carpus.core.records.library import Library
     from carpus.core.records.log import Deed, Kind
     from carpus.core.records.of_sessions import MadeKind
     from carpus.core.results.repetition_rows import RepetitionChoices
@@ -77,6 +78,23 @@ def sessions_in(places: Iterable[Path]) -> Iterator[Path]:
         if not place.exists():
             raise FolderMissing(place)
         yield from sorted(place.rglob("*.h5")) if place.is_dir() else [place]
+
+
+def library_of(folder: Path) -> Library:
+    """Of a data folder, with the clinic's server and share where it is this computer's own."""
+    from carpus.core.records.library import Library
+
+    settings, _ = load_sound_settings()
+    is_own = folder == settings.data_folder
+    library = Library(
+        folder,
+        by="command",
+        url=settings.records.url if is_own else "",
+        sessions=sessions_folder(settings) if is_own else None,
+    )
+    library.who = initials
+    library.log_fault = tell
+    return library
 
 
 def initials() -> str:

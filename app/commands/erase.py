@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import closing
 from pathlib import Path
 
-from carpus.app.command_line import say, tell
-from carpus.app.of_file import data_folder_of, initials
-from carpus.app.settings import load_sound_settings, sessions_folder
+from carpus.app.command_line import say
+from carpus.app.of_file import data_folder_of, library_of
+from carpus.app.settings import load_sound_settings
 from carpus.core.errors import FolderMissing, PatientUnknown, RecordingMissing
-from carpus.core.names import known_names
+from carpus.core.names import folded, known_names
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
@@ -40,18 +41,13 @@ def run(arguments: argparse.Namespace) -> int:
     if not is_kept_in(folder):
         say(f"{folder} is no data folder; nothing has been deleted.")
         return 1
-    of_clinic = folder == settings.data_folder
-    library = Library(
-        folder, by="command", url=settings.records.url if of_clinic else "",
-        sessions=sessions_folder(settings) if of_clinic else None,
-    )  # fmt: skip
-    library.who = initials
-    library.log_fault = tell
-    try:
+    is_file = path.is_file()
+    with closing(library_of(folder)) as library:
         library.store.settled(MOST_WAIT_S)  # what others have recorded of the patient goes too
+        if folded(arguments.what) in library.gone or (is_file and not path.exists()):
+            print(f"The erasing of {arguments.what} that was begun before is finished: nothing of it is left here.")
+            return _told(library)
         return _erase(library, arguments.what, path, arguments.for_good)
-    finally:
-        library.close()
 
 
 def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> int:
@@ -75,6 +71,10 @@ def _erase(library: Library, what: str, path: Path, confirmed: str | None) -> in
         say(f"{confirmed} is not whose it is; nothing has been deleted.")
         return 1
     records.erase(plan)
+    return _told(library)
+
+
+def _told(library: Library) -> int:
     if library.store.settled(MOST_WAIT_S):
         print("Erased. The log keeps that it was erased, no name.")
     else:

@@ -5,13 +5,19 @@ from __future__ import annotations
 import argparse
 import csv
 import sys
+from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from carpus import __version__
 from carpus.app.command_line import misused, tell
 from carpus.core.errors import CarpusFault, OutputExists, PatientUnknown, SessionsMissing
 from carpus.core.measures.change import ErrorLimits
-from carpus.core.names import known_names
+from carpus.core.names import folded, known_names
+
+if TYPE_CHECKING:
+    from carpus.core.results.figures import SessionFigures
 
 EXAMPLE = """carpus progress "Fern 12"
 carpus progress all --output measures.csv"""
@@ -76,9 +82,52 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type: ignore[type-arg]
-    """Sessions of a patient that can be read, with their figures. Raises :class:`PatientUnknown` or
-    :class:`SessionsMissing` for none."""
+def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list[tuple[Path, SessionFigures]]:
+    """Sessions of a patient that can be read, with their figures: of a data folder those that the list of patients has
+    as this patient's and not in the archive, of any other the files that carry the pseudonym. Raises
+    :class:`PatientUnknown` or :class:`SessionsMissing` for none."""
+    from carpus.core.records.store import is_kept_in
+
+    out: list[tuple[Path, SessionFigures]] = []
+    known: list[str] = []
+    for place in places:
+        has_list = place.is_dir() and is_kept_in(place)
+        found, names = _listed(subject, place) if has_list else _carrying(subject, place, limits)
+        out += found
+        known += names
+    if not out:
+        if subject == EVERYBODY or folded(subject) in map(folded, known):
+            raise SessionsMissing(places[0])
+        raise PatientUnknown(subject, known_names(subject, sorted({one for one in known if one})))
+    return out
+
+
+def _listed(subject: str, folder: Path) -> tuple[list[tuple[Path, SessionFigures]], list[str]]:
+    """Of a data folder; and the pseudonyms of its patients."""
+    from carpus.app.of_file import library_of
+    from carpus.core.records.session_list import FilesOfSessions
+
+    with closing(library_of(folder)) as library:
+        FilesOfSessions(library.store).take_in(tells=False)  # also what was copied in since the last look
+        people = {one.patient_id: one.entry.pseudonym for one in library.patients.listed(archived=True)}
+        if subject == EVERYBODY:
+            wanted = ["", *(one.patient_id for one in library.patients.listed())]
+        else:
+            wanted = [one for one in people if one == library.patients.called(subject)]
+        out = []
+        for patient_id in wanted:
+            for entry in library.sessions(patient_id):
+                try:
+                    figures = library.figures(entry)
+                except CarpusFault as fault:
+                    tell(fault)
+                else:
+                    out.append((entry.path, replace(figures, subject_id=people.get(patient_id, figures.subject_id))))
+        return out, list(people.values())
+
+
+def _carrying(subject: str, place: Path, limits: ErrorLimits) -> tuple[list[tuple[Path, SessionFigures]], list[str]]:
+    """Of files that lie in no data folder, or are named one by one; and every pseudonym that they carry."""
     from carpus.app.of_file import read_choices, sessions_in
     from carpus.core.results.camera_said import folder_with_checks
     from carpus.core.results.figures import session_figures, with_trust
@@ -86,7 +135,7 @@ def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type:
 
     out = []
     known: list[str] = []
-    for path in sessions_in(places):
+    for path in sessions_in([place]):
         try:
             said = read_outline(path).header.subject_id
             known.append(said)
@@ -95,9 +144,4 @@ def _of(subject: str, places: list[Path], limits: ErrorLimits) -> list:  # type:
                 out.append((path, with_trust(figures, folder_with_checks(path))))
         except CarpusFault as fault:
             tell(fault)
-    if not out:
-        if subject == EVERYBODY:
-            raise SessionsMissing(places[0])
-        names = sorted({one for one in known if one})
-        raise PatientUnknown(subject, known_names(subject, names))
-    return out
+    return out, known

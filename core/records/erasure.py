@@ -108,14 +108,16 @@ def erase(store: Store, plan: ErasurePlan, log: Log) -> int:
     return len(plan.files)
 
 
-def finish_erasing(store: Store, log: Log) -> None:
-    """What an erasure that was cut short has left; called when the store is opened."""
-    if store.row(select(SESSION.c.id).where(SESSION.c.erasing == 1)) or store.row(
-        select(PATIENT.c.id).where(PATIENT.c.erasing == 1)
-    ):
+def finish_erasing(store: Store, log: Log) -> frozenset[str]:
+    """What an erasure that was cut short has left; called when the store is opened. Of patients who are gone by it, the
+    pseudonyms, folded."""
+    people = frozenset(str(row[0]) for row in store.rows(select(PATIENT.c.folded).where(PATIENT.c.erasing == 1)))
+    left: list[Path] = []
+    if people or store.row(select(SESSION.c.id).where(SESSION.c.erasing == 1)):
         left = go_on(store)
         log.note("erase_begun" if left else "erased", "everything", late=1, left=len(left))
     store.leave_no_trace()  # of a program that was killed before it did so
+    return frozenset() if left else people
 
 
 def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]:

@@ -139,7 +139,8 @@ class Library:
         self._shown: dict[str, int] = {}
         self.angle_order: Callable[[], AngleOrder] = lambda: "zyx"
         """In which order the wrist's angles are read in the window; files keep the papers'."""
-        finish_erasing(self.store, self.log)
+        self.gone = finish_erasing(self.store, self.log)
+        """Pseudonyms of patients whose erasing was cut short before and is finished now, as they are compared."""
 
     def close(self) -> None:
         """May be called twice."""

@@ -128,9 +128,9 @@ class ListedSessions:
         self._resolved = self.folder.resolve()  # asked of every file whenever the list is made
 
     def of_patient(self, patient_id: str, *, archived: bool = False) -> list[SessionEntry]:
-        """The patient's sessions, newest first, every result of a recording; without those in the archive, unless
-        ``archived``."""
-        query = select(SESSION).where(SESSION.c.patient_id == patient_id, SESSION.c.erasing == 0)
+        """The patient's sessions, nobody's for none, newest first, every result of a recording; without those in the
+        archive, unless ``archived``."""
+        query = select(SESSION).where(SESSION.c.patient_id == (patient_id or None), SESSION.c.erasing == 0)
         if not archived:
             query = query.where(SESSION.c.archived == "")
         order = (SESSION.c.recorded_s.desc(), SESSION.c.created_s.desc(), SESSION.c.path.desc())

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import shutil
+import uuid
 from collections.abc import Iterator
 from contextlib import closing
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
+import h5py
 import pytest
 
 import carpus
 from carpus.app.of_file import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.errors import OutputNotWritable
+from carpus.core.records.changes import changed
 from carpus.core.records.keeping import Records
 from carpus.core.records.kept_sets import last_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
+from carpus.core.records.schema import PATIENT, SESSION
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
@@ -25,6 +32,7 @@ from carpus.ui.patients.flow import PatientShelf
 from carpus.ui.sessions.flow import SessionShelf
 from tests.app.test_library import set_up, store
 from tests.commands import Command
+from tests.formats.takes import stored
 from tests.records.samples import traces
 
 ROOT = Path(__file__).parents[2]
@@ -101,6 +109,55 @@ def test_commands_are_logged_where_the_session_is_kept(library: Library, tmp_pat
     assert (out / "r.pdf").exists()
     assert library.sessions(linden) == []
     assert command("erase", elsewhere).code == 1
+
+
+def test_progress_is_of_whom_the_list_says_without_the_archive(
+    library: Library, command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    shelf = PatientShelf(library)
+    linden, heron = (shelf.add(PatientEntry(name, "right", "right")) for name in ("Linden 42", "Heron 17"))
+    sessions, whole = [str(uuid.uuid4()) for _ in range(2)], stored(tmp_path, frames=120, moving=True)
+    for session_id in sessions:
+        path = library.index.new_path(linden, "Linden 42", "WRIST_FE", "left", datetime.now(UTC))
+        shutil.copy(whole, path)
+        with h5py.File(path, "r+") as file:
+            file.attrs.update(subject_id="", session_id=session_id, recording_id=session_id)
+        library.index.enter(path, linden)
+    store(library, set_up(PRACTICE_PATIENT, "Practice patient"))
+    monkeypatch.setenv("CARPUS_DATA", str(library.folder))
+
+    def counted(*asked: str | Path) -> tuple[set[str], set[str]]:
+        done = command("progress", *asked)
+        assert done.code == 0, done.err
+        rows = list(csv.DictReader(io.StringIO(done.out)))
+        return {row["session_id"] for row in rows}, {row["subject_id"] for row in rows}
+
+    assert counted("linden 42") == counted("all") == (set(sessions), {"Linden 42"})
+    Records(library).archive_session(sessions[0])
+    expected = {sessions[1]}, {"Linden 42"}
+    assert counted("Linden 42") == counted("all", "--sessions", library.folder) == expected
+    assert counted("all", "--sessions", library.entry(sessions[0]).path)[0] == {sessions[0]}
+    assert "There is no session" in command("progress", "Heron 17").err
+    assert "did you mean “Heron 17”" in command("progress", "Heron 16").err
+    Records(library).archive_patient(linden)
+    assert counted("Linden 42") == expected
+    assert command("progress", "all").code == 1
+    assert library.sessions(heron) == []
+
+
+def test_an_erasing_that_was_cut_short_is_told_as_finished(library: Library, command: Command) -> None:
+    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    kept, other = (store(library, set_up(linden, "Linden 42"), after=timedelta(hours=hours)) for hours in range(2))
+    paths = [library.entry(one).path for one in (kept, other)]
+    for path, cut in (
+        (paths[0], changed(SESSION, kept, erasing=1)),
+        ("linden 42", changed(PATIENT, linden, erasing=1)),
+    ):
+        library.store.do([cut])
+        done = command("erase", path, "--data-folder", library.folder)
+        assert (done.code, "begun before is finished" in done.out, done.err) == (0, True, "")
+        assert (paths[0].exists(), paths[1].exists()) == (False, path == paths[0])
+    assert command("erase", "linden 42", "--data-folder", library.folder).code == 1
 
 
 def test_programs_are_logged_as_commands_are(library: Library, tmp_path: Path) -> None:
