@@ -105,7 +105,9 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
     "progress": [
         ("", 2, "PSEUDONYM"),
         ("Lindn --sessions {session}", 1, "There is no patient Lindn (did you mean “Linden 42”? There are: Linden 42)"),
-        ("nobody", 1, "There is no patient nobody (there are none yet)"),
+        ("nobody", 1, "There is no patient nobody (there are: Fern 12)"),
+        ("nobody --sessions {empty}", 1, "There is no patient nobody (there are none yet)"),
+        ("'fern 12'", 1, "There is no session in {data}"),
         ("all --sessions {empty}", 1, "There is no session in {empty}"),
         ("all --sessions {gone}", 1, "There is no folder {gone}"),
         ("all --output {new}.pdf", 2, "one patient"),
