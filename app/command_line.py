@@ -72,7 +72,9 @@ def tell(fault: CarpusFault) -> None:
 
 def misused(command: str, sentence: str) -> int:
     """Wrong usage that no option shows by itself: one line, and the exit code."""
-    print(f"carpus {command}: {sentence}", file=sys.stderr)
+    with suppress(OSError):
+        print(f"carpus {command}: {sentence}", file=sys.stderr)
+    flushed(sys.stderr)
     return 2
 
 

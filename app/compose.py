@@ -60,8 +60,6 @@ from carpus.ui.translate import tr
 if TYPE_CHECKING:
     from carpus.app.desktop.sources import Sources
     from carpus.ui.settings.screen import SettingsScreen
-if TYPE_CHECKING:
-    from carpus.app.desktop.journey import Journey
 
 
 def answer_words() -> tuple[str, str]:

@@ -38,7 +38,7 @@ def with_revision(software_version: str) -> str:
 
 
 def said_in(parameters: str, part: str) -> dict[str, Any]:
-    """A part of a session's parameters, ``provenance`` or ``source``; empty where it says nothing."""
+    """A part of a session's parameters, as ``provenance`` or ``source``; empty where it says nothing."""
     try:
         said = json.loads(parameters)[part]
     except (KeyError, TypeError, ValueError):

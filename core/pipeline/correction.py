@@ -7,6 +7,7 @@ named ones. What comes before the first correction is tracked as it was. The old
 
 from __future__ import annotations
 
+import glob
 import math
 import multiprocessing
 import threading
@@ -67,11 +68,11 @@ def task_of(
 
 
 def correct(task: CorrectionTask, progress: Progress | None = None) -> None:
-    """Track again and store. When it cannot be done nothing half-done is left behind."""
+    """Track again and store. When it cannot be done there is no output."""
     if task.output.exists():
         raise OutputExists(task.output)
     session, settings = task.session, _settings(task.session)
-    ordered = sorted(task.corrections, key=lambda one: one.row)
+    ordered = _by_picture(task)
     retracking = _Retracking(session, task.table, settings, ordered)
     writer = writer_again(
         session, task.output, settings, retracking.learnt, session.calibration, task.software_version,
@@ -84,13 +85,33 @@ def correct(task: CorrectionTask, progress: Progress | None = None) -> None:
     )  # fmt: skip
 
 
+def _by_picture(task: CorrectionTask) -> list[Correction]:
+    """The corrections in the order of their pictures, one of each: what was said last of a marker counts.
+
+    Raises :class:`NotCorrectable` for a picture or a marker that is not there, or a place that is none.
+    """
+    session, origin = task.session, task.output.name
+    places: dict[int, dict[str, tuple[float, float] | None]] = {}
+    for one in task.corrections:
+        if not 0 <= one.row < len(session):
+            raise NotCorrectable(origin, phrase("it has no picture {number}", number=one.row + 1))
+        for name, place in one.places.items():
+            if name not in session.header.protocol.markers:
+                raise NotCorrectable(origin, phrase("it has no marker {name}", name=name))
+            size = (session.camera.width_px, session.camera.height_px)
+            if place is not None and not all(0 <= at <= most for at, most in zip(place, size, strict=True)):
+                raise NotCorrectable(origin, phrase("a marker was put beside the picture"))
+        places.setdefault(one.row, {}).update(one.places)
+    return [Correction(row, places[row]) for row in sorted(places)]
+
+
 def _settings(session: Session) -> TrackSettings:
     told = settings_told(session.header.parameters)
     return told.settings if told is not None else TrackSettings()
 
 
-def not_held(session: Session, corrections: Sequence[Correction]) -> tuple[str, ...]:
-    """Markers that the new result does not have where the person put them, nor soon after."""
+def not_held(session: Session, table: DetectionTable, corrections: Sequence[Correction]) -> tuple[str, ...]:
+    """Markers that the new result, with its spots, does not have where the person put them, nor soon after."""
     markers = list(session.header.protocol.markers)
     out = []
     for correction in corrections:
@@ -101,12 +122,22 @@ def not_held(session: Session, corrections: Sequence[Correction]) -> tuple[str, 
             if place is None:
                 held = not np.isfinite(at[0]).all()
             else:
-                known = np.isfinite(at).all(axis=1)
-                reach = SAME_SPOT_PX + STEP_PX * np.arange(len(at))
-                held = bool((np.linalg.norm(at - np.array(place), axis=1)[known] <= reach[known]).any())
+                followed = _followed(table, range(begin, end), np.array(place))
+                held = bool((np.linalg.norm(at - followed, axis=1) < 0.5).any())  # NaN is not
             if not held:
                 out.append(name)
     return tuple(dict.fromkeys(out))
+
+
+def _followed(table: DetectionTable, rows: range, place_px: FloatArray) -> FloatArray:
+    """Where (n, 2) the spot at a place of the first row is in each, NaN where it is not seen."""
+    out = np.full((len(rows), 2), np.nan)
+    for number, row in enumerate(rows):
+        pixel = table.of_frame(row).pixel
+        away = np.linalg.norm(pixel - place_px, axis=1)
+        if len(pixel) and away.min() <= STEP_PX:
+            out[number] = place_px = pixel[int(away.argmin())]
+    return out
 
 
 class _Retracking:
@@ -167,7 +198,7 @@ class _Retracking:
             shown = None if name in palm else place  # the palm is found anew, its discs where they are on it
             if is_false or shown is not None:
                 not_px = ((float(old[0]), float(old[1])),) if is_false else ()
-                self._tracker.hear(SpotAnswer(correction.row, name, shown, not_px))
+                self._tracker.hear(SpotAnswer(correction.row, name, shown, not_px), is_asked_again=False)
         return blobs
 
     def _look_anew(self, time_s: float) -> None:
@@ -253,6 +284,6 @@ def _fault(kind: str, subject: str, detail: str) -> CarpusFault:
 
 def _clear(task: CorrectionTask) -> None:
     """A process that was killed leaves a part behind: the session it was made from is still there."""
-    for path in task.output.parent.glob(f"{task.output.stem}.*"):
-        if path != task.output:
-            path.unlink(missing_ok=True)
+    name = glob.escape(task.output.name)
+    for path in task.output.parent.glob(f"{name}.????????.part*"):
+        path.unlink(missing_ok=True)

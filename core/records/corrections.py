@@ -12,6 +12,7 @@ import numpy as np
 
 from carpus.core.durable import make_private
 from carpus.core.errors import OutputNotWritable, SessionUnreadable
+from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.records.library import Library
 from carpus.core.records.session_list import TRIALS_FOLDER
 from carpus.core.records.set_up import MARKERS_SUFFIX
@@ -37,17 +38,22 @@ class Waiting:
 class Difference:
     """How a new result differs: of ``common`` pictures that both know, ``changed`` differ by more than
     :data:`NOTICED_RAD` in some angle of the wrist or a finger; the most is ``most_rad`` at ``at_s``; ``found`` have an
-    angle now that had none. ``live``: as measured, since one of the two was not looked back at."""
+    angle now that had none. ``most_at`` names that angle. ``lost`` are markers that are hardly seen any more.
+    ``live``: as measured, since one of the two was not looked back at."""
 
     common: int
     changed: int
     most_rad: float
     at_s: float
     found: int
+    most_at: str
+    lost: tuple[str, ...]
     live: bool
 
 
 NOTICED_RAD = np.radians(2.0)
+LEAST_SEEN = 0.2
+"""A marker that was seen in fewer of the pictures has nothing to lose."""
 
 
 class Corrections:
@@ -151,18 +157,26 @@ def difference(old: Session, new: Session) -> Difference:
     be told as put right."""
     live = old.smoothed is None or new.smoothed is None
     before, after = (old.motion, new.motion) if live else (best_motion(old), best_motion(new))
-    wrist_before, wrist_after = before.angles_rad, after.angles_rad
-    known_before, known_after = np.isfinite(wrist_before).all(axis=1), np.isfinite(wrist_after).all(axis=1)
-    both = np.asarray(known_before & known_after)
-    size = np.where(both[:, None], np.abs(wrist_after - wrist_before), 0.0).max(axis=1)
-    found = known_after & ~known_before
-    if before.joint_angles_rad.shape[1] and before.joint_angles_rad.shape == after.joint_angles_rad.shape:
-        fingers = np.abs(after.joint_angles_rad - before.joint_angles_rad)
-        size = np.maximum(size, np.where(np.isfinite(fingers), fingers, 0.0).max(axis=1))
-        found |= (np.isfinite(after.joint_angles_rad) & ~np.isfinite(before.joint_angles_rad)).any(axis=1)
-        both |= np.isfinite(fingers).any(axis=1)
-    worst = int(size.argmax()) if len(size) else 0
-    start_s = float(old.timestamp_s[0]) if len(size) else 0.0
-    at_s = float(old.timestamp_s[worst]) - start_s if len(size) else 0.0
-    changed, most_rad = int((size > NOTICED_RAD).sum()), float(size.max(initial=0.0))
-    return Difference(int(both.sum()), changed, most_rad, at_s, int(found.sum()), live)
+    angles = [np.concatenate((motion.angles_rad, motion.joint_angles_rad), axis=1) for motion in (before, after)]
+    if angles[0].shape != angles[1].shape:
+        angles = [before.angles_rad, after.angles_rad]
+    size = np.abs(angles[1] - angles[0])
+    known = np.isfinite(size)
+    size = np.where(known, size, 0.0)
+    found = (np.isfinite(angles[1]) & ~np.isfinite(angles[0])).any(axis=1)
+    both = known.any(axis=1)
+    worst, which = divmod(int(size.argmax()), size.shape[1]) if size.size else (0, 0)
+    at_s = float(old.timestamp_s[worst] - old.timestamp_s[0]) if size.size else 0.0
+    seen = [np.isfinite(one.markers.measured_px[..., 0]).mean(axis=0) for one in (old, new)]
+    gone = (seen[0] > LEAST_SEEN) & (seen[1] < 0.5 * seen[0])
+    lost = tuple(name for name, is_gone in zip(old.header.protocol.markers, gone, strict=True) if is_gone)
+    return Difference(
+        common=int(both.sum()),
+        changed=int((size > NOTICED_RAD).any(axis=1).sum()),
+        most_rad=float(size.max(initial=0.0)),
+        at_s=at_s,
+        found=int(found.sum()),
+        most_at=(*WRIST_ANGLES, *old.header.joint_names)[which],
+        lost=lost,
+        live=live,
+    )

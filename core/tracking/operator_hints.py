@@ -23,15 +23,17 @@ class HintSettings:
 
     A spot is followed from picture to picture no further than ``step_px``; so near as ``back_within_px`` to where it
     was, in the picture or beside its marker, one that comes back is the same. One that is no disc stays so for
-    ``holds_s``: then it is asked about again, if there is still something to ask. ``kept_pictures`` in which a spot
-    that was spoken of is looked for; what was said waits ``answer_holds_s`` for a picture that shows it. A disc shown
-    elsewhere may be as far as ``anywhere_m`` from where the one picture shows it: more than any depth errs. A blob
-    within ``same_px`` of the spot that was followed is that spot.
+    ``holds_s``: then it is asked about again, if there is still something to ask. Where nobody will ask, it stays so
+    until it is out of sight for ``gone_after_s``: what comes out there later may be a disc. ``kept_pictures`` in which
+    a spot that was spoken of is looked for; what was said waits ``answer_holds_s`` for a picture that shows it. A disc
+    shown elsewhere may be as far as ``anywhere_m`` from where the one picture shows it: more than any depth errs. A
+    blob within ``same_px`` of the spot that was followed is that spot.
     """
 
     step_px: float = 8.0
     back_within_px: float = 12.0
     holds_s: float = 60.0
+    gone_after_s: float = 0.5
     kept_pictures: int = 60
     answer_holds_s: float = 0.5
     anywhere_m: float = 0.02
@@ -65,18 +67,29 @@ class RecentSpots:
 
 
 class NoDisc:
-    """A spot that a person said is not a marker, row ``marker`` of the protocol."""
+    """A spot that a person said at ``time_s`` is not a marker, row ``marker`` of the protocol."""
 
     def __init__(
-        self, marker: int, place_px: FloatArray, beside_px: FloatArray, time_s: float, settings: HintSettings
+        self,
+        marker: int,
+        place_px: FloatArray,
+        beside_px: FloatArray,
+        time_s: float,
+        settings: HintSettings,
+        *,
+        is_asked_again: bool,
     ) -> None:
         self.marker, self._settings = marker, settings
-        self._place_px, self._beside_px, self._said_s = place_px, beside_px, time_s
+        self._place_px, self._beside_px, self._is_asked_again = place_px, beside_px, is_asked_again
+        self._said_s = self._seen_s = time_s
         self._was_seen = True
 
     def holds(self, time_s: float) -> bool:
         """Whether what was said of it still counts."""
-        return time_s - self._said_s <= self._settings.holds_s
+        if self._is_asked_again:
+            return time_s - self._said_s <= self._settings.holds_s
+        self._seen_s = time_s if self._was_seen else self._seen_s
+        return time_s - self._seen_s <= self._settings.gone_after_s
 
     def find(self, pixel: FloatArray, expected_px: FloatArray, held: BoolArray) -> int:
         """Which of the spots (D, 2) it is, -1 for none. ``expected_px`` (M, 2) where the markers should be; those
@@ -112,6 +125,15 @@ class NamedSpot:
 
 
 @dataclass(frozen=True, slots=True)
+class _Waiting:
+    """An answer whose spots were looked for in vain ``since_s``, NaN for not yet."""
+
+    answer: SpotAnswer
+    is_asked_again: bool
+    since_s: float = math.nan
+
+
+@dataclass(frozen=True, slots=True)
 class Hinted:
     """The blobs of a picture that may be discs, which ``no_disc`` (D,) of all were left out, and the one that a person
     has just named."""
@@ -127,14 +149,15 @@ class OperatorHints:
     def __init__(self, markers: Sequence[str], settings: HintSettings) -> None:
         self._markers, self._settings = markers, settings
         self._spots = RecentSpots(settings)
-        self._answers: list[tuple[SpotAnswer, float]] = []
+        self._answers: list[_Waiting] = []
         self._taken_up: list[SpotAnswer] = []
         self._no_discs: list[NoDisc] = []
         self._held = np.zeros(len(markers), dtype=bool)
 
-    def hear(self, answer: SpotAnswer) -> None:
-        """Something said of a picture shown a moment ago, from the next picture on."""
-        self._answers.append((answer, math.nan))
+    def hear(self, answer: SpotAnswer, *, is_asked_again: bool = True) -> None:
+        """Something said of a picture shown a moment ago, from the next picture on; after a while the person is asked
+        again, or never."""
+        self._answers.append(_Waiting(answer, is_asked_again))
 
     def taken_up(self) -> list[SpotAnswer]:
         """The answers taken up since the last call, with the spots as they lay in the picture that took them."""
@@ -155,25 +178,32 @@ class OperatorHints:
         """A picture in the light of what was said; ``expected_px`` (M, 2) where its markers should be, NaN while the
         hand is lost."""
         self._spots.keep(index, detections.pixel)
-        heard = self._heard(index, timestamp_s)
-        if heard is not None:
-            self._add_no_discs(heard, timestamp_s, expected_px)
+        heard = self._heard(index, timestamp_s, expected_px)
         no_disc = self._without(timestamp_s, detections.pixel, expected_px)
         left = detections.only(~no_disc) if self._no_discs else detections
         return Hinted(left, no_disc, None if heard is None else self._named(heard, left.pixel))
 
-    def _heard(self, index: int, timestamp_s: float) -> SpotAnswer | None:
-        """The answer to take up now, its spots followed to this picture: the first of which a spot is seen."""
+    def _heard(self, index: int, timestamp_s: float, expected_px: Callable[[], FloatArray]) -> SpotAnswer | None:
+        """Take up what is no disc of every answer whose spots are seen, and the first that names one: a picture is
+        associated with one name that is new, and the next takes its turn in the next."""
         waiting, self._answers = self._answers, []
-        found: SpotAnswer | None = None
-        for answer, since_s in waiting:
-            asked_s = timestamp_s if math.isnan(since_s) else since_s
-            now = None if found is not None else self._now(answer)
-            if now is not None:
-                found = replace(now, index=index)
-            elif timestamp_s - asked_s < self._settings.answer_holds_s and answer.marker in self._markers:
-                self._answers.append((answer, asked_s))
-        return found
+        named: SpotAnswer | None = None
+        for one in waiting:
+            now = self._now(one.answer)
+            if now is None:
+                since_s = timestamp_s if math.isnan(one.since_s) else one.since_s
+                if timestamp_s - since_s < self._settings.answer_holds_s and one.answer.marker in self._markers:
+                    self._answers.append(replace(one, since_s=since_s))
+                continue
+            now = replace(now, index=index)
+            if now.place_px is not None and named is not None:
+                self._answers.append(replace(one, answer=replace(now, not_px=()), since_s=math.nan))
+                now = replace(now, place_px=None)
+            elif now.place_px is not None:
+                named = now
+            if now.not_px or now.place_px is not None:
+                self._add_no_discs(replace(one, answer=now), timestamp_s, expected_px)
+        return named
 
     def _now(self, answer: SpotAnswer) -> SpotAnswer | None:
         """The answer with its spots where they lie in the newest picture; None while the spot it names is not seen."""
@@ -190,12 +220,15 @@ class OperatorHints:
             return None
         return replace(answer, place_px=place, not_px=others)
 
-    def _add_no_discs(self, answer: SpotAnswer, timestamp_s: float, expected_px: Callable[[], FloatArray]) -> None:
+    def _add_no_discs(self, said: _Waiting, time_s: float, expected_px: Callable[[], FloatArray]) -> None:
+        answer = said.answer
         marker = self._markers.index(answer.marker)
         for place in answer.not_px:
             place_px = np.array(place)
             beside_px = place_px - expected_px()[marker]
-            self._no_discs.append(NoDisc(marker, place_px, beside_px, timestamp_s, self._settings))
+            self._no_discs.append(
+                NoDisc(marker, place_px, beside_px, time_s, self._settings, is_asked_again=said.is_asked_again)
+            )
         self._held[marker] = False
         if answer.place_px is None:
             self._taken_up.append(answer)

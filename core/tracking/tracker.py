@@ -229,10 +229,10 @@ class Tracker:
     def is_lost(self) -> bool:
         return self._manager.is_lost
 
-    def hear(self, answer: SpotAnswer) -> None:
+    def hear(self, answer: SpotAnswer, *, is_asked_again: bool = True) -> None:
         """What a person says of the blue spots of a picture shown a moment ago, from the next frame on. To be called
         between frames, where they are tracked."""
-        self._hints.hear(answer)
+        self._hints.hear(answer, is_asked_again=is_asked_again)
 
     def taken_up(self) -> list[SpotAnswer]:
         """The answers that the frames since the last call have taken up, with the spots as they lay there."""

@@ -8,8 +8,12 @@
         <translation>Nicht gehalten: {names}. Berichtigen Sie auch ein Bild kurz danach.</translation>
     </message>
     <message>
-        <source>{count} of {common} pictures differ by more than 2°, most at {time}: {size}.</source>
-        <translation>{count} von {common} Bildern weichen um mehr als 2° ab, am meisten bei {time}: {size}.</translation>
+        <source>Hardly seen any more: {names}. What they show has no value then.</source>
+        <translation>Kaum noch zu sehen: {names}. Was sie zeigen, hat dann keinen Wert.</translation>
+    </message>
+    <message>
+        <source>{count} of {common} pictures differ by more than 2°, most at {time}: {angle}, {size}.</source>
+        <translation>{count} von {common} Bildern weichen um mehr als 2° ab, am meisten bei {time}: {angle}, {size}.</translation>
     </message>
     <message>
         <source>No picture differs by more than 2°.</source>
@@ -20,8 +24,8 @@
         <translation>{count} Bilder haben jetzt einen Winkel, die keinen hatten.</translation>
     </message>
     <message>
-        <source>As measured live: the old result was not looked back at.</source>
-        <translation>Wie live gemessen: Das alte Ergebnis ist nicht nachgerechnet.</translation>
+        <source>As measured live: one of the two was not looked back at.</source>
+        <translation>Wie live gemessen: Eines der beiden ist nicht nachgerechnet.</translation>
     </message>
     <message>
         <source>Close Carpus</source>
@@ -5688,6 +5692,10 @@
         <translation>ein Ordner</translation>
     </message>
     <message>
+        <source>a marker was put beside the picture</source>
+        <translation>ein Marker liegt außerhalb des Bildes</translation>
+    </message>
+    <message>
         <source>a name that is no text</source>
         <translation>ein Name, der kein Text ist</translation>
     </message>
@@ -6006,6 +6014,14 @@
     <message>
         <source>it has no marker {markers}</source>
         <translation>kein Marker {markers}</translation>
+    </message>
+    <message>
+        <source>it has no marker {name}</source>
+        <translation>sie hat keinen Marker {name}</translation>
+    </message>
+    <message>
+        <source>it has no picture {number}</source>
+        <translation>sie hat kein Bild {number}</translation>
     </message>
     <message>
         <source>it holds no frame</source>

@@ -8,8 +8,12 @@
         <translation>Non mantenuti: {names}. Correggere anche un’immagine poco dopo.</translation>
     </message>
     <message>
-        <source>{count} of {common} pictures differ by more than 2°, most at {time}: {size}.</source>
-        <translation>{count} immagini su {common} differiscono di più di 2°, la massima a {time}: {size}.</translation>
+        <source>Hardly seen any more: {names}. What they show has no value then.</source>
+        <translation>Quasi più visibili: {names}. Ciò che mostrano resta senza valore.</translation>
+    </message>
+    <message>
+        <source>{count} of {common} pictures differ by more than 2°, most at {time}: {angle}, {size}.</source>
+        <translation>{count} immagini su {common} differiscono di più di 2°, al massimo a {time}: {angle}, {size}.</translation>
     </message>
     <message>
         <source>No picture differs by more than 2°.</source>
@@ -20,8 +24,8 @@
         <translation>{count} immagini hanno un angolo che prima mancava.</translation>
     </message>
     <message>
-        <source>As measured live: the old result was not looked back at.</source>
-        <translation>Come misurato dal vivo: il vecchio risultato non è stato ricalcolato a posteriori.</translation>
+        <source>As measured live: one of the two was not looked back at.</source>
+        <translation>Come misurato dal vivo: uno dei due non è stato ricalcolato a posteriori.</translation>
     </message>
     <message>
         <source>Close Carpus</source>
@@ -5676,6 +5680,10 @@
         <translation>una cartella</translation>
     </message>
     <message>
+        <source>a marker was put beside the picture</source>
+        <translation>un marcatore è fuori dall’immagine</translation>
+    </message>
+    <message>
         <source>a name that is no text</source>
         <translation>un nome che non è un testo</translation>
     </message>
@@ -5994,6 +6002,14 @@
     <message>
         <source>it has no marker {markers}</source>
         <translation>manca il marcatore {markers}</translation>
+    </message>
+    <message>
+        <source>it has no marker {name}</source>
+        <translation>non ha alcun marcatore {name}</translation>
+    </message>
+    <message>
+        <source>it has no picture {number}</source>
+        <translation>non ha alcuna immagine {number}</translation>
     </message>
     <message>
         <source>it holds no frame</source>

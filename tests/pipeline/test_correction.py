@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import threading
 from contextlib import closing
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,6 +20,7 @@ from carpus.core.hand.protocols import HAND21
 from carpus.core.pipeline import correction
 from carpus.core.pipeline.correction import CorrectionTask, correct, correct_in_process, not_held, task_of, with_places
 from carpus.core.pipeline.track import Learnt, TrackSettings, from_neutral, learnt_from, parameters_json
+from carpus.core.records.corrections import difference
 from carpus.core.session.marker_doubts import (
     CORRECTED,
     Correction,
@@ -26,8 +29,8 @@ from carpus.core.session.marker_doubts import (
     expected_px,
     name_doubt,
 )
-from carpus.core.session.reader import read_session
-from carpus.core.session.values import new_header
+from carpus.core.session.reader import read_detections, read_session
+from carpus.core.session.values import Session, new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.tracker import Tracker
@@ -104,7 +107,7 @@ def test_the_false_spot_is_left_out_and_the_disc_is_taken_from_there_on(stored: 
     distance = np.linalg.norm(taken - stored.false_px, axis=-1)
     assert np.nanmin(distance) > 20.0
     assert np.isfinite(taken[:, MCP3]).all(axis=1).mean() > 0.95
-    assert not_held(session, [put_right(stored)]) == ()
+    assert not_held(session, read_detections(tmp_path / "new.h5"), [put_right(stored)]) == ()
     for motion in (session.motion, session.smoothed):
         assert motion is not None
         error_deg = np.degrees(motion.angles_rad[WRONG_FROM + 10 :]) - stored.truth_deg[WRONG_FROM + 10 :]
@@ -163,7 +166,8 @@ def test_a_name_that_did_not_hold_is_told(stored: Stored, tmp_path: Path) -> Non
     """A person may put a knuckle where no knuckle can be: the tracker does not follow, and it is said."""
     nowhere = Correction(WRONG_FROM, {"MCP3": (40.0, 440.0)})
     correct(task(stored, tmp_path / "new.h5", nowhere))
-    assert not_held(read_session(tmp_path / "new.h5"), [nowhere]) == ("MCP3",)
+    path = tmp_path / "new.h5"
+    assert not_held(read_session(path), read_detections(path), [nowhere]) == ("MCP3",)
 
 
 def test_not_to_be_seen_means_no_spot_is_taken_there(stored: Stored, tmp_path: Path) -> None:
@@ -171,7 +175,7 @@ def test_not_to_be_seen_means_no_spot_is_taken_there(stored: Stored, tmp_path: P
     correct(task(stored, tmp_path / "new.h5", hidden))
     session = read_session(tmp_path / "new.h5")
     assert not np.isfinite(session.markers.measured_px[WRONG_FROM, MCP3]).any()
-    assert not_held(session, [hidden]) == ()
+    assert not_held(session, read_detections(tmp_path / "new.h5"), [hidden]) == ()
     assert np.nanmin(np.linalg.norm(session.markers.measured_px[WRONG_FROM:] - stored.false_px, axis=-1)) > 20.0
 
 
@@ -222,32 +226,81 @@ def test_a_session_without_spots_cannot_be_corrected(stored: Stored, tmp_path: P
 
 
 DIP3 = HAND21.markers.index("DIP3")
-OUT_OF_SIGHT = range(80, 105)
+OUT_OF_SIGHT = range(80, 90)
 
 
-def test_a_spot_that_is_no_disc_of_a_finger_stays_left_out_and_other_fingers_are_as_they_were(tmp_path: Path) -> None:
+@pytest.fixture(scope="module")
+def hand(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A whole hand of which a disc is covered from one picture on, and something blue goes with it."""
     seen = measurement_sequence(RecordingSpec(seed=61, protocol="hand21", motion="abduction", seconds=4.5))
-    hand, neutral_ends_s = measured_hand(seen, CalibrationSettings())
-    assert hand.calibration is not None
-    path, settings, truth = tmp_path / "hand.h5", TrackSettings(), seen.truth
-    learnt = learnt_from(hand.noise, neutral_ends_s, settings.tracker)
+    measured, neutral_ends_s = measured_hand(seen, CalibrationSettings())
+    assert measured.calibration is not None
+    path, settings, truth = tmp_path_factory.mktemp("hand") / "hand.h5", TrackSettings(), seen.truth
+    learnt = learnt_from(measured.noise, neutral_ends_s, settings.tracker)
     header = new_header(
-        hand="right", protocol=hand.calibration.clicks.protocol, software_version="0.1", subject_id="Linden 42",
+        hand="right", protocol=measured.calibration.clicks.protocol, software_version="0.1", subject_id="Linden 42",
         exercise="FINGER_ABDUCTION", parameters=parameters_json(settings, {}, learnt), dip_free=False,
     )  # fmt: skip
-    tracker = Tracker(hand.calibration, truth.camera, learnt.applied(settings.tracker))
+    tracker = Tracker(measured.calibration, truth.camera, learnt.applied(settings.tracker))
     times_s = truth.timestamp_s.tolist()
-    with closing(SessionWriter.create(path, header, truth.camera, hand.calibration)) as writer:
+    with closing(SessionWriter.create(path, header, truth.camera, measured.calibration)) as writer:
         for row in from_neutral(range(len(times_s)), tracker, neutral_ends_s, times_s.__getitem__):
             spots, is_it = seen.detections[row], seen.marker[row] == DIP3
-            if row >= WRONG_FROM:  # the disc is covered, and something blue goes with it
+            if row >= WRONG_FROM:
                 spots = replace(spots, pixel=spots.pixel + np.where(is_it[:, None], (-2.0, 2.0), 0.0))
             writer.append(tracker.step(row, times_s[row], spots.only(~is_it) if row in OUT_OF_SIGHT else spots))
-    before = read_session(path)
+    return path
+
+
+def corrected(hand: Path, output: Path, *corrections: Correction) -> Session:
+    correct(task_of(hand, output, corrections, "2.0"))
+    return read_session(output)
+
+
+def test_a_spot_that_is_no_disc_of_a_finger_stays_left_out_and_other_fingers_are_as_they_were(
+    hand: Path, tmp_path: Path
+) -> None:
+    before = read_session(hand)
     assert np.isfinite(before.markers.measured_px[OUT_OF_SIGHT.stop + 5 :, DIP3]).all()
-    correct(task_of(path, tmp_path / "new.h5", (Correction(WRONG_FROM, {"DIP3": None}),), "2.0"))
-    after = read_session(tmp_path / "new.h5")
+    after = corrected(hand, tmp_path / "new.h5", Correction(WRONG_FROM, {"DIP3": None}))
     assert not np.isfinite(after.markers.measured_px[WRONG_FROM:, DIP3]).any()
     size_deg = np.degrees(np.abs(after.motion.joint_angles_rad - before.motion.joint_angles_rad)).max(axis=0)
     changed = {name for name, size in zip(after.header.joint_names, size_deg, strict=True) if size > 0.1}
     assert changed == {name for name in changed if "3" in name} != set(), size_deg
+    found = difference(before, after)
+    assert found.lost == ("DIP3",)
+    assert "3" in found.most_at
+
+
+def test_all_that_is_said_of_one_picture_holds_from_it_on(hand: Path, tmp_path: Path) -> None:
+    """In one correction or in two; the last that is said of a marker counts."""
+    names = [f"{joint}{finger}" for joint in ("PIP", "DIP") for finger in (2, 3, 4, 5)]
+    place = tuple(read_session(hand).markers.measured_px[WRONG_FROM, DIP3].tolist())
+    several = (
+        Correction(WRONG_FROM, dict.fromkeys(names[:5]) | {"DIP3": place}),
+        Correction(WRONG_FROM, dict.fromkeys(names[5:])),
+    )
+    after = corrected(hand, tmp_path / "new.h5", *several)
+    rows = [HAND21.markers.index(name) for name in names]
+    assert not np.isfinite(after.markers.measured_px[WRONG_FROM : WRONG_FROM + 15, rows]).any()
+    ((said, _),) = corrections_in(after)
+    assert said.places == dict.fromkeys(names)
+    assert not_held(after, read_detections(tmp_path / "new.h5"), [said]) == ()
+
+
+def test_of_a_finger_whose_disc_a_person_shows_nothing_is_believed_but_what_is_seen(hand: Path, tmp_path: Path) -> None:
+    before = read_session(hand)
+    place = tuple(before.markers.measured_px[WRONG_FROM, DIP3].tolist())
+    after = corrected(hand, tmp_path / "new.h5", Correction(WRONG_FROM, {"DIP3": place}))
+    size = np.abs(after.motion.joint_angles_sd_rad - before.motion.joint_angles_sd_rad)[WRONG_FROM]
+    changed = {name for name, one in zip(after.header.joint_names, size, strict=True) if one > 1e-4}
+    assert changed == {name for name in changed if "3" in name} != set(), size
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"row": -1}, {"row": 10_000}, {"places": {"NOSE": None}}, {"places": {"DIP3": (math.nan, 3.0)}}]
+)
+def test_a_correction_of_what_is_not_there_is_refused(hand: Path, tmp_path: Path, wrong: dict[str, Any]) -> None:
+    with pytest.raises(NotCorrectable):
+        corrected(hand, tmp_path / "new.h5", replace(Correction(WRONG_FROM, {"DIP3": None}), **wrong))
+    assert list(tmp_path.iterdir()) == []

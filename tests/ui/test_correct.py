@@ -22,7 +22,7 @@ from carpus.ui.keys import Keys
 from carpus.ui.plot.session import HandPlot
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
-from tests.ui.fakes import FakeCorrections, FakeSessions
+from tests.ui.fakes import FakeCorrections, FakeSessions, session
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 
 ROW = 620
@@ -174,6 +174,27 @@ def test_a_click_without_a_drag_only_chooses(qtbot: QtBot, screen: CorrectScreen
     assert corrections(screen) == ()
     qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=on_screen(screen, np.array([420.0, 120.0])))
     assert corrections(screen)[0].places["MCP5"] == (420.0, 120.0)
+
+
+def test_a_marker_that_was_not_measured_is_put_on_the_spot_that_is_clicked_where_it_is_shown(
+    qtbot: QtBot, screen: CorrectScreen
+) -> None:
+    number = screen.places.markers.index("MCP3")
+    whole = screen.places.session
+    measured_px = whole.markers.measured_px.copy()
+    measured_px[ROW, number] = np.nan
+    screen.places.session = replace(whole, markers=replace(whole.markers, measured_px=measured_px))
+    spot = screen.places.modelled(ROW)[number]
+    screen.picture.spots = np.vstack((screen.picture.spots, spot))
+    drag(qtbot, screen, spot, spot)
+    (one,) = corrections(screen)
+    np.testing.assert_allclose(one.places["MCP3"], spot, atol=6.0)
+
+
+def test_another_session_that_is_shorter_is_shown(qtbot: QtBot, screen: CorrectScreen, background: Background) -> None:
+    screen.begin("session-7", session(seconds=0.5 * ROW / 30.0), ROW // 4)
+    qtbot.waitUntil(lambda: not background.busy)
+    assert screen.row == ROW // 4
 
 
 def test_the_distance_says_which_marker_is_wrong_also_beside_a_wrong_one(sessions: FakeSessions) -> None:

@@ -15,8 +15,10 @@ from carpus.core.records.corrections import Corrections, Difference, Waiting, di
 from carpus.core.results.figures import session_figures
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.marker_doubts import Correction, corrections_in
+from carpus.core.session.reader import read_detections
 from carpus.core.session.values import Session, SessionHeader
 from carpus.ui import numbers, terms
+from carpus.ui.agreement.words import angle_name
 from carpus.ui.background import Background
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
@@ -160,7 +162,7 @@ class CorrectFlow(Flow):
         def read() -> tuple[str, str, BothResults]:
             old, new = self._stored.both(one.session_id, one.trial)
             said = [correction for correction, _ in corrections_in(new)]
-            words = difference_words(difference(old, new), not_held(new, said))
+            words = difference_words(difference(old, new), not_held(new, read_detections(one.trial), said))
             both = BothResults(
                 session_figures(new), session_curves(old), session_curves(new), joint_curves(old), joint_curves(new),
                 max((finger_of(marker) for one in said for marker in one.places), default=0),
@@ -227,13 +229,17 @@ def difference_words(found: Difference, missed: Sequence[str]) -> str:
     if missed:
         names = ", ".join(marker_name(name) for name in missed)
         said.append(tr("Not held: {names}. Correct a picture soon after too.").format(names=names))
+    if found.lost:
+        names = ", ".join(marker_name(name) for name in found.lost)
+        said.append(tr("Hardly seen any more: {names}. What they show has no value then.").format(names=names))
     if found.changed:
-        pattern = tr("{count} of {common} pictures differ by more than 2°, most at {time}: {size}.")
+        pattern = tr("{count} of {common} pictures differ by more than 2°, most at {time}: {angle}, {size}.")
         said.append(
             pattern.format(
                 count=found.changed,
                 common=found.common,
                 time=numbers.clock_tenths(found.at_s),
+                angle=inside(angle_name(found.most_at)),
                 size=numbers.degrees(math.degrees(found.most_rad)),
             )
         )
@@ -242,5 +248,5 @@ def difference_words(found: Difference, missed: Sequence[str]) -> str:
     if found.found:
         said.append(tr("{count} pictures have an angle that had none.").format(count=found.found))
     if found.live:
-        said.append(tr("As measured live: the old result was not looked back at."))
+        said.append(tr("As measured live: one of the two was not looked back at."))
     return " ".join(said)

@@ -88,8 +88,12 @@ class CorrectionPicture(PictureView):
             pixel = self.to_pixel(event.position())
             start = self.places.now(self.row)[self.places.markers.index(name)]
             least = GRAB_PX / 2 / self.scale
-            elsewhere = not np.isfinite(start).all() or np.linalg.norm(pixel - start) > least
-            if elsewhere and np.linalg.norm(pixel - self._pressed) > least:
+            is_placed, is_moved = bool(np.isfinite(start).all()), np.linalg.norm(pixel - self._pressed) > least
+            if is_placed:
+                is_put = bool(is_moved and np.linalg.norm(pixel - start) > least)
+            else:  # shown where the model has it: a click on a spot there puts it on that
+                is_put = bool(is_moved or self._spot_under(pixel) is not None)
+            if is_put:
                 self.dropped.emit(name, pixel)
         self.update()
 
@@ -146,6 +150,13 @@ class CorrectionPicture(PictureView):
         if self._dragged and self._at is not None:
             self._paint_drag(painter, now)
 
+    def _spot_under(self, pixel: FloatArray) -> FloatArray | None:
+        """The blue spot within reach of the pointer."""
+        if not len(self.spots):
+            return None
+        distance = np.linalg.norm(self.spots - pixel, axis=1)
+        return self.spots[int(distance.argmin())] if distance.min() <= GRAB_PX / self.scale else None
+
     def _is_at(self, now: FloatArray, place: FloatArray) -> bool:
         distance = np.linalg.norm(now - place, axis=1)
         return bool(np.isfinite(distance).any()) and float(np.nanmin(distance)) < 3.0
@@ -165,11 +176,8 @@ class CorrectionPicture(PictureView):
     def _paint_drag(self, painter: QPainter, now: FloatArray) -> None:
         assert self._at is not None
         assert self.places is not None
-        at = self._at
-        if len(self.spots):
-            distance = np.linalg.norm(self.spots - at, axis=1)
-            if distance.min() <= GRAB_PX / self.scale:
-                at = self.spots[int(distance.argmin())]
+        spot = self._spot_under(self._at)
+        at = self._at if spot is None else spot
         point = self.to_screen(*map(float, at))
         start = now[self.places.markers.index(self._dragged)]
         if np.isfinite(start).all():

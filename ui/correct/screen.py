@@ -173,11 +173,11 @@ class CorrectScreen(Fitted):
             self._rows.addWidget(line)
         self.picture.clear(self.tr("Reading the picture…"))
         self.picture.set_hand_area(session.calibration.clicks.pixel)
+        self.row = -1
         joint = self._figures.exercise.joint
         self._show_curves(figure_of(joint).finger if joint and self._joints is not None else 0)
         self.scrubber.show_session(float(self._time_s[-1]), self._figures.repetitions, -1)
         self.reader.begin(session_id)
-        self.row = -1
         self.show_row(row)
         self._fit()
         self.setFocus(Qt.FocusReason.OtherFocusReason)

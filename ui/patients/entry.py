@@ -174,7 +174,7 @@ class PatientForm(Sheet):
         elif day is not None and self.onset.value() is None:
             asked = asked or self.tr("Operation or injury?")
             self._asked = self.onset
-        if self._wrong_day() and re.search(r"\d{4}$|^\d{4}\D+\d+\D+\d\d$", self.onset_day.text().strip()):
+        if self._wrong_day() and re.search(r"\D\d{4}$|^\d{4}\D+\d+\D+\d\d$", self.onset_day.text().strip()):
             self._show_fault(self._wrong_day())  # written to its end: told at once, not when the field is left
         self.save.set_face(asked or self._words)
         self.save.setEnabled(not asked)

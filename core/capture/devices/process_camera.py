@@ -299,6 +299,7 @@ class ProcessCamera:
         modes = self._opened.modes
         while True:
             frames: list[Frame] = []
+            is_held = True
             with self._lock:
                 if self._closing.is_set():
                     return
@@ -309,10 +310,12 @@ class ProcessCamera:
                         report.timestamp_us, report.number, self._process.pixels(report, modes[report.sensor])
                     )
                     self._process.free(report)
-                elif isinstance(report, ExposureSet) and not report.done:
-                    self._notice(ExposureNotHeld(self._info.name))
+                elif isinstance(report, ExposureSet):
+                    is_held = report.done
                 elif report is None or isinstance(report, Ended):
                     return
+            if not is_held:
+                self._notice(ExposureNotHeld(self._info.name))
             for frame in frames:
                 self._last_frame_s = time.monotonic()
                 self._hold_again()
