@@ -106,7 +106,7 @@ def try_start(folder: Path) -> None:
     """Start what was packed, and let it make a store: what is read as a file, not imported, may be missing."""
     with tempfile.TemporaryDirectory() as made:
         data, place = Path(made, "data"), Path(made, "backup")
-        data.mkdir()
+        (data / "sessions").mkdir(parents=True)
         program = folder / ("carpus.exe" if WINDOWS else "carpus")
         run(program, "backup", place, env=os.environ | {"CARPUS_DATA": str(data)})
 

@@ -55,12 +55,9 @@ def test_tables_are_read_whole(gallery: Gallery) -> None:
         assert page.verticalScrollBar().maximum() > 0
 
 
-@pytest.mark.parametrize("sizes", [((1280, 720), (1024, 700)), ((1024, 700), (1920, 1080))])
-def test_tables_are_as_high_on_a_window_of_another_size_as_on_one_that_had_it(
-    gallery: Gallery, sizes: tuple[tuple[int, int], ...]
-) -> None:
+def test_tables_are_as_high_on_a_window_made_smaller_as_on_one_that_was_small(gallery: Gallery) -> None:
     heights_px = []
-    for way in (sizes, sizes[-1:]):
+    for way in (((1280, 720), (1024, 700)), ((1024, 700),)):
         gallery.review_hand()
         screen = gallery.shell.stage.currentWidget()
         assert isinstance(screen, ReviewScreen)

@@ -169,14 +169,13 @@ NO_LIMIT_PX = 16_777_215
 
 
 class Fitted(QWidget):
-    """What is on it is fitted to the room whenever that changes: at once, and again when every part has taken its new
-    size."""
+    """What is on it is fitted to the room whenever that changes."""
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self._fit()
-        self._fit_soon()
 
     def _fit_soon(self) -> None:
+        """Again when every part has taken its new size."""
         QTimer.singleShot(0, self, self._fit)
 
     def _fit(self) -> None:
