@@ -56,10 +56,10 @@ def flushed(stream: TextIO) -> OSError | None:
     return None
 
 
-def say(sentence: str) -> None:
+def say(sentence: str, whose: str = "carpus") -> None:
     """One line on standard error, where that can be written."""
     with suppress(OSError):
-        print(f"carpus: {sentence}", file=sys.stderr)
+        print(f"{whose}: {sentence}", file=sys.stderr)
     flushed(sys.stderr)
 
 
@@ -72,9 +72,7 @@ def tell(fault: CarpusFault) -> None:
 
 def misused(command: str, sentence: str) -> int:
     """Wrong usage that no option shows by itself: one line, and the exit code."""
-    with suppress(OSError):
-        print(f"carpus {command}: {sentence}", file=sys.stderr)
-    flushed(sys.stderr)
+    say(sentence, f"carpus {command}")
     return 2
 
 

@@ -154,7 +154,8 @@ def _loaded(asked: str) -> Kernels | None:
 
 def damaged() -> list[Path]:
     """Libraries of this source that are there and not whole."""
-    there = (library(level, digest()) for level in levels())
+    made_of = digest()
+    there = (library(level, made_of) for level in levels())
     return [path for path in there if path.exists() and not is_whole(path)]
 
 

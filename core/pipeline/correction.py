@@ -35,6 +35,7 @@ from carpus.core.pipeline.track import (
 from carpus.core.session.marker_doubts import CORRECTED, SAME_SPOT_PX, Correction, said_of
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.values import DetectionTable, Event, Session
+from carpus.core.tracking.operator_hints import HintSettings, RecentSpots
 from carpus.core.tracking.tracker import Tracker
 from carpus.core.types import BoolArray, Detections, FloatArray, Moment, SpotAnswer, TrackedFrame
 
@@ -112,7 +113,7 @@ def _settings(session: Session) -> TrackSettings:
 
 def not_held(session: Session, table: DetectionTable, corrections: Sequence[Correction]) -> tuple[str, ...]:
     """Markers that the new result, with its spots, does not have where the person put them, nor soon after."""
-    markers = list(session.header.protocol.markers)
+    markers, followed = list(session.header.protocol.markers), HintSettings(step_px=STEP_PX)
     out = []
     for correction in corrections:
         begin = correction.row
@@ -122,22 +123,14 @@ def not_held(session: Session, table: DetectionTable, corrections: Sequence[Corr
             if place is None:
                 held = not np.isfinite(at[0]).all()
             else:
-                followed = _followed(table, range(begin, end), np.array(place))
-                held = bool((np.linalg.norm(at - followed, axis=1) < 0.5).any())  # NaN is not
+                spots, held = RecentSpots(followed), False
+                for row, measured_px in enumerate(at, begin):
+                    spots.keep(row, table.of_frame(row).pixel)
+                    spot_px = spots.now_px(begin, np.array(place))
+                    held |= spot_px is not None and bool(np.linalg.norm(measured_px - spot_px) < followed.same_px)
             if not held:
                 out.append(name)
     return tuple(dict.fromkeys(out))
-
-
-def _followed(table: DetectionTable, rows: range, place_px: FloatArray) -> FloatArray:
-    """Where (n, 2) the spot at a place of the first row is in each, NaN where it is not seen."""
-    out = np.full((len(rows), 2), np.nan)
-    for number, row in enumerate(rows):
-        pixel = table.of_frame(row).pixel
-        away = np.linalg.norm(pixel - place_px, axis=1)
-        if len(pixel) and away.min() <= STEP_PX:
-            out[number] = place_px = pixel[int(away.argmin())]
-    return out
 
 
 class _Retracking:

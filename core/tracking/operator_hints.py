@@ -88,12 +88,13 @@ class NoDisc:
         """Whether what was said of it still counts."""
         if self._is_asked_again:
             return time_s - self._said_s <= self._settings.holds_s
-        self._seen_s = time_s if self._was_seen else self._seen_s
         return time_s - self._seen_s <= self._settings.gone_after_s
 
-    def find(self, pixel: FloatArray, expected_px: FloatArray, held: BoolArray) -> int:
+    def find(self, time_s: float, pixel: FloatArray, expected_px: FloatArray, held: BoolArray) -> int:
         """Which of the spots (D, 2) it is, -1 for none. ``expected_px`` (M, 2) where the markers should be; those
         ``held`` (M,) a moment ago keep the spots that are nearer to them."""
+        if self._was_seen:
+            self._seen_s = time_s
         if not len(pixel):
             self._was_seen = False
             return -1
@@ -238,7 +239,7 @@ class OperatorHints:
         out = np.zeros(len(pixel), dtype=bool)
         self._no_discs = [one for one in self._no_discs if one.holds(timestamp_s)]
         for one in self._no_discs:
-            found = one.find(pixel, expected_px(), self._held)
+            found = one.find(timestamp_s, pixel, expected_px(), self._held)
             if found >= 0:
                 out[found] = True
         return out

@@ -23,6 +23,7 @@ from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import DiskFull
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.measures.change import DEFAULT_LIMITS
+from carpus.core.records.corrections import Difference
 from carpus.core.records.set_up import USUAL_SETS
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
@@ -41,6 +42,7 @@ from carpus.ui.check_card.screen import CardScreen
 from carpus.ui.check_card.words import CameraChecks
 from carpus.ui.clinic.screen import ClinicScreen
 from carpus.ui.controls.sheet import Sheet
+from carpus.ui.correct.flow import difference_words
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.fault_words import fault_words
@@ -591,7 +593,7 @@ class Gallery(GalleryWindow):
         both = BothResults(
             session_figures(new), session_curves(old), session_curves(new), joint_curves(old), joint_curves(new)
         )
-        words = "212 of 1240 pictures differ by more than 2°, most at 00:39.2: 17°."
+        words = difference_words(Difference(1240, 212, 0.3, 39.2, 3, "flexion", ("MCP3",), live=True), ("MCP3",))
         sheet.show_both("Linden 42 · 20 Nov 2026, 11:37 · Wrist flexion–extension, right hand", words, both)
         sheet.begin()
         sheet.curves.set_time(12.0)
