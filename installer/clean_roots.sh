@@ -17,7 +17,7 @@ new_root() {  # SUITE ROOT LOG PACKAGES
             keys=(--keyring="$ubuntu_keyring")
             sources=$(printf 'deb http://archive.ubuntu.com/ubuntu %s main universe\n' "$suite" "$suite-updates") ;;
     esac
-    mmdebstrap "${keys[@]}" --variant=minbase --include="$4" --aptopt="$apt_config" \
+    mmdebstrap "${keys[@]}" --variant=minbase --include="apt,$4" --aptopt="$apt_config" \
         "$suite" "$root" ${sources:+"$sources"} >"$log" 2>&1 || { tail -n 20 "$log"; return 1; }
     cp /etc/hosts "$root/etc/hosts"
     : >"$root/.folders"
