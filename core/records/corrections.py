@@ -13,10 +13,12 @@ import numpy as np
 from carpus.core.durable import make_private
 from carpus.core.errors import OutputNotWritable, SessionUnreadable
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.records.library import Library
+from carpus.core.records.library import Library, as_listed
+from carpus.core.records.of_sessions import change_of
 from carpus.core.records.session_list import TRIALS_FOLDER
 from carpus.core.records.set_up import MARKERS_SUFFIX
-from carpus.core.results.repetition_rows import repetitions_of
+from carpus.core.results.ranges import in_order
+from carpus.core.results.repetition_rows import RepetitionChoices, repetitions_of
 from carpus.core.results.seen import best_motion
 from carpus.core.session.disk import free_name
 from carpus.core.session.reader import read_detections, read_outline, read_session
@@ -85,6 +87,9 @@ class Corrections:
                 with suppress(OSError):
                     path.unlink()
                 continue
+            if self._is_listed(header.session_id):  # decided: a program was killed before the file had its name
+                self.use(header.origin, path)
+                continue
             found.append((header.created, Waiting(header.origin, path)))
         return [one for _, one in sorted(found, key=lambda one: (one[0], one[1].trial))]
 
@@ -108,28 +113,46 @@ class Corrections:
         return read_session(self._library.entry(session_id).path), read_session(trial)
 
     def use(self, session_id: str, trial: Path) -> str:
-        """Take a new result into the patient's list, where it counts from now on; its identity. The old one stays."""
-        library, entry = self._library, self._library.entry(session_id)
-        target = free_name(entry.path)
+        """Take a new result into the patient's list, where it counts from now on; its identity. The old one stays.
+
+        It is listed in one step with what was left out of the old one, and then the file gets its name: a kill leaves
+        all as it was, or what :meth:`waiting` goes on with.
+        """
+        library, new_id = self._library, read_outline(trial).header.session_id
         try:
-            trial.rename(target)
-            beside = entry.path.with_suffix(MARKERS_SUFFIX)
-            if beside.is_file():
-                shutil.copyfile(beside, target.with_suffix(MARKERS_SUFFIX))
-                target.with_suffix(MARKERS_SUFFIX).chmod(0o600)
+            if not self._is_listed(new_id):
+                entry = library.entry(session_id)
+                target = free_name(entry.path)
+                beside = entry.path.with_suffix(MARKERS_SUFFIX)
+                if beside.is_file():
+                    shutil.copyfile(beside, target.with_suffix(MARKERS_SUFFIX))
+                    target.with_suffix(MARKERS_SUFFIX).chmod(0o600)
+                choices = self._that_hold(session_id, trial)
+                also = [change_of(new_id, choices)] if choices is not None else []
+                library.index.enter(target, library.owner(session_id), entry.by, trial, entry.exercise, also)
+                if choices is not None:
+                    library.notes.session("set_aside" if choices.not_counted else "changed", new_id)
+            trial.rename(library.entry(new_id).path)
         except OSError as cause:
-            raise OutputNotWritable(target, cause.strerror or "") from cause
-        new = library.index.enter(target, library.owner(session_id), entry.by)
-        if new.exercise != entry.exercise:
-            library.index.rename_exercise(new.session_id, entry.exercise)
-        with suppress(SessionUnreadable):
-            choices = library.choices(session_id)
-            moved = dict(choices.left_out)
-            if moved:  # pain, help, another exercise: as true of the same moments, and nothing counts again unasked
-                moved = _found_again(moved, library.session(session_id), library.session(new.session_id))
-            if choices.not_counted or moved:  # edges are those of repetitions that are found anew
-                library.keep_choices(new.session_id, replace(choices, left_out=moved, edges_s={}))
-        return new.session_id
+            raise OutputNotWritable(trial, cause.strerror or "") from cause
+        return new_id
+
+    def _is_listed(self, session_id: str) -> bool:
+        with suppress(KeyError):
+            return bool(self._library.index.one(session_id))
+        return False
+
+    def _that_hold(self, session_id: str, trial: Path) -> RepetitionChoices | None:
+        """What was said of the old result and is as true of the new one; None for nothing."""
+        library = self._library
+        choices = library.choices(session_id)
+        moved = dict[int, str]()
+        if choices.left_out:  # pain, help: as true of the same moments, and nothing counts again unasked
+            with suppress(SessionUnreadable):
+                new = in_order(as_listed(read_session(trial), library.entry(session_id)), library.angle_order())
+                moved = _found_again(choices.left_out, library.session(session_id), new)
+        # Edges are those of repetitions that are found anew.
+        return replace(choices, left_out=moved, edges_s={}) if choices.not_counted or moved else None
 
     def drop(self, trial: Path) -> None:
         trial.unlink(missing_ok=True)

@@ -209,7 +209,7 @@ class Library:
 
     def _stored(self, session_id: str) -> Session:
         entry = self.entry(session_id)
-        return _as_listed(read_session(entry.path), entry)
+        return as_listed(read_session(entry.path), entry)
 
     def forget_figures(self, session_id: str) -> None:
         """What was worked out of a session is worked out anew."""
@@ -260,7 +260,7 @@ class Library:
         choices, order = of_sessions.choices(self.store, entry.session_id)[0], self.angle_order()
         known = self._figures.get(entry.path)
         if known is None or known[0] != choices or known[1].angle_order != order:
-            session = in_order(_as_listed(read_session(entry.path), entry), order)
+            session = in_order(as_listed(read_session(entry.path), entry), order)
             known = (choices, session_figures(session, choices, self.error_limits))
             self._figures[entry.path] = known
         return with_trust(known[1], self.folder)
@@ -339,7 +339,7 @@ class Library:
         return None
 
 
-def _as_listed(session: Session, entry: SessionEntry) -> Session:
+def as_listed(session: Session, entry: SessionEntry) -> Session:
     """The session with the exercise that a person said it was; its file is never changed."""
     if session.header.exercise == entry.exercise:
         return session

@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 from sqlalchemy import Row, select
 
-from carpus.core.records.changes import changed, new
+from carpus.core.records.changes import RowChange, changed, new
 from carpus.core.records.schema import COMMENT, CORRECTION, MADE
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import moment
@@ -69,15 +69,20 @@ def keep_choices(store: Store, session_id: str, kept: RepetitionChoices, version
 
     Raises :class:`ChangedMeanwhile` where somebody else was quicker.
     """
+    change = change_of(session_id, kept, version)
+    store.do([change])
+    return int(change.after(version))
+
+
+def change_of(session_id: str, kept: RepetitionChoices, version: int = 0) -> RowChange:
+    """The change that stores them."""
     values = {
         "left_out": json.dumps(kept.left_out, ensure_ascii=False), "edges_s": json.dumps(kept.edges_s),
         "not_counted": int(kept.not_counted), "reason": kept.not_counted_reason,
     }  # fmt: skip
-    change = changed(CORRECTION, session_id, version, **values)
     if not version:
-        change = new(CORRECTION, session_id, session_id=session_id, **values)
-    store.do([change])
-    return int(change.after(version))
+        return new(CORRECTION, session_id, session_id=session_id, **values)
+    return changed(CORRECTION, session_id, version, **values)
 
 
 @dataclass(frozen=True, slots=True)

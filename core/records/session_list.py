@@ -26,7 +26,7 @@ from carpus.core.errors import CarpusFault, FolderMissing, OutputNotWritable, Se
 from carpus.core.names import folded
 from carpus.core.phrase import phrase
 from carpus.core.records import changes
-from carpus.core.records.changes import NOWHERE, PRACTICE, changed, kept, new
+from carpus.core.records.changes import NOWHERE, PRACTICE, Change, changed, kept, new
 from carpus.core.records.patients import Patients, columns
 from carpus.core.records.schema import PATIENT, SEEN, SESSION
 from carpus.core.records.store import Store, new_id
@@ -176,14 +176,27 @@ class ListedSessions:
         make_private(folder)
         return free_path(folder, pseudonym, exercise, hand, when)
 
-    def enter(self, path: Path, patient_id: str, by: str = "") -> SessionEntry:
-        """Take a finished session file into the list. Raises :class:`SessionUnreadable`."""
-        outline = read_outline(path)
+    def enter(
+        self,
+        path: Path,
+        patient_id: str,
+        by: str = "",
+        lies_at: Path | None = None,
+        exercise: str = "",
+        also: Change = (),
+    ) -> SessionEntry:
+        """Take a finished session file into the list, of an ``exercise`` where a person said another, in one step with
+        what is ``also`` to be stored. ``lies_at`` is where it is as long as it has not got its name yet. Raises
+        :class:`SessionUnreadable`."""
+        file = lies_at or path
+        outline = read_outline(file)
         before = self.of_recording(outline.header.recording_id)
         archived = self._row(before[0].session_id).archived if before else ""
-        columns = _columns(self.stored_path(path), patient_id, outline)
-        self._store.do([kept(SESSION, outline.header.session_id, **columns, by=by, archived=archived)])
-        state = path.stat()
+        columns = _columns(self.stored_path(path), patient_id, outline) | {"by": by, "archived": archived}
+        if exercise:
+            columns["exercise"] = exercise
+        self._store.do([kept(SESSION, outline.header.session_id, **columns), *also])
+        state = file.stat()
         self._store.own(*stored({self.stored_path(path): SeenFile(state.st_size, state.st_mtime_ns)}))
         return self.one(outline.header.session_id)
 

@@ -21,6 +21,7 @@ from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import recover
 from carpus.core.records.set_up import MARKERS_SUFFIX
+from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
@@ -164,6 +165,42 @@ def test_a_wanted_result_counts_and_the_old_one_stays(library: Library, stored: 
     assert library.entry(new).exercise == "WRIST_RUD"
     assert library.entry(new).path.with_suffix(MARKERS_SUFFIX).read_bytes() == b"picture"
     assert library.choices(new) == RepetitionChoices(not_counted=True, not_counted_reason="discs lost")
+
+
+class Killed(BaseException):
+    """Stands for a SIGKILL: nothing that comes behind it is done."""
+
+
+@pytest.mark.parametrize(("where", "step"), [(Store, "do"), (Path, "rename")])
+def test_a_kill_leaves_the_older_result_or_the_new_one_with_what_was_left_out(
+    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch, where: type, step: str  # noqa: F811
+) -> None:  # fmt: skip
+    patient, session_id = entered(library, stored)
+    library.keep_choices(session_id, RepetitionChoices(not_counted=True, not_counted_reason="pain"))
+    time.sleep(1.1)  # files say the second in which they were made, and nobody corrects within one
+    trial = made(Corrections(library), session_id, stored)
+
+    def killed(*_: object) -> None:
+        raise Killed
+
+    with monkeypatch.context() as patched:
+        patched.setattr(where, step, killed)
+        with pytest.raises(Killed):
+            Corrections(library).use(session_id, trial)
+    recover(library)
+    listed = [entry.session_id for entry in library.index.of_patient(patient)]
+    later = Corrections(library)
+    if step == "do":
+        assert listed == [session_id]
+        assert later.waiting() == [Waiting(session_id, trial)]
+        later.use(session_id, trial)
+    assert later.waiting() == []
+    assert not trial.exists()
+    (new,) = (entry.session_id for entry in library.sessions(patient))
+    assert new != session_id
+    assert len(library.session(new)) == len(library.session(session_id))
+    assert library.choices(new) == RepetitionChoices(not_counted=True, not_counted_reason="pain")
+    assert len(list(library.folder.rglob("*.h5"))) == 2
 
 
 def test_what_was_left_out_of_the_old_result_does_not_count_in_the_new_one(
