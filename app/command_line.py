@@ -58,9 +58,8 @@ def flushed(stream: TextIO) -> OSError | None:
 
 def say(sentence: str, whose: str = "carpus") -> None:
     """One line on standard error, where that can be written."""
-    with suppress(OSError):
-        print(f"{whose}: {sentence}", file=sys.stderr)
-    flushed(sys.stderr)
+    with suppress(OSError):  # it waits in the stream, and comes once there is room
+        print(f"{whose}: {sentence}", file=sys.stderr, flush=True)
 
 
 def tell(fault: CarpusFault) -> None:
@@ -104,9 +103,7 @@ def bar(what: str, unit: str = "frame") -> Iterator[ShowProgress]:
     seconds = time.monotonic() - begin_s
     if last and seconds >= SPEAK_AFTER_S:
         behind = f", {note_now}" if note_now else ""
-        print(
-            f"carpus: {what}, {last} {unit}s in {seconds:.0f} s, {last / seconds:.3g} a second{behind}", file=sys.stderr
-        )
+        say(f"{what}, {last} {unit}s in {seconds:.0f} s, {last / seconds:.3g} a second{behind}")
 
 
 def on_stop(action: Callable[[], object]) -> None:

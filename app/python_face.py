@@ -241,9 +241,13 @@ def _clicks(where: str, clicks: str | Path | ProposedClicks) -> Clicks:
     return clicks.clicks() if isinstance(clicks, ProposedClicks) else read_clicks(_path(where, "clicks", clicks))
 
 
-def _listed(value: object) -> list[Any]:
-    """One or several; what is no collection, or a single text or path, is one."""
-    return list(value) if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) else [value]
+def _listed(where: str, name: str, value: object) -> list[Any]:
+    """One or several; what is no collection, or a single text or path, is one. Raises :class:`SettingsInvalid` for
+    none."""
+    found = list(value) if isinstance(value, Iterable) and not isinstance(value, (str, bytes)) else [value]
+    if not found:
+        raise SettingsInvalid(where, f"{name} is empty, one at least expected")
+    return found
 
 
 _KINDS: Mapping[Any, str] = {
@@ -441,12 +445,13 @@ def export(
     """Write sessions as csv, json, c3d, trc, mot, bids or h5 into a folder, in which nothing is overwritten.
 
     What could not be written stands in ``refused`` of the answer. Of sessions of a data folder it
-    stands in the log there. Raises ``SettingsInvalid`` for an unknown format.
+    stands in the log there. Raises ``SettingsInvalid`` for an unknown format, no format or no session.
     """
     where = "carpus.export"
     _check(where, "deidentified", deidentified, bool)
-    wanted = [Wanted.stored(_path(where, "sessions", path), read_choices) for path in _listed(sessions)]
-    into, chosen = _path(where, "folder", folder), _listed(formats)
+    paths = [_path(where, "sessions", path) for path in _listed(where, "sessions", sessions)]
+    wanted = [Wanted.stored(path, read_choices) for path in paths]
+    into, chosen = _path(where, "folder", folder), _listed(where, "formats", formats)
     for name in chosen:
         _check(where, "formats", name, Literal[*FORMATS])
     done = export_sessions(wanted, into, chosen, software_version=__version__, deidentified=deidentified)

@@ -9,12 +9,12 @@ from pathlib import Path
 from carpus.app.command_line import say
 from carpus.app.of_file import data_folder_of, library_of
 from carpus.app.settings import load_sound_settings
-from carpus.core.errors import FolderMissing, PatientUnknown, RecordingMissing
+from carpus.core.errors import PatientUnknown, RecordingMissing
 from carpus.core.names import folded, known_names
 from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
-from carpus.core.records.store import is_kept_in
+from carpus.core.records.store import look_for_store
 from carpus.core.session.reader import read_outline
 
 MOST_WAIT_S = 15.0
@@ -36,11 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
     if folder is None:
         say(f"{path} lies in no data folder, so Carpus keeps nothing else of it; delete the file itself.")
         return 1
-    if not folder.is_dir():
-        raise FolderMissing(folder)
-    if not is_kept_in(folder):
-        say(f"{folder} is no data folder; nothing has been deleted.")
-        return 1
+    look_for_store(folder)
     is_file = path.is_file()
     with closing(library_of(folder)) as library:
         library.store.settled(MOST_WAIT_S)  # what others have recorded of the patient goes too

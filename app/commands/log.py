@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import csv
 from pathlib import Path
 
 from carpus.app.command_line import say, tell
 from carpus.app.settings import load_sound_settings, sessions_folder
-from carpus.core.durable import private
-from carpus.core.errors import CarpusFault, FolderMissing, OutputExists, RegisterDamaged
+from carpus.core.errors import CarpusFault, OutputExists, RegisterDamaged
 
 MOST_WAIT_S = 15.0
 """For the clinic's server."""
@@ -23,16 +21,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    from carpus.core.formats.new_output import new_table
     from carpus.core.records.log import read_log
-    from carpus.core.records.store import Store, is_kept_in
+    from carpus.core.records.store import Store, look_for_store
 
     settings, _ = load_sound_settings()
     folder: Path = arguments.data_folder or settings.data_folder
-    if not folder.is_dir():
-        raise FolderMissing(folder)
-    if not is_kept_in(folder):
-        say(f"{folder} is no data folder: it has no log.")
-        return 1
+    look_for_store(folder)
     if arguments.output is not None and arguments.output.exists():
         raise OutputExists(arguments.output)
     own = folder == settings.data_folder
@@ -52,13 +47,12 @@ def run(arguments: argparse.Namespace) -> int:
     for deed in deeds:
         facts = " ".join(f"{name}={value}" for name, value in deed.facts.items())
         when = deed.when.astimezone().isoformat(timespec="seconds")
-        rows.append((deed.number, when, deed.who, deed.by, deed.did, deed.kind, deed.subject, facts))
+        rows.append((f"{deed.number}", when, deed.who, deed.by, deed.did, deed.kind, deed.subject, facts))
     if arguments.output is not None:
-        with open(arguments.output, "x", newline="", encoding="utf-8", opener=private) as file:
-            csv.writer(file).writerows([HEAD, *rows])
+        new_table(arguments.output, HEAD, rows)
         print(f"Written: {arguments.output}")
         return 0
     for number, when, who, by, did, kind, subject, facts in rows:
-        print(f"{number:6d}  {when}  {who or '-':12}  {by:7}  {did:15} {kind} {subject} {facts}".rstrip())
+        print(f"{number:>6}  {when}  {who or '-':12}  {by:7}  {did:15} {kind} {subject} {facts}".rstrip())
     print(f"{len(rows)} lines.")
     return 0

@@ -29,15 +29,13 @@ from carpus.core.errors import (
     BackupPlaceUnsuited,
     BackupUnequal,
     BackupUnreadable,
-    FolderMissing,
-    NoDataFolder,
     OutputBusy,
     OutputExists,
 )
 from carpus.core.phrase import phrase
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.staging import Staged, hold, remove_left_behind
-from carpus.core.records.store import SESSIONS_FOLDER
+from carpus.core.records.store import SESSIONS_FOLDER, look_for_store
 from carpus.core.session import recovery
 from carpus.core.session.disk import is_being_written
 
@@ -183,10 +181,8 @@ def gather(data_folder: Path, place: Path, settings_folder: Path | None, session
     """Everything that a back-up of a data folder holds, the ``sessions`` of a share too. Raises :class:`FolderMissing`,
     :class:`NoDataFolder`, :class:`BackupUnreadable` for a store that cannot be read, :class:`BackupPlaceUnsuited` for a
     place that a link leads into."""
-    if not data_folder.is_dir():
-        raise FolderMissing(data_folder)
-    if not ((data_folder / STORE_FILE).exists() or (data_folder / SESSIONS_FOLDER).exists()):
-        raise NoDataFolder(data_folder)
+    if not (data_folder / SESSIONS_FOLDER).exists():
+        look_for_store(data_folder)
     snapshot, wanted = _of_store(data_folder / STORE_FILE)
     lacking: list[str] = []
     place = _led_to(place)

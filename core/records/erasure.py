@@ -19,7 +19,7 @@ from pathlib import Path
 
 from sqlalchemy import delete, select
 
-from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished, FolderMissing
+from carpus.core.errors import ChangedMeanwhile, ErasureLeadsOut, ErasureUnfinished, FolderMissing
 from carpus.core.names import folded
 from carpus.core.records.changes import PRACTICE, RowChange, changed, dropped, is_identity
 from carpus.core.records.database import STORE_FILE
@@ -99,7 +99,12 @@ def erase(store: Store, plan: ErasurePlan, log: Log) -> int:
     log.note("erase_begun", plan.kind, plan.identity, files=len(plan.files))
     FilesOfSessions(store).take_in(tells=False)
     marked = [changed(SESSION, one.session_id, erasing=1) for one in plan.results]
-    store.do([*marked, *([changed(PATIENT, plan.patient_id, erasing=1)] if plan.kind == "patient" else [])])
+    of = PATIENT if plan.kind == "patient" else SESSION
+    try:
+        store.do([*marked, *([changed(PATIENT, plan.patient_id, erasing=1)] if of is PATIENT else [])])
+    except ChangedMeanwhile:
+        if store.row(select(of.c.id).where(of.c.id == plan.identity)):
+            raise  # else another program has erased it meanwhile, which is what was asked for
     left = go_on(store)
     if left:
         log.note("erase_begun", plan.kind, plan.identity, left=len(left))

@@ -16,7 +16,9 @@ from carpus.core.durable import make_private, make_private_file
 from carpus.core.errors import (
     CarpusFault,
     ErasureUnfinished,
+    FolderMissing,
     LogUnguarded,
+    NoDataFolder,
     PseudonymTaken,
     RegisterBusy,
     RegisterDamaged,
@@ -222,3 +224,11 @@ def new_id() -> str:
 def is_kept_in(folder: Path) -> bool:
     """Whether there is a store in a folder."""
     return (folder / STORE_FILE).is_file()
+
+
+def look_for_store(folder: Path) -> None:
+    """Raises :class:`FolderMissing`, :class:`NoDataFolder` for one without a store: a look makes none."""
+    if not folder.is_dir():
+        raise FolderMissing(folder)
+    if not is_kept_in(folder):
+        raise NoDataFolder(folder)

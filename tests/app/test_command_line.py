@@ -6,6 +6,7 @@ import io
 import json
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -163,6 +164,21 @@ def test_a_full_disk_under_the_messages_changes_no_exit_code(session: Path, tmp_
             words = (*COMMAND, "info", str(path))
             ended = subprocess.run(words, cwd=ROOT, env=buffered(), stdout=PIPE, stderr=full, check=False)
         assert ended.returncode == code
+
+
+def test_what_could_not_be_said_on_a_full_disk_comes_once_there_is_room(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with (tmp_path / "said").open("w", encoding="utf-8", buffering=1) as said:
+        monkeypatch.setattr(sys, "stderr", said)
+        before = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (0, before[1]))
+        try:
+            command_line.say("no room for this")
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        command_line.say("here is room")
+    assert (tmp_path / "said").read_text() == "carpus: no room for this\ncarpus: here is room\n"
 
 
 @pytest.mark.parametrize(("asked", "unbuffered"), [("info SESSION", ""), ("info SESSION", "1"), ("track --help", "")])

@@ -226,6 +226,15 @@ def test_export_and_compare_in_ten_lines(folder: Path, tmp_path: Path) -> None:
     assert (given.reference_later_s, given.was_given, given.drift) == (0.1, True, pytest.approx(0.01))
 
 
+@pytest.mark.parametrize(("sessions", "formats", "name"), [([], "csv", "sessions"), ("s.h5", (), "formats")])
+def test_an_export_of_nothing_is_a_mistake(
+    sessions: str | list[str], formats: str | tuple[str, ...], name: str, tmp_path: Path
+) -> None:
+    with pytest.raises(SettingsInvalid, match=f"{name} is empty"):
+        carpus.export(sessions, tmp_path / "out", formats)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_the_page_of_python_names_every_function_and_its_lines_compile() -> None:
     page = (ROOT / "resources" / "api.md").read_text(encoding="utf-8")
     for name in set(carpus.__all__) - {"__version__"}:

@@ -14,7 +14,14 @@ import h5py
 import pytest
 from sqlalchemy import select, update
 
-from carpus.core.errors import ErasureLeadsOut, ErasureUnfinished, FolderMissing, OutputNotWritable, SessionChanged
+from carpus.core.errors import (
+    ChangedMeanwhile,
+    ErasureLeadsOut,
+    ErasureUnfinished,
+    FolderMissing,
+    OutputNotWritable,
+    SessionChanged,
+)
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.measures.by_hand import HandValue
 from carpus.core.records import database, erasure, of_clinic, of_sessions, patients
@@ -50,6 +57,21 @@ def deeds(house: House) -> list[str]:
 
 def erase_patient(house: House, patient_id: str) -> int:
     return erasure.erase(house.store, erasure.plan_patient(house.store, patient_id), house.log)
+
+
+def test_what_another_program_has_erased_meanwhile_is_erased(house: House) -> None:
+    linden = house.patients.add(LINDEN)
+    session = measure(house, linden, T0)
+    plans = [erasure.plan_patient(house.store, linden), erasure.plan_session(house.store, session)]
+    erase_patient(house, linden)
+    for plan in plans:
+        erasure.erase(house.store, plan, house.log)
+    linden = house.patients.add(LINDEN)
+    session = measure(house, linden, T0)
+    plan = erasure.plan_patient(house.store, linden)
+    erasure.erase(house.store, erasure.plan_session(house.store, session), house.log)
+    with pytest.raises(ChangedMeanwhile):  # the patient is still there
+        erasure.erase(house.store, plan, house.log)
 
 
 def test_a_session_goes_with_its_files_and_rows_and_the_others_stay(folder: Path, house: House) -> None:

@@ -113,11 +113,17 @@ def test_the_command_says_it_and_writes_a_table(tmp_path: Path, command: Command
     assert command("log", "--data-folder", tmp_path, "--output", table).code == 1
 
 
+NOTHING_THERE = (
+    "carpus: There is nothing of Carpus in the folder {}; name the folder that holds the patients; "
+    "carpus doctor says which it is.\n"
+)
+
+
 def test_the_command_makes_no_store_where_none_is(tmp_path: Path, command: Command) -> None:
     tmp_path.chmod(0o755)
-    for words in (("log",), ("erase", "Linden 42")):
+    for words in (("log",), ("erase", "Linden 42"), ("backup", tmp_path.with_name("disk"))):
         done = command(*words, "--data-folder", tmp_path)
-        assert (done.code, "no data folder" in done.err) == (1, True)
+        assert (done.code, done.err) == (1, NOTHING_THERE.format(tmp_path))
     assert (list(tmp_path.iterdir()), tmp_path.stat().st_mode & 0o777) == ([], 0o755)
 
 

@@ -189,6 +189,28 @@ def test_a_report_never_replaces_a_file(tmp_path: Path) -> None:
     assert path.read_bytes() == b"mine"
 
 
+class Killed(BaseException):
+    """Stands for a SIGKILL."""
+
+
+def test_a_kill_leaves_no_half_report_and_the_next_one_is_whole(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    output = tmp_path / "out.pdf"
+
+    def killed(half: Path, _: Path) -> None:
+        assert half.read_bytes().rstrip().endswith(b"%%EOF")
+        raise Killed
+
+    with monkeypatch.context() as patched:
+        patched.setattr("os.link", killed)
+        with pytest.raises(Killed):
+            write_session_report(session(), output)
+    assert not output.exists()
+    write_session_report(session(), output)
+    assert [path.name for path in tmp_path.iterdir()] == ["out.pdf"]
+
+
 def test_a_missing_folder_is_told_and_nothing_is_made(tmp_path: Path) -> None:
     with pytest.raises(OutputNotWritable):
         write_session_report(session(seconds=10.0), tmp_path / "no" / "x.pdf")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import hashlib
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -12,8 +13,8 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, Q
 from PySide6.QtGui import QColor, QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
 
 from carpus.core.calibration.camera.sheet import Disc, PrintedSheet, SheetBox, SheetLine, SheetText
-from carpus.core.durable import private
-from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
+from carpus.core.errors import OutputNotWritable
+from carpus.core.formats.new_output import new_bytes
 from carpus.core.measures.by_hand import HandValue, of_session
 from carpus.core.provenance import said_in, with_revision
 from carpus.core.results.camera_said import CameraSaid
@@ -186,7 +187,10 @@ def _write_pages(output_path: Path, pages: Sequence[tuple[QSizeF | None, Callabl
         painter.end()  # a writer that goes while it is painted on ends the program
     buffer.close()
     del application
-    _store(output_path, bytes(store.data()))
+    if not output_path.parent.is_dir():  # none is made: its name may be misspelt
+        raise OutputNotWritable(output_path, os.strerror(errno.ENOENT))
+    with new_bytes(output_path) as file:
+        file.write(bytes(store.data()))
     return output_path
 
 
@@ -198,19 +202,6 @@ def _layout(size_mm: QSizeF | None) -> QPageLayout:
         else QPageSize(size_mm, QPageSize.Unit.Millimeter, "", QPageSize.SizeMatchPolicy.ExactMatch)
     )
     return QPageLayout(size, QPageLayout.Orientation.Portrait, QMarginsF(0, 0, 0, 0))
-
-
-def _store(path: Path, content: bytes) -> None:
-    try:
-        with open(path, "xb", opener=private) as file:
-            file.write(content)
-    except FileExistsError:
-        raise OutputExists(path) from None
-    except OSError as cause:
-        if cause.errno == errno.ENOSPC:
-            path.unlink(missing_ok=True)
-            raise DiskFull(path, str(cause.strerror)) from cause
-        raise OutputNotWritable(path, str(cause.strerror)) from cause
 
 
 POINTS_PER_MM = 72.0 / 25.4
