@@ -18,7 +18,7 @@ from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.files.tum import TumWriter
 from carpus.core.capture.source import FrameSource, recorded_at
 from carpus.core.dates import iso
-from carpus.core.errors import OutputExists
+from carpus.core.errors import CarpusFault, OutputExists
 from carpus.core.pipeline.recorder import Recorder
 from carpus.core.types import Frame
 
@@ -85,7 +85,12 @@ def run(arguments: argparse.Namespace) -> int:
         count, missed = _recorded(source, recorder, total, live=live)
     finally:
         source.close()
-        recorder.finish()
+        try:
+            recorder.finish()
+        except CarpusFault:
+            if arguments.output.exists():
+                print(f"Cut short: {arguments.output}; what was recorded before can be read.")
+            raise
     print(f"Recording: {arguments.output}\nFrames: {count}, missing {missed}")
     return 0
 

@@ -25,7 +25,7 @@ from carpus.core.depth_sensor import ASSUMED
 from carpus.core.detection.detector import Detector
 from carpus.core.detection.settings import DetectionSettings
 from carpus.core.detection.surface_samples import SamplingSettings, finger_samples, part_read, surface_samples
-from carpus.core.errors import DiskFull, OutputExists, PictureDamaged, RecordingEmpty
+from carpus.core.errors import OutputExists, PictureDamaged, RecordingEmpty
 from carpus.core.papers.chain import PaperSettings, as_written, by_the_discs
 from carpus.core.papers.tracker import PaperTracker
 from carpus.core.phrase import phrase
@@ -514,7 +514,7 @@ def write_tracked(
     notes: Iterable[Event],
 ) -> TrackReport:
     """Store frames as they are tracked, then notes, the smoother's result where wanted, and the repetitions. When it
-    cannot be done nothing half-done is left behind, but for what a full disk took."""
+    cannot be done nothing half-done is left behind."""
     counts = dict.fromkeys(TrackStatus, 0)
     try:
         done = 0
@@ -533,9 +533,6 @@ def write_tracked(
 
             writer.write_repetitions(repetitions_of(writer.read_back()))
         writer.close()
-    except DiskFull:
-        writer.abandon()
-        raise
     except BaseException:
         # The recording is still there: a session cut short would only be taken for a whole one.
         writer.discard()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import resource
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.files.tum import TumFolder, TumWriter, tum_depth
 from carpus.core.capture.source import SourceInfo, is_simulated
-from carpus.core.errors import OutputExists, OutputNotWritable
+from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
 from carpus.core.types import Frame
 from tests.capture.oni_samples import HEIGHT, WIDTH, color_picture, depth_picture
 
@@ -23,6 +24,43 @@ INFO = SourceInfo("Xtion Pro Live", CAMERA, True, None, 30.0)
 
 def frames() -> list[Frame]:
     return [Frame(i, 10.0 + i / 30.0, color_picture(i), None if i == 2 else depth_picture(i), 1e-3) for i in range(5)]
+
+
+def test_a_full_disk_leaves_what_was_recorded_and_nothing_torn(tmp_path: Path) -> None:
+    path = tmp_path / "take"
+    one, two, three, *_ = frames()
+    writer = TumWriter(path, INFO)
+    writer.append_frame(one)
+    writer.append_frame(two)
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, before[1]))
+    try:
+        with pytest.raises(DiskFull):
+            writer.append_frame(three)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        writer.abandon()
+    assert [frame.timestamp_s for frame in TumFolder(path).frames()] == pytest.approx([10.0, 10.0 + 1 / 30.0])
+    listed = (path / "rgb.txt").read_text() + (path / "depth.txt").read_text()
+    assert all(f"{picture.parent.name}/{picture.name}\n" in listed for picture in path.rglob("*.png"))
+
+
+def test_the_list_of_a_full_disk_has_only_whole_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "take"
+    writer = TumWriter(path, INFO)
+    writer.append_frame(frames()[0])
+    before = (path / "rgb.txt").read_bytes()
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    monkeypatch.setattr("carpus.core.capture.files.tum.encode_color", lambda *_, **__: b"picture")
+    resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) + 5, limits[1]))
+    try:
+        with pytest.raises(DiskFull):
+            writer.append_frame(frames()[2])
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        writer.close()
+    assert (path / "rgb.txt").read_bytes() == before
+    assert len(list((path / "rgb").iterdir())) == 1
 
 
 def test_the_reader_gives_the_same_pictures_back(tmp_path: Path) -> None:

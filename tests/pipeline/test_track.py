@@ -20,7 +20,14 @@ from carpus.core.capture.files.pictures import encode_color, encode_depth
 from carpus.core.capture.files.raw import RawRecording, RawWriter
 from carpus.core.capture.files.tum import DEPTH_UNIT_M, TumFolder
 from carpus.core.capture.source import SourceInfo
-from carpus.core.errors import ClickOnNoMarker, OutputExists, PictureDamaged, RecordingEmpty, SessionUnreadable
+from carpus.core.errors import (
+    ClickOnNoMarker,
+    DiskFull,
+    OutputExists,
+    PictureDamaged,
+    RecordingEmpty,
+    SessionUnreadable,
+)
 from carpus.core.pipeline.track import TrackReport, TrackSettings, from_neutral, retrack_session, track_recording
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import RawPictures
@@ -191,12 +198,15 @@ def test_a_click_on_nothing_leaves_nothing_behind(made: Made, tmp_path: Path) ->
     assert list(tmp_path.iterdir()) == []
 
 
-def test_stopping_it_leaves_nothing_behind(made: Made, tmp_path: Path) -> None:
+@pytest.mark.parametrize("why", [KeyboardInterrupt, DiskFull])
+def test_stopping_it_or_a_full_disk_leaves_nothing_behind(why: type[BaseException], made: Made, tmp_path: Path) -> None:
+    """The recording is still there; what a full disk took is given back."""
+
     def stop(done: int, _total: int | None) -> None:
         if done == 20:
-            raise KeyboardInterrupt
+            raise why
 
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(why):
         track(made.folder, made.clicks, tmp_path / "session.h5", progress=stop)
     assert list(tmp_path.iterdir()) == []
 

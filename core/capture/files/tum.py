@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import errno
 import math
+import os
 import shutil
 from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing, suppress
 from dataclasses import dataclass, replace
+from io import FileIO
 from pathlib import Path, PurePath
-from typing import TextIO
 
 import numpy as np
 
@@ -19,11 +20,10 @@ from carpus.core.camera import Camera
 from carpus.core.capture.camera_info import CAMERA_FILE, default_camera, read_camera_info, write_camera_info
 from carpus.core.capture.files.pictures import encode_color, encode_depth, read_color, read_depth
 from carpus.core.capture.source import Notice, SourceInfo, ignore, is_simulated
-from carpus.core.durable import Writing, private
+from carpus.core.durable import Writing, private, write_fault
 from carpus.core.errors import (
     CameraFileUnreadable,
     DepthMissing,
-    DiskFull,
     FirstPictureDamaged,
     OutputExists,
     OutputNotWritable,
@@ -365,25 +365,22 @@ def _camera(folder: Path, width_px: int, height_px: int) -> Camera:
     return camera
 
 
-_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
-
-
 class TumWriter(Writing):
     """Writes one folder. A picture enters its list only when its file is whole, so a crash costs one frame."""
 
     def __init__(self, path: Path, info: SourceInfo) -> None:
         self._path = path
         self._count = 0
-        self._lists: dict[str, TextIO] = {}
+        self._lists: dict[str, FileIO] = {}
         if path.exists():
             raise OutputExists(path)
         try:
             for name, kind in ((COLOR_LIST, "rgb"), (DEPTH_LIST, "depth")):
                 (path / kind).mkdir(parents=True)
-                self._lists[kind] = open(path / name, "x", encoding="utf-8", opener=private)  # noqa: SIM115  # closed by close
+                self._lists[kind] = open(path / name, "xb", 0, opener=private)  # noqa: SIM115  # closed by close
                 remark = f"{SIMULATED_REMARK}\n" if is_simulated(info) else ""
                 remark += "".join(f"{name}{value}\n" for name, value in _said(info) if value)
-                self._lists[kind].write(f"# {kind} pictures of {info.name}\n{remark}# timestamp filename\n")
+                _append(self._lists[kind], f"# {kind} pictures of {info.name}\n{remark}# timestamp filename\n")
         except OSError as cause:
             self.abandon()
             raise OutputNotWritable(path, cause.strerror or "") from cause
@@ -409,7 +406,7 @@ class TumWriter(Writing):
             try:
                 each.close()
             except OSError as cause:
-                raise _write_fault(self._path, cause) from cause
+                raise write_fault(self._path, cause) from cause
 
     def abandon(self) -> None:
         for each in self._lists.values():
@@ -426,10 +423,19 @@ class TumWriter(Writing):
         try:
             with open(self._path / name, "wb", opener=private) as file:
                 file.write(data)
-            self._lists[kind].write(f"{timestamp_s:.6f} {name}\n")
-            self._lists[kind].flush()
+            _append(self._lists[kind], f"{timestamp_s:.6f} {name}\n")
         except OSError as cause:
-            raise _write_fault(self._path, cause) from cause
+            with suppress(OSError):
+                (self._path / name).unlink()  # it may be torn, and is in no list
+            raise write_fault(self._path, cause) from cause
+
+
+def _append(file: FileIO, text: str) -> None:
+    """Write a text at the end, all of it or nothing. Raises OSError."""
+    data, begin = text.encode(), file.tell()
+    if file.write(data) < len(data):
+        file.truncate(begin)
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
 def _said(info: SourceInfo) -> tuple[tuple[str, str], ...]:
@@ -443,7 +449,3 @@ def tum_depth(depth_raw: DepthImage, depth_unit_m: float) -> DepthImage:
         return depth_raw
     counts = np.rint(depth_raw * scale)
     return np.where(counts > np.iinfo(np.uint16).max, 0, counts).astype(np.uint16)
-
-
-def _write_fault(path: Path, cause: OSError) -> DiskFull | OutputNotWritable:
-    return DiskFull(path) if cause.errno in _FULL else OutputNotWritable(path, cause.strerror or "")
