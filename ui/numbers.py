@@ -127,12 +127,18 @@ def day_month(when: date | datetime) -> str:
 def day_beside(when: datetime, *others: datetime) -> str:
     """``13 Nov``, or ``13 Nov, 15:29`` where another session is of the same day."""
     same = any(other != when and other.date() == when.date() for other in others)
-    return f"{day_month(when)}, {when:%H:%M}" if same else day_month(when)
+    return f"{day_month(when)}, {time_beside(when, *others)}" if same else day_month(when)
+
+
+def time_beside(when: datetime, *others: datetime) -> str:
+    """``15:29``, or ``15:29:07`` where another session is of the same minute."""
+    same = any(other != when and f"{other:%Y%j%H%M}" == f"{when:%Y%j%H%M}" for other in others)
+    return f"{when:%H:%M:%S}" if same else f"{when:%H:%M}"
 
 
 def since(when: datetime, now: datetime) -> str:
     """``13 Nov``, or ``15:29`` of the same day: short, for the head of a column."""
-    return f"{when:%H:%M}" if when.date() == now.date() else day_month(when)
+    return time_beside(when, now) if when.date() == now.date() else day_month(when)
 
 
 def room_left(minutes: float) -> str:
@@ -158,9 +164,9 @@ def day_format() -> str:
     return tr("d MMM yyyy")
 
 
-def report_date(when: datetime) -> str:
-    """``20 Nov 2026, 11:36``."""
-    return f"{day_of_year(when)}, {when:%H:%M}"
+def report_date(when: datetime, *others: datetime) -> str:
+    """``20 Nov 2026, 11:36``; to be told from ``others``, by the second where need be."""
+    return f"{day_of_year(when)}, {time_beside(when, *others)}"
 
 
 def days_ago(when: date | datetime, today: date) -> str:

@@ -6,7 +6,9 @@ import shutil
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from datetime import datetime
 from pathlib import Path
+from uuid import uuid4
 
 import numpy as np
 
@@ -21,7 +23,7 @@ from carpus.core.results.ranges import in_order
 from carpus.core.results.repetition_rows import RepetitionChoices, repetitions_of
 from carpus.core.results.seen import best_motion
 from carpus.core.session.disk import free_name
-from carpus.core.session.reader import read_detections, read_outline, read_session
+from carpus.core.session.reader import read_detections, read_outline, read_session, write_anew
 from carpus.core.session.values import DetectionTable, RepetitionRow, Session
 from carpus.core.types import ByteImage, FloatArray
 
@@ -112,7 +114,7 @@ class Corrections:
         """The session and its new result, to be looked at beside each other."""
         return read_session(self._library.entry(session_id).path), read_session(trial)
 
-    def use(self, session_id: str, trial: Path) -> str:
+    def use(self, session_id: str, trial: Path, *, is_copy: bool = False) -> str:
         """Take a new result into the patient's list, where it counts from now on; its identity. The old one stays.
 
         It is listed in one step with what was left out of the old one, and then the file gets its name: a kill leaves
@@ -127,7 +129,7 @@ class Corrections:
                 if beside.is_file():
                     shutil.copyfile(beside, target.with_suffix(MARKERS_SUFFIX))
                     target.with_suffix(MARKERS_SUFFIX).chmod(0o600)
-                choices = self._that_hold(session_id, trial)
+                choices = library.choices(session_id) if is_copy else self._that_hold(session_id, trial)
                 also = [change_of(new_id, choices)] if choices is not None else []
                 library.index.enter(target, library.owner(session_id), entry.by, trial, entry.exercise, also)
                 if choices is not None:
@@ -153,6 +155,14 @@ class Corrections:
                 moved = _found_again(choices.left_out, library.session(session_id), new)
         # Edges are those of repetitions that are found anew.
         return replace(choices, left_out=moved, edges_s={}) if choices.not_counted or moved else None
+
+    def use_again(self, session_id: str) -> str:
+        """Let an older result count again: written once more, with all its choices, it is the newest one; its identity.
+        Raises what reading and writing raise."""
+        trial, made = self.trial_path(session_id), datetime.now().astimezone().isoformat()
+        said = {"session_id": str(uuid4()), "created": made, "origin": session_id}
+        write_anew(self._library.entry(session_id).path, trial, **said)
+        return self.use(session_id, trial, is_copy=True)
 
     def drop(self, trial: Path) -> None:
         trial.unlink(missing_ok=True)

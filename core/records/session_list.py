@@ -32,7 +32,7 @@ from carpus.core.records.schema import PATIENT, SEEN, SESSION
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import AffectedSide, PatientEntry, Rebuilt, SessionEntry, moment
 from carpus.core.session.disk import free_name
-from carpus.core.session.reader import give, read_outline
+from carpus.core.session.reader import read_outline, write_anew
 from carpus.core.session.values import SessionOutline
 from carpus.core.types import Side
 
@@ -215,7 +215,7 @@ class ListedSessions:
         beside = [one for one in entry.path.parent.glob(f"{glob.escape(entry.path.stem)}.*") if one != entry.path]
         made = [path, *(path.with_name(f"{path.stem}{one.name.removeprefix(entry.path.stem)}") for one in beside)]
         try:
-            give(entry.path, path, pseudonym)
+            write_anew(entry.path, path, subject_id=pseudonym)
             for one, other in zip(beside, made[1:], strict=True):
                 _same(one, other)
             size, stored_path = read_outline(path).size_bytes, self.stored_path(path)

@@ -85,9 +85,9 @@ def finish_part(part: Path, when: str) -> Path | None:
     return cast("Path | None", _ask("recover", part, when))
 
 
-def give(path: Path, target: Path, subject_id: str) -> None:
-    """Write a session anew for another patient; as :func:`core.session.rewriting.given`."""
-    _ask("give", path, target, subject_id)
+def write_anew(path: Path, target: Path, **said: str) -> None:
+    """Write a session again with other attributes; as :func:`core.session.rewriting.write_anew`."""
+    _ask("write_anew", path, target, said)
 
 
 class ReadingProcess:

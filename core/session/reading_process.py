@@ -70,7 +70,7 @@ def _questions() -> dict[str, Callable[..., Any]]:
         "raw_color": opened.read_raw_color,
         "recover": rewriting.finish_part,
         "verify": opened.verify,
-        "give": rewriting.given,
+        "write_anew": rewriting.write_anew,
     }
 
 

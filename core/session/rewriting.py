@@ -1,8 +1,10 @@
-"""What the reading process writes: a session cut short is finished, one is written anew for another patient."""
+"""What the reading process writes: a session cut short is finished, one is written anew for another patient or as a
+further result."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 
 import h5py
@@ -106,8 +108,8 @@ def _is_reachable(part: Path) -> bool:
         return False
 
 
-def given(path: Path, target: Path, subject_id: str) -> None:
-    """Write a session as ``target``: all that it says stays, but not a byte of the former name.
+def write_anew(path: Path, target: Path, said: Mapping[str, str]) -> None:
+    """Write a session as ``target`` with other attributes: all else stays, and not a byte of what they said before.
 
     Raises :class:`SessionUnreadable`, :class:`SessionChanged` for one that is not whole, and the faults of writing;
     then nothing is left behind.
@@ -117,7 +119,7 @@ def given(path: Path, target: Path, subject_id: str) -> None:
         part = part_path(target, str(old.attrs["session_id"]))
         try:
             with new_file(part) as file:
-                _copy(old, file, subject_id)
+                _copy(old, file, said)
             with part.open("rb") as written:
                 os.fsync(written.fileno())
             verify(part)
@@ -128,11 +130,11 @@ def given(path: Path, target: Path, subject_id: str) -> None:
             part.unlink(missing_ok=True)
 
 
-def _copy(old: h5py.File, file: h5py.File, subject_id: str) -> None:
+def _copy(old: h5py.File, file: h5py.File, said: Mapping[str, str]) -> None:
     for name in old:
         old.copy(name, file)
-    for name, value in old.attrs.items():
+    for name, value in {**old.attrs, **said}.items():
         if name != ATTRIBUTE:
-            file.attrs[name] = subject_id if name == "subject_id" else value
+            file.attrs[name] = value
     if ATTRIBUTE in old.attrs:
         file.attrs[ATTRIBUTE] = seal_of(file)

@@ -7498,6 +7498,10 @@
 <context>
     <name>AgreementFlow</name>
     <message>
+        <source>result of {when}</source>
+        <translation>Ergebnis vom {when}</translation>
+    </message>
+    <message>
         <source>the session of {when}</source>
         <translation>die Sitzung vom {when}</translation>
     </message>
@@ -8310,6 +8314,10 @@
         <translation>Leer heißt nicht gemessen. Nichts hier ändert einen Wert von Carpus.</translation>
     </message>
     <message>
+        <source>What Carpus has of this day is simulated, and no value.</source>
+        <translation>Was Carpus von diesem Tag hat, ist simuliert und kein Wert.</translation>
+    </message>
+    <message>
         <source>Other measures…</source>
         <translation>Andere Maße…</translation>
     </message>
@@ -8746,7 +8754,11 @@
     </message>
     <message>
         <source>Pain {score} noted</source>
-        <translation>Schmerz {score} vermerkt</translation>
+        <translation type="vanished">Schmerz {score} vermerkt</translation>
+    </message>
+    <message>
+        <source>Pain {score}</source>
+        <translation>Schmerz {score}</translation>
     </message>
     <message>
         <source>Storing…</source>
@@ -8782,7 +8794,7 @@
     </message>
     <message>
         <source>Space</source>
-        <translation>Leertaste</translation>
+        <translation type="vanished">Leertaste</translation>
     </message>
     <message>
         <source>Space · pedal</source>
@@ -10717,6 +10729,10 @@ Umschalt+F8 von der Seite</translation>
         <translation>Welche Hand schreibt?</translation>
     </message>
     <message>
+        <source>Since when? There is no such day</source>
+        <translation>Seit wann? Diesen Tag gibt es nicht</translation>
+    </message>
+    <message>
         <source>Since when? Day, month, year</source>
         <translation>Seit wann? Tag, Monat, Jahr</translation>
     </message>
@@ -11638,6 +11654,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>{result}, counts</source>
         <translation>{result}, zählt</translation>
+    </message>
+    <message>
+        <source>Let this one count</source>
+        <translation>Dieses zählen lassen</translation>
     </message>
 </context>
 <context>

@@ -7498,6 +7498,10 @@
 <context>
     <name>AgreementFlow</name>
     <message>
+        <source>result of {when}</source>
+        <translation>risultato del {when}</translation>
+    </message>
+    <message>
         <source>the session of {when}</source>
         <translation>la seduta: {when}</translation>
     </message>
@@ -8310,6 +8314,10 @@
         <translation>Vuoto significa non misurato. Nulla qui cambia un valore di Carpus.</translation>
     </message>
     <message>
+        <source>What Carpus has of this day is simulated, and no value.</source>
+        <translation>Ciò che Carpus ha di questo giorno è simulato e non è un valore.</translation>
+    </message>
+    <message>
         <source>Other measures…</source>
         <translation>Altre misure…</translation>
     </message>
@@ -8746,7 +8754,11 @@
     </message>
     <message>
         <source>Pain {score} noted</source>
-        <translation>Dolore {score} annotato</translation>
+        <translation type="vanished">Dolore {score} annotato</translation>
+    </message>
+    <message>
+        <source>Pain {score}</source>
+        <translation>Dolore {score}</translation>
     </message>
     <message>
         <source>Storing…</source>
@@ -8782,7 +8794,7 @@
     </message>
     <message>
         <source>Space</source>
-        <translation>Spazio</translation>
+        <translation type="vanished">Spazio</translation>
     </message>
     <message>
         <source>Space · pedal</source>
@@ -10717,6 +10729,10 @@ Maiusc+F8 di lato</translation>
         <translation>Con quale mano scrive?</translation>
     </message>
     <message>
+        <source>Since when? There is no such day</source>
+        <translation>Da quando? Questo giorno non esiste</translation>
+    </message>
+    <message>
         <source>Since when? Day, month, year</source>
         <translation>Da quando? Giorno, mese, anno</translation>
     </message>
@@ -11638,6 +11654,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>{result}, counts</source>
         <translation>{result}, conta</translation>
+    </message>
+    <message>
+        <source>Let this one count</source>
+        <translation>Far contare questo</translation>
     </message>
 </context>
 <context>

@@ -11,6 +11,7 @@ from dataclasses import fields, replace
 from datetime import datetime
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
@@ -201,6 +202,25 @@ def test_a_kill_leaves_the_older_result_or_the_new_one_with_what_was_left_out(
     assert len(library.session(new)) == len(library.session(session_id))
     assert library.choices(new) == RepetitionChoices(not_counted=True, not_counted_reason="pain")
     assert len(list(library.folder.rglob("*.h5"))) == 2
+
+
+def test_an_older_result_counts_again_with_its_choices_until_the_other_one_does(
+    library: Library,
+    stored: Stored,  # noqa: F811
+) -> None:
+    patient, old = entered(library, stored)
+    corrections = Corrections(library)
+    new = corrections.use(old, made(corrections, old, stored))
+    said = RepetitionChoices({0: "pain"}, {1: (1.0, 2.0)})
+    library.keep_choices(old, said)
+    again = corrections.use_again(old)
+    assert [entry.session_id for entry in library.sessions(patient)] == [again]
+    assert [entry.session_id for entry in library.results_of(old)][-1] == again
+    assert library.choices(again) == said
+    assert np.array_equal(library.session(again).motion.angles_rad, library.session(old).motion.angles_rad)
+    assert not np.array_equal(library.session(again).motion.angles_rad, library.session(new).motion.angles_rad)
+    last = corrections.use_again(new)
+    assert [entry.session_id for entry in library.sessions(patient)] == [last]
 
 
 def test_what_was_left_out_of_the_old_result_does_not_count_in_the_new_one(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from datetime import timedelta
 from pathlib import Path
 from types import SimpleNamespace
@@ -93,6 +94,18 @@ def test_only_what_differs_is_entered_and_carpus_leads_nobody(screen: ByHandScre
     assert flexion.fields[0][1].is_empty
     assert screen.form.rows["GRIP"].last.text() == "2 Oct: 34.0 kg"
     assert screen.form.rows["PRWE"].fields[0][1].value() == 46.5, "a score is of the person"
+
+
+def test_where_carpus_has_only_a_simulated_session_that_is_said(screen: ByHandScreen) -> None:
+    figures = max(FakeSessions().history("linden"), key=lambda one: one.when)
+    for simulated in (False, True):
+        shown = (replace(figures, simulated=simulated),)
+        screen.show_record(HandRecord("Linden 42", "right", tuple(hand_values()), shown, "MK"))
+        assert ("47°" in screen.form.rows["FLEXION"].beside.text()) is not simulated
+        assert ("is simulated" in screen.basis.text()) is simulated
+    screen.hand.choose("left")
+    screen.hand.chosen.emit("left")
+    assert "is simulated" not in screen.basis.text(), "the other hand has none"
 
 
 def test_enter_goes_on_nonsense_is_refused_and_the_unusual_is_asked_about(screen: ByHandScreen, qtbot: QtBot) -> None:

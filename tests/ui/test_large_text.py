@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication, QScrollArea, QStyleOptionComboBox, Q
 from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.controls.field import Combo
 from carpus.ui.controls.layouts import ScrollArea
+from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.records.locking import LockSheet
 from carpus.ui.review.screen import ReviewScreen
@@ -67,6 +68,15 @@ def test_tables_are_as_high_on_a_window_made_smaller_as_on_one_that_was_small(ga
         heights_px.append(screen.card.tables.height())
     gallery.shell.resize(1280, 800)
     assert heights_px[0] == heights_px[1]
+
+
+def test_what_must_be_recalled_of_a_patient_has_room_below_a_strip(gallery: Gallery) -> None:
+    gallery.patients_recovered()
+    gallery.settle()
+    screen = gallery.shell.stage.currentWidget()
+    assert isinstance(screen, PatientsScreen)
+    assert screen.card._recall.height() >= screen.card._why.geometry().bottom()
+    assert screen.card.height() >= screen.card.minimumSizeHint().height()
 
 
 def test_no_finger_loses_the_end_of_its_name(gallery: Gallery) -> None:

@@ -23,6 +23,7 @@ from carpus.core.measures.signals import even_signal
 from carpus.core.pipeline.live_values import StartMode
 from carpus.core.types import Detections, TrackedFrame, TrackStatus
 from carpus.ui.live import recording as live_recording
+from carpus.ui.live.controls import HEIGHT_PX, LightView
 from carpus.ui.live.counting import RunningCount
 from carpus.ui.live.doubt import Doubt, SteadyDoubt, doubt_lamp, doubt_of
 from carpus.ui.live.light import Lamp, SteadyLight, lamp_for
@@ -33,7 +34,7 @@ from carpus.ui.plot.history import KEPT_S, History
 from carpus.ui.plot.live_curves import LiveCurves
 from carpus.ui.theme import Theme
 from tests.moments import with_moment
-from tests.ui.conftest import Live
+from tests.ui.conftest import Live, Show
 from tests.ui.fakes import FakeFeed, FakeMeasuring, LateFeed, with_other_spot
 from tests.ui.live_tried import TriedLive
 
@@ -208,6 +209,20 @@ def test_large_text_on_a_small_screen_keeps_what_is_read_from_afar(live: Live, t
     screen = tried.screen
     shown = [part.isVisible() for part in (screen.path, screen.number, screen.controls.light)]
     assert shown == [False, True, True]
+
+
+@pytest.mark.parametrize(("width", "scale"), [(620, 1.0), (430, 1.5)])
+def test_the_light_is_read_whole_however_narrow_it_is(
+    theme: Theme, show: Show[LightView], width: int, scale: float
+) -> None:
+    theme.choose(text_scale=scale)
+    light = show(LightView(theme))
+    light.show_lamp(Lamp("warn", "Mittelfinger-Grundgelenk verdeckt", "Drehen Sie den Handrücken zur Kamera"))
+    room = QRectF(106, 4, width - 118, theme.px(HEIGHT_PX) - 8)
+    (_, _, state), (_, _, remedy) = light._placed(room)
+    assert room.contains(state)
+    assert room.contains(remedy)
+    assert not state.intersects(remedy)
 
 
 def test_pain_of_ten_is_typed_and_escape_closes_the_card(qtbot: QtBot, live: Live) -> None:

@@ -252,8 +252,12 @@ def test_the_sheet_for_home_asks_in_the_window_and_goes_back(
     wanted = []
     screen.home_wanted.connect(wanted.append)
     screen.begin(asked[0].report, "")
+    screen.show()
+    before = screen.save_button.geometry()
     with qtbot.waitSignal(screen.saved):
         screen.save(str(tmp_path / "report"))
+    qtbot.waitUntil(screen.where.isVisible)
+    assert screen.save_button.geometry() == before, "what was pressed stays where it was"
     screen.home_button.click()
     assert wanted == [asked[0].report]
     screen.begin(asked[0], "")

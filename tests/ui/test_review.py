@@ -5,22 +5,26 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from datetime import datetime
+from pathlib import Path
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from pytestqt.qtbot import QtBot
 
+from carpus.core.records.values import SessionEntry
 from carpus.core.results.progress import Progress
 from carpus.ui.background import Background
+from carpus.ui.controls.button import Button
 from carpus.ui.keys import Keys
-from carpus.ui.numbers import day_beside, day_month
+from carpus.ui.numbers import day_beside, day_month, report_date, since, time_beside
 from carpus.ui.plot.course import panels_of
 from carpus.ui.plot.export import picture
 from carpus.ui.plot.series import Series
 from carpus.ui.plot.session import thinned
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.progress.words import headline
+from carpus.ui.review.card import ResultChoice
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
@@ -234,3 +238,30 @@ def test_sessions_of_one_day_are_told_apart_by_their_time() -> None:
     assert day_beside(first, second) == f"{day_month(first)}, 09:05"
     assert day_beside(first, first) == day_month(first)
     assert day_beside(first, datetime(2026, 11, 20, 9, 5)) == day_month(first)
+
+
+def test_sessions_of_one_minute_are_told_apart_by_their_second() -> None:
+    first, second = datetime(2026, 11, 21, 9, 5, 7), datetime(2026, 11, 21, 9, 5, 41)
+    assert day_beside(first, second) == f"{day_month(first)}, 09:05:07"
+    assert since(first, second) == "09:05:07"
+    assert report_date(second, first) == f"{report_date(second)}:41"
+    assert time_beside(first, first, datetime(2025, 11, 21, 9, 5, 41)) == "09:05"
+
+
+def test_an_older_result_is_told_by_its_time_and_can_count_again(
+    qtbot: QtBot, theme: Theme, show: Show[ResultChoice]
+) -> None:
+    made = [datetime(2026, 11, 21, 9, 5), datetime(2026, 11, 21, 15, 29)]
+    results = [
+        SessionEntry(name, Path(name), made[0], when, "r", "WRIST_FE", "right", 10, 1.0, complete=True)
+        for name, when in zip("ab", made, strict=True)
+    ]
+    choice = show(ResultChoice(theme))
+    choice.show_results(results, "b")
+    assert [button.text() for button in choice.buttons] == ["1 · 21 Nov, 09:05", "2 · 21 Nov, 15:29, counts"]
+    assert len(choice.findChildren(Button)) == 2, "what counts needs no button to count"
+    choice.show_results(results, "a")
+    again = next(one for one in choice.findChildren(Button) if one.text() == "Let this one count")
+    with qtbot.waitSignal(choice.wanted) as asked:
+        again.click()
+    assert asked.args == ["a"]

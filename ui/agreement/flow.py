@@ -100,11 +100,17 @@ class AgreementFlow(Flow):
         own, results = library.entry(self._session_id), library.index.of_patient(patient.patient_id)
         others = [one for one in results if one.session_id != self._session_id and one.hand == own.hand]
         others.sort(key=lambda one: one.recording_id != own.recording_id)
-        return [(one.session_id, self._words_of(one, own)) for one in others]
+        return [(one.session_id, self._words_of(one, own, results)) for one in others]
 
-    def _words_of(self, entry: SessionEntry, own: SessionEntry) -> str:
-        words = f"{numbers.report_date(entry.recorded)} · {terms.exercise_name(entry.exercise)}"
-        return f"{words} · {self.tr('same recording')}" if entry.recording_id == own.recording_id else words
+    def _words_of(self, entry: SessionEntry, own: SessionEntry, results: Sequence[SessionEntry]) -> str:
+        when = numbers.report_date(entry.recorded, *(one.recorded for one in results))
+        words = [when, terms.exercise_name(entry.exercise)]
+        if entry.recording_id == own.recording_id:
+            words.append(self.tr("same recording"))
+        made = [one.created for one in results if one.recording_id == entry.recording_id]
+        if len(made) > 1:
+            words.append(self.tr("result of {when}").format(when=numbers.report_date(entry.created, *made)))
+        return " · ".join(words)
 
     def _take_session(self, session_id: str) -> None:
         entry = self.context.library.entry(session_id)

@@ -81,7 +81,7 @@ class BesideFlow(Flow):
         entries = self.context.library.sessions(patient.patient_id) if patient and patient.patient_id else ()
         first, second = self.screen.ids
         others = [entry for entry in entries if entry.session_id not in (first, second)]
-        what = {entry.session_id: _entry_words(entry) for entry in entries}
+        what = {entry.session_id: _entry_words(entry, entries) for entry in entries}
         self.sheet.begin(
             self.tr("With which session?"),
             self.tr("{session} stays.").format(session=what.get(first, self.tr("The first one"))),
@@ -106,11 +106,10 @@ class BesideFlow(Flow):
             )
 
 
-def _entry_words(entry: SessionEntry) -> str:
+def _entry_words(entry: SessionEntry, entries: Sequence[SessionEntry]) -> str:
     """``20 Nov 2026, 11:37 · Wrist flexion–extension · Right hand``."""
-    return " · ".join(
-        (numbers.report_date(entry.recorded), terms.exercise_name(entry.exercise), terms.hand_name(entry.hand))
-    )
+    when = numbers.report_date(entry.recorded, *(other.recorded for other in entries))
+    return " · ".join((when, terms.exercise_name(entry.exercise), terms.hand_name(entry.hand)))
 
 
 HEAD = (

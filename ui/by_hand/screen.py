@@ -187,7 +187,9 @@ class ByHandScreen(Fitted):
         self.title.setText(self.tr("Measured by hand, {day}").format(day=numbers.short_date(self.day_shown)))
         by = self.tr("By {initials}.").format(initials=self.record.initials) if self.record.initials else ""
         words = self.tr("Empty means not measured. Nothing here changes a figure of Carpus.")
-        self.basis.setText(f"{by} {words}".strip())
+        simulated = any(one.simulated and (one.side, one.when.date()) == self._shown for one in self.record.figures)
+        why = self.tr("What Carpus has of this day is simulated, and no value.") if simulated else ""
+        self.basis.setText(" ".join(filter(None, (by, words, why))))
         shown = self.chart.measure.id if self.chart.measure else ""
         self._show_course(shown if shown in self.form.rows else next(iter(self.form.rows)))
         self._fill_changes()

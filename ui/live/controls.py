@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
@@ -50,7 +50,7 @@ class Controls(Surface):
         self.pain.set_face(self.tr("Pain"), icon="")
 
     def noted_pain(self, score: int) -> None:
-        self.pain.set_face(self.tr("Pain {score} noted").format(score=score), icon="check")
+        self.pain.set_face(self.tr("Pain {score}").format(score=score), icon="check")
 
     def say_storing(self, words: str = "") -> None:
         """It was stopped: that it is stored, or how long it takes until all that waits is tracked."""
@@ -75,7 +75,7 @@ class Controls(Surface):
             words = self.tr("Stop and go on") if follows else self.tr("Stop and review")
         elif recording.left_s:
             words = self.tr("Starts in {seconds}: not yet").format(seconds=recording.left_s)
-        hint = self.tr("Space") if self._tight else self.tr("Space · pedal")
+        hint = "" if self._tight else self.tr("Space · pedal")
         self.main.set_face(words, icon="square" if runs else "", hint=hint)
 
 
@@ -87,13 +87,8 @@ BANDS = {
     "idle": ("sunken", "text2", "text2", "border", "sunken"),
 }
 """Ground, state word, remedy, icon body, icon sign."""
-
-
-def _fitting(text: str, size: float, least: float, weight: int, room: float) -> QFont:
-    """The largest font down to the unscaled size with which a text fits: it must be read whole."""
-    while size > least and QFontMetricsF(font(size, weight)).horizontalAdvance(text) > room:
-        size -= 1
-    return font(size, weight)
+WRAPPED = int(Qt.TextFlag.TextWordWrap)
+SHARES = [0.95 - 0.05 * step for step in range(10)]
 
 
 class LightView(QWidget):
@@ -125,27 +120,34 @@ class LightView(QWidget):
         icon = QRectF(34, (self.height() - size) / 2, size, size)
         paint_state(painter, "open" if self.lamp.rank == "idle" else self.lamp.rank, icon, color(body), color(sign))
         left = icon.right() + 18
-        room = self.width() - left - 12
-        state_face = _fitting(self.lamp.state, 28 * scale, 22, SEMIBOLD, room)
-        remedy_face = _fitting(self.lamp.remedy, 20 * scale, 16, MEDIUM, room)
-        state_width = QFontMetricsF(state_face).horizontalAdvance(self.lamp.state)
-        remedy_width = QFontMetricsF(remedy_face).horizontalAdvance(self.lamp.remedy)
-        beside = left + state_width + 18 + remedy_width <= self.width() - 12
-        middle = self.height() / 2
-        baseline = middle + 10 * scale if beside else middle - 3 * scale
-        remedy_at = QPointF(left + state_width + 18, baseline) if beside else QPointF(left, middle + 24 * scale)
-        if not beside and remedy_width > room:  # what is to be done is read whole, on two lines
-            large, high = QFontMetricsF(state_face), 2 * QFontMetricsF(remedy_face).lineSpacing()
-            baseline = middle - (large.height() + high) / 2 + large.ascent()
-            below = QRectF(left, baseline + large.descent(), room, high)
-        else:
-            below = QRectF()
-        painter.setFont(state_face)
-        painter.setPen(color(word))
-        painter.drawText(QPointF(left, baseline), self.lamp.state)
-        painter.setFont(remedy_face)
-        painter.setPen(color(remedy))
-        if below.isEmpty():
-            painter.drawText(remedy_at, self.lamp.remedy)
-        else:
-            painter.drawText(below, int(Qt.TextFlag.TextWordWrap), self.lamp.remedy)
+        room = QRectF(left, 4, self.width() - left - 12, self.height() - 8)
+        for (text, face, place), ink in zip(self._placed(room), (word, remedy), strict=True):
+            painter.setFont(face)
+            painter.setPen(color(ink))
+            painter.drawText(place, WRAPPED, text)
+
+    def _placed(self, room: QRectF) -> list[tuple[str, QFont, QRectF]]:
+        """State and remedy: on one line where that holds both, else one above the other, as large as there is room to
+        read them whole."""
+        (state, large, _), (remedy, small, _) = above = self._above(room, 1.0)
+        upper, lower = QFontMetricsF(large), QFontMetricsF(small)
+        beside = upper.horizontalAdvance(state) + 18
+        if beside + lower.horizontalAdvance(remedy) <= room.width():
+            baseline = room.center().y() + 10 * self._theme.text_scale
+            left = room.translated(0, baseline - upper.ascent() - room.top())
+            return [(state, large, left), (remedy, small, left.translated(beside, upper.ascent() - lower.ascent()))]
+        for share in SHARES:
+            if all(room.contains(place) for *_, place in above):
+                break
+            above = self._above(room, share)
+        return above
+
+    def _above(self, room: QRectF, share: float) -> list[tuple[str, QFont, QRectF]]:
+        """Both one above the other in the middle, in such a share of their size."""
+        placed, size = [], share * self._theme.text_scale
+        for text, face in ((self.lamp.state, font(28 * size, SEMIBOLD)), (self.lamp.remedy, font(20 * size, MEDIUM))):
+            placed.append((text, face, QFontMetricsF(face).boundingRect(room, WRAPPED, text)))
+        (*_, upper), (*_, lower) = placed
+        upper.moveTop(room.center().y() - (upper.height() + lower.height()) / 2)
+        lower.moveTop(upper.bottom())
+        return placed

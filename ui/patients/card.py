@@ -23,6 +23,7 @@ from carpus.ui.tour.bubble import BubbleView
 from carpus.ui.verdicts import change_since_first, counted_once_words, verdict_token
 
 PHOTO_FROM_PX, WHY_PX = 600, 100
+LEAST_RECALL_PX = 92
 RECALL_BY_GUIDE_FROM_PX = 440
 
 
@@ -89,7 +90,8 @@ class PatientCardView(Card):
         )  # fmt: skip
 
     def _make_room(self) -> None:
-        """With large text the guide's sentence goes before what is recalled."""
+        """With large text the guide's sentence goes before what is recalled, of which never less than why is seen."""
+        self._recall.setMinimumHeight(self._theme.px(LEAST_RECALL_PX))
         self._recall.setVisible(self.bubble.isHidden() or self.height() >= self._theme.px(RECALL_BY_GUIDE_FROM_PX))
 
     def resizeEvent(self, event: QResizeEvent) -> None:

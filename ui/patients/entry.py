@@ -27,6 +27,8 @@ if TYPE_CHECKING:  # it reads and writes files
     from carpus.ui.patients.flow import PatientShelf
 
 NOTE_HEIGHT_PX = 84
+WHOLE_DAY = re.compile(r"\d\d?\D+\d\d?\D+(?:(?:19|20)\d\d|\d\d)|(?:19|20)\d\d\D+\d\d?\D+\d\d?")
+"""Day, month and year are there: where that is no day, there is none such."""
 
 
 class PatientForm(Sheet):
@@ -188,8 +190,11 @@ class PatientForm(Sheet):
         typed = self.onset_day.text().strip()
         if not typed or self._day() is not None:
             return ""
-        to_come = numbers.day_typed(typed) is not None
-        return self.tr("Since when? It is yet to come") if to_come else self.tr("Since when? Day, month, year")
+        if numbers.day_typed(typed) is not None:
+            return self.tr("Since when? It is yet to come")
+        if WHOLE_DAY.fullmatch(typed):
+            return self.tr("Since when? There is no such day")
+        return self.tr("Since when? Day, month, year")
 
     def _too_long(self) -> str:
         """Which line has no room in the store; nothing that is typed is ever cut."""

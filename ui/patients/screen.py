@@ -17,7 +17,7 @@ from carpus.ui import numbers, terms
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import KeyCaps, Line
 from carpus.ui.controls.field import SearchField
-from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line, page
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text, heading
 from carpus.ui.patients.card import PatientCardView
 from carpus.ui.patients.entry import PatientForm
@@ -105,11 +105,11 @@ class PatientsScreen(QWidget):
         policy.setRetainSizeWhenHidden(True)  # the search field keeps its width while nobody is found
         self.card.setSizePolicy(policy)
         columns = in_line((self._left, 824), (self.card, 384), gap=MARGIN_PX)
-        page = in_column(self.notice_place, (columns, 1), gap=GAP_PX, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, 12))
+        whole = in_column(self.notice_place, (columns, 1), gap=GAP_PX, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, 12))
         keys = [("↑ ↓", self.tr("choose")), (self.tr("Enter"), self.tr("start")), ("F1", self.tr("help"))]
         legal = Text(theme, terms.LEGAL_SENTENCE, 12, REGULAR, "text2", wrap=True)
         foot = in_line((legal, 1), KeyCaps(theme, keys), gap=32, margins=(MARGIN_PX, 6, MARGIN_PX, 6))
-        in_column((page, 1), Line(theme), foot, gap=0, margins=(0, 0, 0, 0), within=self)
+        in_column((page(whole), 1), Line(theme), foot, gap=0, margins=(0, 0, 0, 0), within=self)
 
     def _connect(self) -> None:
         self.search.installEventFilter(self)

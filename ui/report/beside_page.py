@@ -101,10 +101,13 @@ def _curves(report: BesideReport) -> list[Quantity]:
 
 
 def _paint_facts(page: Page, report: BesideReport, top: float) -> float:
+    made = [figures.when for figures in report.sessions]
     pairs = [
         (
             name,
-            tr("{hand}, {date}").format(hand=terms.hand_name(figures.side), date=numbers.report_date(figures.when)),
+            tr("{hand}, {date}").format(
+                hand=terms.hand_name(figures.side), date=numbers.report_date(figures.when, *made)
+            ),
         )
         for name, figures in zip((tr("First, solid"), tr("Second, dashed")), report.sessions, strict=True)
     ]

@@ -89,7 +89,6 @@ class ReportScreen(QWidget):
         fill(
             card.body,
             self.state,
-            self.where,
             self.bubble,
             self.save_button,
             self.print_button,
@@ -97,6 +96,7 @@ class ReportScreen(QWidget):
             self.home_button,
             self.back_button,
             self.open_button,
+            self.where,  # what comes with the saved file pushes no button away
         )
         self.pages = Text(self._theme, "", 14, REGULAR, "text2", wrap=True)
         fill(card.body, self.pages, 8, self.panel)

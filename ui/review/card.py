@@ -218,9 +218,11 @@ class ResultTables(ScrollArea):
 
 
 class ResultChoice(QWidget):
-    """``chosen`` carries the identity of another result. Hidden while there is one only; the newest counts."""
+    """``chosen`` carries the identity of another result, ``wanted`` that of an older one that is to count again. Hidden
+    while there is one only; the newest counts."""
 
     chosen = Signal(str)
+    wanted = Signal(str)
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -235,8 +237,10 @@ class ResultChoice(QWidget):
         self.buttons = []
         if len(results) > 1:
             self._row.addWidget(Text(self._theme, self.tr("Results of this recording"), 14, MEDIUM))
+            made = [result.created for result in results]
             for number, result in enumerate(results, 1):
-                words = self.tr("{number} · {day}").format(number=number, day=numbers.short_date(result.created))
+                day = numbers.day_beside(result.created, *made)
+                words = self.tr("{number} · {day}").format(number=number, day=day)
                 if number == len(results):
                     words = self.tr("{result}, counts").format(result=words)
                 button = Button(self._theme, words, "well", height_px=32)
@@ -246,5 +250,9 @@ class ResultChoice(QWidget):
                 button.clicked.connect(lambda _=False, one=result: self.chosen.emit(one.session_id))
                 self._row.addWidget(button)
                 self.buttons.append(button)
+            if results[-1].session_id != current:
+                again = Button(self._theme, self.tr("Let this one count"), "quiet", height_px=32)
+                again.clicked.connect(lambda: self.wanted.emit(current))
+                self._row.addWidget(again)
             self._row.addStretch(1)
         self.setVisible(len(results) > 1)

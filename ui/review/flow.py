@@ -6,6 +6,7 @@ from pathlib import Path
 
 from carpus.core.formats.film import write_film, write_picture
 from carpus.core.hand.exercises import exercise_named
+from carpus.core.records.corrections import Corrections
 from carpus.ui.check_card.standing_words import unsure_words
 from carpus.ui.export.flow import Exporting
 from carpus.ui.flow import Flow, ScreenContext
@@ -30,6 +31,7 @@ class ReviewFlow(Flow):
         screen.beside.connect(lambda one, other: way.show("beside", one, other, screen.charts.number))
         screen.correct.connect(lambda *where: way.show("correct", *where))
         screen.result.connect(self.show)
+        screen.result_wanted.connect(self._use_again)
         screen.charts.curves.menu.saved.connect(lambda path: self.note_made([path], [context.now.session_id]))
 
     def show(self, session_id: str = "", patient_id: str = "") -> None:
@@ -50,6 +52,13 @@ class ReviewFlow(Flow):
         self.screen.begin(now.patient.patient_id, session_id, may_repeat=may_repeat, whole_hand=protocol.has_fingers)
         self.screen.charts.curves.menu.start_folder = self.context.places.folder("exports")
         self.context.way.go("review")
+
+    def _use_again(self, session_id: str) -> None:
+        def show(new: str) -> None:
+            if self.context.now.session_id == session_id and self.context.way.place == "review":
+                self.show(new)
+
+        self.run(lambda: Corrections(self.context.library).use_again(session_id), show)
 
     def sign_lines(self) -> list[str]:
         figures = self.screen.figures

@@ -39,7 +39,7 @@ class ReviewScreen(Fitted):
     """``report`` and ``export`` carry the session's identity, ``beside`` with it that of the session to be held against
     it; ``told`` a fault; ``again`` asks for another set; ``arrived`` when a session is on the screen; ``correct``
     carries the session and the row whose markers are to be put right, ``result`` another result of the recording,
-    ``film`` a repetition to be written as a film."""
+    ``result_wanted`` one that is to count again, ``film`` a repetition to be written as a film."""
 
     report = Signal(str)
     beside = Signal(str, str)
@@ -47,6 +47,7 @@ class ReviewScreen(Fitted):
     again = Signal()
     correct = Signal(str, object, int)
     result = Signal(str)
+    result_wanted = Signal(str)
     film = Signal(FilmWanted)
     told = Signal(object)
     arrived = Signal()
@@ -110,6 +111,7 @@ class ReviewScreen(Fitted):
         card.count_button.clicked.connect(self.toggle_counted)
         card.beside_wanted.connect(lambda other: self.beside.emit(self._session_id, other))
         card.tables.results.chosen.connect(self.result)
+        card.tables.results.wanted.connect(self.result_wanted)
 
     def _bind(self, keys: Keys) -> None:
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

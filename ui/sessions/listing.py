@@ -68,9 +68,9 @@ def remark(line: SessionLine) -> str:
     return "" if line.complete else tr("cut short")
 
 
-def cells(line: SessionLine) -> tuple[str, str, str, str, str]:
-    """The texts of a row; what is not known yet is empty."""
-    day = f"{numbers.short_date(line.when)} {line.when:%H:%M}"
+def cells(line: SessionLine, lines: Sequence[SessionLine] = ()) -> tuple[str, str, str, str, str]:
+    """The texts of a row, which is told from the other ``lines``; what is not known yet is empty."""
+    day = f"{numbers.short_date(line.when)} {numbers.time_beside(line.when, *(other.when for other in lines))}"
     what = f"{terms.exercise_name(line.exercise)}, {inside(terms.side_name(line.side))}"
     return day, what, line.figure, line.counted, remark(line) or line.not_sure or line.corrected.rstrip(".")
 
@@ -120,7 +120,7 @@ class SessionModel(QAbstractListModel):
         line = self.lines[index.row()]
         if role in (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.AccessibleTextRole):
             ticked = self.tr("ticked") if line.session_id in self.ticked else ""
-            return ", ".join(part for part in (*cells(line), ticked) if part)
+            return ", ".join(part for part in (*cells(line, self.lines), ticked) if part)
         return line if role == Qt.ItemDataRole.UserRole else None
 
 
@@ -152,7 +152,7 @@ class SessionRowPainter(QStyledItemDelegate):
         painter.setPen(QPen(theme.color("line"), 1))
         painter.drawLine(int(box.left()) + 20, int(box.bottom()), int(box.right()) - 20, int(box.bottom()))
         self._paint_tick(painter, box, ticked=line.session_id in self._model.ticked)
-        texts = cells(line)
+        texts = cells(line, self._model.lines)
         rooms = _rooms(box, theme, remarked=bool(texts[4]))
         for number, text in enumerate(texts):
             face = font((16 if number == 2 else 14) * theme.text_scale, MEDIUM)

@@ -17,7 +17,7 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import ScrollArea, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.keys import Keys, bind
-from carpus.ui.sessions.listing import SessionLine, SessionList, remark
+from carpus.ui.sessions.listing import SessionLine, SessionList, cells, remark
 from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
 from carpus.ui.theme import MARGIN_PX, Theme
 
@@ -176,7 +176,7 @@ class SessionsScreen(QWidget):
         self.what.setText(terms.exercise_name(line.exercise))
         self.figure.setText(line.figure or ("–" if line.damaged else self.tr("Reading…")))
         facts = (
-            f"{numbers.short_date(line.when)} {line.when:%H:%M}", terms.hand_name(line.side),
+            cells(line, self.list.rows.lines)[0], terms.hand_name(line.side),
             numbers.clock(line.duration_s), line.counted_words, line.corrected.rstrip("."),
         )  # fmt: skip
         self.facts.setText(" · ".join(fact for fact in facts if fact))
