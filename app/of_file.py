@@ -54,9 +54,9 @@ def read_choices(path: Path) -> RepetitionChoices:
     if folder is None:
         return RepetitionChoices()
     from carpus.core.records.of_sessions import choices
-    from carpus.core.records.store import Store
+    from carpus.core.records.store import reading
 
-    with Store(folder) as store:
+    with reading(folder) as store:
         return choices(store, read_outline(path).header.session_id)[0]
 
 
@@ -66,9 +66,9 @@ def read_comment(path: Path) -> str:
     if folder is None:
         return ""
     from carpus.core.records.of_sessions import comments, latest
-    from carpus.core.records.store import Store
+    from carpus.core.records.store import reading
 
-    with Store(folder) as store:
+    with reading(folder) as store:
         return latest(comments(store, read_outline(path).header.session_id))
 
 
@@ -134,6 +134,7 @@ def made(sessions: Sequence[tuple[Path, str]], files: Sequence[Path], kind: Made
                 remember_made(store, files, kind, [session_id for _, session_id in own])
         except CarpusFault as fault:
             tell(fault)
+            continue
         for path, session_id in own:
             note("reported" if kind == "report" else "exported", path, session_id)
 

@@ -8,10 +8,10 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus import __version__
-from carpus.app.command_line import ask_passphrase, bar
-from carpus.app.of_file import note_in
+from carpus.app.command_line import ask_passphrase, bar, tell
+from carpus.app.of_file import initials, note_in
 from carpus.app.settings import load_sound_settings, sessions_folder, settings_folder
-from carpus.core.errors import BackupMissing, OutputExists
+from carpus.core.errors import BackupMissing, CarpusFault, OutputExists
 
 EXAMPLE = """carpus backup /media/backup
 carpus backup /media/stick/carpus.tar.age --sealed
@@ -32,6 +32,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from carpus.core.records.backup import back_up, backups, compare, thin_out
+    from carpus.core.records.log import Log
     from carpus.core.records.of_clinic import note_backup
     from carpus.core.records.store import Store
 
@@ -64,9 +65,12 @@ def run(arguments: argparse.Namespace) -> int:
             progress=progress,
         )
     thin_out(place, settings.backup.keep, settings.backup.months, datetime.now().astimezone())
-    with Store(folder) as store:
-        note_backup(store, made.made, str(place), made.sessions, made.size_bytes)
-    note_in(folder, "backed_up", "everything", sessions=made.sessions)
+    try:
+        with Store(folder) as store:
+            note_backup(store, made.made, str(place), made.sessions, made.size_bytes)
+            Log(store, "command", initials).note("backed_up", "everything", sessions=made.sessions)
+    except CarpusFault as fault:  # of a folder that can only be read: the back-up is made all the same
+        tell(fault)
     print(f"{made.name}: {made.sessions} sessions, {made.size_bytes / 1e6:.1f} MB, read back and compared: all equal.")
     if made.running:
         print(f"Not in it: {made.running} recordings that are running.")

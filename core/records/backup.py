@@ -31,9 +31,10 @@ from carpus.core.errors import (
     BackupUnreadable,
     OutputBusy,
     OutputExists,
+    RegisterUnreadable,
 )
 from carpus.core.phrase import phrase
-from carpus.core.records.database import STORE_FILE
+from carpus.core.records.database import STORE_FILE, copied
 from carpus.core.records.staging import Staged, hold, remove_left_behind
 from carpus.core.records.store import SESSIONS_FOLDER, look_for_store
 from carpus.core.session import recovery
@@ -179,8 +180,8 @@ def backup_of(
 
 def gather(data_folder: Path, place: Path, settings_folder: Path | None, sessions: Path | None = None) -> BackupSources:
     """Everything that a back-up of a data folder holds, the ``sessions`` of a share too. Raises :class:`FolderMissing`,
-    :class:`NoDataFolder`, :class:`BackupUnreadable` for a store that cannot be read, :class:`BackupPlaceUnsuited` for a
-    place that a link leads into."""
+    :class:`NoDataFolder`, :class:`RegisterUnreadable` for a store that cannot be read, :class:`BackupPlaceUnsuited` for
+    a place that a link leads into."""
     if not (data_folder / SESSIONS_FOLDER).exists():
         look_for_store(data_folder)
     snapshot, wanted = _of_store(data_folder / STORE_FILE)
@@ -417,16 +418,12 @@ def _of_store(path: Path) -> tuple[bytes, list[str]]:
     """The store as it is between two transactions, whoever has it open, and the paths of the sessions that it knows."""
     if not path.exists():
         return b"", []
-    try:
-        with (
-            contextlib.closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=rw", uri=True, timeout=30.0)) as old,
-            contextlib.closing(sqlite3.connect(":memory:")) as new,
-        ):
-            old.backup(new)
-            wanted = [str(one) for (one,) in new.execute("SELECT path FROM session WHERE erasing = 0")]
-            return new.serialize(), wanted
-    except sqlite3.Error as cause:
-        raise BackupUnreadable(path, str(cause)) from cause
+    with contextlib.closing(copied(path)) as copy:
+        try:
+            wanted = [str(one) for (one,) in copy.execute("SELECT path FROM session WHERE erasing = 0")]
+        except sqlite3.Error as cause:
+            raise RegisterUnreadable(path, str(cause)) from cause
+        return copy.serialize(), wanted
 
 
 class SourceFails(Exception):

@@ -12,6 +12,7 @@ from typing import Any
 
 from sqlalchemy import Connection, create_engine, event, inspect, select
 from sqlalchemy.exc import DBAPIError
+from sqlalchemy.pool import StaticPool
 
 from carpus.core.durable import make_private_file
 from carpus.core.errors import DiskFull, OutputNotWritable, RegisterBusy, RegisterDamaged, RegisterUnreadable
@@ -24,6 +25,9 @@ SMALL_BYTES = 64 << 20
 met where it is."""
 BUSY_MS = 5000
 """How long one program waits for another."""
+CANNOT_WRITE = (sqlite3.SQLITE_READONLY, sqlite3.SQLITE_CANTOPEN)
+READ_AGAIN = 3
+COPY_TIMEOUT_S = 30.0
 _MIGRATING = threading.Lock()
 """Alembic keeps the migration that runs in globals of its own: one at a time in a process."""
 
@@ -36,12 +40,16 @@ class Database:
     where waiting does not help, :class:`OutputNotWritable`, :class:`DiskFull`.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, copy: sqlite3.Connection | None = None) -> None:
+        """``copy`` in memory, of :func:`copied`, where the file cannot be written: what is changed in it is lost."""
         self._path, self._writing = path, threading.RLock()
-        make_private_file(path)
-        self._engine = create_engine(
-            f"sqlite:///{path}", connect_args={"isolation_level": None, "timeout": BUSY_MS / 1e3}
-        )
+        if copy is None:
+            make_private_file(path)
+            self._engine = create_engine(
+                f"sqlite:///{path}", connect_args={"isolation_level": None, "timeout": BUSY_MS / 1e3}
+            )
+        else:
+            self._engine = create_engine("sqlite://", creator=lambda: copy, poolclass=StaticPool)
         event.listen(self._engine, "connect", _prepare)
         event.listen(self._engine, "begin", _begin)
         try:
@@ -102,7 +110,7 @@ class Database:
             code = getattr(said, "sqlite_errorcode", 0) & 0xFF
             if code == sqlite3.SQLITE_FULL:
                 raise DiskFull(self._path) from cause
-            if code in (sqlite3.SQLITE_READONLY, sqlite3.SQLITE_CANTOPEN):
+            if code in CANNOT_WRITE:
                 raise OutputNotWritable(self._path, str(said)) from cause
             if code in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB):
                 raise RegisterDamaged(self._path, str(said)) from cause
@@ -111,6 +119,47 @@ class Database:
             if code == sqlite3.SQLITE_IOERR:
                 raise RegisterUnreadable(self._path, str(said)) from cause
             raise
+
+
+def copied(path: Path) -> sqlite3.Connection:
+    """A store in memory, as it is between two transactions, whoever has it open; also of a folder that cannot be
+    written, in which SQLite opens none. Raises :class:`RegisterUnreadable` and its kinds."""
+    copy = sqlite3.connect(":memory:", isolation_level=None, check_same_thread=False)
+    try:
+        try:
+            uri = f"{path.absolute().as_uri()}?mode=rw"
+            with contextlib.closing(sqlite3.connect(uri, uri=True, timeout=COPY_TIMEOUT_S)) as store:
+                store.backup(copy)
+        except sqlite3.Error as cause:
+            if getattr(cause, "sqlite_errorcode", 0) & 0xFF not in CANNOT_WRITE:
+                raise
+            copy.deserialize(_as_it_lies(path))
+        if copy.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
+            raise RegisterDamaged(path, phrase("damaged"))
+    except (sqlite3.Error, OSError) as cause:
+        copy.close()
+        raise RegisterUnreadable(path, str(cause)) from cause
+    return copy
+
+
+def _as_it_lies(path: Path) -> bytes:
+    """All of a store whose file cannot be written.
+
+    SQLite's own ``immutable`` would go on reading a file that another computer writes. Here the whole file is read
+    twice: nobody wrote in it where both are equal and no journal was there before nor is behind, for one is there as
+    long as pages are written. Raises :class:`RegisterBusy` where it is not so, OSError.
+    """
+    for _ in range(READ_AGAIN):
+        is_written = _has_journal(path)
+        content, again = path.read_bytes(), path.read_bytes()
+        if content == again and not is_written and not _has_journal(path):
+            return content[:18] + b"\1\1" + content[20:]  # the mark of a write-ahead log would ask for one
+    raise RegisterBusy(path, phrase("its folder cannot be written"))
+
+
+def _has_journal(path: Path) -> bool:
+    journals = (path.with_name(path.name + tail) for tail in ("-wal", "-journal"))
+    return any(one.exists() and one.stat().st_size for one in journals)
 
 
 def up_to_date(connection: Connection, name: Path | str) -> bool:

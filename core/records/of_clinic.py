@@ -26,7 +26,7 @@ from carpus.core.errors import ChangedMeanwhile
 from carpus.core.names import folded
 from carpus.core.records.changes import PRACTICE, changed, dropped, kept, new
 from carpus.core.records.schema import BACKUP, DIAGNOSIS, OWN, PATIENT, RECIPIENT, REPORT_FORM, SESSION
-from carpus.core.records.store import Store, is_kept_in, new_id
+from carpus.core.records.store import Store, is_kept_in, new_id, reading
 from carpus.core.records.values import WEEKS, ClinicWeek, Counted, DueTest, moment
 from carpus.core.results.report_form import Letterhead, Paper, ReportForm
 from carpus.core.types import Side
@@ -116,7 +116,7 @@ def form_in(folder: Path) -> ReportForm:
     """The form of a data folder, for a command."""
     if not is_kept_in(folder):
         return ReportForm()
-    with Store(folder) as store:
+    with reading(folder) as store:
         return read_form(store)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sqlite3
 import time
 import uuid
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
@@ -19,6 +20,7 @@ from carpus.core.errors import (
     FolderMissing,
     LogUnguarded,
     NoDataFolder,
+    OutputNotWritable,
     PseudonymTaken,
     RegisterBusy,
     RegisterDamaged,
@@ -28,7 +30,7 @@ from carpus.core.errors import (
 )
 from carpus.core.phrase import phrase
 from carpus.core.records.changes import PRACTICE, Change, forget, is_practice, is_shared, lay_out, make, new
-from carpus.core.records.database import STORE_FILE, Database, rescue, set_aside
+from carpus.core.records.database import STORE_FILE, Database, copied, rescue, set_aside
 from carpus.core.records.schema import PATIENT
 from carpus.core.records.staging import hold
 
@@ -59,18 +61,22 @@ class Store:
         sessions_folder: Path | None = None,
         url: str = "",
         tell: Callable[[CarpusFault], None] = lambda _: None,
+        copy: sqlite3.Connection | None = None,
     ) -> None:
+        """``copy``: of a folder that cannot be written, for :func:`reading`."""
         self.folder = folder
         self.sessions_folder = sessions_folder or folder / SESSIONS_FOLDER
         self.on_share = self.sessions_folder != folder / SESSIONS_FOLDER
         """Whether the sessions lie in a folder of several computers, which is never made here and keeps its rights."""
-        make_private(folder)
-        if not self.on_share:
-            make_private(self.sessions_folder)
+        if copy is None:
+            make_private(folder)
+            if not self.on_share:
+                make_private(self.sessions_folder)
         self._tell, self._unsound = tell, set[str]()
         self.told: list[CarpusFault] = []
         """What was found when the store was opened."""
-        self._database = self._opened(folder / STORE_FILE)
+        path = folder / STORE_FILE
+        self._database = self._opened(path) if copy is None else Database(path, copy)
         if self._database.was_unguarded:
             self.told.append(LogUnguarded(folder / STORE_FILE))
         if self._database.is_new and not url and not self.told and self._has_sessions():
@@ -196,6 +202,14 @@ class Store:
     def leave_no_trace(self) -> bool:
         """Bring what was taken out to the disk as taken out; whether it is."""
         return self._database.leave_no_trace()
+
+
+def reading(folder: Path) -> Store:
+    """The store of a folder for who only reads: also of one that cannot be written. Raises the faults of a store."""
+    try:
+        return Store(folder)
+    except OutputNotWritable:
+        return Store(folder, copy=copied(folder / STORE_FILE))
 
 
 @contextmanager

@@ -19,6 +19,7 @@ from carpus.app.of_file import read_choices, read_comment
 from carpus.app.settings import settings_folder
 from carpus.core.errors import OutputNotWritable
 from carpus.core.records.changes import changed
+from carpus.core.records.database import STORE_FILE
 from carpus.core.records.keeping import Records
 from carpus.core.records.kept_sets import last_set_up
 from carpus.core.records.library import Library
@@ -143,6 +144,30 @@ def test_progress_is_of_whom_the_list_says_without_the_archive(
     assert counted("Linden 42") == expected
     assert command("progress", "all").code == 1
     assert library.sessions(heron) == []
+
+
+def test_a_folder_that_can_only_be_read_is_backed_up_and_reported(
+    library: Library, command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    session = store(library, set_up(linden, "Linden 42"))
+    path = library.entry(session).path
+    library.keep_comment(session, "went well")
+    library.close()
+
+    def refuses(folder: Path) -> None:
+        raise OutputNotWritable(folder, "Read-only file system")
+
+    monkeypatch.setattr("carpus.core.records.store.make_private", refuses)
+    before = (library.folder / STORE_FILE).read_bytes()
+    for words in (
+        ("report", path, "--output", tmp_path / "r.pdf"),
+        ("backup", "--data-folder", library.folder, tmp_path / "b"),
+    ):
+        done = command(*words)
+        assert (done.code, done.err.count("\n"), "Read-only file system" in done.err) == (0, 1, True), done.err
+    assert (read_comment(path), (tmp_path / "r.pdf").exists()) == ("went well", True)
+    assert (library.folder / STORE_FILE).read_bytes() == before
 
 
 def test_an_erasing_that_was_cut_short_is_told_as_finished(library: Library, command: Command) -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import json
+import sqlite3
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
@@ -17,6 +19,8 @@ from carpus.core.errors import (
     NoDataFolder,
     OutputBusy,
     OutputExists,
+    RegisterBusy,
+    RegisterUnreadable,
 )
 from carpus.core.records import backup as module
 from carpus.core.records.backup import (
@@ -33,6 +37,7 @@ from carpus.core.records.backup import (
     restore,
     thin_out,
 )
+from carpus.core.records.database import STORE_FILE
 from carpus.core.records.staging import remove_left_behind
 from carpus.core.session.writer import SessionWriter
 from tests.records.samples import LINDEN, T0, measure, opened
@@ -64,6 +69,41 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 def restored(place: Path, made: Backup, target: Path, settings: Path | None = None) -> None:
     restore(made, content_of(place), target, settings_folder=settings).put_in_place(NOW)
+
+
+@pytest.mark.parametrize("trouble", ["", "a journal", "another computer writes", "damaged"])
+def test_of_a_folder_that_can_only_be_read_there_is_a_backup_unless_somebody_writes_in_it(
+    trouble: str, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    connect, read_bytes, store, numbers = sqlite3.connect, Path.read_bytes, data / STORE_FILE, itertools.count()
+
+    def only_reads(name: str, **options: Any) -> sqlite3.Connection:
+        if "mode=rw" in name:
+            fault = sqlite3.OperationalError("unable to open database file")
+            fault.sqlite_errorcode = sqlite3.SQLITE_CANTOPEN
+            raise fault
+        return connect(name, **options)
+
+    def read(path: Path) -> bytes:
+        content = read_bytes(path)
+        return content + b"%d" % next(numbers) if path == store and trouble == "another computer writes" else content
+
+    if trouble == "a journal":
+        store.with_name(f"{STORE_FILE}-wal").write_bytes(b"what was written last")
+    if trouble == "damaged":
+        store.write_bytes(store.read_bytes()[:5000])
+    monkeypatch.setattr(sqlite3, "connect", only_reads)
+    monkeypatch.setattr(Path, "read_bytes", read)
+    if trouble:
+        with pytest.raises(RegisterUnreadable) as told:
+            back_up(data, tmp_path / "place", software_version="1")
+        assert isinstance(told.value, RegisterBusy) == (trouble != "damaged")
+        return
+    made = back_up(data, tmp_path / "place", software_version="1")
+    monkeypatch.undo()
+    restored(tmp_path / "place", made, tmp_path / "again")
+    with opened(tmp_path / "again") as house:
+        assert house.names() == [LINDEN.pseudonym]
 
 
 def kept_on(data: Path, place: Path, *days: int) -> list[Backup]:
