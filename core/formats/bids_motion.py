@@ -48,9 +48,11 @@ class BidsChannel(NamedTuple):
 
 
 def check(folder: Path) -> None:
-    """Raise :class:`OutputExists` where a data set is already: its tables would have to be changed."""
-    if (folder / DESCRIPTION).exists():
-        raise OutputExists(folder / DESCRIPTION)
+    """Raise :class:`OutputExists` where a data set is already, or what a killed export left of one: its tables would
+    have to be changed, and a session would be there twice."""
+    for there in (folder / DESCRIPTION, *folder.glob("sub-*")):
+        if there.exists():
+            raise OutputExists(there)
 
 
 def write(take: Take, folder: Path) -> list[Path]:

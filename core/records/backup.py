@@ -260,9 +260,9 @@ def compare(place: Path, backup: Backup, progress: Progress = lambda _done, _tot
 
 
 def thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
-    """Keep the newest ``keep`` back-ups and the newest of each month for so many months; how many were taken away,
-    with every content that no back-up needs. Nothing is touched that a link leads to, nor what is no content, nor
-    anything while a back-up into the place runs."""
+    """Keep the newest ``keep`` back-ups and the newest of each month for so many months; how many were taken away.
+    Every content that no back-up needs goes, and what a killed one left. Nothing is touched that a link leads to, nor
+    what is no content, nor anything while a back-up into the place runs."""
     with contextlib.suppress(OutputBusy), _alone(place):
         return _thin_out(place, keep, months, now)
     return 0
@@ -278,7 +278,9 @@ def _thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
     gone = [one for one in there if one.name not in kept]
     for one in gone:
         (place / BACKUPS / f"{one.name}.json").unlink(missing_ok=True)
-    if gone and not _unreadable(place):
+    for path in (place / BACKUPS).glob(".*.json.new"):
+        path.unlink(missing_ok=True)
+    if not _unreadable(place):
         needed = {one.sha256 for backup in backups(place) for one in backup.files}
         for path in _objects(place):
             if path.name not in needed:

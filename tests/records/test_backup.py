@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import json
 import sqlite3
+import uuid
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
@@ -375,6 +376,19 @@ def test_fewer_files_than_the_store_knows_is_no_success(data: Path, tmp_path: Pa
     (made,) = backups(tmp_path / "disk")
     assert made.lacking == int(told.value.detail)
     assert "set_ups.json" in {one.path for one in made.files}, "all else is in it"
+
+
+def test_what_a_killed_back_up_left_goes_with_the_next(data: Path, tmp_path: Path) -> None:
+    place = tmp_path / "place"
+    made = back_up(data, place, software_version="1", now=NOW)
+    left = [place / OBJECTS / f".{uuid.uuid4().hex}", place / BACKUPS / f".{made.name}-2.json.new"]
+    for path in left:
+        path.write_bytes(b"half")
+    again = back_up(data, place, software_version="1", now=NOW + timedelta(hours=1))
+    assert thin_out(place, 9, 9, NOW) == 0
+    assert not any(path.exists() for path in left)
+    for one in (made, again):
+        compare(place, one)
 
 
 def test_thinning_out_touches_nothing_that_a_link_leads_to(data: Path, tmp_path: Path) -> None:
