@@ -19,6 +19,7 @@ from carpus.ui.correct.places import Places
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.keys import Keys
+from carpus.ui.plot.compared import OLD_SHARE, ComparedHandPlot, ComparedPlot
 from carpus.ui.plot.session import HandPlot
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
@@ -247,6 +248,18 @@ def test_the_results_are_shown_of_the_finger_that_was_corrected(qtbot: QtBot, th
     for finger, opens_on in ((4, 4), (0, 1)):
         sheet.show_both("", "", replace(both, finger=finger))
         assert sheet.finger.value() == opens_on
+
+
+def test_old_and_new_curves_differ_in_width_also_where_both_are_predicted() -> None:
+    session = hand_session(hidden=[(4.0, 5.0, "TIP3")])
+    curves, joints = session_curves(session), joint_curves(session)
+    shown = (curves, session_figures(session).exercise, ())
+    hand = ComparedHandPlot(*shown, joints=joints, finger=3, old=joints)
+    for drawn in (ComparedPlot(*shown, old=curves).moving(1, 400), hand.moving(0, 400)):
+        old, new = drawn[: len(drawn) // 2], drawn[len(drawn) // 2 :]
+        assert {curve.share for curve in old} == {OLD_SHARE}
+        assert {curve.share for curve in new} == {1.0}
+    assert any(0 < curve.series.predicted.sum() < len(curve.series.predicted) for curve in old), "as it was predicted"
 
 
 def test_each_picture_is_corrected_by_itself(qtbot: QtBot, screen: CorrectScreen) -> None:

@@ -140,11 +140,9 @@ def _legend(theme: Theme) -> QWidget:
     legend = QWidget()
     legend.setAccessibleName(", ".join(legend_words()))
     row = in_line(gap=6, margins=(0, 0, 0, 0), within=legend)
-    for words, token, dashes_px in zip(legend_words(), (OLD_TOKEN, "curve_a"), ((8, 8, 8), (36,)), strict=True):
-        for dash_px in dashes_px:
-            stroke = Surface(theme, token)
-            stroke.setFixedSize(dash_px, 2)
-            row.addWidget(stroke)
-        fill(row, Text(theme, words, 14, MEDIUM), 16)
+    for words, token, width_px in zip(legend_words(), (OLD_TOKEN, "curve_a"), (1, 3), strict=True):
+        stroke = Surface(theme, token)
+        stroke.setFixedSize(36, width_px)
+        fill(row, stroke, Text(theme, words, 14, MEDIUM), 16)
     row.addStretch(1)
     return legend

@@ -1,4 +1,4 @@
-"""Two results of one recording over each other: the old one grey and dashed, the new one as always."""
+"""Two results of one recording over each other: the old one grey and thin, the new one as always."""
 
 from __future__ import annotations
 
@@ -14,12 +14,13 @@ from carpus.ui.plot.series import Curve, Series
 from carpus.ui.plot.session import HandPlot, SessionPlot, Value
 from carpus.ui.translate import tr
 
-OLD_TOKEN = "text2"
+OLD_TOKEN, OLD_SHARE = "text2", 0.45
+"""Dashes are of what was predicted, of either."""
 
 
-def _dashed(series: Series) -> Series:
+def _old(curve: Curve) -> Curve:
     """Without its band: two over each other would hide what they say."""
-    return replace(series, sd=None, predicted=np.ones(len(series.time_s), dtype=np.bool_))
+    return replace(curve, series=replace(curve.series, sd=None), token=OLD_TOKEN, share=OLD_SHARE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,10 +39,8 @@ class ComparedPlot(SessionPlot):
         return True
 
     def moving(self, key: int, points: int) -> list[Curve]:
-        return [
-            self._curve(_dashed(self._before.series(key)), OLD_TOKEN, points),
-            *super(ComparedPlot, self).moving(key, points),
-        ]
+        old = [_old(one) for one in self._before.moving(key, points)]
+        return [*old, *super(ComparedPlot, self).moving(key, points)]
 
     def columns(self, key: int) -> list[tuple[str, Series]]:
         own = super(ComparedPlot, self).columns(key)
@@ -50,7 +49,7 @@ class ComparedPlot(SessionPlot):
     def values(self, key: int, time_s: float) -> list[Value]:
         (new,), (old,) = super(ComparedPlot, self).values(key, time_s), self._before.values(key, time_s)
         was = _was(old.value_deg)
-        return [replace(new, said=_signed(new)), replace(old, token=OLD_TOKEN, hidden=True, said=was)]
+        return [replace(new, said=_signed(new)), replace(old, token=OLD_TOKEN, share=OLD_SHARE, said=was)]
 
 
 def _signed(value: Value) -> str:
@@ -73,7 +72,7 @@ class ComparedHandPlot(HandPlot):
         )
 
     def moving(self, key: int, points: int) -> list[Curve]:
-        old = [replace(one, series=_dashed(one.series), token=OLD_TOKEN) for one in self._before.moving(key, points)]
+        old = [_old(one) for one in self._before.moving(key, points)]
         return [*old, *super(ComparedHandPlot, self).moving(key, points)]
 
     def columns(self, key: int) -> list[tuple[str, Series]]:

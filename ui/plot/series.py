@@ -68,6 +68,8 @@ class Curve:
     token: str
     hatched: bool = True
     """Where it is lost; else it stays open there."""
+    share: float = 1.0
+    """Of the usual width of a line."""
 
 
 def paint_curves(painter: QPainter, style: PlotStyle, panel: Panel, curves: Sequence[Curve]) -> list[QRectF]:
@@ -155,12 +157,12 @@ class Drawing:
         long, of one that goes to and fro in every pixel seventy times."""
         painter.setBrush(Qt.BrushStyle.NoBrush)
         pen = QPen(Qt.PenStyle.SolidLine)
-        pen.setWidthF(style.line_width)
         pen.setCapStyle(Qt.PenCapStyle.SquareCap)
         pen.setJoinStyle(Qt.PenJoinStyle.BevelJoin)
         on_pixels = _on_pixels(painter)
         for curve, own in placed:
             pen.setColor(style.color(curve.token))
+            pen.setWidthF(curve.share * style.line_width)
             painter.setPen(pen)
             dashes = self._dashes[slice(*np.searchsorted(self._dash_of, (own.start, own.stop)))]
             solid = self._solid[own]

@@ -68,6 +68,8 @@ class Value:
     hidden: bool = False
     said: str = ""
     """What is written of it where that is no angle with its sd."""
+    share: float = 1.0
+    """Of the usual width, as its curve."""
 
     @property
     def words(self) -> str:

@@ -262,7 +262,7 @@ def paint_readings(
     shown = [plot.values(key, time_s) for _, key in panels]
     for (panel, _), values in zip(panels, shown, strict=True):
         for value in values:
-            if not value.hidden:
+            if not value.hidden and value.share == 1.0:
                 Dot(time_s, value.value_deg, value.token).paint(painter, style, panel)
     if plot.has_readings:
         for (panel, _), values in zip(panels, shown, strict=True):
@@ -347,7 +347,7 @@ def _paint_in_one_line(painter: QPainter, style: PlotStyle, panel: Panel, values
 
 
 def _stroke(style: PlotStyle, value: Value, width: float) -> QPen:
-    pen = QPen(style.color(value.token), width * style.unit)
+    pen = QPen(style.color(value.token), width * value.share * style.unit)
     pen.setCapStyle(Qt.PenCapStyle.FlatCap)
     if value.hidden:
         pen.setDashPattern([1.6, 1.4])
