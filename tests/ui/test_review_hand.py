@@ -6,22 +6,25 @@ import math
 import threading
 from collections.abc import Iterator
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, QRect, QRectF, Qt
-from PySide6.QtGui import QImage, QPainter
+from PySide6.QtGui import QColor, QImage, QPainter, qGray
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.core.hand.protocols import SITE_CHAINS, SITES, joint_angle_names
+from carpus.core.hand.protocols import HAND21, SITE_CHAINS, SITES, joint_angle_names
 from carpus.core.results.figures import session_figures
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session
 from carpus.ui.background import Background
 from carpus.ui.figures import Figure
 from carpus.ui.keys import Keys
-from carpus.ui.playback.pictures import modelled_px
+from carpus.ui.picture.view import PictureView
+from carpus.ui.playback.pictures import modelled_px, paint_trails
 from carpus.ui.plot.session import HandPlot, joint_at
 from carpus.ui.plot.session_view import paint_readings
 from carpus.ui.plot.style import screen_style
@@ -245,3 +248,20 @@ def free_ends(session: Session) -> Session:
         joint_angles_sd_rad=session.motion.joint_angles_sd_rad[:, source],
     )
     return replace(session, motion=motion, header=replace(session.header, joint_names=free))
+
+
+def test_the_way_of_a_fingertip_is_no_bone_but_dots_that_fade() -> None:
+    ways = np.full((30, len(HAND21.markers), 2), np.nan)
+    ways[:, HAND21.chains[3][-1]] = np.stack((np.arange(30) * 10.0 + 5.0, np.full(30, 10.0)), axis=1)
+    seen = np.ones(ways.shape[:2], dtype=bool)
+    seen[20:] = False
+    drawn = QImage(300, 20, QImage.Format.Format_RGB32)
+    drawn.fill(QColor("#FFFFFF"))
+    painter = QPainter(drawn)
+    paint_trails(painter, cast("PictureView", SimpleNamespace(to_screen=QPointF)), HAND21, ways, seen, 3)
+    painter.end()
+    grey = [qGray(drawn.pixel(10 * number + 5, 10)) for number in range(30)]
+    assert grey[:20] == sorted(grey[:20], reverse=True)
+    assert grey[19] < 120 < 220 < grey[0]
+    assert grey[20:] == [255] * 10, "nothing is known of a tip that was not seen"
+    assert qGray(drawn.pixel(10, 10)) == 255, "no line from one to the next"

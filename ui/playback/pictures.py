@@ -8,7 +8,7 @@ from typing import Generic, TypeVar
 
 import numpy as np
 from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QColor, QPainter, QPolygonF
+from PySide6.QtGui import QColor, QPainter, QPen
 
 from carpus.core.camera import Camera
 from carpus.core.hand.protocols import MarkerProtocol
@@ -17,8 +17,7 @@ from carpus.core.types import BoolArray, ByteImage, FloatArray
 from carpus.ui.background import Background
 from carpus.ui.picture.overlay import haloed
 from carpus.ui.picture.view import PictureView
-from carpus.ui.plot.polygon import runs
-from carpus.ui.theme import ON_PICTURE_LINE, Theme
+from carpus.ui.theme import ON_PICTURE_LABEL, ON_PICTURE_LINE, Theme
 
 GROUND = 34
 """Grey under the marks where no pictures were kept."""
@@ -189,13 +188,11 @@ def paint_trails(
     seen: np.ndarray,
     finger: int = 0,
 ) -> None:
-    """Ways of the fingertips; ``modelled`` (n, M, 2) pixels of the frames shown, ``seen`` bool (n, M)."""
-    painter.setBrush(Qt.BrushStyle.NoBrush)
+    """Ways of the fingertips, no bones: dotted, and the fainter the longer ago; ``modelled`` (n, M, 2) pixels of the
+    frames shown, ``seen`` bool (n, M)."""
+    ink = QColor(ON_PICTURE_LABEL)
     for tip in (chain[-1] for number, chain in protocol.chains.items() if finger in (0, number)):
-        known = np.isfinite(modelled[:, tip]).all(axis=1)
-        for flag, dash in ((known & seen[:, tip], False), (known & ~seen[:, tip], True)):
-            for first, last in runs(flag):
-                # One sample of the other kind closes the join.
-                part = modelled[max(0, first - 1) : last, tip]
-                way = QPolygonF([picture.to_screen(float(u), float(v)) for u, v in part if np.isfinite(u)])
-                haloed(painter, ON_PICTURE_LINE, 1.5, lambda way=way: painter.drawPolyline(way), dash=dash)  # type: ignore[misc]
+        for number in np.flatnonzero(seen[:, tip] & np.isfinite(modelled[:, tip]).all(axis=1)):
+            ink.setAlphaF((number + 1) / len(modelled))
+            painter.setPen(QPen(ink, 2.2, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+            painter.drawPoint(picture.to_screen(*map(float, modelled[number, tip])))
