@@ -12,7 +12,7 @@ from uuid import uuid4
 
 import numpy as np
 
-from carpus.core.durable import make_private
+from carpus.core.durable import make_private, replace_file
 from carpus.core.errors import OutputNotWritable, SessionUnreadable
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.records.library import Library, as_listed
@@ -90,7 +90,8 @@ class Corrections:
                     path.unlink()
                 continue
             if self._is_listed(header.session_id):  # decided: a program was killed before the file had its name
-                self.use(header.origin, path)
+                with suppress(OutputNotWritable):  # the share is away: it waits
+                    self.use(header.origin, path)
                 continue
             found.append((header.created, Waiting(header.origin, path)))
         return [one for _, one in sorted(found, key=lambda one: (one[0], one[1].trial))]
@@ -134,7 +135,7 @@ class Corrections:
                 library.index.enter(target, library.owner(session_id), entry.by, trial, entry.exercise, also)
                 if choices is not None:
                     library.notes.session("set_aside" if choices.not_counted else "changed", new_id)
-            trial.rename(library.entry(new_id).path)
+            _move(trial, library.entry(new_id).path)
         except OSError as cause:
             raise OutputNotWritable(trial, cause.strerror or "") from cause
         return new_id
@@ -166,6 +167,14 @@ class Corrections:
 
     def drop(self, trial: Path) -> None:
         trial.unlink(missing_ok=True)
+
+
+def _move(trial: Path, place: Path) -> None:
+    try:
+        trial.rename(place)
+    except OSError:  # the sessions lie on a share, which is another disk
+        replace_file(place, lambda part: shutil.copyfile(trial, part))
+        trial.unlink()
 
 
 def _found_again(said: Mapping[int, str], old: Session, new: Session) -> dict[int, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import math
 import shutil
 import threading
@@ -26,6 +27,7 @@ from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
+from carpus.core.session.reader import read_session
 from carpus.core.session.values import RepetitionRow, Repetitions
 from carpus.ui.background import Background
 from carpus.ui.correct.flow import CorrectFlow
@@ -221,6 +223,21 @@ def test_an_older_result_counts_again_with_its_choices_until_the_other_one_does(
     assert not np.array_equal(library.session(again).motion.angles_rad, library.session(new).motion.angles_rad)
     last = corrections.use_again(new)
     assert [entry.session_id for entry in library.sessions(patient)] == [last]
+
+
+def test_a_new_result_goes_to_a_share_on_another_disk(
+    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    _, session_id = entered(library, stored)
+    trial = made(Corrections(library), session_id, stored)
+
+    def refused(*_: object) -> None:
+        raise OSError(errno.EXDEV, "Invalid cross-device link")
+
+    monkeypatch.setattr(Path, "rename", refused)
+    new = Corrections(library).use(session_id, trial)
+    assert read_session(library.entry(new).path).header.session_id == new
+    assert not trial.exists()
 
 
 def test_what_was_left_out_of_the_old_result_does_not_count_in_the_new_one(
