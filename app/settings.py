@@ -20,7 +20,8 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import platformdirs
 
-from carpus.core.errors import CarpusFault, OutputNotWritable, SettingsInvalid
+from carpus.core.durable import replace_text, write_fault
+from carpus.core.errors import CarpusFault, SettingsInvalid
 from carpus.core.phrase import phrase
 from carpus.core.pipeline.live_values import LiveSettings, StartMode
 from carpus.core.records.values import BackupSettings
@@ -245,7 +246,7 @@ _PREFERENCES = {
 
 
 def keep_preferences(chosen: Settings, folder: Path | None = None) -> None:
-    """Store what the window lets a person choose. Raises :class:`OutputNotWritable`."""
+    """Store what the window lets a person choose. Raises :class:`OutputNotWritable`, :class:`DiskFull`."""
     path = (folder or settings_folder()) / PREFERENCES_FILE
     lines = ["# Chosen in the window of Carpus."]
     for section, names in _PREFERENCES.items():
@@ -254,14 +255,10 @@ def keep_preferences(chosen: Settings, folder: Path | None = None) -> None:
     lines += ["[screen.keys]", *(f"{name} = {_text(key)}" for name, key in sorted(chosen.screen.keys.items()))]
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        part = path.with_suffix(".part")
-        part.unlink(missing_ok=True)
-        part.touch(mode=0o600)
         _keep_unusable(path)
-        part.write_text("\n".join([*lines, ""]), encoding="utf-8")
-        part.replace(path)
     except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
+        raise write_fault(path, cause) from cause
+    replace_text(path, "\n".join([*lines, ""]))
 
 
 def _keep_unusable(path: Path) -> None:

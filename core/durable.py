@@ -60,18 +60,35 @@ def sync_folder(folder: Path) -> None:
 
 
 def replace_file(path: Path, write: Callable[[Path], object]) -> None:
-    """Have a file written beside an old one and put it in its place, so that a fault never costs the old one.
+    """Have a file written beside an old one, bring it to the disk and put it in its place, so that a fault never costs
+    the old one.
 
-    Raises what ``write`` raises, and :class:`DiskFull` or :class:`OutputNotWritable`.
+    Raises what ``write`` raises, and :class:`DiskFull` or :class:`OutputNotWritable`; then nothing is left.
     """
     part = path.with_name(f".{path.name}.part")
     try:
         part.unlink(missing_ok=True)  # of a program that was killed
-        write(part)
-        part.chmod(0o600)
-        part.replace(path)
+        try:
+            write(part)
+            part.chmod(0o600)
+            with part.open("r+b") as written:
+                os.fsync(written.fileno())
+            part.replace(path)
+        finally:
+            part.unlink(missing_ok=True)
     except OSError as cause:
         raise write_fault(path, cause) from cause
+    sync_folder(path.parent)
+
+
+def replace_text(path: Path, text: str) -> None:
+    """As :func:`replace_file`, with a text that nobody else may read at any time."""
+
+    def write(part: Path) -> None:
+        with open(part, "x", encoding="utf-8", opener=private) as file:
+            file.write(text)
+
+    replace_file(path, write)
 
 
 def private(name: str, flags: int) -> int:

@@ -15,7 +15,7 @@ import numpy as np
 from carpus.core.capture.camera_info import CameraInfo, StoredCalibration, read_camera_info
 from carpus.core.capture.source import GIVEN, SERIAL, FrameSource, SourceInfo
 from carpus.core.dates import is_moment
-from carpus.core.durable import replace_file
+from carpus.core.durable import replace_text
 from carpus.core.errors import CarpusFault, OutputNotWritable
 from carpus.core.names import CAMERAS, file_stem
 from carpus.core.types import DepthImage, Frame
@@ -178,7 +178,7 @@ def keep_name(data_folder: Path, kind: str, name: str) -> str:
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
-    replace_file(path, lambda part: part.write_text(json.dumps(names, ensure_ascii=False), encoding="utf-8"))
+    replace_text(path, json.dumps(names, ensure_ascii=False))
     return kept
 
 

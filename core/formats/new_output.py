@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import errno
 import json
 import math
 import os
@@ -13,8 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, Any
 
-from carpus.core.durable import private
-from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
+from carpus.core.durable import private, write_fault
+from carpus.core.errors import OutputExists
 
 HALF = ".half"
 _CALCULATED = tuple("=+-@\t\r\n")
@@ -43,8 +42,7 @@ def new_bytes(path: Path, *, replaces: bool = False) -> Iterator[IO[bytes]]:
         except FileExistsError as cause:
             raise OutputExists(path) from cause
         except OSError as cause:
-            kind = DiskFull if cause.errno in (errno.ENOSPC, errno.EDQUOT) else OutputNotWritable
-            raise kind(path, cause.strerror or "") from cause
+            raise write_fault(path, cause) from cause
     finally:
         half.unlink(missing_ok=True)
 

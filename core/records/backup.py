@@ -23,7 +23,7 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path, PureWindowsPath
 from typing import Any, BinaryIO
 
-from carpus.core.durable import make_private, private, sync_folder, write_fault
+from carpus.core.durable import make_private, private, replace_text, sync_folder, write_fault
 from carpus.core.errors import (
     BackupIncomplete,
     BackupPlaceUnsuited,
@@ -44,7 +44,7 @@ FORMAT, FORMAT_VERSION = "carpus-backup", 1
 OBJECTS, BACKUPS = "objects", "backups"
 SETTINGS_PREFIX, SESSIONS_PREFIX = "@settings/", f"{SESSIONS_FOLDER}/"
 PLACE_LOCK = ".lock"
-LEFT_OUT = (".alive", "-wal", "-shm", "-journal", ".lock", ".new")
+LEFT_OUT = (".alive", "-wal", "-shm", "-journal", ".lock")
 BLOCK = 1 << 20
 _SHA256 = re.compile(r"[0-9a-f]{64}")
 _MOST = 1 << 62
@@ -162,7 +162,7 @@ def _back_up(sources: BackupSources, place: Path, software_version: str, now: da
     when = now.replace(microsecond=0)
     name = _free_name(place, f"{when:%Y-%m-%dT%H%M%S}")
     made = backup_of(name, when, files, sources.running, len(lacking), software_version)
-    _write(place / BACKUPS / f"{made.name}.json", told(made))
+    replace_text(place / BACKUPS / f"{made.name}.json", json.dumps(told(made), indent=1))
     if lacking:
         raise BackupIncomplete(lacking[0], str(len(lacking)))
     return made
@@ -278,7 +278,7 @@ def _thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
     gone = [one for one in there if one.name not in kept]
     for one in gone:
         (place / BACKUPS / f"{one.name}.json").unlink(missing_ok=True)
-    for path in (place / BACKUPS).glob(".*.json.new"):
+    for path in (place / BACKUPS).glob(".*.json.part"):
         path.unlink(missing_ok=True)
     if not _unreadable(place):
         needed = {one.sha256 for backup in backups(place) for one in backup.files}
@@ -573,16 +573,3 @@ def _free_name(place: Path, name: str) -> str:
         number += 1
         candidate = f"{name}-{number}"
     return candidate
-
-
-def _write(path: Path, content: dict[str, Any]) -> None:
-    part = path.with_name(f".{path.name}.new")
-    try:
-        with open(part, "w", encoding="utf-8", opener=private) as file:
-            json.dump(content, file, indent=1)
-            file.flush()
-            os.fsync(file.fileno())
-        part.replace(path)
-        sync_folder(path.parent)
-    except OSError as cause:
-        raise write_fault(path, cause) from cause

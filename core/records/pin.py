@@ -14,7 +14,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from carpus.core.durable import private, write_fault
+from carpus.core.durable import replace_text, write_fault
 from carpus.core.errors import PinUncheckable
 
 PIN_FILE = "pin.json"
@@ -93,13 +93,7 @@ class Pin:
             return {"pin": "", "refused": 0, "since": None}
 
     def _write(self, told: dict[str, Any]) -> None:
-        part = self._path.with_name(f".{PIN_FILE}.new")
-        try:
-            with open(part, "w", encoding="utf-8", opener=private) as file:
-                json.dump(told, file)
-            part.replace(self._path)
-        except OSError as cause:
-            raise write_fault(self._path, cause) from cause
+        replace_text(self._path, json.dumps(told))
 
 
 def _argon2() -> ModuleType:

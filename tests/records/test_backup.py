@@ -381,7 +381,7 @@ def test_fewer_files_than_the_store_knows_is_no_success(data: Path, tmp_path: Pa
 def test_what_a_killed_back_up_left_goes_with_the_next(data: Path, tmp_path: Path) -> None:
     place = tmp_path / "place"
     made = back_up(data, place, software_version="1", now=NOW)
-    left = [place / OBJECTS / f".{uuid.uuid4().hex}", place / BACKUPS / f".{made.name}-2.json.new"]
+    left = [place / OBJECTS / f".{uuid.uuid4().hex}", place / BACKUPS / f".{made.name}-2.json.part"]
     for path in left:
         path.write_bytes(b"half")
     again = back_up(data, place, software_version="1", now=NOW + timedelta(hours=1))

@@ -10,7 +10,6 @@ and has the count of its frames as number.
 
 from __future__ import annotations
 
-import errno
 import json
 import math
 import os
@@ -31,9 +30,8 @@ from carpus.core.camera import COEFFICIENTS, Camera
 from carpus.core.capture.files.pictures import Tiled, decode_color, decode_depth, encode_color, encode_depth, packed
 from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.depth_sensor import ASSUMED_SENSOR, sensor_of
-from carpus.core.durable import Writing, copy_open_file, is_still_there, private
+from carpus.core.durable import Writing, copy_open_file, is_still_there, private, write_fault
 from carpus.core.errors import (
-    DiskFull,
     OutputExists,
     OutputNotWritable,
     PictureSizeChanged,
@@ -56,7 +54,6 @@ VERSION = 2
 _START = struct.Struct("<8sI")
 _RECORD = struct.Struct("<4sIdIIII")
 _CHECKED_FROM = 8
-_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 LOOK_EVERY_S = 0.8
 MAX_PICTURE_BYTES = 1 << 27
 MAX_FRAMES = 1 << 24
@@ -136,7 +133,7 @@ class RawWriter(Writing):
             os.fsync(self._file.fileno())
             self._file.close()
         except OSError as cause:
-            raise _write_fault(self._path, cause) from cause
+            raise write_fault(self._path, cause) from cause
         finally:
             self._file = None
 
@@ -204,7 +201,7 @@ class RawWriter(Writing):
             # half a record at the end would be passed over anyway, but a clean end is better
             with suppress(OSError):
                 self._file.truncate(self._end)
-            raise _write_fault(self._path, cause) from cause
+            raise write_fault(self._path, cause) from cause
         self._end += len(data)
 
 
@@ -470,7 +467,3 @@ def _create(path: Path) -> BinaryIO:
         raise OutputExists(path) from cause
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
-
-
-def _write_fault(path: Path, cause: OSError) -> DiskFull | OutputNotWritable:
-    return DiskFull(path) if cause.errno in _FULL else OutputNotWritable(path, cause.strerror or "")
