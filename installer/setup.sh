@@ -61,8 +61,10 @@ libxcb-xfixes.so.0 libxcb-xfixes0
 libxcb-xkb.so.1 libxcb-xkb1
 libOpenNI2.so.0 libopenni2-0
 "
-programs=""
-[ "$purpose" = test ] && programs="
+programs="
+cc gcc libc6-dev
+"
+[ "$purpose" = run ] || programs+="
 pdftotext poppler-utils
 Xvfb xvfb
 xdotool xdotool
@@ -72,7 +74,6 @@ update-mime-database shared-mime-info
 apt-ftparchive apt-utils
 dpkg-parsechangelog dpkg-dev
 appstreamcli appstream
-cc gcc libc6-dev
 "
 
 missing_packages() {
@@ -125,7 +126,7 @@ if [ -n "$missing" ]; then
         *)
             [ "$purpose" = run ] || fail "the tests need these system packages: $missing" "Install them and start again."
             say "these system packages are missing: $missing"
-            say "going on: tracking files works without them, the window or a live camera may not" ;;
+            say "going on: tracking files works without them; the window or a live camera may not, and without gcc all of it is slower" ;;
     esac
 fi
 

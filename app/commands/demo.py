@@ -29,7 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
     compose.write_log()
     settings = compose.with_data_folder(load_settings(), arguments.data_folder)
     make_private(settings.data_folder)
-    with bar("the whole way") as progress:
+    with bar("the whole way", "repetition") as progress:
         result = walk(settings, progress)
     print(f"Session: {result.session}")
     print(f"Report:  {result.report}")

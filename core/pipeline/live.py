@@ -244,16 +244,18 @@ class LiveSession:
             recording = self._recording
             if recording is None:
                 raise RuntimeError("no recording runs")
-            backlog.catching_up = True  # from now on no frame is recorded
+            backlog.ends_recording = True  # from now on no frame is recorded
             last = backlog.handed  # a file hands over more meanwhile, which is waited for by nobody
         try:
             while recording.rows.fault is None and backlog.is_behind(last) and self._pipeline is not None:
                 time.sleep(_LOOK_S)
+            with self._lock:
+                self._recording = None
+            return recording.finish()
         finally:
             with self._lock:
                 self._recording = None
-                backlog.catching_up = False
-        return recording.finish()
+                backlog.ends_recording = False
 
     @property
     def recording(self) -> bool:
@@ -347,7 +349,7 @@ class LiveSession:
         at_s = time.monotonic()
         with self._lock:
             recording, pipeline = self._recording, self._pipeline
-            if recording is not None and (recording.paused or self._backlog.catching_up):
+            if recording is not None and (recording.paused or self._backlog.ends_recording):
                 recording = None
             if pipeline is not None:  # told with the recording: who stops it waits for this frame too
                 self._backlog.expect()

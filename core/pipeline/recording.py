@@ -174,14 +174,14 @@ class Captured(NamedTuple):
 class Backlog:
     """Frames that wait for the tracker, in the order in which they were captured.
 
-    Of what is recorded ``room`` may wait. Of what is not only the last half second does, and nothing while the tracker
-    is ``catching_up`` at the end of a recording. A frame without room is left out, and counted in the next one. With
-    ``waits`` whoever puts waits instead.
+    Of what is recorded ``room`` may wait. Of what is not only the last half second does, and nothing while what
+    ``ends_recording`` is tracked and stored, for which a person waits. A frame without room is left out, and counted in
+    the next one. With ``waits`` whoever puts waits instead.
     """
 
     def __init__(self, room: int, fps: float, *, waits: bool) -> None:
         self.room = room
-        self.catching_up = False
+        self.ends_recording = False
         self.left_out = 0
         self.waits = waits
         self._channel: NeverDrop[Captured] | Waits[Captured] = (
@@ -234,7 +234,7 @@ class Backlog:
         if self._left_out_before:
             frame = replace(frame, dropped_before=frame.dropped_before + self._left_out_before)
         if captured.recording is None and not self.waits:
-            room = 0 if self.catching_up else min(PREVIEW_WAITING, room)
+            room = 0 if self.ends_recording else min(PREVIEW_WAITING, room)
         try:
             if not self.waits and len(self) >= room:
                 raise ChannelFull
@@ -242,7 +242,7 @@ class Backlog:
             self._left_out_before = 0
             return
         except ChannelFull:
-            self.left_out += not self.catching_up
+            self.left_out += not self.ends_recording
             self._left_out_before = frame.dropped_before + 1
         except ChannelClosed:
             pass  # the session ended while a file waited for the tracker

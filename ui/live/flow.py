@@ -31,6 +31,7 @@ class LiveFlow(Flow):
         self.course = CourseRun(self, live, self.patient_view, context.now)
         self.course.wanted.connect(self.show)
         live.told.connect(self.take)
+        recording.stopping.connect(lambda: context.way.flow("review"))  # made while the recording is stored
         recording.stopped.connect(self._stopped)
         recording.stop_failed.connect(self._stop_failed)
         recording.hasty.connect(self._ask_hasty)
