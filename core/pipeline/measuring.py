@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import shutil
+import threading
 import uuid
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -40,6 +41,7 @@ from carpus.core.pipeline.track import (
 from carpus.core.records.new_sessions import NewSessions
 from carpus.core.records.set_up import MARKERS_SUFFIX, SetUp
 from carpus.core.results.repetition_rows import repetitions_of
+from carpus.core.session.reader import READING
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import Fallback, SessionWriter
 from carpus.core.tracking.smoother_record import KeptSteps
@@ -335,6 +337,8 @@ class SourceMeasuring:
             if looking_back is not None:
                 looking_back.cancel()
             raise
+        # Asked for the outline when the recording ends, for which a person waits.
+        threading.Thread(target=READING.start, name="reading", daemon=True).start()
         pipeline.restate()
         if self._starts_with_recording and not self._played:
             self._played = True

@@ -256,6 +256,7 @@ def test_what_the_end_waits_for_besides_is_no_time_of_the_disk() -> None:
 
     def wait() -> None:
         wait_until(lambda: sink.flushed == 3)  # a kill meanwhile loses nothing
+        deliver(live, source, 5)  # for a person who waits the computer does nothing else meanwhile
         waited.append((threading.current_thread().name, sink.ended))
 
     with LiveSession(source) as live:
@@ -264,6 +265,8 @@ def test_what_the_end_waits_for_besides_is_no_time_of_the_disk() -> None:
         live.start_recording(lambda: sink, None, wait)
         deliver_tracked(live, source, 3)
         live.stop_recording()
+        deliver_tracked(live, source, 1)
+        assert (live.counters().captured, live.counters().tracked, live.counters().dropped) == (12, 7, 0)
     assert waited == [(threading.current_thread().name, "")], "beside the writing thread, before the file is closed"
     assert sink.ended == "closed"
 
