@@ -56,14 +56,18 @@ def test_tables_are_read_whole(gallery: Gallery) -> None:
         assert page.verticalScrollBar().maximum() > 0
 
 
-def test_tables_are_as_high_on_a_window_made_smaller_as_on_one_that_was_small(gallery: Gallery) -> None:
+@pytest.mark.parametrize("state", ["review_hand", "review"])
+@pytest.mark.parametrize(("before", "size"), [((1280, 720), (1024, 700)), ((1280, 800), (1600, 1040))])
+def test_tables_are_as_high_on_a_window_of_another_size_before_as_on_one_that_was_so(
+    gallery: Gallery, state: str, before: tuple[int, int], size: tuple[int, int]
+) -> None:
     heights_px = []
-    for way in (((1280, 720), (1024, 700)), ((1024, 700),)):
-        gallery.review_hand()
+    for way in ((before, size), (size,)):
+        getattr(gallery, state)()
         screen = gallery.shell.stage.currentWidget()
         assert isinstance(screen, ReviewScreen)
-        for size in way:
-            gallery.shell.resize(*size)
+        for one in way:
+            gallery.shell.resize(*one)
             gallery.settle()
         heights_px.append(screen.card.tables.height())
     gallery.shell.resize(1280, 800)
