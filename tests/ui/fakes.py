@@ -554,28 +554,34 @@ class FakeCalibrator:
         self.begun = calibration
 
 
+@lru_cache(maxsize=1)
+def sessions_of_linden() -> Mapping[str, Session]:
+    """Made once, so that their figures are too."""
+    days = (49, 42, 35, 28, 21, 7, 0)
+    scales = (0.62, 0.66, 0.72, 0.80, 0.86, 0.97, 1.0)
+    start_s = float(simulated(seconds=62.0, speed_hz=0.165).truth.timestamp_s[0])
+    said = ((1.0, "pain", "2"), (61.0, "pain", "3"), (41.0, "note", "Repetition 7 stopped for pain."))
+    made: dict[str, Session] = {}
+    for number, (day, scale) in enumerate(zip(days, scales, strict=True), 1):
+        when = NOW - timedelta(days=day)
+        hidden = [(44.0, 45.2, "CMC1"), (44.3, 45.0, "WRIST")] if day == 0 else ()
+        events = tuple(Event(start_s + time_s, kind, text) for time_s, kind, text in said) if day == 0 else ()
+        key = f"session-{number}"
+        made[key] = session(when, scale, session_id=key, hidden=hidden, events=events)
+    made["session-left"] = session(NOW - timedelta(days=49), 1.25, session_id="session-left", side="left")
+    far = made["session-4"]
+    verdict = replace(far.calibration.verdict, distance_m=0.84)
+    made["session-4"] = replace(far, calibration=replace(far.calibration, verdict=verdict))
+    return made
+
+
 class FakeSessions:
     """Seven sessions of Linden 42 that get better, and one of the other hand."""
 
     hand_values: Sequence[HandValue] = ()
 
     def __init__(self, pictures: bool = True) -> None:
-        days = (49, 42, 35, 28, 21, 7, 0)
-        scales = (0.62, 0.66, 0.72, 0.80, 0.86, 0.97, 1.0)
-        self.sessions: dict[str, Session] = {}
-        for number, (day, scale) in enumerate(zip(days, scales, strict=True), 1):
-            when = NOW - timedelta(days=day)
-            hidden = [(44.0, 45.2, "CMC1"), (44.3, 45.0, "WRIST")] if day == 0 else ()
-            start_s = float(self.pictures_of("right").truth.timestamp_s[0])
-            said = ((1.0, "pain", "2"), (61.0, "pain", "3"), (41.0, "note", "Repetition 7 stopped for pain."))
-            events = tuple(Event(start_s + time_s, kind, text) for time_s, kind, text in said) if day == 0 else ()
-            key = f"session-{number}"
-            self.sessions[key] = session(when, scale, session_id=key, hidden=hidden, events=events)
-        left = session(NOW - timedelta(days=49), 1.25, session_id="session-left", side="left")
-        self.sessions["session-left"] = left
-        far = self.sessions["session-4"]
-        verdict = replace(far.calibration.verdict, distance_m=0.84)
-        self.sessions["session-4"] = replace(far, calibration=replace(far.calibration, verdict=verdict))
+        self.sessions = dict(sessions_of_linden())
         self.kept: dict[str, RepetitionChoices] = {}
         self.results: list[SessionEntry] = []
         self.pictures = pictures
