@@ -56,7 +56,7 @@ class ReviewScreen(Fitted):
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
         self._session_id = ""
-        self._whole_hand = False
+        self._whole_hand = self._tight = False
         self.reviewed: Reviewed | None = None
         self.current = -1
         """The chosen repetition, from 0; -1 for none."""
@@ -85,6 +85,9 @@ class ReviewScreen(Fitted):
     def _fit(self) -> None:
         self.bubble.give_room(self.height() >= LEAST_SCREEN_PX * self._theme.text_scale)
         tight = is_tight(self, self._theme)
+        if tight != self._tight:  # once more, and not with every size: what is fitted again may come out otherwise
+            self._tight = tight
+            self._fit_soon()
         if self.charts.fit(self.reviewed, above=self._column if tight else None):
             self._refresh()
         else:
