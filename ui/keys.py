@@ -60,6 +60,13 @@ def bind(
     return shortcut
 
 
+def bind_screen(host: QWidget, keys: Keys, actions: Mapping[str, Callable[[], object]]) -> dict[str, QShortcut]:
+    """Keys of a screen that has the keyboard itself while none of its parts does, without a ring around it."""
+    host.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+    host.setProperty("shows_own_focus", True)
+    return {name: bind(host, keys, name, action) for name, action in actions.items()}
+
+
 def key_name(key: str) -> str:
     """``Ctrl+P`` as the keys of the person's keyboard are named: ``Strg+P``. Words that are no key stay."""
     names = {

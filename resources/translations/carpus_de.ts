@@ -6056,6 +6056,10 @@
         <translation>ihre Spalten sind nicht, was ihre Namen sagen</translation>
     </message>
     <message>
+        <source>its folder cannot be written</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>its process ended</source>
         <translation>ihr Prozess ist beendet</translation>
     </message>

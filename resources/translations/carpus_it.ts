@@ -6044,6 +6044,10 @@
         <translation>le sue colonne non sono ciò che dicono i nomi</translation>
     </message>
     <message>
+        <source>its folder cannot be written</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>its process ended</source>
         <translation>il suo processo è terminato</translation>
     </message>

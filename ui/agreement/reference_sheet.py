@@ -57,9 +57,7 @@ class ReferenceSheet(Sheet):
 
     def begin(self, sessions: Sequence[tuple[str, str]]) -> None:
         """Ask; ``sessions`` are identity and words of those there are besides."""
-        self.box.clear()
-        for identity, words in sessions:
-            self.box.addItem(words, identity)
+        self.box.offer(sessions)
         for widget in (self._other, self.session_button):
             widget.setVisible(bool(sessions))
         self.open()
@@ -127,12 +125,10 @@ class ColumnsSheet(Sheet):
             box = Combo()
             box.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
             box.setAccessibleName(words)
-            box.addItem("–", "")
             own = outline.found.get("time", "") if name == "time" else ""  # MOT has times that are no column of its
-            for theirs in outline.names if not own or own in outline.names else (own, *outline.names):
-                box.addItem(theirs, theirs)
+            names = outline.names if not own or own in outline.names else (own, *outline.names)
             chosen = said.get(name, "")
-            box.setCurrentIndex(max(0, box.findData(chosen.removeprefix("-"))))
+            box.offer([("", "–"), *zip(names, names, strict=True)], chosen.removeprefix("-"))
             box.currentIndexChanged.connect(lambda _: self._check())
             label = Text(self._theme, words, 14, MEDIUM)
             label.setBuddy(box)

@@ -40,7 +40,7 @@ from carpus.ui.controls.layouts import (
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, ElidedText, Sign, Text, caption, heading
 from carpus.ui.icons import State
-from carpus.ui.keys import Keys, bind
+from carpus.ui.keys import Keys, bind_screen
 from carpus.ui.plot.agreement import AgreementPlot, View
 from carpus.ui.plot.agreement_view import AgreementChart
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
@@ -90,14 +90,11 @@ class AgreementScreen(Fitted):
         self.angle.currentIndexChanged.connect(lambda _: self._show_plot())
         self.view.chosen.connect(lambda _: self._show_plot())
         self.chart.menu.told.connect(self.told)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setProperty("shows_own_focus", True)
         actions = {
             "export": self.save_button.click, "next_view": self.next_view, "plot_in": self.chart.zoom_in,
             "plot_out": self.chart.zoom_out, "plot_all": self.chart.show_all,
         }  # fmt: skip
-        for name, action in actions.items():
-            bind(self, keys, name, action)
+        bind_screen(self, keys, actions)
 
     def _lay_out(self) -> None:
         head = in_line(self.other_button, self.columns_button, (self.facts, 1), self.save_button, gap=12)
@@ -180,14 +177,9 @@ class AgreementScreen(Fitted):
         self.basis.setText(basis)
         self.other_button.set_face(self.tr("Other &reference…"))
         self.columns_button.setVisible(may_map)
-        before = self.angle.currentData()
-        self.angle.blockSignals(True)
-        self.angle.clear()
-        for pairs in compared.pairs:
-            self.angle.addItem(angle_name(pairs.name), pairs.name)
-        found = self.angle.findData(before)
-        self.angle.setCurrentIndex(found if found >= 0 else self.angle.findData(most_moved(compared).name))
-        self.angle.blockSignals(False)
+        before, names = self.angle.currentData(), [pairs.name for pairs in compared.pairs]
+        chosen = before if before in names else most_moved(compared).name
+        self.angle.offer([(name, angle_name(name)) for name in names], chosen)
         self._fill_joined(compared)
         self.table.show_compared(compared, limit_deg)
         self._show_parts(working=False)

@@ -92,11 +92,7 @@ class DifferencesCard(Card):
         self.mirror_button.blockSignals(False)
 
     def _offer(self, found: list[tuple[str, str]]) -> None:
-        self.followed.blockSignals(True)
-        self.followed.clear()
-        for value, words in found:
-            self.followed.addItem(words, value)
-        self.followed.blockSignals(False)
+        self.followed.offer(found)
         self.followed.setVisible(bool(found))
 
     def show_differences(self, now: Shown) -> None:
@@ -197,13 +193,8 @@ class MeanCard(Card):
         read."""
         self._shown = now
         self._quantities.setEnabled(now is not None)
-        self._quantities.blockSignals(True)
-        self._quantities.clear()
-        if now is not None:
-            for quantity in now.quantities:
-                self._quantities.addItem(quantity_name(quantity), quantity)
-            self._quantities.setCurrentIndex(now.quantities.index(now.quantity_of(finger)))
-        self._quantities.blockSignals(False)
+        quantities = [] if now is None else [(one, quantity_name(one)) for one in now.quantities]
+        self._quantities.offer(quantities, None if now is None else now.quantity_of(finger))
         self.curves.show_plot(None if now is None else now.plot(self.quantity))
 
     def _choose(self) -> None:

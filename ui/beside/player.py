@@ -38,8 +38,7 @@ class BesidePlayer(Card):
         self.step = Combo()
         self.step.setAccessibleName(self.tr("In step by"))
         self.step.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
-        for value, words in step_words():
-            self.step.addItem(words, value)
+        self.step.offer(step_words())
         self._names = (Text(theme, "", 14, REGULAR, "text2"), Text(theme, "", 14, REGULAR, "text2"))
         self.tracks = (Scrubber(theme), Scrubber(theme))
         self._times = (Text(theme, "", 14, MEDIUM), Text(theme, "", 14, MEDIUM))

@@ -20,7 +20,7 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import Fitted, in_column, in_line, page
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text, heading
-from carpus.ui.keys import Keys, bind
+from carpus.ui.keys import Keys, bind_screen
 from carpus.ui.playback.transport import Playing
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
@@ -113,8 +113,6 @@ class BesideScreen(Fitted):
         self._column.setStretchFactor(self._top, 2 if tight else 5)
 
     def _connect(self, keys: Keys) -> None:
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setProperty("shows_own_focus", True)
         differences = self.differences
         self.reader.went_on.connect(lambda done: self._bar.show_progress(done, TASKS))
         self.reader.read.connect(self._show_first_pictures)
@@ -140,8 +138,7 @@ class BesideScreen(Fitted):
             "mirror": differences.mirror_button.click, "export": differences.export_button.click,
             "report": self.report_button.click,
         }  # fmt: skip
-        for name, action in actions.items():
-            bind(self, keys, name, action)
+        bind_screen(self, keys, actions)
 
     def _hand_over(self, signal: SignalInstance) -> None:
         if self.shown is not None:

@@ -199,11 +199,8 @@ class ByHandScreen(Fitted):
         return (*self.record.values, *self._written.values())
 
     def _fill_more(self) -> None:
-        self.more.clear()
-        self.more.addItem(self.tr("Other measures…"), "")
-        for one in MEASURES:
-            if one.id not in self.form.rows:
-                self.more.addItem(measure_name(one), one.id)
+        others = [(one.id, measure_name(one)) for one in MEASURES if one.id not in self.form.rows]
+        self.more.offer([("", self.tr("Other measures…")), *others])
 
     def _add(self, _number: int) -> None:
         name = str(self.more.currentData())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
@@ -62,6 +62,16 @@ class Combo(QComboBox):
     def __init__(self) -> None:
         super().__init__()
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+
+    def offer(self, choices: Iterable[tuple[object, str]], chosen: object = None) -> None:
+        """Values with their words in place of those before; the first unless another is ``chosen``. Tells nobody."""
+        self.blockSignals(True)
+        self.clear()
+        for number, (value, words) in enumerate(choices):
+            self.addItem(words, value)
+            if value == chosen:
+                self.setCurrentIndex(number)
+        self.blockSignals(False)
 
     def initStyleOption(self, option: QStyleOptionComboBox) -> None:
         super().initStyleOption(option)

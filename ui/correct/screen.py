@@ -24,7 +24,7 @@ from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Sign,
 from carpus.ui.correct.picture import CorrectionPicture
 from carpus.ui.correct.places import Places
 from carpus.ui.figures import figure_of
-from carpus.ui.keys import Keys, bind
+from carpus.ui.keys import Keys, bind_screen
 from carpus.ui.marker_words import finger_of, marker_name
 from carpus.ui.playback.pictures import RowReader, plain_ground
 from carpus.ui.playback.transport import Scrubber, Transport, clock_words
@@ -143,8 +143,6 @@ class CorrectScreen(Fitted):
         self.cancel.clicked.connect(self.leave)
         self.hide_button.clicked.connect(self.hide_current)
         self.next_doubtful.clicked.connect(self.go_to_doubtful)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setProperty("shows_own_focus", True)
         self.although.clicked.connect(self._track_again)
         for button in (self.hide_button, self.next_doubtful, self.although):
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
@@ -152,8 +150,7 @@ class CorrectScreen(Fitted):
             "correct_back": lambda: self.go_on(-1), "correct_on": lambda: self.go_on(1),
             "correct_hide": self.hide_current, "correct_undo": self.undo, "correct_doubtful": self.go_to_doubtful,
         }  # fmt: skip
-        for name, action in actions.items():
-            bind(self, keys, name, action)
+        bind_screen(self, keys, actions)
 
     # --- life ---------------------------------------------------------------------------------------------
     def begin(self, session_id: str, session: Session, row: int) -> None:

@@ -19,7 +19,7 @@ from carpus.ui.controls.layouts import STRETCH, Fitted, fill, in_column, in_line
 from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.figures import figure_of
-from carpus.ui.keys import Keys, bind
+from carpus.ui.keys import Keys, bind_screen
 from carpus.ui.live.controls import Controls
 from carpus.ui.live.doubt import doubt_lamp, doubt_of
 from carpus.ui.live.hand_map import HandMap
@@ -145,8 +145,6 @@ class LiveScreen(Fitted):
         recording.stopping.connect(controls.say_storing)
         for ended in (recording.stopped, recording.stop_failed):
             ended.connect(self.catching_up.hide)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setProperty("shows_own_focus", True)
         picture, number = self.picture, self.number
         actions = {
             "record": recording.toggle, "pedal": recording.toggle, "note": controls.note.click,
@@ -158,7 +156,7 @@ class LiveScreen(Fitted):
             "large_view": self.toggle_large,
         }  # fmt: skip
         self.fingers.chosen.connect(lambda figure: self.choose(Reading(figure=figure)))
-        self._shortcuts = {name: bind(self, keys, name, action) for name, action in actions.items()}
+        self._shortcuts = bind_screen(self, keys, actions)
         self.question.other_keys = list(self._shortcuts.values())
         self.question.changed.connect(self._place_question)
         self.question.answered.connect(recording.answer_spot)

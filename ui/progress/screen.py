@@ -32,7 +32,7 @@ from carpus.ui.controls.layouts import (
     page,
 )
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
-from carpus.ui.keys import Keys, bind, letter_key
+from carpus.ui.keys import Keys, bind_screen, letter_key
 from carpus.ui.plot.course_view import ProgressChart
 from carpus.ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
 from carpus.ui.report.hand_rows import followed_keys, followed_kinds
@@ -89,16 +89,13 @@ class ProgressScreen(Fitted):
         self.chart.opened.connect(self.session)
         self.by_hand_button.clicked.connect(self.by_hand_wanted)
         self.table_button.clicked.connect(lambda: self.table_wanted.emit(self.progress))
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setProperty("shows_own_focus", True)
         actions = {
             "plot_in": self.chart.zoom_in, "plot_out": self.chart.zoom_out, "plot_all": self.chart.show_all,
             "point_back": lambda: self.chart.step(-1), "point_on": lambda: self.chart.step(1),
             "point_open": self.chart.open_pointed, "report": self.report_button.click,
+            "export": self.table_button.click,
         }  # fmt: skip
-        for name, action in actions.items():
-            bind(self, keys, name, action)
-        bind(self, keys, "export", self.table_button.click)
+        bind_screen(self, keys, actions)
 
     def _lay_out(self) -> None:
         self._filters = QBoxLayout(QBoxLayout.Direction.LeftToRight)
@@ -155,13 +152,10 @@ class ProgressScreen(Fitted):
         self._all = tuple(sorted(found, key=lambda figures: figures.when))
         asked = next((f for f in self._all if f.session_id == session_id), self._all[-1] if self._all else None)
         self._kinds = list(dict.fromkeys((figures.exercise.id, figures.side) for figures in reversed(self._all)))
-        self.exercise.blockSignals(True)
-        self.exercise.clear()
-        for exercise, side in self._kinds:
-            self.exercise.addItem(f"{terms.exercise_name(exercise)} · {terms.hand_name(side)}")
-        if asked is not None:
-            self.exercise.setCurrentIndex(self._kinds.index((asked.exercise.id, asked.side)))
-        self.exercise.blockSignals(False)
+        self.exercise.offer(
+            [(one, f"{terms.exercise_name(one[0])} · {terms.hand_name(one[1])}") for one in self._kinds],
+            None if asked is None else (asked.exercise.id, asked.side),
+        )
         self.exercise.setVisible(bool(self._kinds))
         self._choose_exercise()
 
@@ -173,11 +167,7 @@ class ProgressScreen(Fitted):
         """Offer what can be followed of the whole hand; what the exercise trains comes first."""
         alike = self._alike()
         kinds = followed_kinds(alike[-1]) if alike else []
-        self.followed.blockSignals(True)
-        self.followed.clear()
-        for value, text in kinds:
-            self.followed.addItem(text, value)
-        self.followed.blockSignals(False)
+        self.followed.offer(kinds)
         self.followed.setVisible(bool(kinds))
         self._choose()
 

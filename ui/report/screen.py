@@ -17,7 +17,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import RING_PX, STRETCH, fill, in_column, in_line, scrolled
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
-from carpus.ui.keys import Keys, bind
+from carpus.ui.keys import Keys, bind_screen
 from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.home_page import HomeReport
 from carpus.ui.report.letter_page import LetterReport
@@ -73,10 +73,7 @@ class ReportScreen(QWidget):
         self.letter_button.clicked.connect(self._ask_letter)
         self.home_button.clicked.connect(self._ask_home)
         self.back_button.clicked.connect(self.to_report)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setProperty("shows_own_focus", True)
-        bind(self, keys, "report", self.save_button.click)
-        bind(self, keys, "home_sheet", self.home_button.click)
+        bind_screen(self, keys, {"report": self.save_button.click, "home_sheet": self.home_button.click})
 
     def _lay_out(self) -> None:
         self._scroll = QScrollArea()

@@ -20,7 +20,7 @@ from carpus.ui.controls.layouts import STRETCH, Fitted, ScrollArea, ScrolledColu
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.figures import figure_of
 from carpus.ui.icons import State
-from carpus.ui.keys import Keys, bind
+from carpus.ui.keys import Keys, bind_screen
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import difference, reason_words, verdict_word
@@ -61,9 +61,7 @@ class RetestScreen(Fitted):
         self.save_button.clicked.connect(self.save)
         self.use_button.clicked.connect(self.use)
         self.measure_button.clicked.connect(self._measure)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setProperty("shows_own_focus", True)
-        bind(self, keys, "export", self.save_button.click)
+        bind_screen(self, keys, {"export": self.save_button.click})
         self.show_plan(self.plan, DEFAULT_LIMITS)
 
     def _lay_out(self) -> None:
@@ -100,10 +98,7 @@ class RetestScreen(Fitted):
     # --- states -------------------------------------------------------------------------------------------
     def show_exercises(self, exercises: Sequence[str], chosen: str) -> None:
         """Those that were measured of anybody who takes part."""
-        self.exercise.clear()
-        for exercise in exercises:
-            self.exercise.addItem(terms.exercise_name(exercise), exercise)
-        self.exercise.setCurrentIndex(max(0, self.exercise.findData(chosen)))
+        self.exercise.offer([(one, terms.exercise_name(one)) for one in exercises], chosen)
         self.exercise.setVisible(bool(exercises))
 
     def reading(self) -> None:

@@ -114,11 +114,10 @@ class Player(Card):
         self.view.setAccessibleName(self.tr("What is drawn"))
         self.view.setToolTip(self.tr("What is drawn of the movement (V)"))
         self.view.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
-        for value, words in (
+        self.view.offer([
             ("angles", self.tr("Angles")), ("path", self.tr("Path")), ("place", self.tr("Place, speed")),
             ("zyz", self.tr("ZYZ")),
-        ):  # fmt: skip
-            self.view.addItem(words, value)
+        ])  # fmt: skip
         self.view_key = KeyCaps(theme, [("V", "")])
         self.hints = KeyCaps(theme, [(self.tr("Space"), self.tr("play"))])
         self.repetition = Button(theme, self.tr("Repetition…"), "quiet", hint="X", height_px=40)

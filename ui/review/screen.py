@@ -18,7 +18,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.layouts import STRETCH, Fitted, in_column, in_line, page
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.controls.text import Text
-from carpus.ui.keys import Keys, bind
+from carpus.ui.keys import Keys, bind_screen
 from carpus.ui.playback.transport import Playing
 from carpus.ui.plot.session import row_at
 from carpus.ui.review.card import ReviewCard
@@ -117,8 +117,6 @@ class ReviewScreen(Fitted):
         card.tables.results.wanted.connect(self.result_wanted)
 
     def _bind(self, keys: Keys) -> None:
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setProperty("shows_own_focus", True)
         curves, card = self.charts.curves, self.card
         actions: dict[str, Callable[[], object]] = {
             "play": self.playing.toggle, "frame_back": lambda: self.step(-1), "frame_on": lambda: self.step(1),
@@ -130,8 +128,7 @@ class ReviewScreen(Fitted):
             "plot_out": curves.zoom_out, "plot_all": curves.show_all, "correct": self.correct_here,
             "beside": card.beside_button.click, "angle": self.picture.angle_button.click, "film": self.ask_film,
         }  # fmt: skip
-        for name, action in actions.items():
-            bind(self, keys, name, action)
+        bind_screen(self, keys, actions)
 
     # --- life ---------------------------------------------------------------------------------------------
     def begin(

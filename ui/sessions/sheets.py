@@ -81,9 +81,7 @@ class ChooseSheet(Sheet):
         self.title.setText(title)
         self.words.setText(words)
         self.take.set_face(take)
-        self.box.clear()
-        for key, text in choices:
-            self.box.addItem(text, key)
+        self.box.offer(choices)
         self.take.setEnabled(bool(choices))
         self.open(self.box if self.take.isEnabled() else None)
 

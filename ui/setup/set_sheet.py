@@ -48,16 +48,13 @@ class PartRow:
     def __init__(self, theme: Theme, discs: str, part: CoursePart) -> None:
         words = _words()
         self.exercise = Combo()
-        for one in exercises_of(protocol_named(discs)):
-            self.exercise.addItem(terms.exercise_name(one.id), one.id)
-        self.exercise.setCurrentIndex(max(0, self.exercise.findData(part.exercise.id)))
+        exercises = [(one.id, terms.exercise_name(one.id)) for one in exercises_of(protocol_named(discs))]
+        self.exercise.offer(exercises, part.exercise.id)
         self.exercise.setAccessibleName(words["exercise"])
         self.count = number_field(theme, MOST_SECONDS)
         self.unit = Combo()
-        self.unit.addItem(words["times"], False)
-        self.unit.addItem(words["seconds"], True)
+        self.unit.offer([(False, words["times"]), (True, words["seconds"])], not part.repetitions)
         self.unit.setAccessibleName(words["unit"])
-        self.unit.setCurrentIndex(0 if part.repetitions else 1)
         self.count.setValue(part.repetitions or part.seconds)
         self.count.setAccessibleName(words["count"])
         self.rest = number_field(theme, MOST_REST_S, " s", words["none"])
@@ -143,14 +140,8 @@ class SetSheet(Sheet):
         return [one for one in self._sets if one.discs == self._discs]
 
     def _fill(self, chosen_id: str) -> None:
-        self.which.blockSignals(True)
-        self.which.clear()
-        for one in self._own():
-            self.which.addItem(say(one.name), one.set_id)
-        self.which.addItem(self.tr("New set"), "")
-        found = self.which.findData(chosen_id) if chosen_id else 0
-        self.which.setCurrentIndex(max(found, 0))
-        self.which.blockSignals(False)
+        own = [(one.set_id, say(one.name)) for one in self._own()]
+        self.which.offer([*own, ("", self.tr("New set"))], chosen_id or None)
         self._choose()
 
     def _choose(self) -> None:
