@@ -6057,7 +6057,7 @@
     </message>
     <message>
         <source>its folder cannot be written</source>
-        <translation type="unfinished"></translation>
+        <translation>in ihrem Ordner lässt sich nicht schreiben</translation>
     </message>
     <message>
         <source>its process ended</source>

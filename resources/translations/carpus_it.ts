@@ -6045,7 +6045,7 @@
     </message>
     <message>
         <source>its folder cannot be written</source>
-        <translation type="unfinished"></translation>
+        <translation>nella sua cartella non si può scrivere</translation>
     </message>
     <message>
         <source>its process ended</source>
