@@ -25,7 +25,7 @@ from carpus.core.pipeline.track import TrackSettings, retrack_session, track_rec
 from carpus.core.results.figures import session_figures
 from carpus.core.results.measures_table import SessionFigure, measure_rows
 from carpus.core.session import recovery
-from carpus.core.session.disk import is_being_written, target_of_part
+from carpus.core.session.disk import target_of_part
 from carpus.core.session.reader import read_session
 from carpus.core.types import TrackStatus
 from carpus.core.words import one_sentence
@@ -125,19 +125,10 @@ def clear_leftovers(session: Path) -> None:
     for part in {path.with_name(path.name.removesuffix(recovery.SUFFIX)) for path in left}:
         if target_of_part(part) != session:
             continue
-        while _is_busy(part):
+        while not recovery.take_away(part):
             if time.monotonic() > until_s:
                 raise OutputBusy(session)
             time.sleep(BUSY_STEP_S)
-        part.unlink(missing_ok=True)
-        recovery.remove(part)
-
-
-def _is_busy(part: Path) -> bool:
-    try:
-        return part in recovery.still_beating([part]) or is_being_written(part)
-    except FileNotFoundError:  # it became the session meanwhile, or only its heartbeat is left
-        return False
 
 
 def _tracked(task: Task, said: list[str]) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from carpus.core.formats.take import Take
 from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session import recovery
-from carpus.core.session.disk import is_being_written, part_path
+from carpus.core.session.disk import part_path
 from carpus.core.session.reader import read_detections
 from carpus.core.session.values import Session, moments_of
 from carpus.core.session.writer import SessionWriter
@@ -22,10 +22,7 @@ def write(take: Take, folder: Path) -> list[Path]:
     path = folder / f"{take.name}.h5"
     session = take.session
     folder.mkdir(parents=True, exist_ok=True)
-    part = part_path(path, session.header.session_id)
-    if part.exists() and not (recovery.still_beating([part]) or is_being_written(part)):  # of a program that was killed
-        part.unlink()
-        recovery.remove(part)
+    recovery.take_away(part_path(path, session.header.session_id))  # of a program that was killed
     writer = SessionWriter.create(path, session.header, session.camera, session.calibration)
     try:
         for frame in _frames(session):

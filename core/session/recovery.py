@@ -95,6 +95,17 @@ def remove(part: Path) -> None:
         alive_path(part).unlink(missing_ok=True)
 
 
+def take_away(part: Path) -> bool:
+    """Take away what a process that died left of a session which can be made again; False for one that is being
+    written."""
+    with contextlib.suppress(FileNotFoundError):  # it became the session meanwhile, or only its heartbeat is left
+        if part in still_beating([part]) or is_being_written(part):
+            return False
+    part.unlink(missing_ok=True)
+    remove(part)
+    return True
+
+
 def _content(part: Path) -> bytes:
     try:
         with alive_path(part).open("rb") as file:
