@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication, QScrollArea, QStyleOptionComboBox, Q
 from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.controls.field import Combo
 from carpus.ui.controls.layouts import ScrollArea
+from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.patients.screen import PatientsScreen
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.records.locking import LockSheet
@@ -81,6 +82,18 @@ def test_what_must_be_recalled_of_a_patient_has_room_below_a_strip(gallery: Gall
     assert isinstance(screen, PatientsScreen)
     assert screen.card._recall.height() >= screen.card._why.geometry().bottom()
     assert screen.card.height() >= screen.card.minimumSizeHint().height()
+
+
+@pytest.mark.parametrize(("state", "is_guided"), [("markers_ready", True), ("markers_swapped", False)])
+def test_checks_are_read_whole_and_the_guide_gives_way(gallery: Gallery, state: str, is_guided: bool) -> None:
+    getattr(gallery, state)()
+    screen = gallery.shell.stage.currentWidget()
+    assert isinstance(screen, MarkersScreen)
+    screen.bubble.show_bubble("check")
+    gallery.settle()
+    assert screen.bubble.isVisible() is is_guided
+    for _, *texts in screen.guidance.panel._lines:
+        assert all(text.height() >= text.minimumSizeHint().height() for text in texts)
 
 
 def test_no_finger_loses_the_end_of_its_name(gallery: Gallery) -> None:

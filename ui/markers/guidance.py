@@ -80,6 +80,8 @@ class Guidance(QWidget):
         if crowded:
             self.hand.setVisible(clicks)
             self.panel.show_close(self._needed_px() + guided_px > height_px)
+            if judged and self._needed_px() > height_px:  # not even then: the checks go before the guide
+                self.bubble.give_room(False)
         elif clicks and height_px > 0:
             # A long name of a marker may take a line more than there is: the checks, not known yet, wait.
             self.panel.setVisible(self._needed_px() + guided_px <= height_px)

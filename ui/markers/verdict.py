@@ -147,6 +147,7 @@ class VerdictPanel(Card):
         for number in range(len(self._lines)):
             self._grid.setRowMinimumHeight(2 * number + 1, 0 if close else self._theme.px(29))
         self._grid.setContentsMargins(0, 2 if close else 8, 0, 0)
+        self.body.invalidate()  # how high it is now is asked at once
         self.updateGeometry()
 
     def states(self) -> list[State]:
