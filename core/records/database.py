@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import errno
-import os
 import sqlite3
 import threading
 from collections.abc import Iterator
@@ -156,7 +154,7 @@ def _as_it_lies(path: Path) -> bytes:
         content, again = path.read_bytes(), path.read_bytes()
         if content == again and not is_written and not _has_journal(path):
             return content[:18] + b"\1\1" + content[20:]  # the mark of a write-ahead log would ask for one
-    raise RegisterBusy(path, os.strerror(errno.EROFS))
+    raise RegisterBusy(path, phrase("its folder cannot be written"))
 
 
 def _has_journal(path: Path) -> bool:
