@@ -48,11 +48,11 @@ def tr_calls(path: Path) -> list[tuple[ast.Call, bool, bool]]:
 
 
 @SOURCES
-@pytest.mark.parametrize("path", UI, ids=lambda path: str(path.relative_to(ROOT)))
-def test_texts_are_literals_in_the_context_of_their_place(path: Path) -> None:
-    for call, method, in_class in tr_calls(path):
-        assert isinstance(call.args[0], ast.Constant), f"line {call.lineno}: not a literal"
-        assert method == in_class, f"line {call.lineno}: self.tr in classes, tr elsewhere"
+def test_texts_are_literals_in_the_context_of_their_place() -> None:
+    for path in UI:
+        for call, method, in_class in tr_calls(path):
+            assert isinstance(call.args[0], ast.Constant), f"{path}, line {call.lineno}: not a literal"
+            assert method == in_class, f"{path}, line {call.lineno}: self.tr in classes, tr elsewhere"
 
 
 @SOURCES
