@@ -59,6 +59,7 @@ class Background(QObject):
 
         def finish(call: Callable[[Any], None], value: Any) -> None:
             self._answers.discard(answer)
+            answer.deleteLater()  # what it is connected to, which holds it in turn, would stay for good
             if owner is None or shiboken6.isValid(owner):
                 call(value)
 
