@@ -126,7 +126,7 @@ if [ -n "$missing" ]; then
         *)
             [ "$purpose" = run ] || fail "the tests need these system packages: $missing" "Install them and start again."
             say "these system packages are missing: $missing"
-            say "going on: tracking files works without them; the window or a live camera may not, and without gcc all of it is slower" ;;
+            say "going on: tracking files works without them; the window or a live camera may not, and without a compiler all is slower" ;;
     esac
 fi
 

@@ -192,7 +192,7 @@ class LiveSession:
         Both are opened, filled and closed in threads of their own, closed after ``at_end`` has come back. Raises what
         kept a file from opening; then nothing is recorded.
         """
-        if self.recording:
+        if self.recording or self._backlog.ends_recording:
             raise RuntimeError("a recording runs already")
         frame, settings = self._newest_frame.look(), self._settings
         self._backlog.room = room_for(frame, settings.tracking_waiting)
@@ -253,9 +253,7 @@ class LiveSession:
                 self._recording = None
             return recording.finish()
         finally:
-            with self._lock:
-                self._recording = None
-                backlog.ends_recording = False
+            backlog.ends_recording = False
 
     @property
     def recording(self) -> bool:

@@ -174,9 +174,9 @@ class Captured(NamedTuple):
 class Backlog:
     """Frames that wait for the tracker, in the order in which they were captured.
 
-    Of what is recorded ``room`` may wait. Of what is not only the last half second does, and nothing while what
-    ``ends_recording`` is tracked and stored, for which a person waits. A frame without room is left out, and counted in
-    the next one. With ``waits`` whoever puts waits instead.
+    Of what is recorded ``room`` may wait. Of what is not only the last half second does. A frame without room is left
+    out, and counted in the next one. With ``waits`` whoever puts waits instead. A person waits while all that was
+    recorded is tracked and stored (``ends_recording``): then what comes is left out, and missed by nobody.
     """
 
     def __init__(self, room: int, fps: float, *, waits: bool) -> None:
@@ -242,8 +242,9 @@ class Backlog:
             self._left_out_before = 0
             return
         except ChannelFull:
-            self.left_out += not self.ends_recording
-            self._left_out_before = frame.dropped_before + 1
+            if not self.ends_recording:
+                self.left_out += 1
+                self._left_out_before = frame.dropped_before + 1
         except ChannelClosed:
             pass  # the session ended while a file waited for the tracker
         with self._lock:

@@ -131,8 +131,9 @@ class ReadingProcess:
         raise SessionUnreadable(path, detail)
 
     def start(self) -> None:
-        """Have it ready before the first question; may be called from a thread that nobody waits for."""
-        with self._lock:
+        """Have it ready before the first question; may be called from a thread that nobody waits for. What keeps it
+        from starting is told to who asks."""
+        with self._lock, contextlib.suppress(OSError):
             self._started()
 
     def end(self) -> None:

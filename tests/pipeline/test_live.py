@@ -253,12 +253,14 @@ def test_everything_tracked_is_recorded_in_one_thread() -> None:
 
 
 def test_what_the_end_waits_for_besides_is_no_time_of_the_disk() -> None:
-    source, sink = HeldSource(), FakeSession(OUT)
+    source, sink, after = HeldSource(), FakeSession(OUT), FakeSession(OUT)
     waited: list[tuple[str, str]] = []
 
     def wait() -> None:
         wait_until(lambda: sink.flushed == 3)  # a kill meanwhile loses nothing
         deliver(live, source, 5)  # for a person who waits the computer does nothing else meanwhile
+        with pytest.raises(RuntimeError):
+            live.start_recording(lambda: FakeSession(OUT))
         waited.append((threading.current_thread().name, sink.ended))
 
     with LiveSession(source) as live:
@@ -267,8 +269,11 @@ def test_what_the_end_waits_for_besides_is_no_time_of_the_disk() -> None:
         live.start_recording(lambda: sink, None, wait)
         deliver_tracked(live, source, 3)
         live.stop_recording()
+        live.start_recording(lambda: after)
         deliver_tracked(live, source, 1)
+        live.stop_recording()
         assert (live.counters().captured, live.counters().tracked, live.counters().dropped) == (12, 7, 0)
+    assert [row.dropped_before for row in after.rows] == [0], "nobody missed what came between"
     assert waited == [(threading.current_thread().name, "")], "beside the writing thread, before the file is closed"
     assert sink.ended == "closed"
 
