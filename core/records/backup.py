@@ -17,7 +17,7 @@ import os
 import re
 import sqlite3
 import uuid
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path, PureWindowsPath
@@ -211,8 +211,12 @@ def gather(data_folder: Path, place: Path, settings_folder: Path | None, session
 
 def backups(place: Path) -> list[Backup]:
     """The back-ups of a place that can be read, newest first."""
+    return _readable(sorted((place / BACKUPS).glob("*.json")))
+
+
+def _readable(paths: Iterable[Path]) -> list[Backup]:
     found = []
-    for path in sorted((place / BACKUPS).glob("*.json")):
+    for path in paths:
         with contextlib.suppress(BackupUnreadable):
             found.append(read_backup(path))
     return sorted(found, key=lambda one: one.made, reverse=True)
@@ -261,15 +265,21 @@ def compare(place: Path, backup: Backup, progress: Progress = lambda _done, _tot
 
 def thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
     """Keep the newest ``keep`` back-ups and the newest of each month for so many months; how many were taken away.
-    Every content that no back-up needs goes, and what a killed one left. Nothing is touched that a link leads to, nor
-    what is no content, nor anything while a back-up into the place runs."""
+    Every content that no back-up needs goes, and what a killed one left; none where a back-up cannot be read or none
+    is found, since nobody knows what is needed then. Nothing is touched that a link leads to, nor what is no content,
+    nor anything while a back-up into the place runs. Raises :class:`BackupUnreadable` where the back-ups cannot be
+    listed."""
     with contextlib.suppress(OutputBusy), _alone(place):
         return _thin_out(place, keep, months, now)
     return 0
 
 
 def _thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
-    there = backups(place)
+    try:
+        listed = [path for path in (place / BACKUPS).iterdir() if path.suffix == ".json"]
+    except OSError as cause:
+        raise BackupUnreadable(place / BACKUPS, cause.strerror or "") from cause
+    there = _readable(listed)  # read once: a fault between two readings would cost what it hides
     kept = {one.name for one in there[:keep]}
     for month in {(one.made.year, one.made.month) for one in there}:
         newest = max((one for one in there if (one.made.year, one.made.month) == month), key=lambda one: one.made)
@@ -280,8 +290,8 @@ def _thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
         (place / BACKUPS / f"{one.name}.json").unlink(missing_ok=True)
     for path in (place / BACKUPS).glob(".*.json.part"):
         path.unlink(missing_ok=True)
-    if not _unreadable(place):
-        needed = {one.sha256 for backup in backups(place) for one in backup.files}
+    if there and len(there) == len(listed):
+        needed = {one.sha256 for backup in there if backup.name in kept for one in backup.files}
         for path in _objects(place):
             if path.name not in needed:
                 path.unlink(missing_ok=True)
@@ -559,11 +569,6 @@ def _count(value: object) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= _MOST:
         raise ValueError("no count")
     return value
-
-
-def _unreadable(place: Path) -> bool:
-    """Whether there is a back-up that cannot be read: then nobody knows which contents it needs."""
-    return len(backups(place)) != len(list((place / BACKUPS).glob("*.json")))
 
 
 def _free_name(place: Path, name: str) -> str:

@@ -6,23 +6,25 @@ import shutil
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from datetime import datetime
+from datetime import datetime, timedelta
 from pathlib import Path
 from uuid import uuid4
 
 import numpy as np
 
-from carpus.core.durable import make_private, replace_file
-from carpus.core.errors import OutputNotWritable, SessionUnreadable
+from carpus.core.durable import make_private, replace_file, write_fault
+from carpus.core.errors import CarpusFault, ChangedMeanwhile, OutputNotWritable, RegisterBusy, SessionUnreadable
 from carpus.core.hand.protocols import WRIST_ANGLES
+from carpus.core.records.changes import dropped
 from carpus.core.records.library import Library, as_listed
 from carpus.core.records.of_sessions import change_of
-from carpus.core.records.session_list import TRIALS_FOLDER
+from carpus.core.records.schema import SESSION
+from carpus.core.records.session_list import TRIALS_FOLDER, look_for_share
 from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.results.ranges import in_order
 from carpus.core.results.repetition_rows import RepetitionChoices, repetitions_of
 from carpus.core.results.seen import best_motion
-from carpus.core.session.disk import free_name
+from carpus.core.session.disk import free_name, publish
 from carpus.core.session.reader import read_detections, read_outline, read_session, write_anew
 from carpus.core.session.values import DetectionTable, RepetitionRow, Session
 from carpus.core.types import ByteImage, FloatArray
@@ -82,19 +84,25 @@ class Corrections:
         """The new results that wait for a decision, the oldest first. One of a session that is no more is deleted."""
         found: list[tuple[str, Waiting]] = []
         for path in sorted(self._folder.glob(f"*{SESSION_SUFFIX}")):
-            try:
+            with suppress(CarpusFault, OSError):  # cannot be read, a full share, or one that is away: it stays
                 header = read_outline(path).header
-                self._library.entry(header.origin)
-            except SessionUnreadable:
-                with suppress(OSError):
-                    path.unlink()
-                continue
-            if self._is_listed(header.session_id):  # decided: a program was killed before the file had its name
-                with suppress(OutputNotWritable):  # the share is away: it waits
+                if self._is_listed(header.session_id):  # decided: a program was killed before the file had its name
                     self.use(header.origin, path)
-                continue
-            found.append((header.created, Waiting(header.origin, path)))
+                elif self._is_known(header.origin):
+                    found.append((header.created, Waiting(header.origin, path)))
+                else:
+                    path.unlink()
         return [one for _, one in sorted(found, key=lambda one: (one[0], one[1].trial))]
+
+    def _is_known(self, session_id: str) -> bool:
+        """Raises :class:`FolderMissing` and :class:`RegisterBusy` while a session that is in no list may come yet."""
+        library = self._library
+        if session_id in library.elsewhere or self._is_listed(session_id):
+            return True
+        look_for_share(library.store)
+        if not library.store.knows_all():
+            raise RegisterBusy(library.folder)
+        return False
 
     @property
     def _folder(self) -> Path:
@@ -119,9 +127,10 @@ class Corrections:
         """Take a new result into the patient's list, where it counts from now on; its identity. The old one stays.
 
         It is listed in one step with what was left out of the old one, and then the file gets its name: a kill leaves
-        all as it was, or what :meth:`waiting` goes on with.
+        all as it was, or what :meth:`waiting` goes on with. A fault takes it from the list again.
         """
         library, new_id = self._library, read_outline(trial).header.session_id
+        look_for_share(library.store)
         try:
             if not self._is_listed(new_id):
                 entry = library.entry(session_id)
@@ -135,10 +144,23 @@ class Corrections:
                 library.index.enter(target, library.owner(session_id), entry.by, trial, entry.exercise, also)
                 if choices is not None:
                     library.notes.session("set_aside" if choices.not_counted else "changed", new_id)
-            _move(trial, library.entry(new_id).path)
-        except OSError as cause:
-            raise OutputNotWritable(trial, cause.strerror or "") from cause
+            _move(trial, library.entry(new_id).path, new_id)
+        except (CarpusFault, OSError) as cause:
+            with suppress(CarpusFault, OSError):  # what stays listed is never dropped
+                self._take_back(new_id)
+            if isinstance(cause, OSError):
+                raise write_fault(trial, cause) from cause
+            raise
         return new_id
+
+    def _take_back(self, session_id: str) -> None:
+        """A result whose file did not get its name is in no list, and waits."""
+        if self._is_listed(session_id):
+            path = self._library.entry(session_id).path
+            if not _holds(path, session_id):
+                self._library.store.do([dropped(SESSION, session_id)])
+                if not path.exists():
+                    path.with_suffix(MARKERS_SUFFIX).unlink(missing_ok=True)
 
     def _is_listed(self, session_id: str) -> bool:
         with suppress(KeyError):
@@ -158,23 +180,49 @@ class Corrections:
         return replace(choices, left_out=moved, edges_s={}) if choices.not_counted or moved else None
 
     def use_again(self, session_id: str) -> str:
-        """Let an older result count again: written once more, with all its choices, it is the newest one; its identity.
-        Raises what reading and writing raise."""
-        trial, made = self.trial_path(session_id), datetime.now().astimezone().isoformat()
-        said = {"session_id": str(uuid4()), "created": made, "origin": session_id}
-        write_anew(self._library.entry(session_id).path, trial, **said)
-        return self.use(session_id, trial, is_copy=True)
+        """Let an older result count again: written once more, with all its choices, it is the newest one, whatever the
+        clocks of other computers say; its identity. It was not tracked again, so its origin is that of the older one.
+        Raises what reading and writing raise; then nothing is left."""
+        trial, newest = self.trial_path(session_id), self._library.results_of(session_id)[-1].created
+        made = max(datetime.now().astimezone(), newest + timedelta(seconds=1.0)).isoformat()
+        write_anew(self._library.entry(session_id).path, trial, session_id=str(uuid4()), created=made)
+        try:
+            return self.use(session_id, trial, is_copy=True)
+        except CarpusFault:
+            with suppress(CarpusFault, OSError):
+                self.drop(trial)
+            raise
 
     def drop(self, trial: Path) -> None:
+        """Delete a new result that is not wanted. Raises :class:`ChangedMeanwhile` for one that is listed: it counts,
+        and :meth:`waiting` goes on with it; and :class:`SessionUnreadable`."""
+        if trial.exists():
+            if self._is_listed(read_outline(trial).header.session_id):
+                raise ChangedMeanwhile(SESSION.name)
+            trial.unlink()
+
+
+def _move(trial: Path, place: Path, session_id: str) -> None:
+    """Give a result its name. Raises :class:`OutputExists` for one that another file has, and the faults of writing."""
+    if _holds(place, session_id):  # a program was killed before it could delete what it had copied
+        trial.unlink(missing_ok=True)
+        return
+    try:
+        publish(trial, place)
+    except OutputNotWritable:  # the sessions lie on a share, which is another disk
+        copy = place.with_name(f".{place.name}.new")
+        try:
+            replace_file(copy, lambda part: shutil.copyfile(trial, part))
+            publish(copy, place)
+        finally:
+            copy.unlink(missing_ok=True)
         trial.unlink(missing_ok=True)
 
 
-def _move(trial: Path, place: Path) -> None:
-    try:
-        trial.rename(place)
-    except OSError:  # the sessions lie on a share, which is another disk
-        replace_file(place, lambda part: shutil.copyfile(trial, part))
-        trial.unlink()
+def _holds(path: Path, session_id: str) -> bool:
+    with suppress(SessionUnreadable):
+        return path.exists() and read_outline(path).header.session_id == session_id
+    return False
 
 
 def _found_again(said: Mapping[int, str], old: Session, new: Session) -> dict[int, str]:

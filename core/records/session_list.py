@@ -279,7 +279,8 @@ def trials_of(store: Store, session_ids: Collection[str]) -> Iterator[Path]:
     folder = store.folder / TRIALS_FOLDER
     for path in folder.glob("*.h5") if not folder.is_symlink() else ():
         with suppress(SessionUnreadable):
-            if read_outline(path).header.origin in session_ids:
+            header = read_outline(path).header
+            if header.origin in session_ids or header.session_id in session_ids:
                 yield path
 
 

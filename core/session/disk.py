@@ -91,7 +91,11 @@ def _rename_to_free_name(part: Path, target: Path) -> None:
         raise
     except OSError:  # no hard links here (FAT, some network shares): take the name first, then replace it
         os.close(os.open(target, os.O_CREAT | os.O_EXCL | os.O_WRONLY))
-        part.replace(target)
+        try:
+            part.replace(target)
+        except OSError:  # another disk
+            target.unlink()
+            raise
     else:
         part.unlink()
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import errno
 import math
+import os
 import shutil
 import threading
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import fields, replace
-from datetime import datetime
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -17,17 +18,28 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
+from carpus.core.errors import (
+    ChangedMeanwhile,
+    DiskFull,
+    FolderMissing,
+    OutputExists,
+    OutputNotWritable,
+    RegisterBusy,
+    SessionUnreadable,
+)
 from carpus.core.pipeline.correction import CorrectionTask, correct, task_of
+from carpus.core.records.changes import dropped
 from carpus.core.records.corrections import Corrections, Waiting, _found_again, difference
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import recover
+from carpus.core.records.schema import SESSION
 from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
-from carpus.core.session.reader import read_session
+from carpus.core.session.reader import read_session, write_anew
 from carpus.core.session.values import RepetitionRow, Repetitions
 from carpus.ui.background import Background
 from carpus.ui.correct.flow import CorrectFlow
@@ -174,9 +186,9 @@ class Killed(BaseException):
     """Stands for a SIGKILL: nothing that comes behind it is done."""
 
 
-@pytest.mark.parametrize(("where", "step"), [(Store, "do"), (Path, "rename")])
+@pytest.mark.parametrize(("where", "step"), [(Store, "do"), (os, "link")])
 def test_a_kill_leaves_the_older_result_or_the_new_one_with_what_was_left_out(
-    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch, where: type, step: str  # noqa: F811
+    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch, where: object, step: str  # noqa: F811
 ) -> None:  # fmt: skip
     patient, session_id = entered(library, stored)
     library.keep_choices(session_id, RepetitionChoices(not_counted=True, not_counted_reason="pain"))
@@ -231,13 +243,187 @@ def test_a_new_result_goes_to_a_share_on_another_disk(
     _, session_id = entered(library, stored)
     trial = made(Corrections(library), session_id, stored)
 
+    on_another_disk(monkeypatch)
+    new = Corrections(library).use(session_id, trial)
+    place = library.entry(new).path
+    assert read_session(place).header.session_id == new
+    assert not trial.exists()
+    assert sorted(path.name for path in place.parent.iterdir()) == sorted(
+        entry.path.name for entry in library.results_of(new)
+    )
+    shutil.copyfile(place, trial)  # a program was killed before it could delete what it had copied
+    assert Corrections(library).waiting() == []
+    assert not trial.exists()
+    assert library.entry(new).path == place
+
+
+def on_another_disk(monkeypatch: pytest.MonkeyPatch) -> None:
+    replace_real = Path.replace
+
     def refused(*_: object) -> None:
         raise OSError(errno.EXDEV, "Invalid cross-device link")
 
-    monkeypatch.setattr(Path, "rename", refused)
+    def replaced(path: Path, target: Path) -> Path:
+        if path.parent != target.parent:
+            refused()
+        return replace_real(path, target)
+
+    monkeypatch.setattr("carpus.core.session.disk.os.link", refused)
+    monkeypatch.setattr(Path, "replace", replaced)
+
+
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES])
+def test_a_result_that_did_not_get_its_name_is_in_no_list_and_waits(
+    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch, number: int  # noqa: F811
+) -> None:  # fmt: skip
+    patient, session_id = entered(library, stored)
+    corrections = Corrections(library)
+    library.keep_choices(session_id, RepetitionChoices({0: "pain"}))
+    library.entry(session_id).path.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
+    before = sorted(library.entry(session_id).path.parent.iterdir())
+    trial = made(corrections, session_id, stored)
+
+    def refused(*_: object) -> None:
+        raise OSError(number, os.strerror(number))
+
+    with monkeypatch.context() as patched:
+        on_another_disk(patched)
+        patched.setattr(shutil, "copyfile", lambda one, other: refused() if one == trial else _copied(one, other))
+        with pytest.raises(DiskFull if number == errno.ENOSPC else OutputNotWritable):
+            corrections.use(session_id, trial)
+    assert [entry.session_id for entry in library.index.of_patient(patient)] == [session_id]
+    assert len(library.history(patient)) == 1
+    assert sorted(library.entry(session_id).path.parent.iterdir()) == before
+    assert corrections.waiting() == [Waiting(session_id, trial)]
+    new = corrections.use(session_id, trial)
+    assert library.choices(new).left_out
+    assert len(library.session(new)) == len(library.session(session_id))
+
+
+def _copied(one: Path, other: Path) -> None:
+    other.write_bytes(one.read_bytes())
+
+
+def test_a_file_that_took_the_name_meanwhile_is_kept(
+    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    patient, session_id = entered(library, stored)
+    trial = made(Corrections(library), session_id, stored)
+    real, taken = library.index.enter, list[Path]()
+
+    def enter(path: Path, *told: object) -> object:
+        path.write_bytes(b"another one's")
+        taken.append(path)
+        return real(path, *told)  # type: ignore[arg-type]
+
+    with monkeypatch.context() as patched:
+        patched.setattr(library.index, "enter", enter)
+        with pytest.raises(OutputExists):
+            Corrections(library).use(session_id, trial)
+    assert taken[0].read_bytes() == b"another one's"
+    assert [entry.session_id for entry in library.index.of_patient(patient)] == [session_id]
     new = Corrections(library).use(session_id, trial)
-    assert read_session(library.entry(new).path).header.session_id == new
+    assert library.entry(new).path != taken[0]
+    assert taken[0].read_bytes() == b"another one's"
+
+
+def test_what_is_listed_is_never_dropped_nor_deleted_and_hides_nothing_that_waits(
+    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    _, session_id = entered(library, stored)
+    corrections = Corrections(library)
+    trial, other = (made(corrections, session_id, stored) for _ in range(2))
+
+    def killed(*_: object) -> None:
+        raise Killed
+
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    def slow(path: Path) -> None:
+        raise SessionUnreadable(path, "damaged: reading it does not end")
+
+    def busy(*_: object) -> None:
+        raise RegisterBusy
+
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "link", killed)
+        with pytest.raises(Killed):
+            corrections.use(session_id, trial)
+    with pytest.raises(ChangedMeanwhile):
+        corrections.drop(trial)
+    with monkeypatch.context() as patched:
+        patched.setattr("carpus.core.records.corrections.read_outline", slow)
+        assert corrections.waiting() == []
+    assert trial.exists()
+    assert other.exists()
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "link", full)
+        patched.setattr(os, "open", full)
+        patched.setattr(Store, "do", busy)  # not even taken from the list
+        assert corrections.waiting() == [Waiting(session_id, other)]
+    assert trial.exists()
+    assert corrections.waiting() == [Waiting(session_id, other)]
     assert not trial.exists()
+
+
+def test_one_of_a_session_that_may_come_yet_waits_and_one_of_none_goes(
+    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    _, session_id = entered(library, stored)
+    corrections = Corrections(library)
+    trial = made(corrections, session_id, stored)
+    library.store.do([dropped(SESSION, session_id)])
+    with monkeypatch.context() as patched:
+        patched.setattr(library.store, "knows_all", lambda: False)
+        assert corrections.waiting() == []
+    assert trial.exists()
+    assert corrections.waiting() == []
+    assert not trial.exists()
+
+
+def test_a_share_that_is_away_is_told_before_anything_is_done(tmp_path: Path, stored: Stored) -> None:  # noqa: F811
+    share = tmp_path / "share"
+    share.mkdir()
+    library = Library(tmp_path / "data", sessions=share)
+    try:
+        patient, session_id = entered(library, stored)
+        corrections = Corrections(library)
+        trial = made(corrections, session_id, stored)
+        share.rename(tmp_path / "away")
+        with pytest.raises(FolderMissing):
+            corrections.use(session_id, trial)
+        assert corrections.waiting() == [Waiting(session_id, trial)]
+        assert [entry.session_id for entry in library.index.of_patient(patient)] == [session_id]
+    finally:
+        library.close()
+
+
+def test_a_copy_that_counts_again_is_the_newest_by_any_clock_and_says_no_other_origin(
+    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    patient, session_id = entered(library, stored)
+    corrections = Corrections(library)
+    trial = made(corrections, session_id, stored)
+    ahead = trial.with_name("ahead.h5")
+    write_anew(trial, ahead, created=(datetime.now().astimezone() + timedelta(hours=3)).isoformat())
+    corrections.drop(trial)
+    fast = corrections.use(session_id, ahead)
+    again = corrections.use_again(session_id)
+    assert [entry.session_id for entry in library.sessions(patient)] == [again]
+    assert [one.session_id for one in library.history(patient)] == [again]
+    assert library.session(again).header.origin == library.session(session_id).header.origin == ""
+    assert library.session(corrections.use_again(fast)).header.origin == session_id
+    before = [entry.session_id for entry in library.results_of(session_id)]
+
+    def busy(*_: object) -> None:
+        raise RegisterBusy
+
+    monkeypatch.setattr(Store, "do", busy)
+    with pytest.raises(RegisterBusy):
+        corrections.use_again(session_id)
+    assert list(trial.parent.iterdir()) == []
+    assert [entry.session_id for entry in library.results_of(session_id)] == before
 
 
 def test_what_was_left_out_of_the_old_result_does_not_count_in_the_new_one(

@@ -268,6 +268,44 @@ def test_what_a_back_up_of_a_newer_program_needs_is_not_thinned_out(data: Path, 
     compare(place, newer)
 
 
+@pytest.mark.parametrize("at_reading", [1, 2, 3, 4])
+def test_a_back_up_that_cannot_be_read_for_a_moment_loses_nothing(
+    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, at_reading: int
+) -> None:
+    place, real, read = tmp_path / "disk", Path.read_text, list[Path]()
+    made = kept_on(data, place, 1, 0)[0]
+
+    def faulty(path: Path, *told: Any, **named: Any) -> str:
+        read.append(path)
+        if path.stem == made.name and read.count(path) == at_reading:
+            raise OSError(5, "Input/output error")
+        return real(path, *told, **named)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "read_text", faulty)
+        assert thin_out(place, 9, 24, NOW) == 0
+    compare(place, made)
+
+
+def test_where_no_back_up_is_found_or_none_can_be_listed_nothing_goes(
+    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    place = tmp_path / "disk"
+    made = back_up(data, place, software_version="1", now=NOW)
+    (place / BACKUPS).rename(place / "away")
+    (place / BACKUPS).mkdir()
+    assert thin_out(place, 9, 24, NOW) == 0
+    compare(place, made)
+
+    def refused(_: object) -> list[Path]:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "iterdir", refused)
+    with pytest.raises(BackupUnreadable):
+        thin_out(place, 9, 24, NOW)
+    compare(place, made)
+
+
 def test_a_newer_or_foreign_list_is_refused(data: Path, tmp_path: Path) -> None:
     place = tmp_path / "disk"
     path = place / BACKUPS / f"{back_up(data, place, software_version='1', now=NOW).name}.json"

@@ -265,3 +265,4 @@ def test_an_older_result_is_told_by_its_time_and_can_count_again(
     with qtbot.waitSignal(choice.wanted) as asked:
         again.click()
     assert asked.args == ["a"]
+    assert not again.isEnabled(), "a second click would make a second one"

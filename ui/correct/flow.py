@@ -190,8 +190,14 @@ class CorrectFlow(Flow):
 
     def _keep(self) -> None:
         one = self._decided()
-        if one is not None:
-            self._stored.drop(one.trial)
+        if one is None:
+            return
+
+        def failed(fault: Exception) -> None:
+            self.context.messages.fault(fault)
+            self.look_for_waiting()
+
+        self._background.run(lambda: self._stored.drop(one.trial), lambda _: None, failed, self)
 
     def _use(self) -> None:
         one = self._decided()

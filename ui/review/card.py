@@ -252,6 +252,7 @@ class ResultChoice(QWidget):
                 self.buttons.append(button)
             if results[-1].session_id != current:
                 again = Button(self._theme, self.tr("Let this one count"), "quiet", height_px=32)
+                again.clicked.connect(lambda: again.setEnabled(False))  # once
                 again.clicked.connect(lambda: self.wanted.emit(current))
                 self._row.addWidget(again)
             self._row.addStretch(1)

@@ -58,7 +58,11 @@ class ReviewFlow(Flow):
             if self.context.now.session_id == session_id and self.context.way.place == "review":
                 self.show(new)
 
-        self.run(lambda: Corrections(self.context.library).use_again(session_id), show)
+        def failed(fault: Exception) -> None:
+            self.context.messages.fault(fault)
+            show(session_id)  # it may be asked for once more
+
+        self.run(lambda: Corrections(self.context.library).use_again(session_id), show, failed)
 
     def sign_lines(self) -> list[str]:
         figures = self.screen.figures
