@@ -367,6 +367,33 @@ def test_what_is_listed_is_never_dropped_nor_deleted_and_hides_nothing_that_wait
     assert not trial.exists()
 
 
+def test_keeping_the_old_one_is_refused_where_the_new_one_is_listed_already(
+    qtbot: QtBot, library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch,  # noqa: F811
+) -> None:  # fmt: skip
+    patient, session_id = entered(library, stored)
+    time.sleep(1.1)  # files say the second in which they were made, and nobody corrects within one
+    trial = made(Corrections(library), session_id, stored)
+
+    def killed(*_: object) -> None:
+        raise Killed
+
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "link", killed)
+        with pytest.raises(Killed):
+            Corrections(library).use(session_id, trial)
+    theme, told = Theme("light"), Told("correct")
+    shell = Shell(theme)
+    qtbot.addWidget(shell)
+    flow = CorrectFlow(a_context(theme, shell, told, Background(), library=library, now=NowOpen(session_id=session_id)))
+    flow.waiting = [Waiting(session_id, trial)]
+    flow.open_sheet()
+    flow.sheet.keep_wanted.emit()
+    qtbot.waitUntil(lambda: bool(told.faults) and not trial.exists(), timeout=30_000)
+    (new,) = library.history(patient)
+    assert new.session_id != session_id
+    flow.close()
+
+
 def test_one_of_a_session_that_may_come_yet_waits_and_one_of_none_goes(
     library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
 ) -> None:  # fmt: skip
