@@ -403,6 +403,17 @@ class RegisterBusy(RegisterUnreadable):
     do = phrase("Close Carpus first, then try again.")
 
 
+class RegisterJournalLeft(RegisterUnreadable):
+    """Of a window that is open on another computer, or of one that ended without warning."""
+
+    happened = phrase(
+        "The last changes of the list of patients lie in its journal, which only a folder that can be written takes "
+        "in: {subject}."
+    )
+    safe = _UNTOUCHED
+    do = phrase("Close Carpus wherever it is open; if that does not help, copy the folder to where it can be written.")
+
+
 class RegisterDamaged(RegisterUnreadable):
     """The register's file is broken or not a register; reading it again does not help."""
 

@@ -132,7 +132,8 @@ def day_beside(when: datetime, *others: datetime) -> str:
 
 def time_beside(when: datetime, *others: datetime) -> str:
     """``15:29``, or ``15:29:07`` where another session is of the same minute."""
-    same = any(other != when and f"{other:%Y%j%H%M}" == f"{when:%Y%j%H%M}" for other in others)
+    day, minute = when.date(), (when.hour, when.minute)  # of hundreds of sessions with each row: nothing is written
+    same = any(other != when and other.date() == day and (other.hour, other.minute) == minute for other in others)
     return f"{when:%H:%M:%S}" if same else f"{when:%H:%M}"
 
 

@@ -21,15 +21,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from carpus.core.formats.new_output import new_table
+    from carpus.core.formats.new_output import look_for_folder, new_table
     from carpus.core.records.log import read_log
     from carpus.core.records.store import Store, look_for_store
 
     settings, _ = load_sound_settings()
     folder: Path = arguments.data_folder or settings.data_folder
     look_for_store(folder)
-    if arguments.output is not None and arguments.output.exists():
-        raise OutputExists(arguments.output)
+    if arguments.output is not None:
+        if arguments.output.exists():
+            raise OutputExists(arguments.output)
+        look_for_folder(arguments.output)
     own = folder == settings.data_folder
     faults: list[CarpusFault] = []
     with Store(

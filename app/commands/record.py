@@ -88,7 +88,7 @@ def run(arguments: argparse.Namespace) -> int:
         try:
             recorder.finish()
         except CarpusFault:
-            if arguments.output.exists():
+            if recorder.written and arguments.output.exists():
                 print(f"Cut short: {arguments.output}; what was recorded before can be read.")
             raise
     print(f"Recording: {arguments.output}\nFrames: {count}, missing {missed}")

@@ -13,8 +13,8 @@ import yaml
 from carpus.core.camera import COEFFICIENTS, DEFAULT_CAMERA, Camera, DistortionModel
 from carpus.core.dates import is_moment
 from carpus.core.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, sensor_of
-from carpus.core.durable import private
-from carpus.core.errors import CameraFileUnreadable, OutputExists, OutputNotWritable
+from carpus.core.durable import private, write_fault
+from carpus.core.errors import CameraFileUnreadable, OutputExists
 from carpus.core.phrase import phrase
 from carpus.core.types import SIMULATED
 
@@ -119,7 +119,7 @@ def write_camera_info(
     except FileExistsError as cause:
         raise OutputExists(path) from cause
     except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
+        raise write_fault(path, cause) from cause
 
 
 def default_camera(width_px: int, height_px: int) -> Camera | None:

@@ -50,9 +50,10 @@ class BidsChannel(NamedTuple):
 def check(folder: Path) -> None:
     """Raise :class:`OutputExists` where a data set is already, or what a killed export left of one: its tables would
     have to be changed, and a session would be there twice."""
-    for there in (folder / DESCRIPTION, *folder.glob("sub-*")):
-        if there.exists():
-            raise OutputExists(there)
+    if (folder / DESCRIPTION).exists():
+        raise OutputExists(folder / DESCRIPTION)
+    for left in folder.glob(f"sub-*/ses-*/motion/*_tracksys-{TRACKSYS}_*"):
+        raise OutputExists(left.parents[2])
 
 
 def write(take: Take, folder: Path) -> list[Path]:

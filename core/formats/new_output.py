@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import csv
+import errno
 import json
 import math
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, Any
 
 from carpus.core.durable import private, write_fault
-from carpus.core.errors import OutputExists
+from carpus.core.errors import OutputExists, OutputNotWritable
 
 HALF = ".half"
 _CALCULATED = tuple("=+-@\t\r\n")
@@ -44,7 +45,17 @@ def new_bytes(path: Path, *, replaces: bool = False) -> Iterator[IO[bytes]]:
         except OSError as cause:
             raise write_fault(path, cause) from cause
     finally:
-        half.unlink(missing_ok=True)
+        with suppress(OSError):  # a disk that can only be read says so of what is not there too
+            half.unlink(missing_ok=True)
+
+
+def look_for_folder(path: Path) -> None:
+    """Where a person names one file its folder is there; none is made: its name may be misspelt.
+
+    Raises :class:`OutputNotWritable`.
+    """
+    if not path.parent.is_dir():
+        raise OutputNotWritable(path, os.strerror(errno.ENOENT))
 
 
 def new_text(path: Path, text: str, *, replaces: bool = False) -> Path:

@@ -15,7 +15,14 @@ from sqlalchemy.exc import DBAPIError
 from sqlalchemy.pool import StaticPool
 
 from carpus.core.durable import make_private_file
-from carpus.core.errors import DiskFull, OutputNotWritable, RegisterBusy, RegisterDamaged, RegisterUnreadable
+from carpus.core.errors import (
+    DiskFull,
+    OutputNotWritable,
+    RegisterBusy,
+    RegisterDamaged,
+    RegisterJournalLeft,
+    RegisterUnreadable,
+)
 from carpus.core.phrase import phrase
 from carpus.core.records.schema import METADATA, OUTBOX, SESSION, SHARED, SQLITE_LOG, VERSION
 
@@ -122,8 +129,11 @@ class Database:
 
 
 def copied(path: Path) -> sqlite3.Connection:
-    """A store in memory, as it is between two transactions, whoever has it open; also of a folder that cannot be
-    written, in which SQLite opens none. Raises :class:`RegisterUnreadable` and its kinds."""
+    """A store in memory, as it is between two transactions, whoever has it open. Also of a folder that cannot be
+    written, in which SQLite opens none, where no journal lies beside it: while somebody has it open there is one.
+
+    Raises :class:`RegisterUnreadable` and its kinds.
+    """
     copy = sqlite3.connect(":memory:", isolation_level=None, check_same_thread=False)
     try:
         try:
@@ -139,6 +149,9 @@ def copied(path: Path) -> sqlite3.Connection:
     except (sqlite3.Error, OSError) as cause:
         copy.close()
         raise RegisterUnreadable(path, str(cause)) from cause
+    except BaseException:
+        copy.close()
+        raise
     return copy
 
 
@@ -147,13 +160,15 @@ def _as_it_lies(path: Path) -> bytes:
 
     SQLite's own ``immutable`` would go on reading a file that another computer writes. Here the whole file is read
     twice: nobody wrote in it where both are equal and no journal was there before nor is behind, for one is there as
-    long as pages are written. Raises :class:`RegisterBusy` where it is not so, OSError.
+    long as pages are written. Raises :class:`RegisterJournalLeft` or :class:`RegisterBusy` where it is not so, OSError.
     """
     for _ in range(READ_AGAIN):
         is_written = _has_journal(path)
         content, again = path.read_bytes(), path.read_bytes()
         if content == again and not is_written and not _has_journal(path):
             return content[:18] + b"\1\1" + content[20:]  # the mark of a write-ahead log would ask for one
+    if _has_journal(path):
+        raise RegisterJournalLeft(path)
     raise RegisterBusy(path, phrase("its folder cannot be written"))
 
 

@@ -101,7 +101,8 @@ def take_away(part: Path) -> bool:
     with contextlib.suppress(FileNotFoundError):  # it became the session meanwhile, or only its heartbeat is left
         if part in still_beating([part]) or is_being_written(part):
             return False
-    part.unlink(missing_ok=True)
+    with contextlib.suppress(OSError):  # who writes the session next is told why it cannot be
+        part.unlink(missing_ok=True)
     remove(part)
     return True
 

@@ -5260,6 +5260,10 @@
         <translation>ChArUco-Tafel {columns} x {rows}, Felder von {size} mm</translation>
     </message>
     <message>
+        <source>Close Carpus wherever it is open; if that does not help, copy the folder to where it can be written.</source>
+        <translation>Schließen Sie Carpus überall, wo es offen ist; hilft das nicht, kopieren Sie den Ordner an einen Ort, an dem er beschreibbar ist.</translation>
+    </message>
+    <message>
         <source>Install Carpus anew.</source>
         <translation>Carpus neu installieren.</translation>
     </message>
@@ -5414,6 +5418,10 @@
     <message>
         <source>The hand was still for {value} pictures only ({limit} or more are good).</source>
         <translation>Die Hand war nur über {value} Bilder ruhig ({limit} oder mehr sind gut).</translation>
+    </message>
+    <message>
+        <source>The last changes of the list of patients lie in its journal, which only a folder that can be written takes in: {subject}.</source>
+        <translation>Die letzten Änderungen der Patientenliste liegen in ihrem Journal, das nur in einem beschreibbaren Ordner übernommen wird: {subject}.</translation>
     </message>
     <message>
         <source>The list of patients cannot be opened: {subject} ({detail}).</source>

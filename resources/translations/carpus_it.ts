@@ -5268,6 +5268,10 @@
         <translation>tavola ChArUco {columns} x {rows}, quadrati di {size} mm</translation>
     </message>
     <message>
+        <source>Close Carpus wherever it is open; if that does not help, copy the folder to where it can be written.</source>
+        <translation>Chiudere Carpus ovunque sia aperto; se non basta, copiare la cartella in un posto in cui si possa scrivere.</translation>
+    </message>
+    <message>
         <source>Install Carpus anew.</source>
         <translation>Installare di nuovo Carpus.</translation>
     </message>
@@ -5402,6 +5406,10 @@
     <message>
         <source>The hand was still for {value} pictures only ({limit} or more are good).</source>
         <translation>La mano è stata ferma solo per {value} immagini ({limit} o più è buono).</translation>
+    </message>
+    <message>
+        <source>The last changes of the list of patients lie in its journal, which only a folder that can be written takes in: {subject}.</source>
+        <translation>Le ultime modifiche dell’elenco dei pazienti si trovano nel suo journal, che viene ripreso solo in una cartella in cui si può scrivere: {subject}.</translation>
     </message>
     <message>
         <source>The list of patients cannot be opened: {subject} ({detail}).</source>

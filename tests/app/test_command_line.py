@@ -24,8 +24,8 @@ from tqdm import tqdm
 from carpus.app import command_line
 from carpus.app.sources import open_recording
 from carpus.core.capture.camera_info import CAMERA_FILE
-from carpus.core.capture.files.tum import COLOR_LIST, TumFolder
-from carpus.core.errors import RecordingEmpty
+from carpus.core.capture.files.tum import COLOR_LIST, TumFolder, TumWriter
+from carpus.core.errors import DiskFull, RecordingEmpty
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.session.reader import read_session
 from carpus.core.session.recovery import interrupted_sessions
@@ -34,6 +34,7 @@ from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.oni_writer import in_millimetres, write_oni
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE
 from carpus.core.simulation.spec import RecordingSpec
+from carpus.core.types import Frame
 from tests.commands import Command
 from tests.rendered import FLEXION, Rendered
 from tests.session.samples import CAMERA, make_calibration
@@ -280,6 +281,22 @@ def test_info_says_that_a_raw_recording_was_cut_short(recording: Path, tmp_path:
         file.truncate(path.stat().st_size - 100)
     cut = command("info", path)
     assert [(one.code, "cut short" in one.out) for one in (whole, cut)] == [(0, False), (0, True)]
+
+
+@pytest.mark.parametrize("whole", [0, 1])
+def test_only_of_what_was_recorded_it_is_said_that_it_can_be_read(
+    whole: int, recording: Path, tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    append = TumWriter.append_frame
+
+    def fills_the_disk(writer: TumWriter, frame: Frame) -> None:
+        if len(writer) == whole:
+            raise DiskFull(writer.path)
+        append(writer, frame)
+
+    monkeypatch.setattr(TumWriter, "append_frame", fills_the_disk)
+    done = command("record", "--from", recording, "--output", tmp_path / "take", "--format", "tum")
+    assert (done.code, "can be read" in done.out) == (1, bool(whole))
 
 
 def test_a_damaged_raw_recording_is_not_said_to_be_whole(recording: Path, tmp_path: Path, command: Command) -> None:

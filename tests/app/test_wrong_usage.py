@@ -139,7 +139,10 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("{empty}", 1, "no session can be read"),
         ("{session} --raters {gone}", 1, "columns session and rater"),
     ],
-    "log": [("--data-folder {gone}", 1, "There is no folder {gone}")],
+    "log": [
+        ("--data-folder {gone}", 1, "There is no folder {gone}"),
+        ("--data-folder {data} --output {gone}/log.csv", 1, "gone"),
+    ],
     "erase": [
         ("", 2, "PSEUDONYM"),
         ("{session}", 1, "lies in no data folder"),

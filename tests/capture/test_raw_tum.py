@@ -58,9 +58,22 @@ def test_the_list_of_a_full_disk_has_only_whole_lines(tmp_path: Path, monkeypatc
             writer.append_frame(frames()[2])
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-        writer.close()
     assert (path / "rgb.txt").read_bytes() == before
     assert len(list((path / "rgb").iterdir())) == 1
+    writer.append_frame(frames()[3])  # there is room again
+    writer.close()
+    assert (path / "rgb.txt").read_bytes() == before + b"10.100000 rgb/10.100000.png\n"
+
+
+@pytest.mark.parametrize("room", [10, 200])
+def test_a_disk_that_is_full_at_the_start_is_told_as_that(tmp_path: Path, room: int) -> None:
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (room, limits[1]))
+    try:
+        with pytest.raises(DiskFull):
+            TumWriter(tmp_path / "take", INFO)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
 
 
 def test_the_reader_gives_the_same_pictures_back(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import uuid
 from dataclasses import replace
 from functools import partial
@@ -10,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from carpus.core.errors import OutputExists, SessionUnreadable
+from carpus.core.errors import OutputExists, OutputNotWritable, SessionUnreadable
 from carpus.core.formats import formats
 from carpus.core.formats.formats import FORMATS, Wanted
 from carpus.core.hand.protocols import HAND21
@@ -52,6 +53,21 @@ def test_what_a_killed_export_left_of_a_copy_does_not_stop_the_next_but_one_that
     part_path(out / path.name, header.session_id).with_suffix(".part.alive").write_text("{}")
     assert not export_sessions([Wanted.stored(path)], out, ["h5"]).refused
     assert [file.name for file in out.iterdir()] == [path.name]
+
+
+def test_each_session_of_an_export_to_a_disk_that_can_only_be_read_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuses(*_: object, **__: object) -> None:
+        raise OSError(errno.EROFS, "Read-only file system")
+
+    wanted = [Wanted.stored(stored(tmp_path, name=name)) for name in ("one", "two")]
+    (tmp_path / "out").mkdir()
+    monkeypatch.setattr(Path, "unlink", refuses)
+    monkeypatch.setattr(SessionWriter, "create", lambda path, *_: (_ for _ in ()).throw(OutputNotWritable(path)))
+    for kind in ("h5", "csv"):
+        refused = export_sessions(wanted, tmp_path / "out", [kind]).refused
+        assert [type(one.fault) for one in refused] == [OutputNotWritable] * 2
 
 
 def test_nobody_is_found_in_what_was_deidentified(tmp_path: Path) -> None:

@@ -161,6 +161,13 @@ def test_bids_passes_the_rules_as_its_own_validator_reads_them(tmp_path: Path) -
     assert not list((tmp_path / "set").rglob("*_run-2_*"))
 
 
+def test_what_is_no_data_set_of_carpus_stays_beside_one(tmp_path: Path) -> None:
+    (tmp_path / "sub-notes.txt").touch()
+    (tmp_path / "sub-other" / "ses-1" / "anat").mkdir(parents=True)
+    done = export_sessions([Wanted.stored(stored(tmp_path))], tmp_path, ["bids"], software_version="0")
+    assert (bool(done.files), done.refused) == (True, ())
+
+
 def test_bids_columns_are_what_channels_say(tmp_path: Path) -> None:
     take = hand_take(tmp_path)
     written = bids_motion.write(take, tmp_path / "set")

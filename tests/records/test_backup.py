@@ -21,6 +21,7 @@ from carpus.core.errors import (
     OutputBusy,
     OutputExists,
     RegisterBusy,
+    RegisterJournalLeft,
     RegisterUnreadable,
 )
 from carpus.core.records import backup as module
@@ -38,8 +39,10 @@ from carpus.core.records.backup import (
     restore,
     thin_out,
 )
-from carpus.core.records.database import STORE_FILE
+from carpus.core.records.database import STORE_FILE, copied
+from carpus.core.records.patients import Patients
 from carpus.core.records.staging import remove_left_behind
+from carpus.core.records.store import Store
 from carpus.core.session.writer import SessionWriter
 from tests.records.samples import LINDEN, T0, measure, opened
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
@@ -98,8 +101,12 @@ def test_of_a_folder_that_can_only_be_read_there_is_a_backup_unless_somebody_wri
     if trouble:
         with pytest.raises(RegisterUnreadable) as told:
             back_up(data, tmp_path / "place", software_version="1")
-        assert isinstance(told.value, RegisterBusy) == (trouble != "damaged")
+        assert type(told.value) is {
+            "a journal": RegisterJournalLeft, "another computer writes": RegisterBusy, "damaged": RegisterUnreadable
+        }[trouble]  # fmt: skip
         return
+    with Store(data, copy=copied(store)) as kept:
+        assert [record.entry for record in Patients(kept).listed()] == [LINDEN]
     made = back_up(data, tmp_path / "place", software_version="1")
     monkeypatch.undo()
     restored(tmp_path / "place", made, tmp_path / "again")

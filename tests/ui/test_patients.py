@@ -331,7 +331,11 @@ def test_a_day_that_is_none_is_told_once_it_is_written_and_the_list_is_no_stop_o
     form.focusNextPrevChild(True)
     assert (form.listed.isVisible(), host.focusWidget()) == (True, form.onset_day)
     none = "Since when? There is no such day"
-    for typed, told in (("31.2.2026", none), ("20.12.2026", "yet to come"), ("2026-02-31", none)):
+    order = "Since when? Day, month, year"
+    for typed, told in (
+        ("31.2.2026", none), ("20.12.2026", "yet to come"), ("2026-02-31", none), ("12/20/2026", order),
+        ("13/20/2026", none),
+    ):  # fmt: skip
         form.onset_day.setFocus()
         form.onset_day.selectAll()
         for sign in typed[:-1]:

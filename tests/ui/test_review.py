@@ -248,6 +248,18 @@ def test_sessions_of_one_minute_are_told_apart_by_their_second() -> None:
     assert time_beside(first, first, datetime(2025, 11, 21, 9, 5, 41)) == "09:05"
 
 
+class Unwritten(datetime):
+    """Cannot be put in words: with hundreds of sessions that takes longer than all else of their list."""
+
+    def __format__(self, spec: str, /) -> str:
+        raise AssertionError(spec)
+
+
+def test_only_the_session_that_is_told_from_the_others_is_put_in_words() -> None:
+    first, others = datetime(2026, 11, 21, 9, 5, 7), (Unwritten(2026, 11, 21, 9, 5, 41), Unwritten(2026, 11, 20, 9, 5))
+    assert time_beside(first, *others) == "09:05:07"
+
+
 def test_an_older_result_is_told_by_its_time_and_can_count_again(
     qtbot: QtBot, theme: Theme, show: Show[ResultChoice]
 ) -> None:

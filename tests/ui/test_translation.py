@@ -48,19 +48,19 @@ def tr_calls(path: Path) -> list[tuple[ast.Call, bool, bool]]:
 
 
 @SOURCES
-def test_texts_are_literals_in_the_context_of_their_place() -> None:
-    for path in UI:
-        for call, method, in_class in tr_calls(path):
-            assert isinstance(call.args[0], ast.Constant), f"{path}, line {call.lineno}: not a literal"
-            assert method == in_class, f"{path}, line {call.lineno}: self.tr in classes, tr elsewhere"
-
-
-@SOURCES
-def test_texts_have_named_places_for_what_is_filled_in() -> None:
-    for path in UI:
-        for call, _, _ in tr_calls(path):
-            text = call.args[0].value  # type: ignore[attr-defined]
-            assert not re.search(r"\{\}|\{\d", text), f"{path}: {text}"
+def test_texts_are_literals_in_the_context_of_their_place_with_named_places_for_what_is_filled_in() -> None:
+    calls = [(f"{path}, line {call.lineno}", call, *how) for path in UI for call, *how in tr_calls(path)]
+    assert calls
+    wrong = []
+    for place, call, method, in_class in calls:
+        text = call.args[0].value if isinstance(call.args[0], ast.Constant) else None
+        if text is None:
+            wrong.append(f"{place}: not a literal")
+        elif re.search(r"\{\}|\{\d", text):
+            wrong.append(f"{place}: {text}")
+        if method != in_class:
+            wrong.append(f"{place}: self.tr in classes, tr elsewhere")
+    assert wrong == []
 
 
 @SOURCES

@@ -29,6 +29,8 @@ if TYPE_CHECKING:  # it reads and writes files
 NOTE_HEIGHT_PX = 84
 WHOLE_DAY = re.compile(r"\d\d?\D+\d\d?\D+(?:(?:19|20)\d\d|\d\d)|(?:19|20)\d\d\D+\d\d?\D+\d\d?")
 """Day, month and year are there: where that is no day, there is none such."""
+MONTH_FIRST = re.compile(r"(?:0?\d|1[0-2])\D+(?:1[3-9]|[2-9]\d)\D")
+"""A day stands where the month should, and the other way round: what is wrong is the order."""
 
 
 class PatientForm(Sheet):
@@ -192,7 +194,7 @@ class PatientForm(Sheet):
             return ""
         if numbers.day_typed(typed) is not None:
             return self.tr("Since when? It is yet to come")
-        if WHOLE_DAY.fullmatch(typed):
+        if WHOLE_DAY.fullmatch(typed) and not MONTH_FIRST.match(typed):
             return self.tr("Since when? There is no such day")
         return self.tr("Since when? Day, month, year")
 

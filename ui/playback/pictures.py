@@ -7,8 +7,8 @@ from itertools import pairwise
 from typing import Generic, TypeVar
 
 import numpy as np
-from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QColor, QPainter
 
 from carpus.core.camera import Camera
 from carpus.core.hand.protocols import MarkerProtocol
@@ -17,7 +17,7 @@ from carpus.core.types import BoolArray, ByteImage, FloatArray
 from carpus.ui.background import Background
 from carpus.ui.picture.overlay import haloed
 from carpus.ui.picture.view import PictureView
-from carpus.ui.theme import ON_PICTURE_LABEL, ON_PICTURE_LINE, Theme
+from carpus.ui.theme import ON_PICTURE_LINE, Theme
 
 GROUND = 34
 """Grey under the marks where no pictures were kept."""
@@ -190,9 +190,13 @@ def paint_trails(
 ) -> None:
     """Ways of the fingertips, no bones: dotted, and the fainter the longer ago; ``modelled`` (n, M, 2) pixels of the
     frames shown, ``seen`` bool (n, M)."""
-    ink = QColor(ON_PICTURE_LABEL)
-    for tip in (chain[-1] for number, chain in protocol.chains.items() if finger in (0, number)):
-        for number in np.flatnonzero(seen[:, tip] & np.isfinite(modelled[:, tip]).all(axis=1)):
-            ink.setAlphaF((number + 1) / len(modelled))
-            painter.setPen(QPen(ink, 2.2, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
-            painter.drawPoint(picture.to_screen(*map(float, modelled[number, tip])))
+    tips = [chain[-1] for number, chain in protocol.chains.items() if finger in (0, number)]
+    shown = np.argwhere(seen[:, tips] & np.isfinite(modelled[:, tips]).all(axis=-1))
+
+    def dots() -> None:
+        for number, tip in shown:
+            painter.setOpacity((number + 1) / len(modelled))
+            painter.drawPoint(picture.to_screen(*map(float, modelled[number, tips[tip]])))
+
+    haloed(painter, ON_PICTURE_LINE, 2.2, dots)  # all halos first: none lies on a dot
+    painter.setOpacity(1.0)

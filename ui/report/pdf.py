@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import errno
 import hashlib
-import os
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -13,8 +11,7 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, Q
 from PySide6.QtGui import QColor, QGuiApplication, QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
 
 from carpus.core.calibration.camera.sheet import Disc, PrintedSheet, SheetBox, SheetLine, SheetText
-from carpus.core.errors import OutputNotWritable
-from carpus.core.formats.new_output import new_bytes
+from carpus.core.formats.new_output import look_for_folder, new_bytes
 from carpus.core.measures.by_hand import HandValue, of_session
 from carpus.core.provenance import said_in, with_revision
 from carpus.core.results.camera_said import CameraSaid
@@ -187,8 +184,7 @@ def _write_pages(output_path: Path, pages: Sequence[tuple[QSizeF | None, Callabl
         painter.end()  # a writer that goes while it is painted on ends the program
     buffer.close()
     del application
-    if not output_path.parent.is_dir():  # none is made: its name may be misspelt
-        raise OutputNotWritable(output_path, os.strerror(errno.ENOENT))
+    look_for_folder(output_path)
     with new_bytes(output_path) as file:
         file.write(bytes(store.data()))
     return output_path

@@ -23,10 +23,10 @@ from carpus.core.capture.source import Notice, SourceInfo, ignore, is_simulated
 from carpus.core.durable import Writing, private, write_fault
 from carpus.core.errors import (
     CameraFileUnreadable,
+    CarpusFault,
     DepthMissing,
     FirstPictureDamaged,
     OutputExists,
-    OutputNotWritable,
     PictureDamaged,
     PictureSizeChanged,
     PicturesLost,
@@ -381,10 +381,13 @@ class TumWriter(Writing):
                 remark = f"{SIMULATED_REMARK}\n" if is_simulated(info) else ""
                 remark += "".join(f"{name}{value}\n" for name, value in _said(info) if value)
                 _append(self._lists[kind], f"# {kind} pictures of {info.name}\n{remark}# timestamp filename\n")
+            write_camera_info(path / CAMERA_FILE, info.camera)
         except OSError as cause:
             self.abandon()
-            raise OutputNotWritable(path, cause.strerror or "") from cause
-        write_camera_info(path / CAMERA_FILE, info.camera)
+            raise write_fault(path, cause) from cause
+        except CarpusFault:
+            self.abandon()
+            raise
 
     @property
     def path(self) -> Path:
@@ -435,6 +438,7 @@ def _append(file: FileIO, text: str) -> None:
     data, begin = text.encode(), file.tell()
     if file.write(data) < len(data):
         file.truncate(begin)
+        file.seek(begin)
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
