@@ -407,8 +407,8 @@ class RegisterJournalLeft(RegisterUnreadable):
     """Of a window that is open on another computer, or of one that ended without warning."""
 
     happened = phrase(
-        "The last changes of the list of patients lie in its journal, which only a folder that can be written takes "
-        "in: {subject}."
+        "The last changes of the list of patients lie in its journal, "
+        "which needs a folder that can be written: {subject}."
     )
     safe = _UNTOUCHED
     do = phrase("Close Carpus wherever it is open; if that does not help, copy the folder to where it can be written.")

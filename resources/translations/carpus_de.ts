@@ -5420,7 +5420,7 @@
         <translation>Die Hand war nur über {value} Bilder ruhig ({limit} oder mehr sind gut).</translation>
     </message>
     <message>
-        <source>The last changes of the list of patients lie in its journal, which only a folder that can be written takes in: {subject}.</source>
+        <source>The last changes of the list of patients lie in its journal, which needs a folder that can be written: {subject}.</source>
         <translation>Die letzten Änderungen der Patientenliste liegen in ihrem Journal, das nur in einem beschreibbaren Ordner übernommen wird: {subject}.</translation>
     </message>
     <message>

@@ -5408,7 +5408,7 @@
         <translation>La mano è stata ferma solo per {value} immagini ({limit} o più è buono).</translation>
     </message>
     <message>
-        <source>The last changes of the list of patients lie in its journal, which only a folder that can be written takes in: {subject}.</source>
+        <source>The last changes of the list of patients lie in its journal, which needs a folder that can be written: {subject}.</source>
         <translation>Le ultime modifiche dell’elenco dei pazienti si trovano nel suo journal, che viene ripreso solo in una cartella in cui si può scrivere: {subject}.</translation>
     </message>
     <message>
