@@ -155,6 +155,8 @@ def free_bytes(folder: Path | None) -> int | None:
 
 PREVIEW_WAITING = 16
 """Pictures that wait for the tracker while nothing is recorded: half a second. What is seen is to be of now."""
+FOLLOWS_S = 0.08
+"""A hand is followed by a picture in so long: after a second without any, fingers may be taken for one another."""
 FREE_SHARE = 0.5
 """No more than this part of the memory that is free when a recording begins is for pictures that wait."""
 
@@ -176,7 +178,8 @@ class Backlog:
 
     Of what is recorded ``room`` may wait. Of what is not only the last half second does. A frame without room is left
     out, and counted in the next one. With ``waits`` whoever puts waits instead. A person waits while all that was
-    recorded is tracked and stored (``ends_recording``): then what comes is left out, and missed by nobody.
+    recorded is tracked and stored (``ends_recording``): then what comes is left out, and missed by nobody, but for as
+    much as it takes to follow the hand, once nothing recorded waits.
     """
 
     def __init__(self, room: int, fps: float, *, waits: bool) -> None:
@@ -189,6 +192,7 @@ class Backlog:
         )
         self._lock = threading.Lock()
         self._handed = self._worked = self._left_out_before = 0
+        self._followed_s = -math.inf
         self._worked_at: deque[float] = deque(maxlen=math.ceil(2.0 * fps))
 
     def __len__(self) -> int:
@@ -234,12 +238,14 @@ class Backlog:
         if self._left_out_before:
             frame = replace(frame, dropped_before=frame.dropped_before + self._left_out_before)
         if captured.recording is None and not self.waits:
-            room = 0 if self.ends_recording else min(PREVIEW_WAITING, room)
+            room = min(PREVIEW_WAITING, room)
+            if self.ends_recording:
+                room = int(frame.timestamp_s - self._followed_s >= FOLLOWS_S)
         try:
             if not self.waits and len(self) >= room:
                 raise ChannelFull
             self._channel.put(captured._replace(frame=frame))
-            self._left_out_before = 0
+            self._left_out_before, self._followed_s = 0, frame.timestamp_s
             return
         except ChannelFull:
             if not self.ends_recording:

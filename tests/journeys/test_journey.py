@@ -587,7 +587,7 @@ def test_what_was_left_out_is_stored_beside_the_session(qtbot: QtBot, open_deskt
     before = path.read_bytes()
     figures = journey.review.screen.figures
     counted = figures.counted
-    journey.review.screen._leave_out("pain")
+    journey.review.screen._leave_out(journey.review.screen.current + 1, "pain", and_after=False)
     wait(qtbot, lambda: not journey.background.busy)
     assert path.read_bytes() == before
     desktop.close()

@@ -272,7 +272,8 @@ def test_what_the_end_waits_for_besides_is_no_time_of_the_disk() -> None:
         live.start_recording(lambda: after)
         deliver_tracked(live, source, 1)
         live.stop_recording()
-        assert (live.counters().captured, live.counters().tracked, live.counters().dropped) == (12, 7, 0)
+        assert (live.counters().captured, live.counters().dropped) == (12, 0)
+        assert 7 < live.counters().tracked < 10, "the hand is followed, by every third picture"
     assert [row.dropped_before for row in after.rows] == [0], "nobody missed what came between"
     assert waited == [(threading.current_thread().name, "")], "beside the writing thread, before the file is closed"
     assert sink.ended == "closed"

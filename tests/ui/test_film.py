@@ -144,7 +144,7 @@ def test_without_agreement_or_pictures_there_is_no_film(
     film = take()
     assert (film.rate_hz, len(film.rows)) == (0.0, 1)
     assert "passive" not in film.words(film.rows[0])
-    screen._leave_out(PASSIVE)
+    screen._leave_out(screen.current + 1, PASSIVE, and_after=False)
     qtbot.waitUntil(lambda: screen.figures.repetitions[3].helped)  # type: ignore[union-attr]
     screen.ask_film()
     sheet.speed.choose(STILL)

@@ -64,7 +64,7 @@ def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewS
     assert screen.figures.not_counted
     assert screen.card.count_button.text() == "Let it count again"
     screen.toggle_left_out()
-    screen._leave_out("pain")
+    screen._leave_out(screen.current + 1, "pain", and_after=False)
     assert screen.figures.not_counted, "other corrections leave it"
     qtbot.mouseClick(screen.card.count_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: not store.kept["session-7"].not_counted)
@@ -229,8 +229,33 @@ def test_progress_of_nobody_says_so() -> None:
 def test_a_session_on_the_screen_says_when_it_was_stored(screen: ReviewScreen) -> None:
     reviewed = screen.reviewed
     assert (reviewed.saved_at - reviewed.figures.when).total_seconds() == pytest.approx(reviewed.figures.duration_s)
-    screen.begin("linden", "session-6")
+
+
+def test_of_the_session_before_nothing_is_seen_while_another_is_read(qtbot: QtBot, screen: ReviewScreen) -> None:
+    """It may be another patient's."""
+    card, places = screen.card, (screen.card.tables.geometry(), screen.card.report_button.geometry())
+    shown = (card.title, card.count, card.tables)
+    acts = (card.count_button, card.export_button, card.report_button, card.beside_button)
+    assert all(widget.isVisible() for widget in shown)
+    screen.begin("linden", "session-6", whole_hand=False)
     assert screen.reviewed is None
+    assert not any(widget.isVisible() for widget in shown)
+    assert not any(button.isEnabled() for button in acts)
+    assert "00:00" in screen.player.time.text()
+    assert (card.tables.geometry(), card.report_button.geometry()) == places, "nothing jumps"
+    qtbot.waitUntil(lambda: screen.shown)
+    assert all(widget.isVisible() for widget in shown)
+    assert all(button.isEnabled() for button in acts[:3])
+
+
+def test_what_is_asked_about_is_what_is_left_out_however_far_it_plays(qtbot: QtBot, screen: ReviewScreen) -> None:
+    screen.go_to_repetition(1)
+    screen.playing.toggle()
+    screen.toggle_left_out()
+    assert not screen.playing.playing
+    screen.playing.seek(screen.figures.repetitions[3].start_s + 0.1)
+    screen.reason.buttons[0].click()
+    assert [one.reason for one in screen.figures.repetitions[:5]] == ["", "pain", "", "", ""]
 
 
 def test_sessions_of_one_day_are_told_apart_by_their_time() -> None:

@@ -89,7 +89,8 @@ class Scrubber(QWidget):
         return QSize(120, 32)
 
     def _x(self, time_s: float) -> float:
-        return 10 + (self.width() - 20) * min(max(time_s / self._end_s, 0.0), 1.0)
+        share = time_s / self._end_s if self._end_s > 0.0 else 0.0
+        return 10 + (self.width() - 20) * min(max(share, 0.0), 1.0)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         self.mouseMoveEvent(event)

@@ -63,16 +63,31 @@ class ReviewCard(Card):
         self.body.setContentsMargins(24, 4, 16, 4)
         self.body.setSpacing(4)
         fill(self.body, said, in_line(STRETCH, *buttons, gap=12), self.tables)
+        self._of_a_session = (self.title, self.count, self.tables)
+        for widget in self._of_a_session:
+            policy = widget.sizePolicy()
+            policy.setRetainSizeWhenHidden(True)
+            widget.setSizePolicy(policy)
+        self._acts = (self.count_button, self.beside_button, self.export_button, self.report_button)
 
     def show_places(self, *, whole_hand: bool) -> None:
-        """The places of a session that is still being read, with nothing of the one before."""
+        """The places of a session whose kind is known before it is read."""
         self.tables.show_places(whole_hand=whole_hand)
         self.count.setText("\N{NO-BREAK SPACE}")
         self.tables.show_nothing()
 
+    def show_reading(self, *, on: bool) -> None:
+        """While a session is read nothing is seen of the one before, which may be another patient's, and nothing can be
+        made of it; everything keeps its place."""
+        for widget in self._of_a_session:
+            widget.setVisible(not on)
+        for button in self._acts:
+            button.setEnabled(not on)
+
     def show_session(self, reviewed: Reviewed) -> None:
         """What was done, with which hand and when, the figure that the list of sessions names, and the tables."""
         figures = reviewed.figures
+        self.show_reading(on=False)
         self.tables.show_session(reviewed)
         hand = inside(terms.hand_name(figures.side))
         when = f"{numbers.short_date(figures.when)} {figures.when:%H:%M}"

@@ -166,6 +166,10 @@ class Player(Card):
         self._end_s = end_s
         self.scrubber.show_session(end_s, repetitions, current)
 
+    def show_nothing(self) -> None:
+        self.show_session(0.0, (), -1)
+        self._show_time(0.0)
+
     def _show_time(self, time_s: float) -> None:
         self.time.setText(clock_words(time_s, self._end_s))
         self.scrubber.show_time(time_s)

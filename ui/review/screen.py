@@ -76,7 +76,8 @@ class ReviewScreen(Fitted):
             gap=12,
             margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX),
         )
-        in_column(page(self._column), margins=(0, 0, 0, 0), within=self)
+        self._page = page(self._column)
+        in_column(self._page, margins=(0, 0, 0, 0), within=self)
         self._connect()
         self._bind(keys)
         theme.changed.connect(self._fit)
@@ -139,6 +140,9 @@ class ReviewScreen(Fitted):
         self._session_id, self.reviewed = session_id, None
         self.playing.open(-1.0)
         self.charts.curves.clear()
+        self.player.show_nothing()
+        self.card.show_reading(on=True)
+        self._page.verticalScrollBar().setValue(0)
         if whole_hand is not None:
             self._whole_hand = whole_hand
             self.charts.finger.setVisible(whole_hand)
@@ -234,10 +238,11 @@ class ReviewScreen(Fitted):
         if self.reviewed.figures.repetitions[self.current].reason:
             self._choose(lambda one: one.counting(self.current))
         else:
+            self.playing.stop()  # what is asked about stays the current one
             self.reason.begin(self.current + 1)
 
-    def _leave_out(self, reason: str, and_after: bool = False) -> None:
-        self._choose(lambda one: one.left_out(self.current, reason, and_after=and_after))
+    def _leave_out(self, number: int, reason: str, and_after: bool) -> None:
+        self._choose(lambda one: one.left_out(number - 1, reason, and_after=and_after))
 
     def nudge_edge(self, by_s: float) -> None:
         """Move the edge of the current repetition that is nearer to the cursor."""
@@ -260,12 +265,13 @@ class ReviewScreen(Fitted):
 
 
 class ReasonSheet(Sheet):
-    """Emits ``kept`` with the reason, and whether it is that of all repetitions after it as well."""
+    """Emits ``kept`` with the repetition's number, from 1, the reason, and whether it is that of all after it too."""
 
-    kept = Signal(str, bool)
+    kept = Signal(int, str, bool)
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 560)
+        self._number = 0
         self.head(words=self.tr("Passive: somebody else moved the hand. It counts apart, beside the active ones."))
         body = self.card.body
         self.passive = Button(theme, self.tr("Passive"), "plain", height_px=40)
@@ -296,6 +302,7 @@ class ReasonSheet(Sheet):
         body.addLayout(in_line((self.line, 1), self._take, self._close))
 
     def begin(self, number: int) -> None:
+        self._number = number
         self.title.setText(self.tr("Is repetition {number} passive, or left out?").format(number=number))
         self.line.clear()
         self._written("")
@@ -309,4 +316,4 @@ class ReasonSheet(Sheet):
     def _keep(self, reason: str, *, and_after: bool = False) -> None:
         if reason:
             self.close_sheet()
-            self.kept.emit(reason, and_after)
+            self.kept.emit(self._number, reason, and_after)
