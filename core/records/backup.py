@@ -264,7 +264,8 @@ def compare(place: Path, backup: Backup, progress: Progress = lambda _done, _tot
 
 
 def thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
-    """Keep the newest ``keep`` back-ups and the newest of each month for so many months; how many were taken away.
+    """Keep the newest ``keep`` back-ups and the newest of each month for so many months; how many were taken away. What
+    a clock that ran ahead has dated after ``now`` stays too, and takes none of their places.
     Every content that no back-up needs goes, and what a killed one left; none where a back-up cannot be read or none
     is found, since nobody knows what is needed then. Nothing is touched that a link leads to, nor what is no content,
     nor anything while a back-up into the place runs. Raises :class:`BackupUnreadable` where the back-ups cannot be
@@ -280,7 +281,8 @@ def _thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
     except OSError as cause:
         raise BackupUnreadable(place / BACKUPS, cause.strerror or "") from cause
     there = _readable(listed)  # read once: a fault between two readings would cost what it hides
-    kept = {one.name for one in there[:keep]}
+    kept = {one.name for one in [one for one in there if one.made <= now][:keep]}
+    kept |= {one.name for one in there if one.made > now}
     for month in {(one.made.year, one.made.month) for one in there}:
         newest = max((one for one in there if (one.made.year, one.made.month) == month), key=lambda one: one.made)
         if newest.made > now - timedelta(days=31 * months):
