@@ -10603,7 +10603,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Start from a file · no camera</source>
-        <translation>Aus einer Datei starten · keine Kamera</translation>
+        <translation>Aus Datei starten · keine Kamera</translation>
     </message>
     <message>
         <source>Start first session</source>
