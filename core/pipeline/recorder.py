@@ -46,13 +46,15 @@ SinkT = TypeVar("SinkT", bound=Sink)
 class Patience(Generic[SinkT, Item]):
     """How long a disk may hang in one write. ``told`` hears of :class:`DiskStalled` after ``told_after_s``; after
     ``moved_after_s`` another thread goes on with ``elsewhere(sink, item)``, made of the sink that hangs and the item
-    that it is at. Finishing a file may take ``close_more_s`` longer."""
+    that it is at. Finishing a file may take ``close_more_s`` longer, and ``close_item_s`` for each item in it: they are
+    read back and their repetitions counted, 12 s of a slow processor for an hour."""
 
     told: Callable[[CarpusFault], None]
     elsewhere: Callable[[SinkT, Item | None], SinkT]
     told_after_s: float = 3.0
     moved_after_s: float = 8.0
     close_more_s: float = 12.0
+    close_item_s: float = 3e-4
 
 
 class Recorder(Generic[SinkT, Item]):
@@ -168,8 +170,10 @@ class Recorder(Generic[SinkT, Item]):
         patience, since = self._patience, self._busy_since
         if patience is None or since is None:
             return
-        waited_s = time.monotonic() - since
-        if waited_s < patience.told_after_s + (patience.close_more_s if self._closing else 0.0):
+        waited_s, more_s = time.monotonic() - since, 0.0
+        if self._closing:
+            more_s = patience.close_more_s + patience.close_item_s * self._written
+        if waited_s < patience.told_after_s + more_s:
             return
         with self._lock:
             if self._busy_since != since or self._sink is None:
@@ -178,7 +182,7 @@ class Recorder(Generic[SinkT, Item]):
             if not self._told_stall:
                 self._told_stall = True
                 patience.told(DiskStalled(sink.path.parent, f"{waited_s:.0f} s"))
-            if waited_s < patience.moved_after_s + (patience.close_more_s if self._closing else 0.0):
+            if waited_s < patience.moved_after_s + more_s:
                 return
             self._turn += 1
             self._busy_since = None

@@ -234,3 +234,25 @@ def test_a_file_goes_on_elsewhere_too_when_the_disk_hangs() -> None:
     assert recorder.finish() == moved.path
     hung.set()
     assert [row.index for row in moved.rows] == list(range(6))
+
+
+class LongToClose(FakeSession):
+    def close(self) -> None:
+        time.sleep(0.8)
+        super().close()
+
+
+@pytest.mark.parametrize(("item_s", "is_told"), [(0.1, False), (0.0, True)])
+def test_a_long_recording_may_take_longer_to_be_finished(tmp_path: Path, item_s: float, *, is_told: bool) -> None:
+    """Its rows are read back and counted meanwhile, for which no disk is to blame."""
+    told: list[Exception] = []
+    sink = LongToClose(tmp_path / "s.h5")
+    patience: Patience[FakeSession, TrackedFrame] = Patience(
+        told.append, lambda _, __: sink, 0.2, 60.0, close_more_s=0.0, close_item_s=item_s
+    )
+    recorder = Recorder("writing", lambda: sink, FakeSession.append, 900, told.append, patience=patience)
+    recorder.start()
+    for number in range(20):
+        recorder.put(tracked(frame(number)))
+    recorder.finish()
+    assert [type(one) for one in told] == ([DiskStalled] if is_told else [])
