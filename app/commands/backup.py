@@ -64,7 +64,6 @@ def run(arguments: argparse.Namespace) -> int:
             settings_folder=settings_folder(),
             progress=progress,
         )
-    thin_out(place, settings.backup.keep, settings.backup.months, datetime.now().astimezone())
     try:
         with Store(folder) as store:
             note_backup(store, made.made, str(place), made.sessions, made.size_bytes)
@@ -74,6 +73,7 @@ def run(arguments: argparse.Namespace) -> int:
     print(f"{made.name}: {made.sessions} sessions, {made.size_bytes / 1e6:.1f} MB, read back and compared: all equal.")
     if made.running:
         print(f"Not in it: {made.running} recordings that are running.")
+    thin_out(place, settings.backup.keep, settings.backup.months, datetime.now().astimezone())
     return 0
 
 

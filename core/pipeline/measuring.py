@@ -322,7 +322,12 @@ class SourceMeasuring:
             looking_back = LookingBack(
                 TrackedHand(calibration, self.camera, learnt.applied(self._settings.tracker)),
             )
-            pipeline.keep, at_end = looking_back.take, looking_back.wait
+            pipeline.keep, looked_back = looking_back.take, looking_back.wait
+
+            def at_end() -> None:
+                pipeline.keep = None  # the hand is followed meanwhile: what comes now is not of the recording
+                looked_back()
+
         fallback = Fallback(self._elsewhere, self._session.notice)
         try:
             self._session.start_recording(

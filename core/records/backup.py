@@ -281,10 +281,10 @@ def _thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
     except OSError as cause:
         raise BackupUnreadable(place / BACKUPS, cause.strerror or "") from cause
     there = _readable(listed)  # read once: a fault between two readings would cost what it hides
-    kept = {one.name for one in [one for one in there if one.made <= now][:keep]}
-    kept |= {one.name for one in there if one.made > now}
-    for month in {(one.made.year, one.made.month) for one in there}:
-        newest = max((one for one in there if (one.made.year, one.made.month) == month), key=lambda one: one.made)
+    sure = [one for one in there if one.made <= now]
+    kept = {one.name for one in there if one not in sure} | {one.name for one in sure[:keep]}
+    for month in {(one.made.year, one.made.month) for one in sure}:
+        newest = max((one for one in sure if (one.made.year, one.made.month) == month), key=lambda one: one.made)
         if newest.made > now - timedelta(days=31 * months):
             kept.add(newest.name)
     gone = [one for one in there if one.name not in kept]

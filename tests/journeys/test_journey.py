@@ -28,6 +28,7 @@ from carpus.core.capture.devices import xtion
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CameraLost, CameraMissing, CameraReturned, DiskFull
 from carpus.core.pipeline import measuring
+from carpus.core.pipeline.looking_back import LookingBack
 from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
@@ -308,15 +309,27 @@ def test_depth_that_is_measured_beside_the_colours_is_opened_again_the_other_way
 
 
 def test_a_recording_that_is_being_stored_is_not_stopped_again_by_closing(
-    qtbot: QtBot, open_desktop: Open, take: Path, caplog: pytest.LogCaptureFixture
+    qtbot: QtBot, open_desktop: Open, take: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop, journey = to_live(qtbot, open_desktop(), take)
+    source = journey.now.source
+    assert source is not None
+    kept: list[object] = []
+    real = LookingBack.wait
+
+    def looked_back(looking_back: LookingBack) -> None:
+        kept.append(source.measuring._pipeline.keep)
+        real(looking_back)
+
+    monkeypatch.setattr(LookingBack, "wait", looked_back)
     journey.live.screen.recording.toggle()
     wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.5)
     journey.live.screen.recording.stop()
     assert journey.live.screen.recording.storing
     desktop.shell.close_surely()
     assert not [record for record in caplog.records if record.name != "carpus.core.pipeline.measuring"]
+    assert kept
+    assert kept[0] is None, "while it is waited for no more comes to be looked back at"
     (entry,) = open_desktop().library.sessions(PRACTICE_PATIENT)
     assert entry.complete
 

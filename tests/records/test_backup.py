@@ -268,9 +268,11 @@ def test_the_newest_and_one_of_each_month_are_kept(data: Path, tmp_path: Path) -
 
 def test_a_clock_that_ran_ahead_costs_no_back_up(data: Path, tmp_path: Path) -> None:
     place = tmp_path / "disk"
-    kept_on(data, place, 0, 1, 2, -3, -2)
-    assert thin_out(place, 2, 0, NOW) == 1
+    kept_on(data, place, 0, 1, 2, 3, -3, -2)
+    assert thin_out(place, 2, 0, NOW) == 2
     assert [(NOW - one.made).days for one in backups(place)] == [-3, -2, 0, 1]
+    assert thin_out(place, 0, 1, NOW) == 1, "the month's newest is that of a day that has been"
+    assert [(NOW - one.made).days for one in backups(place)] == [-3, -2, 0]
 
 
 def test_what_a_back_up_of_a_newer_program_needs_is_not_thinned_out(data: Path, tmp_path: Path) -> None:

@@ -237,8 +237,11 @@ def test_of_the_session_before_nothing_is_seen_while_another_is_read(qtbot: QtBo
     shown = (card.title, card.count, card.tables)
     acts = (card.count_button, card.export_button, card.report_button, card.beside_button)
     assert all(widget.isVisible() for widget in shown)
+    screen.toggle_left_out()
+    assert screen.reason.isVisible()
     screen.begin("linden", "session-6", whole_hand=False)
     assert screen.reviewed is None
+    assert not screen.reason.isVisible()
     assert not any(widget.isVisible() for widget in shown)
     assert not any(button.isEnabled() for button in acts)
     assert "00:00" in screen.player.time.text()

@@ -151,9 +151,9 @@ class BackingUp(QObject):
             settings_folder=self._settings_folder,
             progress=self._step,
         )
-        thin_out(place, settings.keep, settings.months, self._now())
         note_backup(self._library.store, made.made, str(place), made.sessions, made.size_bytes)
         self._library.notes.program("backed_up", sessions=made.sessions)
+        thin_out(place, settings.keep, settings.months, self._now())
         return made
 
     def _step(self, done: int, total: int) -> None:

@@ -138,6 +138,8 @@ class ReviewScreen(Fitted):
         """Read a session in the background, then show it. ``whole_hand`` where that is known: then everything has its
         place at once."""
         self._session_id, self.reviewed = session_id, None
+        for sheet in (self.reason, self.film_sheet):
+            sheet.close_sheet()  # what they ask about was of the session before
         self.playing.open(-1.0)
         self.charts.curves.clear()
         self.player.show_nothing()
