@@ -531,6 +531,7 @@ def test_a_camera_that_is_not_there_is_told_with_what_to_do(
     journey.camera.show(PRACTICE_PATIENT)
     at(qtbot, desktop.journey, "markers")
     journey.way.back()
+    journey.camera.context.camera.stop()  # its next look would find none
     journey.camera.screen.set_camera_ready(True)
     click(qtbot, journey.camera.screen.sources.option("camera"))
     click(qtbot, journey.camera.screen.primary)

@@ -86,7 +86,7 @@ class Kills:
         for one in after[:2]:
             compare(self._place, one)
         made = back_up(self._data, self._place, software_version="1", now=when + timedelta(seconds=30))
-        thin_out(self._place, 1, 0, when)
+        thin_out(self._place, 1, 0, made.made)
         assert [one.name for one in backups(self._place)] == [made.name]
         needed = {one.sha256 for one in made.files}
         left = {path.name for path in (self._place / OBJECTS).rglob("*") if path.is_file()}

@@ -163,7 +163,7 @@ def test_the_places_are_final_before_the_session_is_read(
 
     def places() -> list[QRect]:
         QApplication.processEvents()
-        parts = (screen.picture, screen.charts.curves, screen.card.tables.hand, screen.charts.finger, screen.player)
+        parts = (screen.picture, screen.charts.curves, screen.card.tables, screen.charts.finger, screen.player)
         return [QRect(part.mapTo(screen, part.rect().topLeft()), part.size()) for part in parts]
 
     screen.begin("linden", "hand-7", whole_hand=True)
