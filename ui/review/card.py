@@ -70,12 +70,6 @@ class ReviewCard(Card):
             widget.setSizePolicy(policy)
         self._acts = (self.count_button, self.beside_button, self.export_button, self.report_button)
 
-    def show_places(self, *, whole_hand: bool) -> None:
-        """The places of a session whose kind is known before it is read."""
-        self.tables.show_places(whole_hand=whole_hand)
-        self.count.setText("\N{NO-BREAK SPACE}")
-        self.tables.show_nothing()
-
     def show_reading(self, *, on: bool) -> None:
         """While a session is read nothing is seen of the one before, which may be another patient's, and nothing can be
         made of it; everything keeps its place."""
@@ -170,11 +164,6 @@ class ResultTables(ScrollArea):
         self.hand.setVisible(whole_hand)
         self.limits.setVisible(whole_hand)
         self.range.setVisible(not whole_hand)
-
-    def show_nothing(self) -> None:
-        """While a session of the whole hand is read: places without figures."""
-        self.limits.setText("\n")
-        self.hand.show_rows((), ())
 
     def needed_px(self) -> int:
         needed, gap = 0 if self.range.isHidden() else self.range.sizeHint().height(), self._column.spacing()

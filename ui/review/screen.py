@@ -148,7 +148,7 @@ class ReviewScreen(Fitted):
         if whole_hand is not None:
             self._whole_hand = whole_hand
             self.charts.finger.setVisible(whole_hand)
-            self.card.show_places(whole_hand=whole_hand)
+            self.card.tables.show_places(whole_hand=whole_hand)
             self._fit()
         self.card.again_button.setVisible(may_repeat)
         self.picture.open(None, self.tr("Reading the session…"))
