@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -13,20 +14,20 @@ from uuid import uuid4
 import numpy as np
 
 from carpus.core.durable import make_private, replace_file, write_fault
-from carpus.core.errors import CarpusFault, ChangedMeanwhile, OutputNotWritable, RegisterBusy, SessionUnreadable
+from carpus.core.errors import CarpusFault, ChangedMeanwhile, OutputExists, RegisterBusy, SessionUnreadable
 from carpus.core.hand.protocols import WRIST_ANGLES
-from carpus.core.records.changes import dropped
+from carpus.core.records.changes import changed
 from carpus.core.records.library import Library, as_listed
 from carpus.core.records.of_sessions import change_of
 from carpus.core.records.schema import SESSION
-from carpus.core.records.session_list import TRIALS_FOLDER, look_for_share
+from carpus.core.records.session_list import COPY_SUFFIX, TRIALS_FOLDER, look_for_share
 from carpus.core.records.set_up import MARKERS_SUFFIX
 from carpus.core.results.ranges import in_order
 from carpus.core.results.repetition_rows import RepetitionChoices, repetitions_of
 from carpus.core.results.seen import best_motion
 from carpus.core.session.disk import free_name, publish
 from carpus.core.session.reader import read_detections, read_outline, read_session, write_anew
-from carpus.core.session.values import DetectionTable, RepetitionRow, Session
+from carpus.core.session.values import DetectionTable, RepetitionRow, Session, SessionHeader
 from carpus.core.types import ByteImage, FloatArray
 
 SESSION_SUFFIX = ".h5"
@@ -88,7 +89,9 @@ class Corrections:
                 header = read_outline(path).header
                 if self._is_listed(header.session_id):  # decided: a program was killed before the file had its name
                     self.use(header.origin, path)
-                elif self._is_known(header.origin):
+                    continue
+                self._clear_copies(header)
+                if self._is_known(header.origin):
                     found.append((header.created, Waiting(header.origin, path)))
                 else:
                     path.unlink()
@@ -126,41 +129,54 @@ class Corrections:
     def use(self, session_id: str, trial: Path, *, is_copy: bool = False) -> str:
         """Take a new result into the patient's list, where it counts from now on; its identity. The old one stays.
 
-        It is listed in one step with what was left out of the old one, and then the file gets its name: a kill leaves
-        all as it was, or what :meth:`waiting` goes on with. A fault takes it from the list again.
+        It lies beside the old one before it is listed, in one step with what was left out of that one, and then the
+        file gets its name: a fault or a kill leaves all as it was, or what :meth:`waiting` goes on with. What is listed
+        once stays so: other computers take what is in the list no more for erased.
         """
-        library, new_id = self._library, read_outline(trial).header.session_id
+        library, header = self._library, read_outline(trial).header
         look_for_share(library.store)
+        is_listed = self._is_listed(header.session_id)
+        entry = library.entry(header.session_id if is_listed else session_id)
+        place = entry.path if is_listed else free_name(entry.path)
+        copy = _copy_beside(entry.path, header)
         try:
-            if not self._is_listed(new_id):
-                entry = library.entry(session_id)
-                target = free_name(entry.path)
-                beside = entry.path.with_suffix(MARKERS_SUFFIX)
-                if beside.is_file():
-                    shutil.copyfile(beside, target.with_suffix(MARKERS_SUFFIX))
-                    target.with_suffix(MARKERS_SUFFIX).chmod(0o600)
-                choices = library.choices(session_id) if is_copy else self._that_hold(session_id, trial)
-                also = [change_of(new_id, choices)] if choices is not None else []
-                library.index.enter(target, library.owner(session_id), entry.by, trial, entry.exercise, also)
-                if choices is not None:
-                    library.notes.session("set_aside" if choices.not_counted else "changed", new_id)
-            _move(trial, library.entry(new_id).path, new_id)
-        except (CarpusFault, OSError) as cause:
-            with suppress(CarpusFault, OSError):  # what stays listed is never dropped
-                self._take_back(new_id)
-            if isinstance(cause, OSError):
-                raise write_fault(trial, cause) from cause
-            raise
-        return new_id
+            if not _holds(place, header.session_id):  # a program was killed before it could delete what it had copied
+                _copy(trial, copy)
+                if not is_listed:
+                    choices = library.choices(session_id) if is_copy else self._that_hold(session_id, trial)
+                    also = [change_of(header.session_id, choices)] if choices is not None else []
+                    library.index.enter(place, library.owner(session_id), entry.by, trial, entry.exercise, also)
+                    if choices is not None:
+                        library.notes.session("set_aside" if choices.not_counted else "changed", header.session_id)
+                try:
+                    publish(copy, place)
+                except OutputExists:  # since it was looked for
+                    place = free_name(place)
+                    library.store.do([changed(SESSION, header.session_id, path=library.index.stored_path(place))])
+                    publish(copy, place)
+            self._copy_markers(place, header.session_id)
+            self._clear_copies(header)
+            trial.unlink(missing_ok=True)
+        except OSError as cause:
+            raise write_fault(trial, cause) from cause
+        finally:
+            with suppress(OSError):
+                copy.unlink(missing_ok=True)
+        return header.session_id
 
-    def _take_back(self, session_id: str) -> None:
-        """A result whose file did not get its name is in no list, and waits."""
-        if self._is_listed(session_id):
-            path = self._library.entry(session_id).path
-            if not _holds(path, session_id):
-                self._library.store.do([dropped(SESSION, session_id)])
-                if not path.exists():
-                    path.with_suffix(MARKERS_SUFFIX).unlink(missing_ok=True)
+    def _copy_markers(self, place: Path, session_id: str) -> None:
+        """The picture of the markers is that of the recording."""
+        own = place.with_suffix(MARKERS_SUFFIX)
+        there = [one.path.with_suffix(MARKERS_SUFFIX) for one in self._library.results_of(session_id)]
+        beside = next((one for one in there if one.is_file()), None)
+        if beside is not None and not own.exists():
+            replace_file(own, lambda part: shutil.copyfile(beside, part))
+
+    def _clear_copies(self, header: SessionHeader) -> None:
+        """What a program that was killed had copied of a result goes."""
+        for one in self._library.index.of_recording(header.recording_id):
+            with suppress(OSError):
+                _copy_beside(one.path, header).unlink(missing_ok=True)
 
     def _is_listed(self, session_id: str) -> bool:
         with suppress(KeyError):
@@ -202,21 +218,21 @@ class Corrections:
             trial.unlink()
 
 
-def _move(trial: Path, place: Path, session_id: str) -> None:
-    """Give a result its name. Raises :class:`OutputExists` for one that another file has, and the faults of writing."""
-    if _holds(place, session_id):  # a program was killed before it could delete what it had copied
-        trial.unlink(missing_ok=True)
-        return
+def _copy_beside(path: Path, header: SessionHeader) -> Path:
+    """Where a new result lies beside the session at ``path`` until it is listed: no back-up takes it, and it is erased
+    with that session."""
+    return path.with_name(f".{path.stem}.{header.session_id[:8]}{COPY_SUFFIX}")
+
+
+def _copy(trial: Path, copy: Path) -> None:
+    copy.unlink(missing_ok=True)
     try:
-        publish(trial, place)
-    except OutputNotWritable:  # the sessions lie on a share, which is another disk
-        copy = place.with_name(f".{place.name}.new")
-        try:
-            replace_file(copy, lambda part: shutil.copyfile(trial, part))
-            publish(copy, place)
-        finally:
-            copy.unlink(missing_ok=True)
-        trial.unlink(missing_ok=True)
+        os.link(trial, copy)
+    except OSError:  # the sessions lie on a share, which is another disk
+        shutil.copyfile(trial, copy)
+        copy.chmod(0o600)
+        with copy.open("r+b") as written:
+            os.fsync(written.fileno())
 
 
 def _holds(path: Path, session_id: str) -> bool:

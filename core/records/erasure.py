@@ -28,7 +28,14 @@ from carpus.core.records.of_clinic import PLACE
 from carpus.core.records.of_sessions import MadeFile, made_from
 from carpus.core.records.patients import Patients
 from carpus.core.records.schema import DIAGNOSIS, OWN, PATIENT, RECIPIENT, SEEN, SESSION, SHARED
-from carpus.core.records.session_list import FilesOfSessions, ListedSessions, file_name, look_for_share, trials_of
+from carpus.core.records.session_list import (
+    TRIALS_FOLDER,
+    FilesOfSessions,
+    ListedSessions,
+    file_name,
+    look_for_share,
+    trials_of,
+)
 from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry
 
@@ -208,8 +215,9 @@ def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> se
     for folder in _folders(store, patients):
         found |= set(_plain_files(folder))
     for name, said in _names_of(store, patients):
-        orphans = (path for path in _plain_files(root) if not _is_beside(path, others))
-        found |= {one for one in orphans if name.search(one.relative_to(root).as_posix()) or _says(one, said)}
+        for folder in (root, store.folder / TRIALS_FOLDER):
+            orphans = (path for path in _plain_files(folder) if not _is_beside(path, others))
+            found |= {one for one in orphans if name.search(one.relative_to(folder).as_posix()) or _says(one, said)}
     found |= set(trials_of(store, going))
     stem, suffix = STORE_FILE.split(".")
     found |= set(store.folder.glob(f"{stem}.damaged-*.{suffix}*"))
@@ -247,7 +255,10 @@ def _beside(store: Store, stored: str) -> set[Path]:
     """A session's file and all that lies beside it under its name; nothing for a path that leads elsewhere."""
     path = _inside(store.sessions_folder, stored)
     return set() if path is None else {
-        one for one in path.parent.glob(f"{glob.escape(path.stem)}.*") if one.is_file() or one.is_symlink()
+        one
+        for hidden in ("", ".")
+        for one in path.parent.glob(f"{hidden}{glob.escape(path.stem)}.*")
+        if one.is_file() or one.is_symlink()
     }  # fmt: skip
 
 

@@ -94,6 +94,8 @@ MOST_LETTERS = 40
 """Of a pseudonym in a file's name, which no system lets be as long as one likes."""
 TRIALS_FOLDER = "corrections"
 """In the data folder: sessions tracked again that nobody has decided about."""
+COPY_SUFFIX = ".h5.new"
+"""Of one that is wanted: hidden beside its session until it is in the list."""
 AT_ONCE = 500
 """Rows of one change when the list is made anew."""
 
@@ -275,11 +277,18 @@ def free_path(folder: Path, pseudonym: str, exercise: str, hand: Side, when: dat
 
 
 def trials_of(store: Store, session_ids: Collection[str]) -> Iterator[Path]:
-    """New results of these sessions that nobody has decided about."""
+    """New results of these sessions that nobody has decided about. One that is damaged, or not finished, is known by
+    its name, which is that of its session's file."""
+    stems = [Path(row.path).stem for row in store.rows(select(SESSION.c.path).where(SESSION.c.id.in_(session_ids)))]
+    named = re.compile(rf"(?:{'|'.join(map(re.escape, stems))})(?:-\d+)?\.h5\b.*" if stems else r"(?!)")
     folder = store.folder / TRIALS_FOLDER
-    for path in folder.glob("*.h5") if not folder.is_symlink() else ():
-        with suppress(SessionUnreadable):
+    for path in folder.glob("*.h5*") if not folder.is_symlink() else ():
+        try:
             header = read_outline(path).header
+        except SessionUnreadable:
+            if named.fullmatch(path.name):
+                yield path
+        else:
             if header.origin in session_ids or header.session_id in session_ids:
                 yield path
 

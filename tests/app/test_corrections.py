@@ -22,12 +22,12 @@ from carpus.core.errors import (
     ChangedMeanwhile,
     DiskFull,
     FolderMissing,
-    OutputExists,
     OutputNotWritable,
     RegisterBusy,
     SessionUnreadable,
 )
 from carpus.core.pipeline.correction import CorrectionTask, correct, task_of
+from carpus.core.records.backup import gather
 from carpus.core.records.changes import dropped
 from carpus.core.records.corrections import Corrections, Waiting, _found_again, difference
 from carpus.core.records.keeping import Records
@@ -95,12 +95,36 @@ def test_a_trial_is_in_no_list_and_waits_until_it_is_wanted(library: Library, st
     assert later.waiting() == []
 
 
-def test_what_waits_is_erased_with_its_session(library: Library, stored: Stored) -> None:  # noqa: F811
-    _, session_id = entered(library, stored)
-    trial = made(Corrections(library), session_id, stored)
+@pytest.mark.parametrize("kind", ["session", "patient"])
+@pytest.mark.parametrize("is_damaged", [False, True])
+def test_what_waits_is_erased_with_its_session_also_what_is_damaged_or_not_finished(
+    library: Library,
+    stored: Stored,  # noqa: F811
+    kind: str,
+    is_damaged: bool,
+) -> None:
+    patient, session_id = entered(library, stored)
+    other, corrections = library.entry(session_id).path, Corrections(library)
+    trials = [made(corrections, session_id, stored) for _ in range(2)]
+    trials.append(trials[0].with_name(f"{trials[0].name}.12345678.part"))
+    trials[2].write_bytes(b"x")
+    if kind == "patient":
+        trials.append(trials[0].with_name("another name.h5"))
+        trials[3].write_bytes(b"x Linden 42 x")
+    if is_damaged:
+        for trial in trials[:2]:
+            trial.write_bytes(b"no session")
+    nobodys = trials[0].with_name(f"{other.stem}0.h5")
+    nobodys.write_bytes(b"no session")
+    copy = other.with_name(f".{other.stem}.12345678.h5.new")  # the program was killed while it took one
+    copy.write_bytes(b"x")
     records = Records(library)
-    records.erase(records.plan_session(session_id))
-    assert not trial.exists()
+    plan = records.plan_session(session_id) if kind == "session" else records.plan_patient(patient)
+    assert {*trials, copy} <= {*plan.files}
+    records.erase(plan)
+    assert [trial for trial in trials if trial.exists()] == []
+    assert not copy.exists()
+    assert nobodys.exists() == (kind == "session"), "of the patient also what has the name"
 
 
 def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
@@ -186,9 +210,11 @@ class Killed(BaseException):
     """Stands for a SIGKILL: nothing that comes behind it is done."""
 
 
-@pytest.mark.parametrize(("where", "step"), [(Store, "do"), (os, "link")])
+@pytest.mark.parametrize(
+    ("step", "is_listed"), [("core.records.store.Store.do", False), ("core.records.corrections.publish", True)]
+)
 def test_a_kill_leaves_the_older_result_or_the_new_one_with_what_was_left_out(
-    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch, where: object, step: str  # noqa: F811
+    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch, step: str, is_listed: bool  # noqa: F811
 ) -> None:  # fmt: skip
     patient, session_id = entered(library, stored)
     library.keep_choices(session_id, RepetitionChoices(not_counted=True, not_counted_reason="pain"))
@@ -199,13 +225,13 @@ def test_a_kill_leaves_the_older_result_or_the_new_one_with_what_was_left_out(
         raise Killed
 
     with monkeypatch.context() as patched:
-        patched.setattr(where, step, killed)
+        patched.setattr(f"carpus.{step}", killed)
         with pytest.raises(Killed):
             Corrections(library).use(session_id, trial)
     recover(library)
     listed = [entry.session_id for entry in library.index.of_patient(patient)]
     later = Corrections(library)
-    if step == "do":
+    if not is_listed:
         assert listed == [session_id]
         assert later.waiting() == [Waiting(session_id, trial)]
         later.use(session_id, trial)
@@ -257,6 +283,35 @@ def test_a_new_result_goes_to_a_share_on_another_disk(
     assert library.entry(new).path == place
 
 
+def test_what_a_killed_program_had_copied_goes_at_the_next_look_and_is_in_no_backup(
+    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    _, session_id = entered(library, stored)
+    corrections, folder = Corrections(library), library.entry(session_id).path.parent
+    trial = made(corrections, session_id, stored)
+    copies: dict[Path, bytes] = {}
+
+    def killed(*_: object) -> None:
+        copies.update({path: path.read_bytes() for path in folder.glob(".*")})
+        raise Killed
+
+    with monkeypatch.context() as patched:
+        on_another_disk(patched)
+        patched.setattr(os, "fsync", killed)
+        with pytest.raises(Killed):
+            corrections.use(session_id, trial)
+    ((copy, content),) = copies.items()
+    copy.write_bytes(content)
+    names = {path for _, path, _ in gather(library.folder, library.folder.with_name("place"), None).files}
+    assert library.entry(session_id).path in names
+    assert copy not in names
+    assert corrections.waiting() == [Waiting(session_id, trial)]
+    assert not copy.exists()
+    copy.write_bytes(content)
+    corrections.use(session_id, trial)
+    assert list(folder.glob(".*")) == []
+
+
 def on_another_disk(monkeypatch: pytest.MonkeyPatch) -> None:
     replace_real = Path.replace
 
@@ -304,10 +359,10 @@ def _copied(one: Path, other: Path) -> None:
     other.write_bytes(one.read_bytes())
 
 
-def test_a_file_that_took_the_name_meanwhile_is_kept(
+def test_a_file_that_took_the_name_meanwhile_is_kept_and_the_result_has_another_one(
     library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
 ) -> None:  # fmt: skip
-    patient, session_id = entered(library, stored)
+    _, session_id = entered(library, stored)
     trial = made(Corrections(library), session_id, stored)
     real, taken = library.index.enter, list[Path]()
 
@@ -318,13 +373,12 @@ def test_a_file_that_took_the_name_meanwhile_is_kept(
 
     with monkeypatch.context() as patched:
         patched.setattr(library.index, "enter", enter)
-        with pytest.raises(OutputExists):
-            Corrections(library).use(session_id, trial)
+        new = Corrections(library).use(session_id, trial)
     assert taken[0].read_bytes() == b"another one's"
-    assert [entry.session_id for entry in library.index.of_patient(patient)] == [session_id]
-    new = Corrections(library).use(session_id, trial)
     assert library.entry(new).path != taken[0]
-    assert taken[0].read_bytes() == b"another one's"
+    assert len(library.session(new)) == len(library.session(session_id))
+    assert not trial.exists()
+    assert len(list(taken[0].parent.iterdir())) == 3
 
 
 def test_what_is_listed_is_never_dropped_nor_deleted_and_hides_nothing_that_waits(
@@ -343,11 +397,8 @@ def test_what_is_listed_is_never_dropped_nor_deleted_and_hides_nothing_that_wait
     def slow(path: Path) -> None:
         raise SessionUnreadable(path, "damaged: reading it does not end")
 
-    def busy(*_: object) -> None:
-        raise RegisterBusy
-
     with monkeypatch.context() as patched:
-        patched.setattr(os, "link", killed)
+        patched.setattr("carpus.core.records.corrections.publish", killed)
         with pytest.raises(Killed):
             corrections.use(session_id, trial)
     with pytest.raises(ChangedMeanwhile):
@@ -360,7 +411,6 @@ def test_what_is_listed_is_never_dropped_nor_deleted_and_hides_nothing_that_wait
     with monkeypatch.context() as patched:
         patched.setattr(os, "link", full)
         patched.setattr(os, "open", full)
-        patched.setattr(Store, "do", busy)  # not even taken from the list
         assert corrections.waiting() == [Waiting(session_id, other)]
     assert trial.exists()
     assert corrections.waiting() == [Waiting(session_id, other)]
@@ -378,7 +428,7 @@ def test_keeping_the_old_one_is_refused_where_the_new_one_is_listed_already(
         raise Killed
 
     with monkeypatch.context() as patched:
-        patched.setattr(os, "link", killed)
+        patched.setattr("carpus.core.records.corrections.publish", killed)
         with pytest.raises(Killed):
             Corrections(library).use(session_id, trial)
     theme, told = Theme("light"), Told("correct")
