@@ -219,6 +219,7 @@ class Navigator(QObject):
         self._place = "patients"
         self._before_aside = "patients"
         self._came: dict[str, str] = {}
+        self._stays_aside = False
 
     @property
     def place(self) -> str:
@@ -265,8 +266,19 @@ class Navigator(QObject):
         """Bring up a screen as it does it itself, with what it must be told."""
         self.flow(place).show(*given)
 
+    def show_behind(self, place: str, *given: object) -> None:
+        """As :meth:`show`; help and settings stay where they are open, and are left for that screen."""
+        self._stays_aside = self._place in ASIDE
+        try:
+            self.show(place, *given)
+        finally:
+            self._stays_aside = False
+
     def go(self, place: str) -> None:
         """Change to a screen as it is; for its own flow."""
+        if self._stays_aside:
+            self._before_aside = place
+            return
         old, new = self.flows.get(self._place), self.flow(place)
         if old is not None and place != self._place and not (old.while_aside and place in ASIDE):
             old.leave()

@@ -11994,6 +11994,10 @@ Umschalt+F8 von der Seite</translation>
         <source>Reading the session…</source>
         <translation>Sitzung wird gelesen…</translation>
     </message>
+    <message>
+        <source>This session cannot be read. Go back, or choose another one.</source>
+        <translation>Diese Sitzung ist nicht lesbar. Gehen Sie zurück oder wählen Sie eine andere.</translation>
+    </message>
 </context>
 <context>
     <name>Scrubber</name>

@@ -11994,6 +11994,10 @@ Maiusc+F8 di lato</translation>
         <source>Reading the session…</source>
         <translation>Lettura della seduta…</translation>
     </message>
+    <message>
+        <source>This session cannot be read. Go back, or choose another one.</source>
+        <translation>Questa seduta non è leggibile. Tornare indietro o sceglierne un’altra.</translation>
+    </message>
 </context>
 <context>
     <name>Scrubber</name>

@@ -44,6 +44,7 @@ from carpus.core.session.values import RepetitionRow, Repetitions
 from carpus.ui.background import Background
 from carpus.ui.correct.flow import CorrectFlow
 from carpus.ui.now_open import NowOpen
+from carpus.ui.review.flow import ReviewFlow
 from carpus.ui.sessions.flow import SessionShelf
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
@@ -142,7 +143,7 @@ def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
 
     again: list[str] = []
     monkeypatch.setattr("carpus.ui.correct.flow.correct_in_process", beside)
-    theme, told = Theme("light"), Told("correct")
+    theme, told = Theme("light"), Told("settings", behind="correct")  # what comes of it comes behind them
     shell = Shell(theme)
     qtbot.addWidget(shell)
     shell.resize(1280, 744)
@@ -441,6 +442,31 @@ def test_keeping_the_old_one_is_refused_where_the_new_one_is_listed_already(
     qtbot.waitUntil(lambda: bool(told.faults) and not trial.exists(), timeout=30_000)
     (new,) = library.history(patient)
     assert new.session_id != session_id
+    flow.close()
+
+
+def test_what_is_decided_about_while_it_is_looked_for_waits_no_more(
+    qtbot: QtBot, library: Library, stored: Stored,  # noqa: F811
+) -> None:  # fmt: skip
+    _, session_id = entered(library, stored)
+    trials = [made(Corrections(library), session_id, stored) for _ in range(2)]
+    theme, told, background = Theme("light"), Told("settings", behind="review"), Background()
+    shell = Shell(theme)
+    qtbot.addWidget(shell)
+    now = NowOpen(session_id=session_id)
+    flow = CorrectFlow(a_context(theme, shell, told, background, library=library, now=now))
+    for trial, decided in zip(trials, (flow.sheet.keep_wanted, flow.sheet.use_wanted), strict=True):
+        flow.waiting = [Waiting(session_id, trial)]
+        flow.open_sheet()
+        flow.look_for_waiting()
+        decided.emit()
+        qtbot.waitUntil(lambda trial=trial: not trial.exists() and not flow._background.busy, timeout=30_000)
+    assert flow.waiting == []
+    ((_, new),) = told.shown
+    review = ReviewFlow(a_context(theme, shell, told, background, library=library, now=NowOpen(session_id=new)))
+    review._use_again(new)
+    qtbot.waitUntil(lambda: len(told.shown) == 2, timeout=30_000)
+    assert [one.session_id for one in library.results_of(new)][1:] == [new, told.shown[1][1]]
     flow.close()
 
 

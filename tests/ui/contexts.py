@@ -21,15 +21,15 @@ class Told:
 
     busy = False
 
-    def __init__(self, place: str = "patients", answer: int | None = None) -> None:
-        self.place, self._answer = place, answer
+    def __init__(self, place: str = "patients", answer: int | None = None, behind: str = "") -> None:
+        self.place, self._answer, self._behind = place, answer, behind
         self.asked: list[str] = []
         self.faults: list[Exception] = []
         self.shown: list[tuple[object, ...]] = []
 
     @property
     def behind(self) -> str:
-        return self.place
+        return self._behind or self.place
 
     def put(self, flow: object) -> None:
         """Nobody looks it up."""
@@ -42,6 +42,8 @@ class Told:
 
     def show(self, place: str, *given: object) -> None:
         self.shown.append((place, *given))
+
+    show_behind = show
 
     def ask(self, question: Any, answers: Any, **_: object) -> None:
         self.asked.append(question.happened)

@@ -81,6 +81,21 @@ def test_notes_and_pain_of_the_session_are_read_in_the_review(screen: ReviewScre
     assert screen.card.tables.notes.isVisible()
 
 
+def test_a_session_that_cannot_be_read_is_said_to_be_so_and_another_one_can_be(
+    qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
+) -> None:
+    said = []
+    screen.told.connect(said.append)
+    gone = store.sessions.pop("session-6")
+    screen.begin("linden", "session-6")
+    qtbot.waitUntil(lambda: bool(said))
+    assert screen.picture.empty_words == "This session cannot be read. Go back, or choose another one."
+    assert not screen.shown
+    store.sessions["session-6"] = gone
+    screen.begin("linden", "session-6")
+    qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
+
+
 def test_space_plays_and_stops(qtbot: QtBot, screen: ReviewScreen) -> None:
     screen.playing.seek(5.0)
     qtbot.keyClick(screen, Qt.Key.Key_Space)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from PySide6.QtCore import QPoint, QRect, Qt, QThread
@@ -18,6 +19,7 @@ from carpus.ui.controls.button import Button
 from carpus.ui.controls.field import Choices
 from carpus.ui.controls.layouts import in_column
 from carpus.ui.controls.text import Text, heading
+from carpus.ui.flow import Navigator
 from carpus.ui.fonts import DISPLAY_FAMILY, TEXT_FAMILY, font, load_fonts
 from carpus.ui.keys import DEFAULT_KEYS, Keys, action_words
 from carpus.ui.messages.messages import Answer, StopCard
@@ -98,6 +100,27 @@ def test_shell_keys_are_signals_and_can_be_changed(qtbot: QtBot, shell: Shell) -
     shell.set_keys({"help": "F12"})
     with qtbot.waitSignal(shell.key):
         qtbot.keyClick(shell, Qt.Key.Key_F12)
+
+
+def test_what_comes_while_settings_are_open_is_behind_them(shell: Shell) -> None:
+    way, shown = Navigator(shell, lambda: False, lambda: False), list[str]()
+
+    def put(place: str) -> None:
+        screen = QWidget()
+        flow = SimpleNamespace(screen=screen, first=lambda: screen, while_aside=False, leave=lambda: None)
+        flow.show = lambda given: (shown.append(given), way.go(place))
+        way.flows[place] = flow
+
+    for place in ("review", "correct", "settings"):
+        put(place)
+    way.show("correct", "old")
+    way.aside("settings")
+    way.show_behind("review", "new")
+    assert (way.place, way.behind, shown) == ("settings", "review", ["old", "new"])
+    way.back()
+    assert way.place == "review"
+    way.show_behind("correct", "once more")
+    assert way.place == "correct"
 
 
 def test_the_focus_ring_follows_the_keyboard(qtbot: QtBot, shell: Shell) -> None:

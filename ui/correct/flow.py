@@ -197,7 +197,8 @@ class CorrectFlow(Flow):
             self.context.messages.fault(fault)
             self.look_for_waiting()
 
-        self._background.run(lambda: self._stored.drop(one.trial), lambda _: None, failed, self)
+        # A look from before may still come, and tell of it once more: the last look is the true one.
+        self._background.run(lambda: self._stored.drop(one.trial), lambda _: self.look_for_waiting(), failed, self)
 
     def _use(self) -> None:
         one = self._decided()
@@ -205,9 +206,8 @@ class CorrectFlow(Flow):
             return
 
         def failed(fault: Exception) -> None:
-            self.waiting.append(one)
-            self._say()
             self.context.messages.fault(fault)
+            self.look_for_waiting()
 
         self._background.run(
             lambda: self._stored.use(one.session_id, one.trial),
@@ -218,8 +218,9 @@ class CorrectFlow(Flow):
 
     def _used(self, before: str, new: str) -> None:
         """A new result counts from now on; where the old one was on the screen the new one is shown."""
-        if self.context.now.session_id == before and self.context.way.place in ("review", "correct"):
-            self.context.way.show("review", new)
+        self.look_for_waiting()
+        if self.context.now.session_id == before and self.context.way.behind in ("review", "correct"):
+            self.context.way.show_behind("review", new)
 
 
 def whose(header: SessionHeader) -> str:

@@ -148,7 +148,8 @@ class PictureView(QWidget):
         painter.fillRect(self.rect(), QColor("#10181A"))
         if self._image is None:
             painter.setPen(QColor("#A9B6B9"))
-            painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, self.empty_words)
+            place = int(Qt.AlignmentFlag.AlignCenter) | int(Qt.TextFlag.TextWordWrap)
+            painter.drawText(self.rect().adjusted(12, 0, -12, 0), place, self.empty_words)
         else:
             self._paint_picture(painter, self._image)
         if self.hasFocus() and self.property("shows_own_focus"):

@@ -55,8 +55,9 @@ class ReviewFlow(Flow):
 
     def _use_again(self, session_id: str) -> None:
         def show(new: str) -> None:
-            if self.context.now.session_id == session_id and self.context.way.place == "review":
-                self.show(new)
+            way = self.context.way
+            if self.context.now.session_id == session_id and way.behind == "review":
+                way.show_behind("review", new)
 
         def failed(fault: Exception) -> None:
             self.context.messages.fault(fault)

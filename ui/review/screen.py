@@ -153,7 +153,13 @@ class ReviewScreen(Fitted):
         self.card.again_button.setVisible(may_repeat)
         self.picture.open(None, self.tr("Reading the session…"))
         store = self._store
-        self._background.run(lambda: Reviewed.read(store, patient_id, session_id), self._show, self.told.emit, self)
+
+        def failed(fault: Exception) -> None:
+            if session_id == self._session_id:
+                self.picture.open(None, self.tr("This session cannot be read. Go back, or choose another one."))
+            self.told.emit(fault)
+
+        self._background.run(lambda: Reviewed.read(store, patient_id, session_id), self._show, failed, self)
         self.setFocus(Qt.FocusReason.OtherFocusReason)
 
     @property
