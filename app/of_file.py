@@ -80,8 +80,9 @@ def sessions_in(places: Iterable[Path]) -> Iterator[Path]:
         yield from sorted(place.rglob("*.h5")) if place.is_dir() else [place]
 
 
-def library_of(folder: Path) -> Library:
-    """Of a data folder, with the clinic's server and share where it is this computer's own."""
+def library_of(folder: Path, *, only_reads: bool = False) -> Library:
+    """Of a data folder, with the clinic's server and share where it is this computer's own; also of one that cannot be
+    written, for who ``only_reads``."""
     from carpus.core.records.library import Library
 
     settings, _ = load_sound_settings()
@@ -91,6 +92,7 @@ def library_of(folder: Path) -> Library:
         by="command",
         url=settings.records.url if is_own else "",
         sessions=sessions_folder(settings) if is_own else None,
+        only_reads=only_reads,
     )
     library.who = initials
     library.log_fault = tell

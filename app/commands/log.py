@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from carpus.core.formats.new_output import look_for_folder, new_table
     from carpus.core.records.log import read_log
-    from carpus.core.records.store import Store, look_for_store
+    from carpus.core.records.store import look_for_store, reading
 
     settings, _ = load_sound_settings()
     folder: Path = arguments.data_folder or settings.data_folder
@@ -34,7 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
         look_for_folder(arguments.output)
     own = folder == settings.data_folder
     faults: list[CarpusFault] = []
-    with Store(
+    with reading(
         folder, sessions_folder(settings) if own else None, settings.records.url if own else "", faults.append
     ) as store:
         if not store.settled(MOST_WAIT_S):

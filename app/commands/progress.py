@@ -107,7 +107,7 @@ def _listed(subject: str, folder: Path) -> tuple[list[tuple[Path, SessionFigures
     from carpus.app.of_file import library_of
     from carpus.core.records.session_list import FilesOfSessions
 
-    with closing(library_of(folder)) as library:
+    with closing(library_of(folder, only_reads=True)) as library:
         FilesOfSessions(library.store).take_in(tells=False)  # also what was copied in since the last look
         people = {one.patient_id: one.entry.pseudonym for one in library.patients.listed(archived=True)}
         if subject == EVERYBODY:

@@ -14,6 +14,7 @@ from carpus.core.errors import OutputExists
 from carpus.core.results.ranges import in_order
 from carpus.core.results.report_form import PAPERS
 from carpus.core.session.reader import read_session
+from carpus.core.session.values import Session
 
 EXAMPLE = "carpus report session.h5 --output report.pdf --language de"
 
@@ -36,7 +37,12 @@ def run(arguments: argparse.Namespace) -> int:
     settings = load_settings()
     chosen = settings.report
     order, therapist = arguments.angle_order or chosen.angle_order, chosen.therapist
-    sessions = [in_order(read_session(path), order) for path in arguments.sessions]
+    named: dict[str, tuple[Path, Session]] = {}
+    for path in arguments.sessions:
+        session = in_order(read_session(path), order)
+        if named.setdefault(session.header.session_id, (path, session))[1] is not session:
+            say(f"{path} is left out: it holds a session that was named before.")
+    paths, sessions = zip(*named.values(), strict=True)
     from carpus.core.records.of_clinic import form_in
 
     form = form_in(settings.data_folder)
@@ -51,7 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
     from carpus.core.results.progress import newest_results
     from carpus.ui.report.pdf import ensure_application, write_progress_report, write_session_report
 
-    choices = [read_choices(path) for path in arguments.sessions]
+    choices = [read_choices(path) for path in paths]
     cameras = [camera_of(one, folder_with_checks(one.path) or settings.data_folder) for one in sessions]
     application = ensure_application()
     if len(sessions) == 1:
@@ -61,7 +67,7 @@ def run(arguments: argparse.Namespace) -> int:
             therapist=therapist,
             choices=choices[0],
             camera=cameras[0],
-            comment=read_comment(arguments.sessions[0]),
+            comment=read_comment(paths[0]),
             **look,
         )
     else:
@@ -74,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
             say(f"session {older} is left out: a newer result of its recording counts.")
         write_progress_report(figures, arguments.output, therapist=therapist, software_version=__version__, **look)
     del application
-    kept = [(path, one.header.session_id) for path, one in zip(arguments.sessions, sessions, strict=True)]
+    kept = [(path, one.header.session_id) for path, one in zip(paths, sessions, strict=True)]
     made(kept, [arguments.output], "report")
     print(f"Report: {arguments.output}")
     return 0

@@ -437,7 +437,7 @@ def _of_store(path: Path) -> tuple[bytes, list[str]]:
         try:
             wanted = [str(one) for (one,) in copy.execute("SELECT path FROM session WHERE erasing = 0")]
         except sqlite3.Error as cause:
-            raise RegisterUnreadable(path, str(cause)) from cause
+            raise RegisterUnreadable(path, str(cause) if path.stat().st_size else phrase("empty file")) from cause
         return copy.serialize(), wanted
 
 

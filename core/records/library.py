@@ -33,7 +33,7 @@ from carpus.core.records.patients import Patients
 from carpus.core.records.schema import PATIENT
 from carpus.core.records.session_list import ListedSessions
 from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
-from carpus.core.records.store import Store
+from carpus.core.records.store import Store, reading
 from carpus.core.records.values import SessionEntry, entry_of, newest_results
 from carpus.core.results.camera_said import CameraSaid, camera_of
 from carpus.core.results.figures import SessionFigures, session_figures, with_trust
@@ -114,7 +114,9 @@ class Library:
         by: By = "window",
         url: str = "",
         sessions: Path | None = None,
+        only_reads: bool = False,
     ) -> None:
+        """``only_reads``: also of a folder that cannot be written."""
         self.folder = folder
         self.who: Callable[[], str] = lambda: ""
         self.told: list[CarpusFault] = []
@@ -125,7 +127,7 @@ class Library:
             self.error_limits = read_limits(folder)
         except CarpusFault as fault:
             self.told.append(fault)
-        self.store = Store(folder, sessions, url, lambda fault: self.log_fault(fault))
+        self.store = (reading if only_reads else Store)(folder, sessions, url, lambda fault: self.log_fault(fault))
         self.log = Log(self.store, by, lambda: self.who())
         self.patients, self.index = Patients(self.store), ListedSessions(self.store)
         self.notes = Notes(self.log, self.index.owner, lambda fault: self.log_fault(fault))

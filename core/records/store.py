@@ -204,10 +204,16 @@ class Store:
         return self._database.leave_no_trace()
 
 
-def reading(folder: Path) -> Store:
-    """The store of a folder for who only reads: also of one that cannot be written. Raises the faults of a store."""
+def reading(
+    folder: Path,
+    sessions_folder: Path | None = None,
+    url: str = "",
+    tell: Callable[[CarpusFault], None] = lambda _: None,
+) -> Store:
+    """The store of a folder for who only reads: also of one that cannot be written, then of this computer alone. Raises
+    the faults of a store."""
     try:
-        return Store(folder)
+        return Store(folder, sessions_folder, url, tell)
     except OutputNotWritable:
         return Store(folder, copy=copied(folder / STORE_FILE))
 

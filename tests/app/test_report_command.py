@@ -82,6 +82,11 @@ def test_sessions_make_a_report_of_a_session_or_of_progress(
     assert "Session report" in page
     assert command("report", *sessions, "--output", tmp_path / "course.pdf").code == 0
     assert "Progress report" in words(tmp_path / "course.pdf")
+    same = shutil.copy(sessions[0], tmp_path / "the same.h5")
+    twice = command("report", sessions[0], same, "--output", tmp_path / "twice.pdf")
+    assert (twice.code, twice.err.count("\n")) == (0, 1)
+    assert f"{same} is left out" in twice.err
+    assert "Session report" in words(tmp_path / "twice.pdf")
 
 
 def test_the_comment_is_on_it_and_paper_and_language_are_chosen(sessions: list[Path], tmp_path: Path) -> None:

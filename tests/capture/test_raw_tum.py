@@ -74,6 +74,7 @@ def test_a_disk_that_is_full_at_the_start_is_told_as_that(tmp_path: Path, room: 
             TumWriter(tmp_path / "take", INFO)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert list(tmp_path.iterdir()) == [], "and can be tried again"
 
 
 def test_the_reader_gives_the_same_pictures_back(tmp_path: Path) -> None:

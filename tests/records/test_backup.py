@@ -75,7 +75,9 @@ def restored(place: Path, made: Backup, target: Path, settings: Path | None = No
     restore(made, content_of(place), target, settings_folder=settings).put_in_place(NOW)
 
 
-@pytest.mark.parametrize("trouble", ["", "a journal", "another computer writes", "damaged"])
+@pytest.mark.parametrize(
+    "trouble", ["", "a journal", "a journal while it is read", "another computer writes", "damaged"]
+)
 def test_of_a_folder_that_can_only_be_read_there_is_a_backup_unless_somebody_writes_in_it(
     trouble: str, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -90,6 +92,8 @@ def test_of_a_folder_that_can_only_be_read_there_is_a_backup_unless_somebody_wri
 
     def read(path: Path) -> bytes:
         content = read_bytes(path)
+        if path == store and trouble == "a journal while it is read":
+            store.with_name(f"{STORE_FILE}-wal").write_bytes(b"what is written now")
         return content + b"%d" % next(numbers) if path == store and trouble == "another computer writes" else content
 
     if trouble == "a journal":
@@ -102,7 +106,8 @@ def test_of_a_folder_that_can_only_be_read_there_is_a_backup_unless_somebody_wri
         with pytest.raises(RegisterUnreadable) as told:
             back_up(data, tmp_path / "place", software_version="1")
         assert type(told.value) is {
-            "a journal": RegisterJournalLeft, "another computer writes": RegisterBusy, "damaged": RegisterUnreadable
+            "a journal": RegisterJournalLeft, "a journal while it is read": RegisterJournalLeft,
+            "another computer writes": RegisterBusy, "damaged": RegisterUnreadable,
         }[trouble]  # fmt: skip
         return
     with Store(data, copy=copied(store)) as kept:

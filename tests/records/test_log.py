@@ -21,7 +21,7 @@ from carpus.core.records.new_sessions import recover
 from carpus.core.records.schema import DEED
 from carpus.core.records.store import Store
 from tests.commands import Command
-from tests.records.samples import opened, settled, traces
+from tests.records.samples import LINDEN, T0, measure, opened, settled, traces
 
 
 def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path, url: str) -> None:
@@ -117,6 +117,29 @@ NOTHING_THERE = (
     "carpus: There is nothing of Carpus in the folder {}; name the folder that holds the patients; "
     "carpus doctor says which it is.\n"
 )
+
+
+def test_what_only_reads_does_so_where_nothing_can_be_written(
+    tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with opened(tmp_path) as house:
+        linden = house.patients.add(LINDEN)
+        measure(house, linden, T0)
+        house.log.note("opened", "patient", linden)
+    before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")}
+
+    def only_reads(folder: Path) -> None:
+        raise OutputNotWritable(folder, "Read-only file system")
+
+    monkeypatch.setattr("carpus.core.records.store.make_private", only_reads)
+    log = command("log", "--data-folder", tmp_path)
+    assert (log.code, "opened" in log.out) == (0, True)
+    progress = command("progress", LINDEN.pseudonym, "--sessions", tmp_path)
+    assert (progress.code, progress.err) == (0, "")
+    after = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")}
+    assert {path: at for path, at in after.items() if path in before and path.is_file()} == {
+        path: at for path, at in before.items() if path.is_file()
+    }
 
 
 def test_the_command_makes_no_store_where_none_is(tmp_path: Path, command: Command) -> None:

@@ -372,21 +372,25 @@ class TumWriter(Writing):
         self._path = path
         self._count = 0
         self._lists: dict[str, FileIO] = {}
-        if path.exists():
-            raise OutputExists(path)
+        try:
+            path.mkdir(parents=True)
+        except FileExistsError as cause:
+            raise OutputExists(path) from cause
+        except OSError as cause:
+            raise write_fault(path, cause) from cause
         try:
             for name, kind in ((COLOR_LIST, "rgb"), (DEPTH_LIST, "depth")):
-                (path / kind).mkdir(parents=True)
+                (path / kind).mkdir()
                 self._lists[kind] = open(path / name, "xb", 0, opener=private)  # noqa: SIM115  # closed by close
                 remark = f"{SIMULATED_REMARK}\n" if is_simulated(info) else ""
                 remark += "".join(f"{name}{value}\n" for name, value in _said(info) if value)
                 _append(self._lists[kind], f"# {kind} pictures of {info.name}\n{remark}# timestamp filename\n")
             write_camera_info(path / CAMERA_FILE, info.camera)
         except OSError as cause:
-            self.abandon()
+            self.discard()
             raise write_fault(path, cause) from cause
         except CarpusFault:
-            self.abandon()
+            self.discard()
             raise
 
     @property
