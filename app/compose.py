@@ -18,9 +18,9 @@ from types import TracebackType
 from typing import TYPE_CHECKING
 
 import platformdirs
-from PySide6.QtCore import QEvent, QEventLoop, QMetaObject, QObject, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QEventLoop, QMetaObject, QObject, QPoint, Qt, QTimer, Signal
 from PySide6.QtGui import QPixmap
-from PySide6.QtWidgets import QApplication, QFileDialog
+from PySide6.QtWidgets import QApplication, QFileDialog, QSplashScreen
 
 from carpus import __version__
 from carpus.app.command_line import on_stop
@@ -193,10 +193,14 @@ class Desktop:
         place, now = self.journey.way.behind, self.journey.now
         quits = application.quitOnLastWindowClosed()
         application.setQuitOnLastWindowClosed(False)
+        picture = QSplashScreen(self.shell.grab())  # of the old window, until the new one stands there
+        picture.move(self.shell.mapToGlobal(QPoint()))
+        picture.show()
         self.close()
         gc.unfreeze()
         for widget in application.topLevelWidgets():  # screens never shown too: they would be styled with the new ones
-            widget.deleteLater()
+            if widget is not picture:
+                widget.deleteLater()
         application.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
         gc.collect()
         try:
@@ -215,6 +219,7 @@ class Desktop:
         self.safe.locking.look_again()
         self.shell.show()
         self.journey.way.show("settings")
+        picture.finish(self.shell)
         application.setQuitOnLastWindowClosed(quits)
         gc.freeze()
 

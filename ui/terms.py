@@ -8,7 +8,7 @@ from datetime import date
 from carpus.core.hand.exercises import SIDES, known_exercise
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.types import FloatArray
-from carpus.ui import numbers
+from carpus.ui import language, numbers
 from carpus.ui.translate import say, tr
 
 LEGAL_SENTENCE = (
@@ -16,6 +16,12 @@ LEGAL_SENTENCE = (
     "replace, the judgement of a qualified clinician; do not use as the only basis for diagnosis or treatment."
 )
 """Verbatim on the first screen and every report; never translated by meaning, only by an approved text."""
+
+
+def legal_notice() -> str:
+    """The sentence as a window has it, which says in its own language why this one is English."""
+    before = "" if language.spoken() == "en" else tr("Legal notice, in its English wording:")
+    return f"{before} {LEGAL_SENTENCE}".lstrip()
 
 
 def exercise_name(exercise_id: str) -> str:

@@ -2977,7 +2977,7 @@
     </message>
     <message>
         <source>Smoothness (SPARC)</source>
-        <translation>Flüssigkeit (SPARC)</translation>
+        <translation>Flüssigkeit der Bewegung (SPARC)</translation>
     </message>
     <message>
         <source>Widest opening, thumb–index</source>
@@ -3880,12 +3880,12 @@
         <translation>Unterarm bewegt</translation>
     </message>
     <message>
-        <source>{depth} under its disc (fit {residual})</source>
-        <translation>{depth} unter dem Punkt (Rest {residual})</translation>
+        <source>{depth} under its disc (scatter {residual})</source>
+        <translation>{depth} unter dem Punkt (Streuung {residual})</translation>
     </message>
     <message>
-        <source>Wrist turns about</source>
-        <translation>Drehpunkt</translation>
+        <source>Point the wrist turns about</source>
+        <translation>Drehpunkt des Handgelenks</translation>
     </message>
     <message>
         <source>{angle} at most (limit {limit})</source>
@@ -3905,7 +3905,7 @@
     </message>
     <message>
         <source>Smoothness (SPARC; 0 is smoothest)</source>
-        <translation>Flüssigkeit (SPARC; 0 am flüssigsten)</translation>
+        <translation>Flüssigkeit der Bewegung (SPARC; 0 am flüssigsten)</translation>
     </message>
     <message>
         <source>Target</source>
@@ -4278,6 +4278,10 @@
     <message>
         <source>Under the palm the thumb&apos;s tip goes out of the camera&apos;s sight: what is trained here is its lift away from the palm, which stays in view.</source>
         <translation>Unter der Handfläche sieht die Kamera die Daumenspitze nicht mehr: Geübt wird hier das Abheben von der Handfläche, das sichtbar bleibt.</translation>
+    </message>
+    <message>
+        <source>Legal notice, in its English wording:</source>
+        <translation>Rechtlicher Hinweis, im englischen Wortlaut:</translation>
     </message>
     <message>
         <source>Radial</source>
@@ -7092,24 +7096,24 @@
         <translation>Jede Sitzung ist darin.</translation>
     </message>
     <message>
-        <source>1 session is not in it.</source>
-        <translation>1 Sitzung ist nicht darin.</translation>
+        <source>1 session file is not in it.</source>
+        <translation>1 Sitzungsdatei ist nicht darin.</translation>
     </message>
     <message>
-        <source>{n} sessions are not in it.</source>
-        <translation>{n} Sitzungen sind nicht darin.</translation>
+        <source>{n} session files are not in it.</source>
+        <translation>{n} Sitzungsdateien sind nicht darin.</translation>
+    </message>
+    <message>
+        <source>{when} · {n} session files, {size} GB · read back and compared: all equal</source>
+        <translation>{when} · {n} Sitzungsdateien, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
+    </message>
+    <message>
+        <source>{when} · 1 session file, {size} GB · read back and compared: all equal</source>
+        <translation>{when} · 1 Sitzungsdatei, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
     </message>
     <message>
         <source>The last back-up is {days} days old.</source>
         <translation>Die letzte Sicherung ist {days} Tage alt.</translation>
-    </message>
-    <message>
-        <source>{when} · {n} sessions, {size} GB · read back and compared: all equal</source>
-        <translation>{when} · {n} Sitzungen, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
-    </message>
-    <message>
-        <source>{when} · 1 session, {size} GB · read back and compared: all equal</source>
-        <translation>{when} · 1 Sitzung, {size} GB · zurückgelesen und verglichen: alles gleich</translation>
     </message>
     <message>
         <source>Reminder after {days} days.</source>
@@ -7499,6 +7503,26 @@
         <source>1 marker hidden</source>
         <translation>1 Marker verdeckt</translation>
     </message>
+    <message>
+        <source>report</source>
+        <translation>Bericht</translation>
+    </message>
+    <message>
+        <source>letter</source>
+        <translation>Brief</translation>
+    </message>
+    <message>
+        <source>home</source>
+        <translation>Zuhause</translation>
+    </message>
+    <message>
+        <source>side-by-side</source>
+        <translation>nebeneinander</translation>
+    </message>
+    <message>
+        <source>progress</source>
+        <translation>Verlauf</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -7678,10 +7702,6 @@
         <translation>Ordner mit den Sicherungen</translation>
     </message>
     <message>
-        <source>Restore the back-up of {when}? Sessions added: {come}, changed: {change}, taken away: {go}.</source>
-        <translation>Sicherung vom {when} wiederherstellen? Sitzungen hinzugefügt: {come}, geändert: {change}, entfernt: {go}.</translation>
-    </message>
-    <message>
         <source>Carpus closes when it is done. Start it again then.</source>
         <translation>Carpus schließt sich danach. Starten Sie es dann neu.</translation>
     </message>
@@ -7704,6 +7724,10 @@
     <message>
         <source>Sealed files (*.age)</source>
         <translation>Versiegelte Dateien (*.age)</translation>
+    </message>
+    <message>
+        <source>Restore the back-up of {when}? Session files added: {come}, changed: {change}, taken away: {go}.</source>
+        <translation>Sicherung vom {when} wiederherstellen? Sitzungsdateien hinzugefügt: {come}, geändert: {change}, entfernt: {go}.</translation>
     </message>
     <message>
         <source>The folder of what is here now is kept beside the new one.</source>
@@ -8765,10 +8789,6 @@
         <translation>Anhalten</translation>
     </message>
     <message>
-        <source>Pain {score} noted</source>
-        <translation type="vanished">Schmerz {score} vermerkt</translation>
-    </message>
-    <message>
         <source>Pain {score}</source>
         <translation>Schmerz {score}</translation>
     </message>
@@ -8803,10 +8823,6 @@
     <message>
         <source>Starts in {seconds}: not yet</source>
         <translation>Beginn in {seconds}: noch nicht</translation>
-    </message>
-    <message>
-        <source>Space</source>
-        <translation type="vanished">Leertaste</translation>
     </message>
     <message>
         <source>Space · pedal</source>
@@ -8977,8 +8993,8 @@
         <translation>Wiederholungen</translation>
     </message>
     <message>
-        <source>Wheel: zoom</source>
-        <translation>Rad: vergrößern</translation>
+        <source>Ctrl+wheel: zoom</source>
+        <translation>Strg+Rad: Zoom</translation>
     </message>
     <message>
         <source>hidden</source>
@@ -9325,6 +9341,14 @@
     <message>
         <source>Compare with a &amp;reference…</source>
         <translation>Mit &amp;Referenz vergleichen…</translation>
+    </message>
+    <message>
+        <source>&amp;Other formats: settings…</source>
+        <translation>&amp;Weitere Formate: Einstellungen…</translation>
+    </message>
+    <message>
+        <source>JSON, C3D, TRC, MOT and BIDS are offered once “For research” is on.</source>
+        <translation>JSON, C3D, TRC, MOT und BIDS werden angeboten, sobald „Für Forschung“ eingeschaltet ist.</translation>
     </message>
     <message>
         <source>Stop</source>
@@ -9747,6 +9771,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Parts and their licences</source>
         <translation>Teile und ihre Lizenzen</translation>
+    </message>
+    <message>
+        <source>The licences are legal texts, and stay in the language that they were written in.</source>
+        <translation>Die Lizenzen sind Rechtstexte und bleiben in der Sprache, in der sie geschrieben wurden.</translation>
     </message>
 </context>
 <context>
@@ -11030,6 +11058,10 @@ Umschalt+F8 von der Seite</translation>
         <source>Save table</source>
         <translation>Tabelle speichern</translation>
     </message>
+    <message>
+        <source>progress.csv</source>
+        <translation>Verlauf.csv</translation>
+    </message>
 </context>
 <context>
     <name>ProgressScreen</name>
@@ -11066,6 +11098,14 @@ Umschalt+F8 von der Seite</translation>
         <translation>{count} Sitzungen, {first} – {last}</translation>
     </message>
     <message>
+        <source>Simulated sessions are drawn and compared for practice only: they count nowhere.</source>
+        <translation>Simulierte Sitzungen sind nur zum Üben gezeichnet und verglichen: Sie zählen nirgends.</translation>
+    </message>
+    <message>
+        <source>{count} sessions, {last}</source>
+        <translation>{count} Sitzungen, {last}</translation>
+    </message>
+    <message>
         <source>First to last session</source>
         <translation>Erste bis letzte Sitzung</translation>
     </message>
@@ -11096,10 +11136,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>All sessions were set up alike.</source>
         <translation>Alle Sitzungen hatten den gleichen Aufbau.</translation>
-    </message>
-    <message>
-        <source>Simulated sessions are among them.</source>
-        <translation>Simulierte Sitzungen sind darunter.</translation>
     </message>
 </context>
 <context>
@@ -11974,6 +12010,10 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>This repetition as a film, or this picture, of the hand alone (F)</source>
         <translation>Diese Wiederholung als Film, oder dieses Bild, nur mit der Hand (F)</translation>
+    </message>
+    <message>
+        <source>Put right…</source>
+        <translation>Berichtigen…</translation>
     </message>
     <message>
         <source>Not measured here</source>

@@ -3880,11 +3880,11 @@
         <translation>Spostamento avambraccio</translation>
     </message>
     <message>
-        <source>{depth} under its disc (fit {residual})</source>
-        <translation>{depth} sotto (scarto {residual})</translation>
+        <source>{depth} under its disc (scatter {residual})</source>
+        <translation>{depth} sotto (dispersione {residual})</translation>
     </message>
     <message>
-        <source>Wrist turns about</source>
+        <source>Point the wrist turns about</source>
         <translation>Centro del polso</translation>
     </message>
     <message>
@@ -4278,6 +4278,10 @@
     <message>
         <source>Under the palm the thumb&apos;s tip goes out of the camera&apos;s sight: what is trained here is its lift away from the palm, which stays in view.</source>
         <translation>Sotto il palmo la punta del pollice esce dalla vista della telecamera: qui si esercita il suo sollevamento dal palmo, che resta visibile.</translation>
+    </message>
+    <message>
+        <source>Legal notice, in its English wording:</source>
+        <translation>Avvertenza legale, nel testo inglese:</translation>
     </message>
     <message>
         <source>Radial</source>
@@ -7092,24 +7096,24 @@
         <translation>Ogni seduta è compresa.</translation>
     </message>
     <message>
-        <source>1 session is not in it.</source>
-        <translation>1 seduta non è compresa.</translation>
+        <source>1 session file is not in it.</source>
+        <translation>1 file di seduta non è compreso.</translation>
     </message>
     <message>
-        <source>{n} sessions are not in it.</source>
-        <translation>{n} sedute non sono comprese.</translation>
+        <source>{n} session files are not in it.</source>
+        <translation>{n} file di sedute non sono compresi.</translation>
+    </message>
+    <message>
+        <source>{when} · {n} session files, {size} GB · read back and compared: all equal</source>
+        <translation>{when} · {n} file di sedute, {size} GB · riletti e confrontati: tutto uguale</translation>
+    </message>
+    <message>
+        <source>{when} · 1 session file, {size} GB · read back and compared: all equal</source>
+        <translation>{when} · 1 file di seduta, {size} GB · riletto e confrontato: tutto uguale</translation>
     </message>
     <message>
         <source>The last back-up is {days} days old.</source>
         <translation>L’ultima copia è di {days} giorni fa.</translation>
-    </message>
-    <message>
-        <source>{when} · {n} sessions, {size} GB · read back and compared: all equal</source>
-        <translation>{when} · {n} sedute, {size} GB · riletta e confrontata: tutto uguale</translation>
-    </message>
-    <message>
-        <source>{when} · 1 session, {size} GB · read back and compared: all equal</source>
-        <translation>{when} · 1 seduta, {size} GB · riletta e confrontata: tutto uguale</translation>
     </message>
     <message>
         <source>Reminder after {days} days.</source>
@@ -7499,6 +7503,26 @@
         <source>1 marker hidden</source>
         <translation>1 marcatore nascosto</translation>
     </message>
+    <message>
+        <source>report</source>
+        <translation>relazione</translation>
+    </message>
+    <message>
+        <source>letter</source>
+        <translation>lettera</translation>
+    </message>
+    <message>
+        <source>home</source>
+        <translation>a-casa</translation>
+    </message>
+    <message>
+        <source>side-by-side</source>
+        <translation>a-confronto</translation>
+    </message>
+    <message>
+        <source>progress</source>
+        <translation>andamento</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>
@@ -7678,10 +7702,6 @@
         <translation>Cartella che contiene le copie</translation>
     </message>
     <message>
-        <source>Restore the back-up of {when}? Sessions added: {come}, changed: {change}, taken away: {go}.</source>
-        <translation>Ripristinare la copia del {when}? Sedute aggiunte: {come}, cambiate: {change}, tolte: {go}.</translation>
-    </message>
-    <message>
         <source>Carpus closes when it is done. Start it again then.</source>
         <translation>Alla fine Carpus si chiude. Poi avviarlo di nuovo.</translation>
     </message>
@@ -7704,6 +7724,10 @@
     <message>
         <source>Sealed files (*.age)</source>
         <translation>File sigillati (*.age)</translation>
+    </message>
+    <message>
+        <source>Restore the back-up of {when}? Session files added: {come}, changed: {change}, taken away: {go}.</source>
+        <translation>Ripristinare la copia del {when}? File di sedute aggiunti: {come}, cambiati: {change}, tolti: {go}.</translation>
     </message>
     <message>
         <source>The folder of what is here now is kept beside the new one.</source>
@@ -8765,10 +8789,6 @@
         <translation>Pausa</translation>
     </message>
     <message>
-        <source>Pain {score} noted</source>
-        <translation type="vanished">Dolore {score} annotato</translation>
-    </message>
-    <message>
         <source>Pain {score}</source>
         <translation>Dolore {score}</translation>
     </message>
@@ -8803,10 +8823,6 @@
     <message>
         <source>Starts in {seconds}: not yet</source>
         <translation>Inizio tra {seconds}: non ancora</translation>
-    </message>
-    <message>
-        <source>Space</source>
-        <translation type="vanished">Spazio</translation>
     </message>
     <message>
         <source>Space · pedal</source>
@@ -8977,8 +8993,8 @@
         <translation>Ripetizioni</translation>
     </message>
     <message>
-        <source>Wheel: zoom</source>
-        <translation>Rotella: zoom</translation>
+        <source>Ctrl+wheel: zoom</source>
+        <translation>Ctrl+rotella: zoom</translation>
     </message>
     <message>
         <source>hidden</source>
@@ -9325,6 +9341,14 @@
     <message>
         <source>Compare with a &amp;reference…</source>
         <translation>Confronta con un &amp;riferimento…</translation>
+    </message>
+    <message>
+        <source>&amp;Other formats: settings…</source>
+        <translation>&amp;Altri formati: impostazioni…</translation>
+    </message>
+    <message>
+        <source>JSON, C3D, TRC, MOT and BIDS are offered once “For research” is on.</source>
+        <translation>JSON, C3D, TRC, MOT e BIDS vengono offerti quando “Per la ricerca” è attivo.</translation>
     </message>
     <message>
         <source>Stop</source>
@@ -9747,6 +9771,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Parts and their licences</source>
         <translation>Componenti e licenze</translation>
+    </message>
+    <message>
+        <source>The licences are legal texts, and stay in the language that they were written in.</source>
+        <translation>Le licenze sono testi legali e restano nella lingua in cui furono scritte.</translation>
     </message>
 </context>
 <context>
@@ -11030,6 +11058,10 @@ Maiusc+F8 di lato</translation>
         <source>Save table</source>
         <translation>Salva la tabella</translation>
     </message>
+    <message>
+        <source>progress.csv</source>
+        <translation>andamento.csv</translation>
+    </message>
 </context>
 <context>
     <name>ProgressScreen</name>
@@ -11066,6 +11098,14 @@ Maiusc+F8 di lato</translation>
         <translation>{count} sedute, {first} – {last}</translation>
     </message>
     <message>
+        <source>Simulated sessions are drawn and compared for practice only: they count nowhere.</source>
+        <translation>Le sedute simulate sono disegnate e confrontate solo per esercitarsi: non contano da nessuna parte.</translation>
+    </message>
+    <message>
+        <source>{count} sessions, {last}</source>
+        <translation>{count} sedute, {last}</translation>
+    </message>
+    <message>
         <source>First to last session</source>
         <translation>Dalla prima all’ultima seduta</translation>
     </message>
@@ -11096,10 +11136,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>All sessions were set up alike.</source>
         <translation>Tutte le sedute sono state preparate allo stesso modo.</translation>
-    </message>
-    <message>
-        <source>Simulated sessions are among them.</source>
-        <translation>Ci sono sedute simulate.</translation>
     </message>
 </context>
 <context>
@@ -11974,6 +12010,10 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>This repetition as a film, or this picture, of the hand alone (F)</source>
         <translation>Questa ripetizione come filmato, o questa immagine, con la sola mano (F)</translation>
+    </message>
+    <message>
+        <source>Put right…</source>
+        <translation>Correggi…</translation>
     </message>
     <message>
         <source>Not measured here</source>

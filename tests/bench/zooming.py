@@ -42,8 +42,8 @@ def report() -> Iterator[str]:
         took = [
             _step_ms(view, turn, modifiers)
             for turns, modifiers in (
-                ([120] * STEPS + [-120] * STEPS, Qt.KeyboardModifier.NoModifier),
-                ([120] * 8, Qt.KeyboardModifier.NoModifier),
+                ([120] * STEPS + [-120] * STEPS, Qt.KeyboardModifier.ControlModifier),
+                ([120] * 8, Qt.KeyboardModifier.ControlModifier),
                 ([-120, 120] * STEPS, Qt.KeyboardModifier.ShiftModifier),
             )
             for turn in turns

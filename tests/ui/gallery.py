@@ -129,8 +129,8 @@ ERASED_SESSION = ErasureFacts(
     datetime(2026, 11, 15, 18, 4), date(2036, 10, 9), 10, TODAY,
 )  # fmt: skip
 OLD_BACKUP = BackupFacts(
-    "warn", "The last back-up is 5 days old. 7 sessions are not in it.",
-    "15 Nov 2026, 18:04 · 49 sessions, 2.04 GB · read back and compared: all equal", "Reminder after 3 days.",
+    "warn", "The last back-up is 5 days old. 7 session files are not in it.",
+    "15 Nov 2026, 18:04 · 49 session files, 2.04 GB · read back and compared: all equal", "Reminder after 3 days.",
     "/media/clinic-disk/carpus-backup", "good", "412 GB free", True,
 )  # fmt: skip
 CHECKS = (

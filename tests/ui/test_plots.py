@@ -76,12 +76,14 @@ def drag(qtbot: QtBot, face: QWidget, start: QPointF, by_px: int) -> None:
 
 def wheel(
     face: QWidget, at: QPointF, turn: int, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier
-) -> None:
+) -> bool:
+    """Whether it was taken."""
     event = QWheelEvent(
         at, face.mapToGlobal(at), QPoint(), QPoint(0, turn), Qt.MouseButton.NoButton, modifiers,
         Qt.ScrollPhase.NoScrollPhase, False,
     )  # fmt: skip
     QApplication.sendEvent(face, event)
+    return event.isAccepted()
 
 
 def test_zoomed_in_a_drag_moves_along_and_all_panels_go_together(qtbot: QtBot, view: CurveView) -> None:
@@ -115,6 +117,13 @@ def test_shift_and_wheel_go_along(view: CurveView) -> None:
     view.show_window((20.0, 30.0))
     wheel(view.face, center(view), -120, Qt.KeyboardModifier.ShiftModifier)
     assert view.shown_part == pytest.approx((21.0, 31.0))
+
+
+def test_the_wheel_alone_is_the_page_s_and_with_ctrl_zooms(view: CurveView) -> None:
+    assert not wheel(view.face, center(view), 120), "the page that it lies on scrolls"
+    assert view.shown_part is None
+    assert wheel(view.face, center(view), 120, Qt.KeyboardModifier.ControlModifier)
+    assert view.shown_part is not None
 
 
 def test_keys_zoom_about_the_cursor_and_show_all(view: CurveView) -> None:

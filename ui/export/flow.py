@@ -27,6 +27,7 @@ class Exporting(QObject):
         self.formats.wanted.connect(self._export)
         self.formats.stop.connect(self._stop.set)
         self.formats.compare.connect(lambda: context.way.show("agreement", context.now.session_id))
+        self.formats.more.connect(lambda: context.way.show("settings", "research"))
         self._stepped.connect(self.formats.progress, Qt.ConnectionType.QueuedConnection)
 
     def ask(self, session_id: str) -> None:

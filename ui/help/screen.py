@@ -71,7 +71,7 @@ class HelpScreen(QWidget):
         in_column(
             head,
             (columns, 1),
-            Text(theme, terms.LEGAL_SENTENCE, 12, token="text2", wrap=True),
+            Text(theme, terms.legal_notice(), 12, token="text2", wrap=True),
             gap=12,
             margins=(MARGIN_PX, GAP_PX, MARGIN_PX, GAP_PX),
             within=self,

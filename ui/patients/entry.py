@@ -94,7 +94,7 @@ class PatientForm(Sheet):
             Labelled(theme, kept, self.real_name),
             hands,
             Labelled(theme, why, self.diagnosis, self.listed),
-            Labelled(theme, self.tr("&Since"), self.onset_day, self.onset, self.since),
+            Labelled(theme, self.tr("&Since"), self.onset_day, self.since, self.onset),
             Labelled(theme, self.tr("N&ote (no names)"), self.note),
             self.remove,
             gap=14,

@@ -107,7 +107,7 @@ class PatientsScreen(QWidget):
         columns = in_line((self._left, 824), (self.card, 384), gap=MARGIN_PX)
         whole = in_column(self.notice_place, (columns, 1), gap=GAP_PX, margins=(MARGIN_PX, GAP_PX, MARGIN_PX, 12))
         keys = [("↑ ↓", self.tr("choose")), (self.tr("Enter"), self.tr("start")), ("F1", self.tr("help"))]
-        legal = Text(theme, terms.LEGAL_SENTENCE, 12, REGULAR, "text2", wrap=True)
+        legal = Text(theme, terms.legal_notice(), 12, REGULAR, "text2", wrap=True)
         foot = in_line((legal, 1), KeyCaps(theme, keys), gap=32, margins=(MARGIN_PX, 6, MARGIN_PX, 6))
         in_column((page(whole), 1), Line(theme), foot, gap=0, margins=(0, 0, 0, 0), within=self)
 

@@ -82,16 +82,18 @@ class PanelBox(pg.ViewBox):
         self.state["wheelScaleFactor"] = WHEEL_FACTOR
 
     def wheelEvent(self, event: Any, axis: int | None = None) -> None:
-        """Longer or shorter about the mouse; sideways, or with Shift, along the axis."""
+        """With Ctrl longer or shorter about the mouse; sideways, or with Shift, along the axis; else the page."""
         if self.hands is None:
             event.ignore()
         elif event.orientation() == Qt.Orientation.Horizontal or event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
             (start, end), _ = self.viewRange()
             self.translateBy(x=-event.delta() / 120.0 * ALONG_SHARE * (end - start))
             event.accept()
-        else:
+        elif event.modifiers() & Qt.KeyboardModifier.ControlModifier:
             self.childTransform()  # brings it up to date, also before the next painting
             super().wheelEvent(event, 0)
+        else:
+            event.ignore()
 
     def mouseDragEvent(self, event: Any, axis: int | None = None) -> None:
         if self.hands is not None:

@@ -315,7 +315,9 @@ def paint_behind(
         painter.drawText(QPointF(panel.box.left(), panel.box.top() - 9 * unit), name_of(progress, key))
         for mark in (*still(progress, key), Squares(by_hand_of(progress, key), sessions=when)):
             mark.paint(painter, style, panel)
-    days = Times([(day.timestamp(), numbers.day_month(day)) for day in when], 14.0, days=True)
+    one_day = len({day.date() for day in when}) == 1
+    words = [numbers.day_beside(day, *when) if one_day else numbers.day_month(day) for day in when]
+    days = Times([(day.timestamp(), said) for day, said in zip(when, words, strict=True)], 14.0, days=True)
     for panel in {panel.box.left(): panel for panel, _ in panels}.values():  # the lowest of each column
         days.paint(painter, style, panel)
     if panels:

@@ -128,8 +128,10 @@ class CurveView(ZoomCard):
         painter.setPen(style.color("text2"))
         if plot.repetitions:
             painter.drawText(QPointF(20, TOP_PX * scale - NUMBERS_ABOVE), self.tr("Repetitions"))
-        painter.drawText(QPointF(20, self.height() - 10 * scale), self.tr("Wheel: zoom"))
-        paint_behind(painter, style, plot, self.panels())
+        words, panels = self.tr("Ctrl+wheel: zoom"), self.panels()
+        if 20 + painter.fontMetrics().horizontalAdvance(words + "  0") < panels[-1][0].box.left():  # before the times
+            painter.drawText(QPointF(20, self.height() - 10 * scale), words)
+        paint_behind(painter, style, plot, panels)
 
     def _paint_over(self, painter: QPainter) -> None:
         plot = self._plot

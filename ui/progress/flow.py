@@ -60,7 +60,7 @@ class ProgressFlow(Flow):
         self.context.way.show("report", report, [one.session_id for one in sessions])
 
     def _save_tables(self, progress: Progress) -> None:
-        path = self.ask_where_to_save("exports", "progress.csv", self.tr("Save table"), "CSV (*.csv)")
+        path = self.ask_where_to_save("exports", self.tr("progress.csv"), self.tr("Save table"), "CSV (*.csv)")
         if path is not None:
             sessions = [point.figures.session_id for point in progress.points]
             self.run(lambda: write_tables(path, progress), lambda paths: self.tell_made(paths, sessions))

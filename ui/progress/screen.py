@@ -183,11 +183,16 @@ class ProgressScreen(Fitted):
         self.chart.show_progress(self.progress)
         answer, basis = headline(self.progress)
         self.answer.setText(answer)
-        self.basis.say(basis)
+        if any(figures.simulated for figures in alike):
+            practice = self.tr("Simulated sessions are drawn and compared for practice only: they count nowhere.")
+            basis = f"{practice} {basis}"
+        self.basis.say(basis.rstrip())
         words = ""
         if alike:
             first, last = numbers.day_month(alike[0].when), numbers.day_month(alike[-1].when)
-            pattern = self.tr("1 session, {last}") if len(alike) == 1 else self.tr("{count} sessions, {first} – {last}")
+            pattern = self.tr("{count} sessions, {first} – {last}")
+            if first == last:
+                pattern = self.tr("1 session, {last}") if len(alike) == 1 else self.tr("{count} sessions, {last}")
             words = pattern.format(count=len(alike), first=first, last=last)
         self.span.setText(words)
         for button in (self.report_button, self.picture_button, self.table_button):
@@ -253,9 +258,6 @@ class ProgressScreen(Fitted):
             body.addWidget(Text(theme, words, 14, REGULAR, "warn", wrap=True))
         if not unfair:
             body.addWidget(Text(theme, self.tr("All sessions were set up alike."), 14, wrap=True))
-        if any(point.figures.simulated for point in self.progress.points):
-            words = self.tr("Simulated sessions are among them.")
-            body.addWidget(Text(theme, words, 14, MEDIUM, "warn", wrap=True))
         if once := counted_once_words(self.progress.earlier_results):
             body.addWidget(Text(theme, once, 14, wrap=True))
         body.addWidget(Text(theme, limit_words(self.progress.study), 14, REGULAR, "text2", wrap=True))

@@ -207,7 +207,9 @@ class BackingUp(QObject):
         self._background.run(read, lambda known: self._ask(*known), self._failed, self)
 
     def _ask(self, backup: Backup, content: Content, plan: RestorePlan) -> None:
-        what = self.tr("Restore the back-up of {when}? Sessions added: {come}, changed: {change}, taken away: {go}.")
+        what = self.tr(
+            "Restore the back-up of {when}? Session files added: {come}, changed: {change}, taken away: {go}."
+        )
         when = numbers.report_date(backup.made.astimezone())
         self._context.messages.ask(
             Words(
@@ -298,15 +300,15 @@ def backup_facts(
     else:
         days = (now.date() - last.made.astimezone(now.tzinfo).date()).days
         age = numbers.days_ago(last.made.astimezone(now.tzinfo), now.date())
-        missing = {0: tr("Every session is in it."), 1: tr("1 session is not in it.")}
-        rest = missing.get(last.missing, tr("{n} sessions are not in it.").format(n=last.missing))
+        missing = {0: tr("Every session is in it."), 1: tr("1 session file is not in it.")}
+        rest = missing.get(last.missing, tr("{n} session files are not in it.").format(n=last.missing))
         old = is_due(last.made, settings.remind_days, now)
         beside = on_same_disk(Path(last.place), data_folder)
         first = tr("The last back-up is {days} days old.").format(days=days)
         headline = f"{first if days > 1 else tr('The last back-up is of {day}.').format(day=age)} {rest}"
-        facts = tr("{when} · {n} sessions, {size} GB · read back and compared: all equal")
+        facts = tr("{when} · {n} session files, {size} GB · read back and compared: all equal")
         if last.sessions == 1:
-            facts = tr("{when} · 1 session, {size} GB · read back and compared: all equal")
+            facts = tr("{when} · 1 session file, {size} GB · read back and compared: all equal")
         size = numbers.fixed(last.size_bytes / 1e9, 2) if last.size_bytes < 1e10 else f"{last.size_bytes / 1e9:.0f}"
         detail = facts.format(when=numbers.report_date(last.made.astimezone()), n=last.sessions, size=size)
         more = tr("Reminder after {days} days.").format(days=settings.remind_days)

@@ -29,13 +29,9 @@ from carpus.ui.report.progress_page import ProgressReport
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.tour.bubble import BubbleView
+from carpus.ui.translate import tr
 
 WIDEST_PX = 980
-KINDS: dict[type, str] = {
-    SessionReport: "report", LetterReport: "letter", HomeReport: "home", BesideReport: "side-by-side",
-    ProgressReport: "progress",
-}  # fmt: skip
-"""How the files of each are called."""
 
 
 class ReportScreen(QWidget):
@@ -220,11 +216,16 @@ class ReportScreen(QWidget):
 
 def suggested_name(report: Report) -> str:
     """``Linden-42_2026-11-20_15-29_wrist-fe_report.pdf``: the made-up name, when, and what was done."""
+    kinds: dict[type, str] = {
+        SessionReport: tr("report"), LetterReport: tr("letter"), HomeReport: tr("home"),
+        BesideReport: tr("side-by-side"), ProgressReport: tr("progress"),
+    }  # fmt: skip
+    kind = kinds[type(report)]
     name, when = report.pseudonym.replace(" ", "-"), max(figures.when for figures in report.sessions)
     if isinstance(report, ProgressReport | BesideReport):
-        return f"{name}_{when:%Y-%m-%d}_{KINDS[type(report)]}.pdf"
+        return f"{name}_{when:%Y-%m-%d}_{kind}.pdf"
     what = report.sessions[0].exercise.id.lower().replace("_", "-")
-    return f"{name}_{when:%Y-%m-%d_%H-%M}_{what}_{KINDS[type(report)]}.pdf"
+    return f"{name}_{when:%Y-%m-%d_%H-%M}_{what}_{kind}.pdf"
 
 
 def _written(report: Report, target: Path, replace_asked: bool) -> Path:

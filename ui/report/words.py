@@ -210,11 +210,11 @@ def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
         )
         lines.append((tr("Forearm moved"), words, not quality.forearm_moved))
         if math.isfinite(quality.centre_residual_mm):
-            words = tr("{depth} under its disc (fit {residual})").format(
+            words = tr("{depth} under its disc (scatter {residual})").format(
                 depth=numbers.millimetres(-quality.centre_mm[2]),
                 residual=f"{numbers.fixed(quality.centre_residual_mm, 1)}{numbers.NARROW_GAP}mm",
             )
-            lines.append((tr("Wrist turns about"), words, True))
+            lines.append((tr("Point the wrist turns about"), words, True))
     names = {0: tr("Side movement"), 1: tr("Up and down"), 2: tr("Turning")}
     for angle in (0, 1, 2):
         value = float(figures.trick_deg[angle])

@@ -84,7 +84,8 @@ class ReviewPicture(SessionPicture):
         buttons = (self.correct_button, self.angle_button, self.film_button)
         room = self.width() - 24
         words = self.tr("Put markers right…")
-        for face, icon in ((words, ""), ("", "notebook-pen")):  # the sign alone where there is no room
+        shorter = self.tr("Put right…")
+        for face, icon in ((words, ""), (shorter, ""), ("", "notebook-pen")):  # the sign alone where there is no room
             self.correct_button.set_face(face, icon=icon)
             for button in buttons:
                 button.adjustSize()

@@ -10,6 +10,7 @@ from carpus.core.about import licence_texts, newest_version
 from carpus.core.measures.change import ErrorLimits
 from carpus.ui.background import Background
 from carpus.ui.controls.layouts import in_column
+from carpus.ui.controls.text import Text
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.ports import Preferences
 from carpus.ui.settings.screen import PartName, SettingsScreen
@@ -56,5 +57,7 @@ class LicencesWindow(QDialog):
         self.text = QPlainTextEdit(text)
         self.text.setReadOnly(True)
         self.text.setAccessibleName(self.windowTitle())
-        in_column(self.text, margins=(MARGIN_PX, MARGIN_PX, MARGIN_PX, MARGIN_PX), within=self)
+        words = self.tr("The licences are legal texts, and stay in the language that they were written in.")
+        margins = (MARGIN_PX, MARGIN_PX, MARGIN_PX, MARGIN_PX)
+        in_column(Text(theme, words, 14, wrap=True), (self.text, 1), margins=margins, within=self)
         self.resize(theme.px(860), theme.px(600))

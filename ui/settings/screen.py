@@ -213,7 +213,7 @@ class SettingsScreen(QWidget):
             self.tr("About Carpus"),
             "",
             Text(theme, self.tr("Version {version}, MIT licence.").format(version=self._version), 14),
-            Text(theme, terms.LEGAL_SENTENCE, 14, SEMIBOLD, wrap=True),
+            Text(theme, terms.legal_notice(), 14, SEMIBOLD, wrap=True),
             self.newer,
             (self.licences, 0, Qt.AlignmentFlag.AlignLeft),
         )
