@@ -38,6 +38,7 @@ from carpus.core.records.session_list import (
 )
 from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry
+from carpus.core.session.disk import below
 
 SHORT_NAME = 4
 """A name of fewer letters stands in other words by chance."""
@@ -154,6 +155,8 @@ def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]
         return [store.sessions_folder]
     files = _files(store, patients, sessions)
     left = [*_links(store, patients, sessions), *(path for path in sorted(files) if not _gone(path))]
+    if rows and _is_away(store):  # since then: nobody knows what was found and is gone
+        return [store.sessions_folder]
     emptied = {folder for path in files for folder in path.parents} | set(_folders(store, patients))
     for folder in sorted(emptied, reverse=True):
         if folder.is_relative_to(store.sessions_folder) and folder != store.sessions_folder:
@@ -303,7 +306,7 @@ def _inside(folder: Path, stored: str) -> Path | None:
 
 def _plain_files(folder: Path) -> Iterator[Path]:
     if not folder.is_symlink():
-        yield from (path for path in folder.rglob("*") if path.is_symlink() or path.is_file())
+        yield from (path for path in below(folder) if path.is_symlink() or path.is_file())
 
 
 def _gone(path: Path) -> bool:

@@ -31,7 +31,7 @@ from carpus.core.records.patients import Patients, columns
 from carpus.core.records.schema import PATIENT, SEEN, SESSION
 from carpus.core.records.store import Store, new_id
 from carpus.core.records.values import AffectedSide, PatientEntry, Rebuilt, SessionEntry, moment
-from carpus.core.session.disk import free_name
+from carpus.core.session.disk import below, free_name
 from carpus.core.session.reader import read_outline, write_anew
 from carpus.core.session.values import SessionOutline
 from carpus.core.types import Side
@@ -55,7 +55,7 @@ class SeenFile:
 def files_there(folder: Path) -> dict[Path, SeenFile]:
     """Every file of a folder that is named like a session, as it looks now."""
     found: dict[Path, SeenFile] = {}
-    for path in sorted(folder.rglob("*.h5")):
+    for path in sorted(one for one in below(folder) if one.name.endswith(".h5")):
         try:
             state = path.lstat()
         except OSError:
@@ -113,7 +113,7 @@ def look_for_share(store: Store) -> None:
         return
     if not root.is_dir():
         raise FolderMissing(root)
-    if not any(root.rglob("*.h5")):
+    if not files_there(root):
         if store.row(select(SESSION.c.id).limit(1)) is not None:
             raise ShareEmpty(root)
         return

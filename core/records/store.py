@@ -33,6 +33,7 @@ from carpus.core.records.changes import PRACTICE, Change, forget, is_practice, i
 from carpus.core.records.database import STORE_FILE, Database, copied, rescue, set_aside
 from carpus.core.records.schema import PATIENT
 from carpus.core.records.staging import hold
+from carpus.core.session.disk import below
 
 if TYPE_CHECKING:
     from carpus.core.records.server import Server
@@ -104,8 +105,8 @@ class Store:
                 return database
 
     def _has_sessions(self) -> bool:
-        files = (one.relative_to(self.sessions_folder) for one in self.sessions_folder.rglob("*.h5"))
-        return any(one.parts[0] != PRACTICE for one in files)
+        files = (one.relative_to(self.sessions_folder) for one in below(self.sessions_folder))
+        return any(one.parts[0] != PRACTICE for one in files if one.name.endswith(".h5"))
 
     def __enter__(self) -> Self:
         return self

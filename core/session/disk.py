@@ -7,6 +7,7 @@ import re
 import shutil
 import struct
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 from carpus.core.durable import FULL, sync_folder, write_fault
@@ -127,3 +128,15 @@ def free_name(target: Path) -> Path:
         number += 1
         candidate = target.with_name(f"{target.stem}-{number}{target.suffix}")
     return candidate
+
+
+def below(folder: Path) -> Iterator[Path]:
+    """All that lies below a folder, links not followed. What another program takes away meanwhile, as it erases a
+    patient, is passed over, where ``rglob`` fails. Raises OSError for what else keeps it from being seen."""
+
+    def failed(fault: OSError) -> None:
+        if not isinstance(fault, FileNotFoundError | PermissionError):
+            raise fault
+
+    for here, folders, files in os.walk(folder, onerror=failed):
+        yield from (Path(here, name) for name in (*folders, *files))

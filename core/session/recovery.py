@@ -21,7 +21,7 @@ from pathlib import Path
 from carpus.core.errors import CarpusFault, RecordingMissing, SessionUnreadable
 from carpus.core.phrase import phrase
 from carpus.core.session import reader
-from carpus.core.session.disk import is_being_written, target_of_part
+from carpus.core.session.disk import below, is_being_written, target_of_part
 
 SUFFIX = ".alive"
 BEAT_S = 0.8
@@ -154,7 +154,7 @@ class Recovery:
 
 def interrupted_sessions(folder: Path) -> list[Path]:
     """The part files of a folder and the folders in it, also of sessions that are running."""
-    return sorted(path for path in folder.rglob("*.part") if target_of_part(path) is not None)
+    return sorted(path for path in below(folder) if target_of_part(path) is not None)
 
 
 def recover_folder(folder: Path, now: datetime | None = None, given_up: Collection[Path] = ()) -> Recovery:

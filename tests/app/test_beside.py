@@ -117,6 +117,12 @@ def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: Deskto
     journey.way.back()
     assert journey.place == "review"
     qtbot.waitUntil(lambda: journey.review.screen.shown)
+    bar = desktop.shell.bar.camera
+    assert bar.text().startswith("Saved")
+    journey.review.show(older)
+    assert not bar.text().startswith("Saved"), "nothing is said of the one before"
+    qtbot.waitUntil(lambda: journey.review.screen.shown)
+    assert bar.text().startswith("Saved")
     desktop.library.entry(older).path.unlink()
     told: list[Exception] = []
     screen.told.connect(told.append)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import shutil
 import sqlite3
 from collections.abc import Iterator
@@ -72,6 +73,27 @@ def test_what_another_program_has_erased_meanwhile_is_erased(house: House) -> No
     erasure.erase(house.store, erasure.plan_session(house.store, session), house.log)
     with pytest.raises(ChangedMeanwhile):  # the patient is still there
         erasure.erase(house.store, plan, house.log)
+
+
+def test_a_folder_that_another_program_takes_away_while_it_is_looked_at_is_passed_over(
+    house: House, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+    measure(house, linden, T0)
+    kept = measure(house, heron, T0)
+    scandir, gone = os.scandir, house.store.sessions_folder / linden
+
+    def taken_away(path: str = ".") -> Iterator[os.DirEntry[str]]:
+        if Path(path) == gone and gone.exists():
+            shutil.move(gone, gone.parents[1] / "elsewhere")
+        return scandir(path)
+
+    plan = erasure.plan_patient(house.store, linden)
+    monkeypatch.setattr(os, "scandir", taken_away)
+    erasure.erase(house.store, plan, house.log)
+    assert not gone.exists()
+    assert house.names() == ["Heron 17"]
+    assert house.index.one(kept).path.exists()
 
 
 def test_a_session_goes_with_its_files_and_rows_and_the_others_stay(folder: Path, house: House) -> None:
