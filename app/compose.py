@@ -206,6 +206,7 @@ class Desktop:
         try:
             anew(settings, of=self)
         except CarpusFault as fault:  # the folder went away just now: told as at a start, and the next one meets it
+            picture.close()
             chosen = ask_for_folder(application, settings, fault)
             if chosen is not None:
                 with_kept_folder(settings, chosen)

@@ -9201,7 +9201,7 @@
     </message>
     <message>
         <source>no target</source>
-        <translation>nessun obiettivo</translation>
+        <translation>nessuno</translation>
     </message>
     <message>
         <source>Use as targets</source>

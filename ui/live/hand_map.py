@@ -112,14 +112,17 @@ class HandMap(QWidget):
         painter.setPen(QPen(theme.color("line"), 1))
         painter.drawLine(QPointF(left, round(y) + 0.5), QPointF(self.width() - 16, round(y) + 0.5))
         y += 12 * scale
-        painter.setFont(font(14 * scale, MEDIUM))
         painter.setPen(theme.color("text"))
         keys = self.tr("F2 next joint · F3 next finger\nShift+F8 from the side")
         small = font(12 * scale, REGULAR)
         keys_px = max(QFontMetricsF(small).horizontalAdvance(line) for line in keys.split("\n"))
         below = QFontMetricsF(small).height() * 2 + 12
         room = QRectF(left, y, self.width() - left - 14, self.height() - y - 8)
-        wrapped = QFontMetricsF(painter.font()).boundingRect(room, int(Qt.TextFlag.TextWordWrap), self.words())
+        for size in (14, 12):  # smaller where a language says it in more words than there is room for
+            painter.setFont(font(size * scale, MEDIUM))
+            wrapped = QFontMetricsF(painter.font()).boundingRect(room, int(Qt.TextFlag.TextWordWrap), self.words())
+            if wrapped.height() <= room.height():
+                break
         painter.drawText(room, int(Qt.TextFlag.TextWordWrap), self.words())
         lines_px = max(QFontMetricsF(painter.font()).height() * MOST_LINES, wrapped.height())
         if self.height() - below > y + lines_px and keys_px <= self.width() - left - 8:

@@ -246,7 +246,9 @@ class FingerCurves(PlotCard):
         bending, spreading = self.panels(1)
         room_px = self.column(1).left() - 28
         if bending.box.height() > 0.0:
-            self._text(painter, self.tr("Bending"), 20, bending.box.top() - 4 * scale, 14, MEDIUM, "text")
+            labels_px = max(QFontMetricsF(style.label).horizontalAdvance(text) for _, text in bending.scale.labels)
+            top = bending.box.top() - 4 * scale
+            self._text(painter, self.tr("Bending"), 20, top, 14, MEDIUM, "text", room_px - labels_px)
         if spreading.box.height() > 0.0:
             above = 17 if self._spreads() else 4
             self._text(
