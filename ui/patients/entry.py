@@ -96,7 +96,6 @@ class PatientForm(Sheet):
             Labelled(theme, why, self.diagnosis, self.listed),
             Labelled(theme, self.tr("&Since"), self.onset_day, self.since, self.onset),
             Labelled(theme, self.tr("N&ote (no names)"), self.note),
-            self.remove,
             gap=14,
             margins=(0, 0, 0, 0),
             within=self._fields,
@@ -105,7 +104,7 @@ class PatientForm(Sheet):
         body = self.card.body
         body.setSpacing(16)
         rule_line = Text(theme, rule, 14, token="text2", wrap=True)
-        fill(body, self._title, rule_line, self._scroll, self._fault, in_line(STRETCH, cancel, self.save))
+        fill(body, self._title, rule_line, self._scroll, self._fault, in_line(self.remove, STRETCH, cancel, self.save))
 
     def _connect(self) -> None:
         self.remove.clicked.connect(self.close_sheet)

@@ -246,9 +246,9 @@ class ProgressScreen(Fitted):
     def _fill_fairness(self) -> None:
         empty(self._fair.body)
         body, theme = self._fair.body, self._theme
-        self._fair.setVisible(bool(self.progress.points))
         unfair = [point for point in self.progress.points if not point.fair]
         doubts = [words for point in self.progress.points if (words := doubt_words(point, self.progress))]
+        self._fair.setVisible(len(self.progress.points) > 1 or bool(unfair or doubts))
         title = StateText(theme, 16, SEMIBOLD, 20)
         title.show_state("warn" if unfair or doubts else "good", self.tr("Fair comparison"), token="text")
         body.addWidget(title)
