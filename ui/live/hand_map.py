@@ -118,11 +118,10 @@ class HandMap(QWidget):
         keys_px = max(QFontMetricsF(small).horizontalAdvance(line) for line in keys.split("\n"))
         below = QFontMetricsF(small).height() * 2 + 12
         room = QRectF(left, y, self.width() - left - 14, self.height() - y - 8)
-        for size in (14, 12):  # smaller where a language says it in more words than there is room for
-            painter.setFont(font(size * scale, MEDIUM))
-            wrapped = QFontMetricsF(painter.font()).boundingRect(room, int(Qt.TextFlag.TextWordWrap), self.words())
-            if wrapped.height() <= room.height():
-                break
+        painter.setFont(font(14 * scale, MEDIUM))
+        wrapped = QFontMetricsF(painter.font()).boundingRect(room, int(Qt.TextFlag.TextWordWrap), self.words())
+        if wrapped.height() > room.height():  # a language that says it in more words
+            painter.setFont(font(12 * scale, MEDIUM))
         painter.drawText(room, int(Qt.TextFlag.TextWordWrap), self.words())
         lines_px = max(QFontMetricsF(painter.font()).height() * MOST_LINES, wrapped.height())
         if self.height() - below > y + lines_px and keys_px <= self.width() - left - 8:

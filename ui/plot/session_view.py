@@ -129,8 +129,8 @@ class CurveView(ZoomCard):
         if plot.repetitions:
             painter.drawText(QPointF(20, TOP_PX * scale - NUMBERS_ABOVE), self.tr("Repetitions"))
         words, panels = self.tr("Ctrl+wheel: zoom"), self.panels()
-        if 20 + painter.fontMetrics().horizontalAdvance(words + "  0") < panels[-1][0].box.left():  # before the times
-            painter.drawText(QPointF(20, self.height() - 10 * scale), words)
+        if 10 + painter.fontMetrics().horizontalAdvance(words + "0") < panels[-1][0].box.left():  # before the times
+            painter.drawText(QPointF(10, self.height() - 10 * scale), words)
         paint_behind(painter, style, plot, panels)
 
     def _paint_over(self, painter: QPainter) -> None:
