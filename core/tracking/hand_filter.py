@@ -301,6 +301,13 @@ class HandFilter:
         """Whether the discs lie where the updated pose puts them."""
         return bool((np.abs(posterior.palm.raw_residual) <= self._settings.noise.outlier_sd).all())
 
+    def shows_turn(self, posterior: Posterior) -> bool:
+        """Whether what was measured shows every turn of the hand."""
+        return posterior.levelled or self._unseen_turns(posterior) is None
+
+    def _unseen_turns(self, posterior: Posterior) -> NDArray[np.float64] | None:
+        return unseen_turns(self.view.palm_m[posterior.palm.assigned >= 0], self._settings.holding.narrow_m)
+
     def learn(self, posterior: Posterior, dt_s: float) -> None:
         """Take what outlives a lost track: each disc's noise, and the palm's shape."""
         palm, noise = posterior.palm, self._settings.noise
@@ -317,7 +324,7 @@ class HandFilter:
         kept = float(np.exp(-scan.dt_s / self._settings.rate_memory_s))
         estimate, mixture = posterior.estimate, posterior.mixture
         if not posterior.levelled:
-            self._unseen = unseen_turns(self.view.palm_m[posterior.palm.assigned >= 0], self._settings.holding.narrow_m)
+            self._unseen = self._unseen_turns(posterior)
         if not is_seen:
             # An unseen hand is not taken to go on for ever: its velocity fades, its uncertainty grows.
             estimate, mixture = _slowed(estimate, mixture, np.diag(slowing(kept)))

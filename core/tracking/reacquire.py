@@ -66,10 +66,22 @@ Reach = Callable[[FloatArray], NDArray[np.bool_]]
 
 @dataclass(frozen=True, slots=True)
 class Facing:
-    """How a hand that is looked for can have turned: within ``most_rad`` of ``rotation_w2_w0`` (3, 3)."""
+    """How a hand that is looked for can have turned: within ``most_rad`` of ``rotation_w2_w0`` (3, 3), or, where every
+    disc of the palm shows it, within ``anyhow_rad`` of the neutral pose: what was believed before may be wrong."""
 
     rotation_w2_w0: FloatArray
     most_rad: float
+    anyhow_rad: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Turns:
+    """The same with the ``expected`` turn and the ``neutral`` one (3, 3) in the axes of the camera."""
+
+    expected: FloatArray
+    most_rad: float
+    neutral: FloatArray
+    anyhow_rad: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,7 +181,8 @@ def find_palm(
         return None
     fits = _fits(palm, triple, blobs, points, settings, reach)
     seen = _Blobs(points, np.hypot(detections.depth_sd_m[known], view.camera.sensor.stays_sd_m(points[:, 2])))
-    about = Facing(view.rotation_w0_cam @ facing.rotation_w2_w0, facing.most_rad)
+    neutral = view.rotation_w0_cam
+    about = _Turns(neutral @ facing.rotation_w2_w0, facing.most_rad, neutral, facing.anyhow_rad)
     best = _best(fits, palm, seen, strays, about, known.size if reach is not None else 0, settings, reach)
     if best is None:
         return None
@@ -290,14 +303,14 @@ def _best(
     model: FloatArray,
     seen: _Blobs,
     strays: FloatArray,
-    about: Facing,
+    about: _Turns,
     blobs: int,
     settings: FindingSettings,
     reach: Reach | None,
 ) -> _Fits | None:
     """The one pose to believe; None when none is good enough, or when other names are about as good.
 
-    ``about`` in the axes of the camera; ``blobs`` of which palm and fingers must explain their share, 0 where there are
+    ``blobs`` of which palm and fingers must explain their share, 0 where there are
     no fingers to explain any.
     """
     fits = _believable(fits, blobs, settings)
@@ -328,7 +341,7 @@ def _believable(fits: _Fits, blobs: int, settings: FindingSettings) -> _Fits:
 
 
 def _best_first(
-    fits: _Fits, model: FloatArray, seen: _Blobs, strays: FloatArray, about: Facing, settings: FindingSettings
+    fits: _Fits, model: FloatArray, seen: _Blobs, strays: FloatArray, about: _Turns, settings: FindingSettings
 ) -> tuple[_Fits, FloatArray]:
     """The poses by worth, then those a hand can have, then by their misfits (N,), which come with them."""
     misfit = _misfit(fits, model, seen, strays, settings)
@@ -336,10 +349,17 @@ def _best_first(
     return fits.only(order), misfit[order]
 
 
-def _turned_beyond(fits: _Fits, about: Facing) -> NDArray[np.bool_]:
+def _turned_beyond(fits: _Fits, about: _Turns) -> NDArray[np.bool_]:
     """Which poses (N,) are turned further than a hand can be."""
-    cosine = 0.5 * (np.einsum("ij,nij->n", about.rotation_w2_w0, fits.rotation) - 1.0)
-    return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)) > about.most_rad)
+    beyond = _turned_rad(fits, about.expected) > about.most_rad
+    is_whole = (fits.named >= 0).all(axis=1)
+    return np.asarray(np.where(is_whole, _turned_rad(fits, about.neutral) > about.anyhow_rad, beyond))
+
+
+def _turned_rad(fits: _Fits, about: FloatArray) -> FloatArray:
+    """How far (N,) the poses are turned from ``about`` (3, 3)."""
+    cosine = 0.5 * (np.einsum("ij,nij->n", about, fits.rotation) - 1.0)
+    return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
 
 
 def _every_assignment(

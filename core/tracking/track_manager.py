@@ -27,8 +27,8 @@ class HoldingSettings:
     ``blind_among_fingers_rad`` where there are discs on fingers, which can look like some of the palm, even like five.
 
     A hand gone from sight is not found turned further than it may have turned meanwhile (``turn_slack_rad`` and
-    ``most_rate_rad_s``), nor ever the other way (``most_turn_rad``); lost and looked for anywhere, it is turned no
-    further than that from the neutral pose.
+    ``most_rate_rad_s``); gone for so long that this says nothing, lost, or shown by every disc of the palm, it is
+    turned no further than ``most_turn_rad`` from the neutral pose.
     """
 
     narrow_m: float = 0.008
@@ -129,11 +129,12 @@ class TrackManager:
         if self.stage is TrackStage.TENTATIVE:
             return self.anyhow()
         gone_s, own = timestamp_s - max(self._seen_s, self._begun_s), self._settings
-        return Facing(rotation_w2_w0, min(own.turn_slack_rad + own.most_rate_rad_s * gone_s, own.most_turn_rad))
+        most_rad = own.turn_slack_rad + own.most_rate_rad_s * gone_s
+        return Facing(rotation_w2_w0, most_rad, own.most_turn_rad) if most_rad < own.most_turn_rad else self.anyhow()
 
     def anyhow(self) -> Facing:
         """How far a hand can be turned of which nothing is known."""
-        return Facing(np.eye(3), self._settings.most_turn_rad)
+        return Facing(np.eye(3), self._settings.most_turn_rad, self._settings.most_turn_rad)
 
     def is_vague(self, turn_sd_rad: float) -> bool:
         """Whether a turn was predicted so unsurely that the filter may settle at a wrong one."""
@@ -144,6 +145,11 @@ class TrackManager:
         well: ``unassigned`` blobs are left over."""
         few = seen <= self._settings.least_discs or self.stage is TrackStage.TENTATIVE
         return (few or self.is_vague(turn_sd_rad)) and unassigned + seen > self._settings.least_discs
+
+    def may_be_turned_over(self, seen: int, unassigned: int) -> bool:
+        """Whether blobs are left over for the discs that are not where they were predicted: the knuckles can be where
+        they should be and the hand turned over about their line."""
+        return seen < len(self._blind_rad) <= seen + unassigned
 
     def is_ambiguous(self, seen: int, turn_sd_rad: float) -> bool:
         """Whether any so many blobs would do for discs of a hand whose turn was predicted so unsurely."""

@@ -316,7 +316,9 @@ class Tracker:
         """The update from a place found without prediction, where too little of the palm is where it was predicted or
         the prediction was vague; None where that explains the frame no better."""
         manager, turn_sd_rad, seen = self._manager, posterior.turn_sd_rad, posterior.seen
-        if not manager.looks_anew(seen, int(np.count_nonzero(posterior.unassigned)), turn_sd_rad):
+        left = int(np.count_nonzero(posterior.unassigned))
+        is_over = manager.may_be_turned_over(seen, left) and not self._filter.shows_turn(posterior)
+        if not (is_over or manager.looks_anew(seen, left, turn_sd_rad)):
             return None
         is_vague, rotation = manager.is_vague(turn_sd_rad), posterior.predicted.nominal.rotation_w2_w0
         ideal = scan.ideal if is_vague else scan.ideal.only(~posterior.is_finger)

@@ -13,10 +13,10 @@ from carpus.core.tracking.palm_state import SKIN, View
 from carpus.core.tracking.reacquire import Facing, FindingSettings, FoundPalm, find_palm
 from carpus.core.tracking.soft_tissue import SoftTissue, stationary_covariance
 from carpus.core.types import Detections, Side
-from tests.tracking.hands import CAMERA, CMC1, FROM_ABOVE, MCP5, MIDDLE_M, Pose, blobs, palm, rotation_of
+from tests.tracking.hands import CAMERA, CMC1, FROM_ABOVE, MCP5, MIDDLE_M, WRIST, Pose, blobs, palm, rotation_of
 
 FINDING = FindingSettings()
-ANYHOW = Facing(np.eye(3), np.pi)
+ANYHOW = Facing(np.eye(3), np.pi, np.pi)
 STRAYS = stationary_covariance(SoftTissue())[SKIN, SKIN] + 4e-4**2 * np.eye(18)
 SIDES: tuple[Side, Side] = ("right", "left")
 
@@ -130,10 +130,18 @@ def test_four_discs_are_named_rightly_or_not_at_all() -> None:
 
 def test_a_palm_turned_further_than_a_hand_can_be_is_none() -> None:
     backwards = blobs(Pose(np.array([170.0, 0.0, 0.0])))
-    within = Facing(np.eye(3), 1.9)
+    within = Facing(np.eye(3), 1.9, 1.9)
     assert looked_for(backwards) is not None
     assert looked_for(backwards, about=within) is None
     assert looked_for(blobs(Pose(np.array([60.0, 0.0, 0.0]))), about=within) is not None
+
+
+def test_what_every_disc_shows_counts_for_more_than_the_turn_that_was_expected() -> None:
+    turned = Pose(np.array([0.0, 60.0, 0.0]))
+    about = Facing(np.eye(3), 0.5, 1.9)
+    assert looked_for(blobs(turned), about=about) is not None
+    assert looked_for(blobs(turned, hidden=[WRIST]), about=about) is None
+    assert looked_for(blobs(turned, hidden=[WRIST])) is not None
 
 
 def test_a_palm_that_shows_its_inside_is_not_taken() -> None:

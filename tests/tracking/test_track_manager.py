@@ -107,12 +107,14 @@ def test_four_discs_among_those_of_fingers_must_go_on_being_the_same_palm() -> N
 def test_where_a_hand_can_be_turned_grows_with_the_time_it_was_gone_up_to_the_most() -> None:
     track, turned = manager(), so3.exp(np.array([0.0, 0.4, 0.0]))
     seen(track, 0.0, 6)
-    at = [track.facing(turned, gone_s) for gone_s in (0.0, 0.05, 9.0)]
-    assert [one.most_rad for one in at] == pytest.approx(
-        [OWN.turn_slack_rad, OWN.turn_slack_rad + 0.05 * OWN.most_rate_rad_s, OWN.most_turn_rad]
-    )
-    assert all(one.rotation_w2_w0 is turned for one in at)
-    assert np.array_equal(track.anyhow().rotation_w2_w0, np.eye(3))
+    capped_s = (OWN.most_turn_rad - OWN.turn_slack_rad) / OWN.most_rate_rad_s
+    at = [track.facing(turned, gone_s) for gone_s in (0.0, 0.05, 0.99 * capped_s, 1.01 * capped_s, 9.0)]
+    most = [OWN.turn_slack_rad + gone_s * OWN.most_rate_rad_s for gone_s in (0.0, 0.05, 0.99 * capped_s)]
+    assert [one.most_rad for one in at] == pytest.approx([*most, OWN.most_turn_rad, OWN.most_turn_rad])
+    assert all(one.anyhow_rad == OWN.most_turn_rad for one in at)
+    assert all(one.rotation_w2_w0 is turned for one in at[:3])
+    anyhow = track.anyhow()
+    assert all(np.array_equal(one.rotation_w2_w0, np.eye(3)) for one in (*at[3:], anyhow)), "no longer as foreseen"
 
 
 @pytest.mark.parametrize("amid_digits", [False, True])
@@ -131,3 +133,10 @@ def test_the_palm_is_looked_for_anew_where_little_of_it_or_little_is_sure_and_en
     assert not track.looks_anew(least, 0, 0.0)
     assert not track.looks_anew(least + 1, 9, OWN.vague_rad)
     assert track.looks_anew(least + 1, 0, 1.01 * OWN.vague_rad)
+
+
+@pytest.mark.parametrize(("found", "left", "may"), [(4, 2, True), (4, 1, False), (5, 1, True), (6, 9, False)])
+def test_a_hand_may_be_turned_over_where_blobs_are_left_for_all_its_other_discs(
+    found: int, left: int, may: bool
+) -> None:
+    assert manager().may_be_turned_over(found, left) is may

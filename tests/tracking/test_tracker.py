@@ -493,6 +493,36 @@ def test_a_gap_between_pictures_does_not_make_the_tracker_forget() -> None:
     assert np.median(errors) < 8.0
 
 
+@pytest.mark.parametrize("missing", [3, 8, 15, 30, 40])
+def test_a_fast_hand_is_found_at_the_first_picture_after_some_were_missing(missing: int) -> None:
+    """Going on as it did it would have turned over meanwhile; every disc of it is in sight."""
+    motion, start = swing(1, 50.0, 1.5), 30
+    for seed in range(8):
+        frames = seen(motion, start + 3 * seed + missing + 8, seed)
+        del frames[start + 3 * seed : start + 3 * seed + missing]
+        back = track(frames)[start + 3 * seed :]
+        assert set(statuses(back)) == {TrackStatus.TRACKED}
+        for frame, (t, _) in zip(back, frames[start + 3 * seed :], strict=True):
+            assert named_rightly(frame, motion(t))
+            apart = np.linalg.norm(frame.marker_position_cam_m - discs_cam_m(motion(t)), axis=1)
+            assert apart.max() < 0.012
+
+
+def test_a_hand_turned_over_about_its_knuckles_is_set_right_by_its_other_discs() -> None:
+    """So fast that wrist and thumb were not where they were expected, and with the knuckles the hand turned over."""
+    motion = swing(1, 50.0, 2.2)
+    for seed in range(6):
+        frames = track(seen(motion, 120, seed))
+        off = np.array(
+            [
+                np.linalg.norm(frame.marker_position_cam_m - discs_cam_m(motion(t)), axis=1).max() > 0.03
+                for frame, t in zip(frames, times(120), strict=True)
+            ]
+        )
+        assert np.count_nonzero(off) <= 4
+        assert not off[-30:].any()
+
+
 def test_alone_a_blob_at_another_depth_is_no_disc() -> None:
     """Something over the hand with blue on it where a covered disc is expected."""
     rng = np.random.default_rng(7)
