@@ -276,6 +276,13 @@ def test_while_the_share_is_away_nothing_is_erased(
         share.rmdir()
         (tmp_path / "away").rename(share)
         assert path.exists()
+        files_of = erasure._files
+        with monkeypatch.context() as meanwhile:
+            meanwhile.setattr(erasure, "_files", lambda *of: share.rename(tmp_path / "away") and files_of(*of))
+            erasure.finish_erasing(house.store, house.log)
+        (tmp_path / "away").rename(share)
+        assert path.exists()
+        assert house.store.rows(select(SESSION)), "it went away while it was looked through"
         with monkeypatch.context() as killed:
             killed.setattr(erasure, "_naming", lambda *_: 1 / 0)  # once the files are gone
             with pytest.raises(ZeroDivisionError):
