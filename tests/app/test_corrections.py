@@ -461,6 +461,7 @@ def test_what_is_decided_about_while_it_is_looked_for_waits_no_more(
         flow.look_for_waiting()
         decided.emit()
         qtbot.waitUntil(lambda trial=trial: not trial.exists() and not flow._background.busy, timeout=30_000)
+        assert trial not in [one.trial for one in flow.waiting]
     assert flow.waiting == []
     ((_, new),) = told.shown
     review = ReviewFlow(a_context(theme, shell, told, background, library=library, now=NowOpen(session_id=new)))
