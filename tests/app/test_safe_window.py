@@ -274,7 +274,7 @@ def test_back_up_now_reminder_and_restore(
     monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getExistingDirectory", lambda *_: str(disk))
     backing.card.restore_button.click()
     qtbot.waitUntil(lambda: journey.messages.busy)
-    assert any("Sessions added: 2, changed: 0, taken away: 0" in word for word in visible_words(desktop.shell))
+    assert any("Session files added: 2, changed: 0, taken away: 0" in word for word in visible_words(desktop.shell))
     button = next(one for one in journey.messages.card.findChildren(QPushButton) if "Restore it" in one.text())
     button.click()
     qtbot.waitUntil(lambda: backing.restored is not None)
