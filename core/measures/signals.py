@@ -52,9 +52,14 @@ class Signal:
 
     def between(self, start_s: float, end_s: float) -> Signal:
         """The samples from ``start_s`` to ``end_s``, both included."""
-        half = 0.25 / self.rate_hz
-        inside = (self.time_s >= start_s - half) & (self.time_s <= end_s + half)
+        inside = _within(self.time_s, start_s - 0.25 / self.rate_hz, end_s + 0.25 / self.rate_hz)
         return replace(self, time_s=self.time_s[inside], value=self.value[inside])
+
+
+def _within(time_s: FloatArray, start_s: float, end_s: float) -> slice:
+    """The times from ``start_s`` to ``end_s``, both included, of rising ones: a long recording is not gone through for
+    each of its repetitions."""
+    return slice(int(time_s.searchsorted(start_s, "left")), int(time_s.searchsorted(end_s, "right")))
 
 
 def even_signal(timestamp_s: FloatArray, value: FloatArray, valid: BoolArray | None = None) -> Signal:
@@ -80,7 +85,7 @@ def even_signal(timestamp_s: FloatArray, value: FloatArray, valid: BoolArray | N
     wide = np.flatnonzero(np.diff(edges) > LONGEST_GAP_S + 1.5 * period)
     gaps = np.column_stack((edges[wide], edges[wide + 1]))
     for start, end in gaps:
-        even[(base > start + 0.25 * period) & (base < end - 0.25 * period)] = np.nan
+        even[_within(base, start + 0.25 * period, end - 0.25 * period)] = np.nan
     return Signal(base, even.reshape(steps, *value.shape[1:]), 1.0 / period, count / len(timestamp_s), gaps)
 
 

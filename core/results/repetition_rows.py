@@ -4,6 +4,7 @@ every export have. A person's choices (left out, moved) come on top and stay out
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
@@ -69,6 +70,11 @@ class Trained:
     range_of: Callable[[Sequence[Repetition]], MotionRange]
     passive_s: tuple[tuple[float, float], ...] = ()
     """Stretches of which was said, while they were measured, that somebody else moves the hand."""
+    smooth: Signal = field(init=False, repr=False, compare=False)
+    """What is tracked, as smooth as repetitions are counted in."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "smooth", low_pass(self.tracked, COUNTING_CUTOFF_HZ))
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,10 +232,12 @@ def _measured(
     window = rep if edges_s is None else _moved(trained, rep, *edges_s)
     # Motion cut in the middle is cut within strokes: each belongs where it ends, unless a person cut there.
     belongs_s = _end_s if edges_s is None else _middle_s
-    own = tuple(one for one in strokes if window.start_s < belongs_s(one) <= window.end_s)
-    start_s, end_s = edges_s or _left_and_reached(trained.tracked, rep, own)
+    first = bisect_left(strokes, window.start_s, key=_end_s)
+    beside = strokes[first : bisect_right(strokes, window.end_s, key=_start_s)]
+    own = tuple(one for one in beside if window.start_s < belongs_s(one) <= window.end_s)
+    start_s, end_s = edges_s or _left_and_reached(trained.smooth, rep, own)
     turns_high = own[0].stroke.rising if own and edges_s is None else None
-    peak_s, is_high = _furthest(trained.tracked, window, turns_high)
+    peak_s, is_high = _furthest(trained.smooth, window, turns_high)
     measured = trained.range_of((window,))
     known = measured.repetitions == 1 and len(measured.arc.values) == 1 and not window.cut
     whole = () if window.cut else own
@@ -250,7 +258,7 @@ def _measured(
             arc_sd_rad=measured.arc.measurement_sd if known else math.nan,
             peak_speed_rad_s=_over(full, "peak_speed_rad_s", max),
             peak_speed_sd_rad_s=_over(full, "peak_speed_sd_rad_s", max),
-            movement_time_s=_moving_s(window, strokes) if whole else math.nan,
+            movement_time_s=_moving_s(window, beside) if whole else math.nan,
             sparc=_over(full, "sparc", _mean),
             movement_units=_over(whole, "peaks", math.fsum),
             pauses=_over(whole, "pauses", math.fsum),
@@ -277,6 +285,10 @@ def _moving_s(window: Repetition, strokes: Sequence[StrokeMeasures]) -> float:
     return math.fsum(max(0.0, time_s) for time_s in on_way_s) if all(map(math.isfinite, on_way_s)) else math.nan
 
 
+def _start_s(stroke: StrokeMeasures) -> float:
+    return stroke.stroke.start_s
+
+
 def _end_s(stroke: StrokeMeasures) -> float:
     return stroke.stroke.end_s
 
@@ -285,23 +297,23 @@ def _middle_s(stroke: StrokeMeasures) -> float:
     return 0.5 * (stroke.stroke.start_s + stroke.stroke.end_s)
 
 
-def _left_and_reached(tracked: Signal, rep: Repetition, strokes: Sequence[StrokeMeasures]) -> tuple[float, float]:
+def _left_and_reached(smooth: Signal, rep: Repetition, strokes: Sequence[StrokeMeasures]) -> tuple[float, float]:
     """When the first stroke left its turning place and the last reached its own; NaN where a gap hides that. Where
     the repetition is cut, or begins or ends at no turning place, it has its own start and end."""
     start_s, end_s = rep.start_s, rep.end_s
     if strokes and abs(strokes[0].stroke.start_s - start_s) <= 1e-6 and rep.cut_s != start_s:
         first = strokes[0]
-        start_s = first.onset_s if first.onset_s >= start_s else _edge_of_place(tracked, first.stroke, leaving=True)
+        start_s = first.onset_s if first.onset_s >= start_s else _edge_of_place(smooth, first.stroke, leaving=True)
     if strokes and abs(strokes[-1].stroke.end_s - end_s) <= 1e-6 and rep.cut_s != end_s:
         last = strokes[-1]
-        end_s = last.offset_s if last.offset_s <= end_s else _edge_of_place(tracked, last.stroke, leaving=False)
+        end_s = last.offset_s if last.offset_s <= end_s else _edge_of_place(smooth, last.stroke, leaving=False)
     return start_s, end_s
 
 
-def _edge_of_place(tracked: Signal, stroke: Stroke, *, leaving: bool) -> float:
+def _edge_of_place(smooth: Signal, stroke: Stroke, *, leaving: bool) -> float:
     """When a stroke whose speed does not say it left its first turning place, or reached its last, told from the angle
     alone; NaN where the sample beyond that edge was not seen."""
-    part = low_pass(tracked, COUNTING_CUTOFF_HZ).between(stroke.start_s, stroke.end_s)
+    part = smooth.between(stroke.start_s, stroke.end_s)
     way = stroke.toward * part.value
     if not part.finite.any():
         return math.nan
@@ -315,11 +327,11 @@ def _edge_of_place(tracked: Signal, stroke: Stroke, *, leaving: bool) -> float:
     return float(part.time_s[edge]) if seen else math.nan
 
 
-def _furthest(tracked: Signal, window: Repetition, turns_high: bool | None) -> tuple[float, bool]:
+def _furthest(smooth: Signal, window: Repetition, turns_high: bool | None) -> tuple[float, bool]:
     """When the angle was furthest on its way there, in the middle of a hold, and whether it was high there; furthest
     from where it began where it is not known which way that was. NaN where a gap, or what cut the repetition, begins
     or ends there: it may have been further where it was not seen."""
-    part = low_pass(tracked, COUNTING_CUTOFF_HZ).between(window.start_s, window.end_s)
+    part = smooth.between(window.start_s, window.end_s)
     known = part.value[part.finite]
     if not len(known):
         return math.nan, True
