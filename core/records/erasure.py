@@ -34,6 +34,7 @@ from carpus.core.records.session_list import (
     ListedSessions,
     file_name,
     look_for_share,
+    named_after,
     trials_of,
 )
 from carpus.core.records.store import Store
@@ -217,40 +218,79 @@ def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> se
     found |= {path for stored in mine for path in files.copies_of(stored) if path.is_file()}
     for folder in _folders(store, patients):
         found |= set(_plain_files(folder))
-    for name, said in _names_of(store, patients):
+    waits = set(trials_of(store, paths.keys() - going))
+    for names in _names_of(store, patients):
         for folder in (root, store.folder / TRIALS_FOLDER):
-            orphans = (path for path in _plain_files(folder) if not _is_beside(path, others))
-            found |= {one for one in orphans if name.search(one.relative_to(folder).as_posix()) or _says(one, said)}
+            orphans = (path for path in _plain_files(folder) if path not in waits and not _is_beside(path, others))
+            found |= {one for one in orphans if names.name(one, folder)}
     found |= set(trials_of(store, going))
     stem, suffix = STORE_FILE.split(".")
     found |= set(store.folder.glob(f"{stem}.damaged-*.{suffix}*"))
     return own | {path for path in found if not _is_beside(path, others)}
 
 
-def _names_of(store: Store, patients: Sequence[str]) -> Iterator[tuple[re.Pattern[str], re.Pattern[bytes]]]:
-    """Of each patient the pseudonyms, and a name of several words, as words in the path of a file, where that could be
-    nobody else's, and in a file."""
+@dataclass(frozen=True, slots=True)
+class _Names:
+    """How files name one patient: ``stems`` as Carpus names them, and as words in a path and in what a file says, which
+    the group ``own`` finds outside of longer names. ``others`` are the stems of other patients."""
+
+    stems: Collection[str]
+    others: Collection[str]
+    in_path: re.Pattern[str]
+    in_file: re.Pattern[bytes]
+
+    def name(self, path: Path, folder: Path) -> bool:
+        """Whether a file in ``folder`` is this patient's. One that Carpus named is whose name it has, whatever else
+        stands there: a pseudonym may be a word of an exercise, or a number of a day."""
+        whose, way = named_after(path), path.relative_to(folder)
+        if whose in self.others and whose not in self.stems:
+            return False
+        if whose in self.stems and whose not in self.others:
+            return True
+        searched = "/".join(one for one in (way.parent if whose else way).parts if not is_identity(one))
+        return any(one["own"] for one in self.in_path.finditer(searched)) or _says(path, self.in_file)
+
+
+def _names_of(store: Store, patients: Sequence[str]) -> Iterator[_Names]:
+    """Of each patient the pseudonyms, and a name of several words, where that could be nobody else's."""
     names = {
         row.id: {row.pseudonym, *row.former.split("\n"), row.name if " " in row.name else ""} - {""}
         for row in (store.rows(select(PATIENT)) if patients else ())
     }
     equal = Counter(one for own in names.values() for one in own)
-    alike = Counter(one for own in names.values() for one in {file_name(name) for name in own})
-    for pseudonym in (one for patient in patients if patient != PRACTICE for one in names[patient] if equal[one] == 1):
-        stem, word = re.escape(file_name(pseudonym)), re.escape(pseudonym)
-        name = rf"(?<![^\W_])(?:{stem}|{word})(?![^\W_])" if alike[file_name(pseudonym)] == 1 else r"(?!)"
-        said = rb"(?<![\w\x80-\xff])" + re.escape(pseudonym.encode()) + rb"(?![\w\x80-\xff])"
-        yield re.compile(name), re.compile(said)
+    for patient in (one for one in patients if one != PRACTICE):
+        own = {one for one in names[patient] if equal[one] == 1}
+        foreign = {one for other, theirs in names.items() if other != patient for one in theirs}
+        stems, others = ({file_name(one) for one in them} - {""} for them in (own, foreign))
+        written = {name for name in own if file_name(name) not in others} | (stems - others)
+        yield _Names(stems, others, _words(written, foreign | others), _in_bytes(own, foreign))
 
 
-def _says(path: Path, word: re.Pattern[bytes]) -> bool:
+def _words(own: Collection[str], others: Collection[str]) -> re.Pattern[str]:
+    return re.compile(_found(own, others, r"(?<![^\W_])", r"(?![^\W_])"))
+
+
+def _in_bytes(own: Collection[str], others: Collection[str]) -> re.Pattern[bytes]:
+    a, z = r"(?<![\w\x80-\xff])", r"(?![\w\x80-\xff])"
+    mine, theirs = ({one.encode().decode("latin-1") for one in them} for them in (own, others))
+    return re.compile(_found(mine, theirs, a, z).encode("latin-1"))
+
+
+def _found(own: Collection[str], others: Collection[str], before: str, after: str) -> str:
+    """A pattern of the names as words, the group ``own``; longer ones of others first, which hold one of them."""
+    longer = [one for one in others if any(name in one and name != one for name in own)]
+    theirs, mine = ("|".join(re.escape(one) for one in sorted(them, key=len, reverse=True)) for them in (longer, own))
+    return rf"{before}(?:{theirs or '(?!)'}|(?P<own>{mine or '(?!)'})){after}"
+
+
+def _says(path: Path, names: re.Pattern[bytes]) -> bool:
     if path.suffix in (".h5", ".part"):
         with (
             contextlib.suppress(OSError, ValueError),
             path.open("rb") as file,
             mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content,
         ):
-            return word.search(content) is not None
+            return any(one["own"] for one in names.finditer(content))
     return False
 
 

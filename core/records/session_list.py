@@ -276,17 +276,27 @@ def free_path(folder: Path, pseudonym: str, exercise: str, hand: Side, when: dat
     return free_name(folder / f"{stem}.h5")
 
 
+def named_after(path: Path) -> str:
+    """Whose pseudonym, as it stands in names of files, a name has that Carpus gave; empty for any other name."""
+    made = re.fullmatch(r"\.?(.+?)_\d{4}-\d\d-\d\d_\d{6}_.+", path.name)
+    return made[1] if made else ""
+
+
 def trials_of(store: Store, session_ids: Collection[str]) -> Iterator[Path]:
     """New results of these sessions that nobody has decided about. One that is damaged, or not finished, is known by
-    its name, which is that of its session's file."""
-    stems = [Path(row.path).stem for row in store.rows(select(SESSION.c.path).where(SESSION.c.id.in_(session_ids)))]
-    named = re.compile(rf"(?:{'|'.join(map(re.escape, stems))})(?:-\d+)?\.h5\b.*" if stems else r"(?!)")
+    its name, which is that of its session's file, where no other session's is like it."""
+    named = {row.id: Path(row.path).stem for row in store.rows(select(SESSION.c.id, SESSION.c.path))}
+    mine, others = (
+        {stem for one, stem in named.items() if (one in session_ids) is is_mine} for is_mine in (True, False)
+    )
     folder = store.folder / TRIALS_FOLDER
     for path in folder.glob("*.h5*") if not folder.is_symlink() else ():
         try:
             header = read_outline(path).header
         except SessionUnreadable:
-            if named.fullmatch(path.name):
+            stem = re.split(r"\.h5\b", path.name)[0]
+            stems = {stem, re.sub(r"-\d+$", "", stem)}
+            if stems & mine and not stems & others:
                 yield path
         else:
             if header.origin in session_ids or header.session_id in session_ids:

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from datetime import date, timedelta
 from pathlib import Path
+from uuid import uuid4
 
 import h5py
 import pytest
@@ -35,7 +36,7 @@ from carpus.core.records.schema import PATIENT, SESSION
 from carpus.core.records.set_up import SetUp
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.repetition_rows import RepetitionChoices
-from carpus.core.session.reader import read_outline, read_session, verify
+from carpus.core.session.reader import read_outline, read_session, verify, write_anew
 from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record, traces
 
 NAMES = ("Linden", "Erika Mustermann", "flexor tendon")
@@ -328,6 +329,48 @@ def test_damaged_files_that_name_the_patient_go_and_no_others(folder: Path, hous
     erase_patient(house, house.patients.called("Fir 11"))
     assert (sessions / "Fir-11_2026.h5").exists(), "it may be of Fir-11"
     assert traces(folder, "Linden-42_", "Linden 42\0") == []
+
+
+@pytest.mark.parametrize("pseudonym", ["Linden", "42", "10", "right", "MCP2", "***"])
+def test_a_pseudonym_that_is_a_word_in_names_of_another_patients_files_takes_none_of_them(
+    folder: Path, house: House, pseudonym: str
+) -> None:
+    linden, other = house.patients.add(LINDEN), house.patients.add(PatientEntry(pseudonym, "left"))
+    path = house.index.one(measure(house, linden, T0)).path
+    trials = folder / "corrections"
+    trials.mkdir()
+    waits = trials / path.name
+    write_anew(path, waits, session_id=str(uuid4()), origin=read_outline(path).header.session_id)
+    damaged, unfinished = trials / f"{path.stem}-2.h5", trials / f"{path.stem}-3.h5.12345678.part"
+    damaged.write_bytes(waits.read_bytes()[:2000])
+    unfinished.write_bytes(f"\0Linden 42\0{pseudonym}\0".encode())
+    interrupted = path.with_name(f"{path.stem}-2.h5.12345678.part")
+    shutil.copyfile(unfinished, interrupted)
+    called = folder / "sessions" / "Linden 42.h5.12345678.part"
+    called.write_bytes(b"\0Linden 42\0")
+    hidden = folder / "sessions" / ".x.h5"
+    hidden.write_bytes(b"-")
+    theirs = {waits, damaged, unfinished, interrupted, called, hidden}
+    assert not theirs & set(erasure.plan_patient(house.store, other).files)
+    erase_patient(house, other)
+    assert {one for one in theirs if not one.exists()} == set()
+    erase_patient(house, linden)
+    assert {one for one in theirs if one.exists()} == {hidden}
+
+
+def test_a_damaged_result_of_one_of_two_sessions_named_alike_stays_with_both(folder: Path, house: House) -> None:
+    linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+    for patient, when in ((linden, T0), (heron, T0 + timedelta(days=1))):
+        path = folder / "sessions" / patient / "wrist.h5"
+        record(path, house.patients.one(patient).entry.pseudonym, when)
+    house.files.take_in()
+    damaged = folder / "corrections" / "wrist-2.h5"
+    damaged.parent.mkdir()
+    damaged.write_bytes(b"damaged")
+    erase_patient(house, linden)
+    assert damaged.exists(), "it may be of the other"
+    erase_patient(house, heron)
+    assert not damaged.exists()
 
 
 @pytest.mark.parametrize("after", ["mark", "files"])

@@ -191,7 +191,7 @@ class ProgressScreen(Fitted):
         if alike:
             first, last = numbers.day_month(alike[0].when), numbers.day_month(alike[-1].when)
             pattern = self.tr("{count} sessions, {first} – {last}")
-            if first == last:
+            if alike[0].when.date() == alike[-1].when.date():
                 pattern = self.tr("1 session, {last}") if len(alike) == 1 else self.tr("{count} sessions, {last}")
             words = pattern.format(count=len(alike), first=first, last=last)
         self.span.setText(words)
