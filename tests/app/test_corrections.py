@@ -8,7 +8,7 @@ import os
 import shutil
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import fields, replace
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -468,6 +468,51 @@ def test_what_is_decided_about_while_it_is_looked_for_waits_no_more(
     review._use_again(new)
     qtbot.waitUntil(lambda: len(told.shown) == 2, timeout=30_000)
     assert [one.session_id for one in library.results_of(new)][1:] == [new, told.shown[1][1]]
+    flow.close()
+
+
+@pytest.mark.parametrize("is_answered", ["before the end", "after the end"])
+def test_what_is_tracked_again_while_it_is_looked_for_waits_once(
+    qtbot: QtBot, library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch, is_answered: str  # noqa: F811
+) -> None:  # fmt: skip
+    _, session_id = entered(library, stored)
+    written, ends, answers = threading.Event(), threading.Event(), threading.Event()
+
+    def beside(task: CorrectionTask, *_: object) -> bool:
+        if is_answered == "after the end":
+            ends.wait(30.0)
+        correct(task)
+        written.set()
+        return ends.wait(30.0)
+
+    monkeypatch.setattr("carpus.ui.correct.flow.correct_in_process", beside)
+    theme, told = Theme("light"), Told("review")
+    shell = Shell(theme)
+    qtbot.addWidget(shell)
+    now = NowOpen(session_id=session_id)
+    flow = CorrectFlow(a_context(theme, shell, told, Background(), library=library, now=now))
+    flow.start(session_id, (put_right(stored),))
+    if is_answered == "before the end":
+        qtbot.waitUntil(written.is_set, timeout=30_000)
+        flow.look_for_waiting()
+        qtbot.waitUntil(lambda: len(flow.waiting) == 1, timeout=30_000)
+        ends.set()
+    else:
+        look = flow._stored.waiting
+
+        def slow() -> Sequence[Waiting]:
+            found = look()
+            answers.wait(30.0)
+            return found
+
+        with monkeypatch.context() as patched:
+            patched.setattr(flow._stored, "waiting", slow)
+            flow.look_for_waiting()
+        ends.set()
+        qtbot.waitUntil(lambda: len(flow.waiting) == 1, timeout=30_000)
+        answers.set()
+    qtbot.waitUntil(lambda: not (flow.running or flow._tracking.busy or flow._background.busy), timeout=30_000)
+    assert [one.session_id for one in flow.waiting] == [session_id]
     flow.close()
 
 

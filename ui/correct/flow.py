@@ -95,11 +95,14 @@ class CorrectFlow(Flow):
             return correct_in_process(task, self._tell_progress, self._stopping)
 
         def done(finished: bool) -> None:
-            if finished:
-                self.waiting.append(Waiting(session_id, trial[0]))
+            one = Waiting(session_id, trial[0])
+            if finished and one not in self.waiting:  # a look has found it already
+                self.waiting.append(one)
             self._end()
             if finished and self.sheet.isVisible():  # somebody waits for it there
-                self._show_waiting(self.waiting[-1])
+                self._show_waiting(one)
+            if finished:
+                self.look_for_waiting()  # one from before may still come, and know nothing of it
 
         def failed(fault: Exception) -> None:
             self._end()
