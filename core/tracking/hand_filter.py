@@ -301,6 +301,11 @@ class HandFilter:
         """Whether the discs lie where the updated pose puts them."""
         return bool((np.abs(posterior.palm.raw_residual) <= self._settings.noise.outlier_sd).all())
 
+    @property
+    def showed_turn(self) -> bool:
+        """Whether the last picture showed every turn of the hand."""
+        return self._unseen is None
+
     def shows_turn(self, posterior: Posterior) -> bool:
         """Whether what was measured shows every turn of the hand."""
         return posterior.levelled or self._unseen_turns(posterior) is None

@@ -62,7 +62,7 @@ def test_a_palm_is_looked_for_with_its_discs_where_skin_may_have_carried_them(mo
     monkeypatch.setattr(hand_filter, "find_palm", lambda *arguments: asked.append(arguments))
     settings = TrackerSettings()
     own = HandFilter(calibration(), CAMERA, settings)
-    own.find(blobs(Pose()), Facing(np.eye(3), 1.0))
+    own.find(blobs(Pose()), Facing(np.eye(3), 1.0, 1.0))
     by_skin = stationary_covariance(settings.tissue)[SKIN, SKIN]
     assert np.linalg.eigvalsh(asked[0][2] - by_skin).min() > 0.0
 

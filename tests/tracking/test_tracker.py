@@ -523,6 +523,18 @@ def test_a_hand_turned_over_about_its_knuckles_is_set_right_by_its_other_discs()
         assert not off[-30:].any()
 
 
+def test_the_whole_picture_is_searched_for_the_palm_or_what_shows_how_it_is_turned() -> None:
+    def found(count: int) -> Detections:
+        return blobs(Pose(), hidden=range(count, 6))
+
+    at = times(3)
+    tracker = Tracker(calibration(), CAMERA, TrackerSettings())
+    track([(at[0], found(6)), (at[1], found(6))], tracker=tracker)
+    assert [tracker.would_miss(found(count)) for count in (3, 4, 5)] == [True, False, False]
+    tracker.step(2, at[2], blobs(Pose(), hidden=(WRIST, CMC1)))
+    assert [tracker.would_miss(found(count)) for count in (3, 4, 5, 6)] == [True, True, True, False]
+
+
 def test_alone_a_blob_at_another_depth_is_no_disc() -> None:
     """Something over the hand with blue on it where a covered disc is expected."""
     rng = np.random.default_rng(7)
