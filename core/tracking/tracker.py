@@ -245,7 +245,7 @@ class Tracker:
         return self._filter.predict(self._manager.since_last_s(timestamp_s))
 
     def would_miss(self, blobs: Detections) -> bool:
-        """Whether blobs of a narrowed search are too few to hold the palm, or all of it where the last discs did not show
+        """Whether blobs of a narrowed search are too few to hold the palm, or all of it where the last did not show
         how it is turned, so that the rest is worth a look."""
         least = self.settings.holding.least_discs if self._filter.showed_turn else self._filter.order.palm.size - 1
         return len(blobs) <= least
