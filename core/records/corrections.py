@@ -151,9 +151,10 @@ class Corrections:
                 try:
                     publish(copy, place)
                 except OutputExists:  # since it was looked for
-                    place = free_name(place)
-                    library.store.do([changed(SESSION, header.session_id, path=library.index.stored_path(place))])
-                    publish(copy, place)
+                    if not _holds(place, header.session_id):  # else a look for what waits has taken this one meanwhile
+                        place = free_name(place)
+                        library.store.do([changed(SESSION, header.session_id, path=library.index.stored_path(place))])
+                        publish(copy, place)
             self._copy_markers(place, header.session_id)
             self._clear_copies(header)
             trial.unlink(missing_ok=True)

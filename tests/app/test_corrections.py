@@ -39,6 +39,7 @@ from carpus.core.records.store import Store
 from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
+from carpus.core.session.disk import publish
 from carpus.core.session.reader import read_session, write_anew
 from carpus.core.session.values import RepetitionRow, Repetitions
 from carpus.ui.background import Background
@@ -380,6 +381,26 @@ def test_a_file_that_took_the_name_meanwhile_is_kept_and_the_result_has_another_
     assert len(library.session(new)) == len(library.session(session_id))
     assert not trial.exists()
     assert len(list(taken[0].parent.iterdir())) == 3
+
+
+def test_a_result_that_two_give_its_name_lies_there_once(
+    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
+) -> None:  # fmt: skip
+    """A look for what waits meets one that is just being taken."""
+    _, session_id = entered(library, stored)
+    trial = made(Corrections(library), session_id, stored)
+
+    def with_a_look(part: Path, target: Path) -> None:
+        monkeypatch.undo()
+        Corrections(library).waiting()
+        publish(part, target)
+
+    monkeypatch.setattr("carpus.core.records.corrections.publish", with_a_look)
+    new = Corrections(library).use(session_id, trial)
+    old = library.entry(session_id).path
+    assert set(old.parent.iterdir()) == {old, library.entry(new).path}
+    assert len(library.session(new)) == len(library.session(session_id))
+    assert not trial.exists()
 
 
 def test_what_is_listed_is_never_dropped_nor_deleted_and_hides_nothing_that_waits(
