@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import sys
+import threading
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import date, datetime, timedelta
@@ -18,6 +19,7 @@ from pytestqt.qtbot import QtBot
 from carpus.app.compose import Desktop
 from carpus.app.settings import RecordsSettings, Settings
 from carpus.core.records.backup import backups
+from carpus.core.records.erasure import ErasurePlan
 from carpus.core.records.library import Library
 from carpus.core.records.log import fingerprint, read_log
 from carpus.core.records.pin import Pin
@@ -175,6 +177,34 @@ def test_a_patient_is_erased_from_the_form(qtbot: QtBot, opened: Open, data: Pat
     qtbot.waitUntil(lambda: "The patient is erased." in visible_words(desktop.shell), timeout=60_000)
     patients.new_patient()
     assert not patients.form.remove.isVisible()
+
+
+def test_who_goes_on_with_another_patient_while_one_is_erased_stays_there(
+    qtbot: QtBot, opened: Open, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desktop = opened()
+    journey, records = desktop.journey, desktop.safe.erasing._records
+    goes_on, erase = threading.Event(), records.erase
+    (heron,) = (one.patient_id for one in desktop.library.patients.listed() if one.entry.pseudonym == "Heron 17")
+
+    def slow(plan: ErasurePlan) -> int:
+        goes_on.wait(60.0)
+        return erase(plan)
+
+    monkeypatch.setattr(records, "erase", slow)
+    journey.patients.screen.change_patient(linden(desktop))
+    journey.patients.screen.form.remove.click()
+    sheet = desktop.safe.erasing.sheet
+    qtbot.waitUntil(sheet.isVisible)
+    qtbot.keyClicks(sheet.line, "Linden 42")
+    sheet.for_good.click()
+    journey.sessions.show(heron)
+    goes_on.set()
+    qtbot.waitUntil(lambda: [one.entry.pseudonym for one in desktop.library.patients.listed()] == ["Heron 17"])
+    qtbot.waitUntil(lambda: not journey.background.busy)
+    assert journey.place == "sessions"
+    assert journey.now.patient is not None
+    assert journey.now.patient.patient_id == heron
 
 
 def test_a_window_with_a_pin_shows_nothing_before_it(

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from datetime import date
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.records.erasing import EraseSheet
+from carpus.ui.records.erasing import EraseSheet, Erasing
 from carpus.ui.theme import Theme
 from tests.ui.gallery import ERASED_SESSION
 
@@ -84,3 +86,32 @@ def test_it_says_what_goes_what_stays_and_what_comes_too_early(sheet: EraseSheet
         sheet.begin(replace(ERASED_SESSION, when=None, kept_until=None, sessions=sessions, files=31))
         assert said in sheet.goes.text()
     assert sheet.ends.text() == "Nobody can bring it back."
+
+
+@pytest.mark.parametrize(
+    ("kind", "open_patient", "behind", "is_recording", "shown"),
+    [
+        ("patient", None, "patients", False, ("patients",)),
+        ("patient", "erased", "live", False, ("patients",)),
+        ("patient", "erased", "live", True, None),
+        ("patient", "other", "live", False, None),
+        ("session", "erased", "sessions", False, ("sessions", "erased")),
+        ("session", "erased", "review", False, ("sessions", "erased")),
+        ("session", "erased", "live", False, None),
+        ("session", "other", "sessions", False, None),
+    ],
+)
+def test_what_is_shown_when_it_is_gone_takes_nobody_from_measuring_or_another_patient(
+    kind: str, open_patient: str | None, behind: str, is_recording: bool, shown: tuple[str, ...] | None
+) -> None:
+    ways: list[tuple[str, ...]] = []
+    way = SimpleNamespace(behind=behind, is_recording=lambda: is_recording, show=lambda *to: ways.append(to))
+    patient = None if open_patient is None else SimpleNamespace(patient_id=open_patient)
+    context = SimpleNamespace(way=way, now=SimpleNamespace(patient=patient))
+    lists = SimpleNamespace(changed=SimpleNamespace(emit=lambda: None))
+    own, plan = (
+        SimpleNamespace(_context=context, _sessions=lambda: lists),
+        SimpleNamespace(kind=kind, patient_id="erased"),
+    )
+    Erasing._gone(cast("Any", own), cast("Any", plan))
+    assert ways == ([] if shown is None else [shown])

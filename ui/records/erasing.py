@@ -92,13 +92,13 @@ class Erasing(QObject):
             self._context.background.run(
                 lambda: self._records.erase(plan),
                 lambda files: self._erased(plan, files),
-                lambda fault: self._refused(plan.kind == "session", fault),
+                lambda fault: self._refused(plan, fault),
                 self,
             )
 
     def _erased(self, plan: ErasurePlan, files: int) -> None:
         single = plan.kind == "session"
-        self._gone(single)
+        self._gone(plan)
         what = self.tr("The session is erased.") if single else self.tr("The patient is erased.")
         count = self.tr("1 file went.") if files == 1 else self.tr("{count} files went.").format(count=files)
         place = self._sessions().notice_place if single else self._patients.notice_place
@@ -120,7 +120,7 @@ class Erasing(QObject):
             act = self._records.archive_session if single else self._records.archive_patient
 
             def done(_: object) -> None:
-                self._gone(single)
+                self._gone(plan)
                 self._offer_undo(plan, plan.identity)
 
             self._context.background.run(lambda: act(plan.identity), done, self._context.messages.fault, self)
@@ -159,17 +159,21 @@ class Erasing(QObject):
         elif way.place == "patients":
             self._patients.refresh(chosen)
 
-    def _refused(self, single: bool, fault: Exception) -> None:
-        self._gone(single)
+    def _refused(self, plan: ErasurePlan, fault: Exception) -> None:
+        self._gone(plan)
         self._context.messages.fault(fault)
 
-    def _gone(self, single: bool) -> None:
+    def _gone(self, plan: ErasurePlan) -> None:
+        """The list without it; who measures by now, or has another patient open, is not taken away from there."""
         self._sessions().changed.emit()
-        patient = self._context.now.patient
+        patient, way, single = self._context.now.patient, self._context.way, plan.kind == "session"
+        measures = way.behind == "live" and (single or way.is_recording())
+        if measures or (patient is not None and patient.patient_id != plan.patient_id):
+            return
         if single and patient is not None:
-            self._context.way.show("sessions", patient.patient_id)
+            way.show("sessions", patient.patient_id)
         else:
-            self._context.way.show("patients")
+            way.show("patients")
 
 
 ICON_PX, COLUMN_PX = 26, 72
