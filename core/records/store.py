@@ -211,12 +211,12 @@ def reading(
     url: str = "",
     tell: Callable[[CarpusFault], None] = lambda _: None,
 ) -> Store:
-    """The store of a folder for who only reads: also of one that cannot be written, then of this computer alone. Raises
-    the faults of a store."""
+    """The store of a folder for who only reads: also of one that cannot be written, then without its server. Raises the
+    faults of a store."""
     try:
         return Store(folder, sessions_folder, url, tell)
     except OutputNotWritable:
-        return Store(folder, copy=copied(folder / STORE_FILE))
+        return Store(folder, sessions_folder, copy=copied(folder / STORE_FILE))
 
 
 @contextmanager

@@ -170,6 +170,30 @@ def test_a_folder_that_can_only_be_read_is_backed_up_and_reported(
     assert (library.folder / STORE_FILE).read_bytes() == before
 
 
+@pytest.mark.parametrize("is_read_only", [False, True])
+def test_progress_finds_sessions_on_a_share_also_where_the_folder_can_only_be_read(
+    command: Command, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, is_read_only: bool
+) -> None:
+    share = tmp_path / "share"
+    share.mkdir()
+    library = Library(tmp_path / "data", sessions=share)
+    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    path = library.index.new_path(linden, "Linden 42", "WRIST_FE", "right", datetime.now(UTC))
+    shutil.copy(stored(tmp_path, frames=120, moving=True), path)
+    session = library.index.enter(path, linden).session_id
+    library.close()
+
+    def refuses(folder: Path) -> None:
+        raise OutputNotWritable(folder, "Read-only file system")
+
+    monkeypatch.setenv("CARPUS_DATA", str(library.folder))
+    monkeypatch.setattr("carpus.app.of_file.sessions_folder", lambda _: share)
+    if is_read_only:
+        monkeypatch.setattr("carpus.core.records.store.make_private", refuses)
+    done = command("progress", "linden 42")
+    assert (done.code, session in done.out, done.err) == (0, True, "")
+
+
 def test_an_erasing_that_was_cut_short_is_told_as_finished(library: Library, command: Command) -> None:
     linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
     kept, other = (store(library, set_up(linden, "Linden 42"), after=timedelta(hours=hours)) for hours in range(2))
