@@ -191,15 +191,17 @@ def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]
 
 
 def _naming(store: Store, names: Sequence[str]) -> list[RowChange]:
-    """What belongs to the clinic and names one of these: an address of letters, a diagnosis of the clinic's list."""
-    if not names:
+    """What belongs to the clinic and names one of these: an address of letters, a diagnosis of the clinic's list. A
+    number names nobody there: it is a street's, or a zone's."""
+    named = [name for name in names if any(map(str.isalpha, name))]
+    if not named:
         return []
     addresses, listed = store.rows(select(RECIPIENT)), store.rows(select(DIAGNOSIS))
     # Mustermanns names the patient; a ligament does not name Li.
-    ends = {name: r"(?![^\W_])" if len(name) < SHORT_NAME else "" for name in names}
+    ends = {name: r"(?![^\W_])" if len(name) < SHORT_NAME else "" for name in named}
     word = re.compile("|".join(rf"(?<![^\W_]){re.escape(name)}{end}" for name, end in ends.items()))
     return [
-        *(dropped(RECIPIENT, row.id) for row in addresses if any(name in folded(row.address) for name in names)),
+        *(dropped(RECIPIENT, row.id) for row in addresses if word.search(folded(row.address))),
         *(dropped(DIAGNOSIS, row.id) for row in listed if word.search(folded(row.words))),
     ]
 

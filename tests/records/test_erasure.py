@@ -527,3 +527,18 @@ def test_the_clinics_list_keeps_words_in_which_a_short_name_stands_by_chance(fol
             of_clinic.list_diagnosis(house.store, words, listed=True)
         erase_patient(house, gone)
         assert of_clinic.diagnoses(house.store) == ["Ligament repair", "Zweizeitige Naht"]
+
+
+@pytest.mark.parametrize("pseudonym", ["1", "10", "2"])
+def test_the_clinics_lists_keep_numbers_and_addresses_in_which_a_name_stands_by_chance(
+    folder: Path, pseudonym: str
+) -> None:
+    kept = ("Dr. Linde\nOak Street 10\n10115 Berlin", "Dr. Oliver\nElm Street 2")
+    with opened(folder) as house:
+        gone = house.patients.add(PatientEntry(pseudonym, "right", name="Li"))
+        for address in (*kept, "Family Li\nAsh Street 3"):
+            of_clinic.remember_recipient(house.store, address)
+        of_clinic.list_diagnosis(house.store, "Flexor tendon, zone 2", listed=True)
+        erase_patient(house, gone)
+        assert set(of_clinic.recipients(house.store)) == set(kept)
+        assert of_clinic.diagnoses(house.store) == ["Flexor tendon, zone 2"]
