@@ -4024,8 +4024,8 @@
         <translation>{verdict}, wie jetzt</translation>
     </message>
     <message>
-        <source>simulated, does not count</source>
-        <translation>simuliert, zählt nicht</translation>
+        <source>does not count: simulated</source>
+        <translation>zählt nicht: simuliert</translation>
     </message>
     <message>
         <source>set aside: {reason}</source>
@@ -9124,6 +9124,10 @@
     <message>
         <source>Nobody can bring it back.</source>
         <translation>Niemand kann es zurückholen.</translation>
+    </message>
+    <message>
+        <source>Only such a back-up could bring it back.</source>
+        <translation>Nur eine solche Sicherung könnte es zurückholen.</translation>
     </message>
     <message>
         <source>({years} years, as set in Settings)</source>

@@ -4024,8 +4024,8 @@
         <translation>{verdict}, come ora</translation>
     </message>
     <message>
-        <source>simulated, does not count</source>
-        <translation>simulata, non conta</translation>
+        <source>does not count: simulated</source>
+        <translation>non conta: simulata</translation>
     </message>
     <message>
         <source>set aside: {reason}</source>
@@ -9124,6 +9124,10 @@
     <message>
         <source>Nobody can bring it back.</source>
         <translation>Nessuno può riportarla indietro.</translation>
+    </message>
+    <message>
+        <source>Only such a back-up could bring it back.</source>
+        <translation>Solo un tale backup potrebbe riportarla indietro.</translation>
     </message>
     <message>
         <source>({years} years, as set in Settings)</source>

@@ -194,6 +194,7 @@ def test_a_marker_that_was_not_measured_is_put_on_the_spot_that_is_clicked_where
 
 def test_another_session_that_is_shorter_is_shown(qtbot: QtBot, screen: CorrectScreen, background: Background) -> None:
     screen.begin("session-7", session(seconds=0.5 * ROW / 30.0), ROW // 4)
+    assert screen.hint.text() == "", "its picture is being read"
     qtbot.waitUntil(lambda: not background.busy)
     assert screen.row == ROW // 4
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication, QScrollArea, QStyleOptionComboBox, QWidget
+from pytestqt.qtbot import QtBot
 
 from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.controls.field import Combo
@@ -124,3 +127,18 @@ def test_a_choice_without_room_ends_in_dots(theme: Theme, qapp: QApplication) ->
         box.initStyleOption(option)
         assert (option.currentText == box.currentText()) is whole
         assert option.currentText.endswith("…") is not whole
+
+
+def test_the_wheel_chooses_nothing_in_a_list_of_choices(qtbot: QtBot) -> None:
+    choice = Combo()
+    choice.offer([(1, "one"), (2, "two")])
+    qtbot.addWidget(choice)
+    choice.show()
+    choice.setFocus()
+    turn = QWheelEvent(
+        QPointF(5, 5), choice.mapToGlobal(QPointF(5, 5)), QPoint(), QPoint(0, -120), Qt.MouseButton.NoButton,
+        Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False,
+    )  # fmt: skip
+    QApplication.sendEvent(choice, turn)
+    assert choice.currentIndex() == 0
+    assert not turn.isAccepted()

@@ -130,6 +130,15 @@ def test_tab_stays_inside_the_form(qtbot: QtBot, screen: PatientsScreen) -> None
         assert screen.form.isAncestorOf(screen.focusWidget())
 
 
+def test_the_form_opens_at_its_first_field(screen: PatientsScreen) -> None:
+    bar = screen.form._scroll.verticalScrollBar()
+    screen.new_patient()
+    bar.setRange(0, 100)
+    bar.setValue(80)
+    screen.new_patient()
+    assert bar.value() == 0
+
+
 def test_editing_keeps_the_patient_and_changes_the_row(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
     screen.refresh("linden")
     qtbot.mouseClick(screen.card.edit_button, Qt.MouseButton.LeftButton)

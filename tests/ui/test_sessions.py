@@ -105,5 +105,5 @@ def test_a_patient_without_a_session_is_told_so(
 def test_day_hour_and_remark_have_room_in_a_small_window(theme: Theme, qtbot: QtBot) -> None:
     rooms = listing._rooms(QRectF(0, 0, 846, listing.ROW_PX), theme, remarked=True)
     metrics = QFontMetricsF(font(14, MEDIUM))
-    for number, text in ((0, "Wed 28 Sep 08:48"), (3, "10 / 10"), (4, "simulated, does not count")):
+    for number, text in ((0, "Wed 28 Sep 08:48"), (3, "10 / 10"), (4, "does not count: simulated")):
         assert metrics.elidedText(text, Qt.TextElideMode.ElideRight, rooms[number].width()) == text

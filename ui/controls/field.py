@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import (
     QButtonGroup,
     QComboBox,
@@ -57,11 +58,16 @@ class SearchField(QLineEdit):
 
 
 class Combo(QComboBox):
-    """As wide as its longest choice; where there is less room the end of the chosen one is left out, not cut."""
+    """As wide as its longest choice; where there is less room the end of the chosen one is left out, not cut. The wheel
+    scrolls the page that it lies in and chooses nothing."""
 
     def __init__(self) -> None:
         super().__init__()
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        event.ignore()
 
     def offer(self, choices: Iterable[tuple[object, str]], chosen: object = None) -> None:
         """Values with their words in place of those before; the first unless another is ``chosen``. Tells nobody."""

@@ -324,6 +324,8 @@ class CorrectScreen(Fitted):
         )
         if self.picture.has_picture:
             self.hint.setText(self.tr("Drag a name in the picture, or choose it below and click its disc."))
+        elif self.picture.image is None:  # it is being read
+            self.hint.clear()
         else:
             pattern = self.tr("No pictures stored: the {count} blue spots of this moment. Drag a name to its spot.")
             self.hint.setText(pattern.format(count=len(self._spots)))

@@ -146,6 +146,7 @@ class PatientForm(Sheet):
         self.note.setPlainText(entry.note)
         self._fault.hide()
         self._fit()
+        self._scroll.verticalScrollBar().setValue(0)
         self.open(self.name)
         self.name.selectAll()
 

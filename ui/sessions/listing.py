@@ -60,7 +60,7 @@ class SessionLine:
 def remark(line: SessionLine) -> str:
     """What must be known of a session before its figures."""
     if line.simulated and not line.of_practice:
-        return tr("simulated, does not count")
+        return tr("does not count: simulated")
     if line.set_aside:
         return tr("set aside: {reason}").format(reason=line.set_aside)
     if line.damaged:
