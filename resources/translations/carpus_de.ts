@@ -11102,6 +11102,14 @@ Umschalt+F8 von der Seite</translation>
         <translation>{count} Sitzungen, {first} – {last}</translation>
     </message>
     <message>
+        <source>Reading the sessions…</source>
+        <translation>Sitzungen werden gelesen…</translation>
+    </message>
+    <message>
+        <source>The sessions cannot be read.</source>
+        <translation>Die Sitzungen lassen sich nicht lesen.</translation>
+    </message>
+    <message>
         <source>Simulated sessions are drawn and compared for practice only: they count nowhere.</source>
         <translation>Simulierte Sitzungen sind nur zum Üben gezeichnet und verglichen: Sie zählen nirgends.</translation>
     </message>

@@ -11102,6 +11102,14 @@ Maiusc+F8 di lato</translation>
         <translation>{count} sedute, {first} – {last}</translation>
     </message>
     <message>
+        <source>Reading the sessions…</source>
+        <translation>Lettura delle sedute…</translation>
+    </message>
+    <message>
+        <source>The sessions cannot be read.</source>
+        <translation>Non è possibile leggere le sedute.</translation>
+    </message>
+    <message>
         <source>Simulated sessions are drawn and compared for practice only: they count nowhere.</source>
         <translation>Le sedute simulate sono disegnate e confrontate solo per esercitarsi: non contano da nessuna parte.</translation>
     </message>

@@ -18,7 +18,7 @@ from pytestqt.qtbot import QtBot
 from carpus.core import so3
 from carpus.core.agreement.limits_file import LIMITS_FILE, store_limits
 from carpus.core.calibration.card.chart import CardCheck, add_check, chart_path
-from carpus.core.errors import SettingsInvalid
+from carpus.core.errors import SessionUnreadable, SettingsInvalid
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
@@ -141,6 +141,31 @@ def test_progress_and_report_say_it_too(
     key = history[1].session_id
     report = session_report(store.session(key), history=history)
     assert (ONCE in method(report.figures, 6, compared=False)) is again
+
+
+def test_while_sessions_are_read_nothing_of_the_patient_before_is_shown_or_can_be_made(
+    theme: Theme, background: Background, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    store = FakeSessions()
+    screen = ProgressScreen(theme, Keys(), background, store)
+    acts = (screen.report_button, screen.picture_button, screen.table_button)
+    screen.begin("linden")
+    qtbot.waitUntil(lambda: not background.busy)
+    assert screen.progress.points
+    assert all(button.isEnabled() for button in acts)
+
+    def gone(_: str) -> list[SessionFigures]:
+        raise SessionUnreadable("session-1", "")
+
+    monkeypatch.setattr(store, "history", gone)
+    screen.begin("birch")
+    assert screen.answer.text() == "Reading the sessions…"
+    for read in (False, True):
+        if read:
+            qtbot.waitUntil(lambda: not background.busy)
+        assert not screen.progress.points
+        assert not any(button.isEnabled() for button in acts)
+    assert screen.answer.text() == "The sessions cannot be read."
 
 
 def test_earlier_results_that_were_read_are_counted_as_replaced() -> None:

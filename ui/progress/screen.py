@@ -139,13 +139,25 @@ class ProgressScreen(Fitted):
     def begin(self, patient_id: str, session_id: str = "") -> None:
         """Read all sessions of a patient; the kind of the given or newest session is shown."""
         store = self._store
+        self._show_none(self.tr("Reading the sessions…"))
         self._background.run(
             lambda: (store.history(patient_id), store.by_hand(patient_id)),
             lambda found: self._show(found[0], found[1], session_id),
-            self.told.emit,
+            self._not_read,
             self,
         )
         self.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def _not_read(self, fault: Exception) -> None:
+        self._show_none(self.tr("The sessions cannot be read."))
+        self.told.emit(fault)
+
+    def _show_none(self, words: str) -> None:
+        """Nothing of the sessions before, which may be another patient's, and nothing to be made of them."""
+        self.exercise.hide()
+        self.followed.hide()
+        self._show_course(Progress((), (), None), [])
+        self.answer.setText(words)
 
     def _show(self, found: Sequence[SessionFigures], by_hand: Sequence[HandValue], session_id: str) -> None:
         self._by_hand = counted(by_hand)
@@ -179,8 +191,11 @@ class ProgressScreen(Fitted):
         sides = [one.side for one in self._by_hand if one.side]
         side = alike[-1].side if alike else sides[-1] if sides else ""
         mine = tuple(one for one in self._by_hand if one.side in (side, ""))
-        self.progress = replace(course, by_hand=mine)
-        self.chart.show_progress(self.progress)
+        self._show_course(replace(course, by_hand=mine), alike)
+
+    def _show_course(self, course: Progress, alike: Sequence[SessionFigures]) -> None:
+        self.progress = course
+        self.chart.show_progress(course)
         answer, basis = headline(self.progress)
         self.answer.setText(answer)
         if any(figures.simulated for figures in alike):
