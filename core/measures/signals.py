@@ -57,8 +57,10 @@ class Signal:
 
 
 def _within(time_s: FloatArray, start_s: float, end_s: float) -> slice:
-    """The times from ``start_s`` to ``end_s``, both included, of rising ones: a long recording is not gone through for
-    each of its repetitions."""
+    """The times from ``start_s`` to ``end_s``, both included, of rising ones, none where either is not known: a long
+    recording is not gone through for each of its repetitions."""
+    if not start_s <= end_s:
+        return slice(0, 0)
     return slice(int(time_s.searchsorted(start_s, "left")), int(time_s.searchsorted(end_s, "right")))
 
 

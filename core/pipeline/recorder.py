@@ -47,14 +47,14 @@ class Patience(Generic[SinkT, Item]):
     """How long a disk may hang in one write. ``told`` hears of :class:`DiskStalled` after ``told_after_s``; after
     ``moved_after_s`` another thread goes on with ``elsewhere(sink, item)``, made of the sink that hangs and the item
     that it is at. Finishing a file may take ``close_more_s`` longer, and ``close_item_s`` for each item in it: they are
-    read back and their repetitions counted, 12 s of a slow processor for an hour."""
+    read back and their repetitions counted, half a minute of a slow processor for an hour, and that may be busy."""
 
     told: Callable[[CarpusFault], None]
     elsewhere: Callable[[SinkT, Item | None], SinkT]
     told_after_s: float = 3.0
     moved_after_s: float = 8.0
     close_more_s: float = 12.0
-    close_item_s: float = 3e-4
+    close_item_s: float = 2e-3
 
 
 class Recorder(Generic[SinkT, Item]):

@@ -68,6 +68,27 @@ def test_nothing_known_is_an_empty_signal(known: int) -> None:
     assert len(even_signal(np.empty(0), np.empty(0)).time_s) == 0
 
 
+@pytest.mark.parametrize(
+    ("start_s", "end_s", "first", "count"),
+    [
+        (1.0, 2.0, 10, 11),
+        (0.98, 2.02, 10, 11),
+        (1.03, 1.96, 11, 9),
+        (-5.0, 0.0, 0, 1),
+        (2.9, math.inf, 29, 2),
+        (2.0, 1.0, 0, 0),
+        (1.0, math.nan, 0, 0),
+        (math.nan, 1.0, 0, 0),
+        (4.0, 5.0, 0, 0),
+    ],
+)
+def test_between_are_the_samples_from_start_to_end(start_s: float, end_s: float, first: int, count: int) -> None:
+    time_s = np.arange(31) / 10.0
+    part = even_signal(time_s, np.arange(31.0)).between(start_s, end_s)
+    assert part.value == pytest.approx(np.arange(first, first + count))
+    assert np.allclose(part.time_s, time_s[first : first + count])
+
+
 def test_low_pass_does_not_delay_and_stops_fast_noise() -> None:
     t = np.arange(0.0, 8.0, 1.0 / RATE)
     slow = low_pass(even_signal(t, np.sin(2 * math.pi * 0.5 * t))).value
