@@ -218,11 +218,14 @@ def another(monkeypatch: pytest.MonkeyPatch) -> ReadingProcess:
     return own
 
 
-@pytest.mark.parametrize(("name", "said"), [("loop", "to its end"), ("die", "to its end"), ("greed", "more memory")])
+@pytest.mark.parametrize(
+    ("name", "said"), [("loop", "to its end|does not end"), ("die", "to its end"), ("greed", "more memory")]
+)
 def test_what_a_file_does_to_its_reader_ends_there(
     tmp_path: Path, another: ReadingProcess, name: str, said: str
 ) -> None:
-    """A reader that loops for ever, dies, or asks for 3 GB: told as a damaged file, and the next file is read."""
+    """A reader that loops for ever, dies, or asks for 3 GB: told as damaged, and the next file is read. On a busy
+    computer the loop's time on the clock is over before its processor's."""
     path = stored(tmp_path / "s.h5")
     start_s = time.monotonic()
     with pytest.raises(SessionUnreadable, match=said):
