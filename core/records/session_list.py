@@ -55,7 +55,7 @@ class SeenFile:
 def files_there(folder: Path) -> dict[Path, SeenFile]:
     """Every file of a folder that is named like a session, as it looks now."""
     found: dict[Path, SeenFile] = {}
-    for path in sorted(one for one in below(folder) if one.name.endswith(".h5")):
+    for path in sorted(below(folder, ".h5")):
         try:
             state = path.lstat()
         except OSError:
@@ -113,7 +113,7 @@ def look_for_share(store: Store) -> None:
         return
     if not root.is_dir():
         raise FolderMissing(root)
-    if not files_there(root):
+    if not any(below(root, ".h5")):
         if store.row(select(SESSION.c.id).limit(1)) is not None:
             raise ShareEmpty(root)
         return

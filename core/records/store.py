@@ -105,8 +105,8 @@ class Store:
                 return database
 
     def _has_sessions(self) -> bool:
-        files = (one.relative_to(self.sessions_folder) for one in below(self.sessions_folder))
-        return any(one.parts[0] != PRACTICE for one in files if one.name.endswith(".h5"))
+        files = (one.relative_to(self.sessions_folder) for one in below(self.sessions_folder, ".h5"))
+        return any(one.parts[0] != PRACTICE for one in files)
 
     def __enter__(self) -> Self:
         return self

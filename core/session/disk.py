@@ -130,13 +130,14 @@ def free_name(target: Path) -> Path:
     return candidate
 
 
-def below(folder: Path) -> Iterator[Path]:
-    """All that lies below a folder, links not followed. What another program takes away meanwhile, as it erases a
-    patient, is passed over, where ``rglob`` fails. Raises OSError for what else keeps it from being seen."""
+def below(folder: Path, ending: str = "") -> Iterator[Path]:
+    """All that lies below a folder under a name with that ending, links not followed. What another program takes away
+    meanwhile, as it erases a patient, is passed over, where ``rglob`` fails. Raises OSError for what else keeps it from
+    being seen."""
 
     def failed(fault: OSError) -> None:
         if not isinstance(fault, FileNotFoundError | PermissionError):
             raise fault
 
     for here, folders, files in os.walk(folder, onerror=failed):
-        yield from (Path(here, name) for name in (*folders, *files))
+        yield from (Path(here, name) for name in (*folders, *files) if name.endswith(ending))

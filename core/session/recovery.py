@@ -154,7 +154,7 @@ class Recovery:
 
 def interrupted_sessions(folder: Path) -> list[Path]:
     """The part files of a folder and the folders in it, also of sessions that are running."""
-    return sorted(path for path in below(folder) if target_of_part(path) is not None)
+    return sorted(path for path in below(folder, ".part") if target_of_part(path) is not None)
 
 
 def recover_folder(folder: Path, now: datetime | None = None, given_up: Collection[Path] = ()) -> Recovery:

@@ -310,8 +310,7 @@ def _best(
 ) -> _Fits | None:
     """The one pose to believe; None when none is good enough, or when other names are about as good.
 
-    ``blobs`` of which palm and fingers must explain their share, 0 where there are
-    no fingers to explain any.
+    ``blobs`` of which palm and fingers must explain their share, 0 where there are no fingers to explain any.
     """
     fits = _believable(fits, blobs, settings)
     if not fits.count.size:

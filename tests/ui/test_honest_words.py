@@ -154,6 +154,17 @@ def test_while_sessions_are_read_nothing_of_the_patient_before_is_shown_or_can_b
     assert screen.progress.points
     assert all(button.isEnabled() for button in acts)
 
+    screen.begin("linden")
+    screen.begin("nobody")  # asked for before the answer to the first
+    shown: list[int] = []
+    monkeypatch.setattr(screen.chart, "show_progress", lambda course: shown.append(len(course.points)))
+    screen._background.run(lambda: None, lambda _: None, lambda _: None)
+    qtbot.waitUntil(lambda: not background.busy)
+    assert len(shown) == 1, "the answer to the first is of another patient by now"
+    monkeypatch.undo()
+    screen.begin("linden")
+    qtbot.waitUntil(lambda: not background.busy)
+
     def gone(_: str) -> list[SessionFigures]:
         raise SessionUnreadable("session-1", "")
 

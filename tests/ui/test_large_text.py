@@ -11,7 +11,8 @@ from PySide6.QtWidgets import QApplication, QScrollArea, QStyleOptionComboBox, Q
 from pytestqt.qtbot import QtBot
 
 from carpus.ui.beside.screen import BesideScreen
-from carpus.ui.controls.field import Combo
+from carpus.ui.by_hand.screen import ByHandScreen
+from carpus.ui.controls.field import Combo, number_field
 from carpus.ui.controls.layouts import ScrollArea
 from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.patients.screen import PatientsScreen
@@ -20,7 +21,7 @@ from carpus.ui.records.locking import LockSheet
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
 from tests.ui import pseudo
-from tests.ui.gallery import Gallery
+from tests.ui.gallery import TODAY, Gallery
 
 LEAST_PLOT_PX = 240
 
@@ -129,16 +130,33 @@ def test_a_choice_without_room_ends_in_dots(theme: Theme, qapp: QApplication) ->
         assert option.currentText.endswith("…") is not whole
 
 
+def turned(field: QWidget) -> bool:
+    """Whether a field takes a turn of the wheel over it."""
+    turn = QWheelEvent(
+        QPointF(5, 5), field.mapToGlobal(QPointF(5, 5)), QPoint(), QPoint(0, -120), Qt.MouseButton.NoButton,
+        Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False,
+    )  # fmt: skip
+    QApplication.sendEvent(field, turn)
+    return turn.isAccepted()
+
+
 def test_the_wheel_chooses_nothing_in_a_list_of_choices(qtbot: QtBot) -> None:
     choice = Combo()
     choice.offer([(1, "one"), (2, "two")])
     qtbot.addWidget(choice)
     choice.show()
     choice.setFocus()
-    turn = QWheelEvent(
-        QPointF(5, 5), choice.mapToGlobal(QPointF(5, 5)), QPoint(), QPoint(0, -120), Qt.MouseButton.NoButton,
-        Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False,
-    )  # fmt: skip
-    QApplication.sendEvent(choice, turn)
+    assert not turned(choice)
     assert choice.currentIndex() == 0
-    assert not turn.isAccepted()
+
+
+def test_the_wheel_changes_no_number_and_no_day(qtbot: QtBot, theme: Theme) -> None:
+    number, record = number_field(theme, 20), ByHandScreen(theme, lambda: TODAY)
+    number.setValue(7)
+    for field in (number, record.day):
+        qtbot.addWidget(field)
+        field.show()
+        field.setFocus()
+        assert not turned(field)
+    assert number.value() == 7
+    assert record.day.date().toPython() == TODAY

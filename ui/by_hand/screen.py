@@ -20,7 +20,7 @@ from carpus.ui.by_hand.form import HandForm
 from carpus.ui.by_hand.names import changes, measure_name
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
-from carpus.ui.controls.field import Choices, Combo
+from carpus.ui.controls.field import Choices, Combo, leave_wheel
 from carpus.ui.controls.layouts import STRETCH, Fitted, ScrollArea, ScrolledColumn, empty, fill, in_column, in_line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.plot.by_hand import paint_course
@@ -57,6 +57,7 @@ class ByHandScreen(Fitted):
         self.title = heading(theme, wrap=True)
         self.basis = Text(theme, "", 16, REGULAR, "text2", wrap=True)
         self.day = QDateEdit(QDate(today.year, today.month, today.day))
+        leave_wheel(self.day)
         self.day.setCalendarPopup(True)
         self.day.setDisplayFormat(numbers.day_format())
         self.day.setMaximumDate(self.day.date())

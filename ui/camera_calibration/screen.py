@@ -16,7 +16,7 @@ from carpus.ui.camera_calibration.showing import BoardShowing
 from carpus.ui.camera_calibration.words import BoardChoice, BoardResult, effect_rows, headline, kept_words, result_rows
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card, Line
-from carpus.ui.controls.field import Choices
+from carpus.ui.controls.field import Choices, leave_wheel
 from carpus.ui.controls.layouts import (
     STRETCH,
     Fitted,
@@ -118,6 +118,7 @@ class BoardBeginning(QWidget):
         self.paper = Choices(theme, [("a4", "A4"), ("letter", "Letter")], "a4")
         self.print_button = Button(theme, self.tr("&Print the board…"), icon="file-text")
         self.ruler = QDoubleSpinBox()
+        leave_wheel(self.ruler)
         self.ruler.setRange(*RULER_RANGE_MM)
         self.ruler.setDecimals(1)
         self.ruler.setSingleStep(0.5)

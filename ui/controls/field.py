@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QWheelEvent
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtWidgets import (
+    QAbstractSpinBox,
     QButtonGroup,
     QComboBox,
     QHBoxLayout,
@@ -57,6 +57,22 @@ class SearchField(QLineEdit):
         self.setFixedHeight(self._theme.px(44))
 
 
+class _Wheel(QObject):
+    """Passes the wheel on to the page: who scrolls it would change what lies under the mouse, unseen."""
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() != QEvent.Type.Wheel:
+            return False
+        event.ignore()
+        return True
+
+
+def leave_wheel(field: QAbstractSpinBox | QComboBox) -> None:
+    """The wheel neither changes a field nor brings the keyboard to it."""
+    field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+    field.installEventFilter(_Wheel(field))
+
+
 class Combo(QComboBox):
     """As wide as its longest choice; where there is less room the end of the chosen one is left out, not cut. The wheel
     scrolls the page that it lies in and chooses nothing."""
@@ -64,10 +80,7 @@ class Combo(QComboBox):
     def __init__(self) -> None:
         super().__init__()
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
-        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        event.ignore()
+        leave_wheel(self)
 
     def offer(self, choices: Iterable[tuple[object, str]], chosen: object = None) -> None:
         """Values with their words in place of those before; the first unless another is ``chosen``. Tells nobody."""
@@ -104,6 +117,7 @@ class Labelled(QWidget):
 def number_field(theme: Theme, most: int, suffix: str = "", nothing: str = "") -> QSpinBox:
     """A whole number from 0 with its unit; ``nothing`` is shown for 0."""
     field = QSpinBox()
+    leave_wheel(field)
     field.setRange(0, most)
     field.setSuffix(suffix)
     field.setSpecialValueText(nothing)

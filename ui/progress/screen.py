@@ -60,6 +60,7 @@ class ProgressScreen(Fitted):
     def __init__(self, theme: Theme, keys: Keys, background: Background, store: Library) -> None:
         super().__init__()
         self._theme, self._background, self._store = theme, background, store
+        self._patient_id = ""
         self._all: tuple[SessionFigures, ...] = ()
         self._kinds: list[tuple[str, str]] = []
         self._by_hand: list[HandValue] = []
@@ -138,19 +139,20 @@ class ProgressScreen(Fitted):
     # --- life ---------------------------------------------------------------------------------------------
     def begin(self, patient_id: str, session_id: str = "") -> None:
         """Read all sessions of a patient; the kind of the given or newest session is shown."""
-        store = self._store
+        store, self._patient_id = self._store, patient_id
         self._show_none(self.tr("Reading the sessions…"))
-        self._background.run(
-            lambda: (store.history(patient_id), store.by_hand(patient_id)),
-            lambda found: self._show(found[0], found[1], session_id),
-            self._not_read,
-            self,
-        )
-        self.setFocus(Qt.FocusReason.OtherFocusReason)
 
-    def _not_read(self, fault: Exception) -> None:
-        self._show_none(self.tr("The sessions cannot be read."))
-        self.told.emit(fault)
+        def read(found: tuple[Sequence[SessionFigures], Sequence[HandValue]]) -> None:
+            if patient_id == self._patient_id:  # else that of another patient is awaited by now
+                self._show(*found, session_id)
+
+        def failed(fault: Exception) -> None:
+            if patient_id == self._patient_id:
+                self._show_none(self.tr("The sessions cannot be read."))
+            self.told.emit(fault)
+
+        self._background.run(lambda: (store.history(patient_id), store.by_hand(patient_id)), read, failed, self)
+        self.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _show_none(self, words: str) -> None:
         """Nothing of the sessions before, which may be another patient's, and nothing to be made of them."""
