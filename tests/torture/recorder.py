@@ -1,8 +1,8 @@
 """A program that records until it is killed: the live engine with a real tracker, looking back, and raw pictures.
 
 ``python -m tests.torture.recorder FOLDER [--raw] [--played] [--jumping-clock] [--seconds N]``. It notes the time of
-the newest frame that was tracked in ``FOLDER/taken`` before anything can be lost of it, and its children's numbers
-in ``FOLDER/children``.
+the newest frame that was tracked in ``FOLDER/taken`` before anything can be lost of it, until its recording is told to
+end, and its children's numbers in ``FOLDER/children``.
 """
 
 from __future__ import annotations
@@ -101,9 +101,12 @@ def main() -> None:
         live_pipeline.keep = looker.take
         pipeline = live_pipeline
 
+    ending = Event()
+
     def noted(frame: Frame) -> TrackedFrame:
         row = pipeline(frame)
-        os.pwrite(taken, struct.pack("<dq", frame.timestamp_s, 1), 0)
+        if not ending.is_set():
+            os.pwrite(taken, struct.pack("<dq", frame.timestamp_s, 1), 0)
         return row
 
     def open_session() -> SmoothedSession:
@@ -126,6 +129,7 @@ def main() -> None:
     while time.monotonic() < end_s and "source_failed" not in kinds and "source_ended" not in kinds:
         kinds += [event.kind for event in live.drain_events()]
         time.sleep(0.02)
+    ending.set()  # the camera goes on while the recording is stored
     live.stop_recording()
     live.stop()
     counters = live.counters()
