@@ -189,13 +189,22 @@ class Desktop:
 
     def speak_anew(self) -> None:
         """The language was changed: everything is put together again, at the same place, and this becomes it."""
+        picture = QSplashScreen(self.shell.grab())  # of the old window, until the new one stands there
+        picture.move(self.shell.mapToGlobal(QPoint()))
+        picture.show()
+        try:
+            self._put_together_again(picture)
+        except BaseException:
+            self.application.exit(1)  # no window is left by which a person could end it
+            raise
+        finally:
+            picture.close()
+
+    def _put_together_again(self, picture: QSplashScreen) -> None:
         application, settings, anew = self.application, self.keeper.settings, self.anew
         place, now = self.journey.way.behind, self.journey.now
         quits = application.quitOnLastWindowClosed()
         application.setQuitOnLastWindowClosed(False)
-        picture = QSplashScreen(self.shell.grab())  # of the old window, until the new one stands there
-        picture.move(self.shell.mapToGlobal(QPoint()))
-        picture.show()
         self.close()
         gc.unfreeze()
         for widget in application.topLevelWidgets():  # screens never shown too: they would be styled with the new ones

@@ -39,8 +39,9 @@ class TopBar(Surface):
         self.brand = _Brand(theme)
         self._bar_line = Line(theme, vertical=True)
         self._bar_line.setFixedHeight(24)
-        self.back_button = Button(theme, "", "quiet", icon="chevron-left", height_px=40)
+        self.back_button = icon_button(theme, "chevron-left", self.tr("Back (Esc)"))
         self.back_button.clicked.connect(self.back)
+        self.name = Text(theme, "", 14, SEMIBOLD)
         self.where = Text(theme, "", 14, REGULAR, "text2")
         self.camera = StateText(theme)
         self.disk = StateText(theme)
@@ -54,7 +55,7 @@ class TopBar(Surface):
         self._middle = in_line(gap=4)
         self._way: list[WayButton] = []
         self._left, self._right = QWidget(), QWidget()
-        left = _row(self._left, 8, self.brand, self._bar_line, self.back_button, self.where)
+        left = _row(self._left, 8, self.brand, self._bar_line, self.back_button, self.name, self.where)
         left.addStretch(1)
         right = _row(self._right, 16, self.camera, self.disk, self.again, self.pill)
         right.insertStretch(0, 1)
@@ -86,7 +87,7 @@ class TopBar(Surface):
     def _fit(self) -> None:
         """What there is no room for gives way to what must be seen: an ample disk, the exercise, the program's name, a
         camera that works."""
-        named = bool(self.back_button.text())
+        named = bool(self.name.text())
         shown = {
             "disk": bool(self.disk.text()), "where": named and bool(self.where.text()), "again": True, "name": True,
             "camera": bool(self.camera.text()),
@@ -106,7 +107,7 @@ class TopBar(Surface):
         self.again.shorten(not shown["again"])
 
     def _needed_px(self, shown: dict[str, bool]) -> float:
-        named = [self._bar_line, self.back_button] if self.back_button.text() else []
+        named = [self._bar_line, self.back_button, self.name] if self.name.text() else []
         left = [self.brand.width_px(shown["name"]), *(one.sizeHint().width() for one in named)]
         left += [self.where.sizeHint().width()] if shown["where"] else []
         right = [one.sizeHint().width() for one in (self.help_button, self.settings_button)]
@@ -119,10 +120,9 @@ class TopBar(Surface):
 
     def show_place(self, pseudonym: str, where: str) -> None:
         """Whose session this is, and hand and exercise; empty on the first screen."""
-        self.back_button.set_face(self._elided(pseudonym))
-        self.back_button.setToolTip(plain_tooltip(pseudonym))
-        self.back_button.setAccessibleName(self.tr("Back from {name}").format(name=pseudonym))
-        for widget in (self._bar_line, self.back_button):
+        self.name.setText(self._elided(pseudonym))
+        self.name.setToolTip(plain_tooltip(pseudonym))
+        for widget in (self._bar_line, self.back_button, self.name):
             widget.setVisible(bool(pseudonym))
         self.where.setText(where)
         self._fit()

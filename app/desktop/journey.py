@@ -348,7 +348,9 @@ class Journey(QObject):
 
     def _escape(self) -> None:
         taken = not self.messages.busy and (
-            self.takes_escape() or (self.place == "report" and self.report.screen.to_report())
+            ("live" in self.way.flows and self.live.patient_view.uncover())
+            or self.takes_escape()
+            or (self.place == "report" and self.report.screen.to_report())
         )
         if not taken:
             self.way.back()

@@ -12,6 +12,7 @@ import contextlib
 import glob
 import mmap
 import re
+import struct
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
@@ -41,14 +42,12 @@ from carpus.core.records.store import Store
 from carpus.core.records.values import SessionEntry
 from carpus.core.session.disk import below
 
-SHORT_NAME = 4
-"""A name of fewer letters stands in other words by chance."""
-
 
 @dataclass(frozen=True, slots=True)
 class ErasurePlan:
     """What would go. ``sessions`` counts recordings; ``files`` lie in the data folder; ``made`` are files that Carpus
-    made elsewhere and does not touch; ``others`` counts the patient's recordings that stay."""
+    made elsewhere and does not touch; ``unsure`` are damaged files that stay, where only a word speaks of the patient;
+    ``others`` counts the patient's recordings that stay."""
 
     kind: Kind
     identity: str
@@ -59,6 +58,7 @@ class ErasurePlan:
     files: tuple[Path, ...]
     size_bytes: int
     made: tuple[MadeFile, ...]
+    unsure: tuple[Path, ...]
     others: int = 0
 
 
@@ -90,11 +90,12 @@ def _plan(
     links = _links(store, going, sessions)
     if links:
         raise ErasureLeadsOut(links[0])
-    files = sorted(_files(store, going, sessions))
+    found, unsure = _files(store, going, sessions)
+    files = sorted(found)
     return ErasurePlan(
         kind, identity, patient_id, Patients(store).one(patient_id).entry.pseudonym if patient_id else "",
         tuple(results), len({one.recording_id for one in results}), tuple(files),
-        sum(path.lstat().st_size for path in files), tuple(made_from(store, sessions)), others,
+        sum(path.lstat().st_size for path in files), tuple(made_from(store, sessions)), tuple(sorted(unsure)), others,
     )  # fmt: skip
 
 
@@ -154,7 +155,7 @@ def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]
     sessions = [str(row.id) for row in rows]
     if rows and _is_away(store):
         return [store.sessions_folder]
-    files = _files(store, patients, sessions)
+    files, _ = _files(store, patients, sessions)
     left = [*_links(store, patients, sessions), *(path for path in sorted(files) if not _gone(path))]
     if rows and _is_away(store):  # since then: nobody knows what was found and is gone
         return [store.sessions_folder]
@@ -191,25 +192,23 @@ def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]
 
 
 def _naming(store: Store, names: Sequence[str]) -> list[RowChange]:
-    """What belongs to the clinic and names one of these: an address of letters, a diagnosis of the clinic's list. A
-    number names nobody there: it is a street's, or a zone's."""
+    """What belongs to the clinic and has the name of one of these as a word: an address of letters, a diagnosis of the
+    clinic's list. A number names nobody there: it is a street's, or a zone's."""
     named = [name for name in names if any(map(str.isalpha, name))]
     if not named:
         return []
     addresses, listed = store.rows(select(RECIPIENT)), store.rows(select(DIAGNOSIS))
-    # Mustermanns names the patient; a ligament does not name Li.
-    ends = {name: r"(?![^\W_])" if len(name) < SHORT_NAME else "" for name in named}
-    word = re.compile("|".join(rf"(?<![^\W_]){re.escape(name)}{end}" for name, end in ends.items()))
+    word = _words(named, ())
     return [
         *(dropped(RECIPIENT, row.id) for row in addresses if word.search(folded(row.address))),
         *(dropped(DIAGNOSIS, row.id) for row in listed if word.search(folded(row.words))),
     ]
 
 
-def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> set[Path]:
+def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> tuple[set[Path], set[Path]]:
     """Every file of these: the sessions' own with what lies beside them and copies, all that is left in the folders of
     the patients, what is no session and names them, new results that wait for a decision, and damaged stores that were
-    set aside, which may hold names."""
+    set aside, which may hold names. And those that may be theirs and stay: nobody can tell."""
     paths, going, root = dict[str, str](), set(sessions), store.sessions_folder
     for row in store.rows(select(SESSION.c.id, SESSION.c.path)):
         paths[row.id] = row.path
@@ -220,37 +219,55 @@ def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> se
     found |= {path for stored in mine for path in files.copies_of(stored) if path.is_file()}
     for folder in _folders(store, patients):
         found |= set(_plain_files(folder))
-    waits = set(trials_of(store, paths.keys() - going))
+    waits, unsure = set(trials_of(store, paths.keys() - going)), set[Path]()
     for names in _names_of(store, patients):
         for folder in (root, store.folder / TRIALS_FOLDER):
             orphans = (path for path in _plain_files(folder) if path not in waits and not _is_beside(path, others))
-            found |= {one for one in orphans if names.name(one, folder)}
+            judged = {one: names.name(one, folder) for one in orphans}
+            found |= {one for one, is_named in judged.items() if is_named}
+            unsure |= {one for one, is_named in judged.items() if is_named is None}
     found |= set(trials_of(store, going))
     stem, suffix = STORE_FILE.split(".")
     found |= set(store.folder.glob(f"{stem}.damaged-*.{suffix}*"))
-    return own | {path for path in found if not _is_beside(path, others)}
+    found = own | {path for path in found if not _is_beside(path, others)}
+    return found, unsure - found
 
 
 @dataclass(frozen=True, slots=True)
 class _Names:
-    """How files name one patient: ``stems`` as Carpus names them, and as words in a path and in what a file says, which
-    the group ``own`` finds outside of longer names. ``others`` are the stems of other patients."""
+    """How files name one patient: ``stems`` as Carpus names them, as words in a path and in what a file says, which the
+    group ``own`` finds outside of longer names, and as whose a session says it is. ``others`` are the stems of other
+    patients."""
 
     stems: Collection[str]
     others: Collection[str]
     in_path: re.Pattern[str]
     in_file: re.Pattern[bytes]
+    subject: re.Pattern[bytes]
 
-    def name(self, path: Path, folder: Path) -> bool:
-        """Whether a file in ``folder`` is this patient's. One that Carpus named is whose name it has, whatever else
-        stands there: a pseudonym may be a word of an exercise, or a number of a day."""
+    def name(self, path: Path, folder: Path) -> bool | None:
+        """Whether a file in ``folder`` is this patient's; None where only a word in a damaged one says so. One that
+        Carpus named is whose name it has, whatever else stands there: a pseudonym may be a word of an exercise, or a
+        number of a day."""
         whose, way = named_after(path), path.relative_to(folder)
         if whose in self.others and whose not in self.stems:
             return False
         if whose in self.stems and whose not in self.others:
             return True
         searched = "/".join(one for one in (way.parent if whose else way).parts if not is_identity(one))
-        return any(one["own"] for one in self.in_path.finditer(searched)) or _says(path, self.in_file)
+        return any(one["own"] for one in self.in_path.finditer(searched)) or self._is_said_in(path)
+
+    def _is_said_in(self, path: Path) -> bool | None:
+        if path.suffix in (".h5", ".part"):
+            with (
+                contextlib.suppress(OSError, ValueError),
+                path.open("rb") as file,
+                mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content,
+            ):
+                if self.subject.search(content):
+                    return True
+                return None if any(one["own"] for one in self.in_file.finditer(content)) else False
+        return False
 
 
 def _names_of(store: Store, patients: Sequence[str]) -> Iterator[_Names]:
@@ -265,7 +282,7 @@ def _names_of(store: Store, patients: Sequence[str]) -> Iterator[_Names]:
         foreign = {one for other, theirs in names.items() if other != patient for one in theirs}
         stems, others = ({file_name(one) for one in them} - {""} for them in (own, foreign))
         written = {name for name in own if file_name(name) not in others} | (stems - others)
-        yield _Names(stems, others, _words(written, foreign | others), _in_bytes(own, foreign))
+        yield _Names(stems, others, _words(written, foreign | others), _in_bytes(own, foreign), _subject(own))
 
 
 def _words(own: Collection[str], others: Collection[str]) -> re.Pattern[str]:
@@ -278,22 +295,19 @@ def _in_bytes(own: Collection[str], others: Collection[str]) -> re.Pattern[bytes
     return re.compile(_found(mine, theirs, a, z).encode("latin-1"))
 
 
+def _subject(own: Collection[str]) -> re.Pattern[bytes]:
+    """Finds them as ``subject_id`` in what HDF5 keeps of a session's texts, each with its length and filled up to 8
+    bytes: after the recording's identity, before a moment."""
+    texts = (struct.pack("<Q", len(one)) + one + bytes(-len(one) % 8) for one in map(str.encode, own))
+    mine = b"|".join(map(re.escape, texts)) or rb"(?!)"
+    return re.compile(rb"[0-9a-f]{12}\0{4}.{8}(?:" + mine + rb").{16}\d{4}-\d\d-\d\dT", re.DOTALL)
+
+
 def _found(own: Collection[str], others: Collection[str], before: str, after: str) -> str:
     """A pattern of the names as words, the group ``own``; longer ones of others first, which hold one of them."""
     longer = [one for one in others if any(name in one and name != one for name in own)]
     theirs, mine = ("|".join(re.escape(one) for one in sorted(them, key=len, reverse=True)) for them in (longer, own))
     return rf"{before}(?:{theirs or '(?!)'}|(?P<own>{mine or '(?!)'})){after}"
-
-
-def _says(path: Path, names: re.Pattern[bytes]) -> bool:
-    if path.suffix in (".h5", ".part"):
-        with (
-            contextlib.suppress(OSError, ValueError),
-            path.open("rb") as file,
-            mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content,
-        ):
-            return any(one["own"] for one in names.finditer(content))
-    return False
 
 
 def _beside(store: Store, stored: str) -> set[Path]:

@@ -3025,15 +3025,19 @@
     </message>
     <message>
         <source>Bend together, {one}–{other} (r)</source>
-        <translation>Gleichlauf {one}–{other}</translation>
+        <translation>Gemeinsames Beugen, {one}–{other} (r)</translation>
     </message>
     <message>
         <source>Lag of {other} after {one}</source>
-        <translation>Verzug {one}–{other}</translation>
+        <translation>{other} später als {one}</translation>
+    </message>
+    <message>
+        <source>How far {other} moves with {one}</source>
+        <translation>Wie weit {other} mit {one} mitgeht</translation>
     </message>
     <message>
         <source>Share of {one} that {other} moves</source>
-        <translation>Mitgehen {one}–{other}</translation>
+        <translation type="vanished">Mitgehen {one}–{other}</translation>
     </message>
     <message>
         <source>Widest span, {one}–{other}</source>
@@ -3177,7 +3181,7 @@
     </message>
     <message>
         <source>Of usual</source>
-        <translation>Von üblich</translation>
+        <translation>Vom Üblichen</translation>
     </message>
     <message>
         <source>{what}, {day}</source>
@@ -9118,6 +9122,10 @@
         <translation>Anderswohin kopierte Dateien: Carpus erreicht sie nicht.</translation>
     </message>
     <message>
+        <source>Damaged files of which nobody can tell whose they are ({n}): {path}.</source>
+        <translation>Beschädigte Dateien, von denen niemand sagen kann, wessen sie sind ({n}): {path}.</translation>
+    </message>
+    <message>
         <source>The log keeps that it was erased, no name.</source>
         <translation>Das Protokoll behält, dass gelöscht wurde, ohne Namen.</translation>
     </message>
@@ -9323,8 +9331,12 @@
         <translation>Tabellen der Winkel, Wiederholungen und Maße (CSV), für jede Tabellenkalkulation.</translation>
     </message>
     <message>
+        <source>Nobody can be found by it: random name, no dates (day 1, 2 …), no notes</source>
+        <translation>Niemand ist daran zu erkennen: Zufallsname, kein Datum (Tag 1, 2 …), keine Notizen</translation>
+    </message>
+    <message>
         <source>Nobody can be found by it: new random name, days counted, no notes</source>
-        <translation>Niemand ist daran erkennbar: neuer Zufallsname, Tage gezählt, keine Notizen</translation>
+        <translation type="vanished">Niemand ist daran erkennbar: neuer Zufallsname, Tage gezählt, keine Notizen</translation>
     </message>
     <message>
         <source>How far the export is</source>
@@ -10816,6 +10828,13 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
+    <name>PatientWindow</name>
+    <message>
+        <source>Patient’s view (Esc closes it)</source>
+        <translation>Patientenansicht (Esc schließt sie)</translation>
+    </message>
+</context>
+<context>
     <name>PatientsScreen</name>
     <message>
         <source>Ctrl+F</source>
@@ -11951,6 +11970,10 @@ Umschalt+F8 von der Seite</translation>
         <translation>Zum Bericht</translation>
     </message>
     <message>
+        <source>older result, does not count</source>
+        <translation>älteres Ergebnis, zählt nicht</translation>
+    </message>
+    <message>
         <source>Let it count again</source>
         <translation>Wieder zählen lassen</translation>
     </message>
@@ -11988,6 +12011,18 @@ Umschalt+F8 von der Seite</translation>
 </context>
 <context>
     <name>ReviewFlow</name>
+    <message>
+        <source>This result counts from now on.</source>
+        <translation>Ab jetzt zählt dieses Ergebnis.</translation>
+    </message>
+    <message>
+        <source>It stands there once more, as the newest; the others stay as they were.</source>
+        <translation>Es steht dort noch einmal, als neuestes; die anderen bleiben, wie sie waren.</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Weiter</translation>
+    </message>
     <message>
         <source>Save film</source>
         <translation>Film speichern</translation>
@@ -12571,6 +12606,10 @@ Umschalt+F8 von der Seite</translation>
 <context>
     <name>TopBar</name>
     <message>
+        <source>Back (Esc)</source>
+        <translation>Zurück (Esc)</translation>
+    </message>
+    <message>
         <source>Help (F1)</source>
         <translation>Hilfe (F1)</translation>
     </message>
@@ -12580,7 +12619,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Back from {name}</source>
-        <translation>Zurück von {name}</translation>
+        <translation type="vanished">Zurück von {name}</translation>
     </message>
     <message>
         <source>After the recording</source>

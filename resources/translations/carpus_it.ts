@@ -3025,15 +3025,19 @@
     </message>
     <message>
         <source>Bend together, {one}–{other} (r)</source>
-        <translation>Insieme, {one}–{other} (r)</translation>
+        <translation>Piegati insieme, {one}–{other} (r)</translation>
     </message>
     <message>
         <source>Lag of {other} after {one}</source>
-        <translation>Ritardo: {other} dopo {one}</translation>
+        <translation>{other} dopo {one}: ritardo</translation>
+    </message>
+    <message>
+        <source>How far {other} moves with {one}</source>
+        <translation>Quanto {other} segue {one}</translation>
     </message>
     <message>
         <source>Share of {one} that {other} moves</source>
-        <translation>Segue {one}: {other}</translation>
+        <translation type="vanished">Segue {one}: {other}</translation>
     </message>
     <message>
         <source>Widest span, {one}–{other}</source>
@@ -3177,7 +3181,7 @@
     </message>
     <message>
         <source>Of usual</source>
-        <translation>Dell’usuale</translation>
+        <translation>Del valore usuale</translation>
     </message>
     <message>
         <source>{what}, {day}</source>
@@ -9118,6 +9122,10 @@
         <translation>File copiati altrove: Carpus non può raggiungerli.</translation>
     </message>
     <message>
+        <source>Damaged files of which nobody can tell whose they are ({n}): {path}.</source>
+        <translation>File danneggiati di cui nessuno sa dire di chi siano ({n}): {path}.</translation>
+    </message>
+    <message>
         <source>The log keeps that it was erased, no name.</source>
         <translation>Il registro conserva il fatto della cancellazione, senza nome.</translation>
     </message>
@@ -9323,8 +9331,12 @@
         <translation>Tabelle di angoli, ripetizioni e misure (CSV), per qualsiasi foglio di calcolo.</translation>
     </message>
     <message>
+        <source>Nobody can be found by it: random name, no dates (day 1, 2 …), no notes</source>
+        <translation>Nessuno è riconoscibile: nome casuale, nessuna data (giorno 1, 2 …), nessuna nota</translation>
+    </message>
+    <message>
         <source>Nobody can be found by it: new random name, days counted, no notes</source>
-        <translation>Nessuno è riconoscibile: nuovo nome casuale, giorni contati, nessuna nota</translation>
+        <translation type="vanished">Nessuno è riconoscibile: nuovo nome casuale, giorni contati, nessuna nota</translation>
     </message>
     <message>
         <source>How far the export is</source>
@@ -10816,6 +10828,13 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
+    <name>PatientWindow</name>
+    <message>
+        <source>Patient’s view (Esc closes it)</source>
+        <translation>Vista del paziente (Esc la chiude)</translation>
+    </message>
+</context>
+<context>
     <name>PatientsScreen</name>
     <message>
         <source>Ctrl+F</source>
@@ -11951,6 +11970,10 @@ Maiusc+F8 di lato</translation>
         <translation>Crea la relazione</translation>
     </message>
     <message>
+        <source>older result, does not count</source>
+        <translation>risultato precedente, non conta</translation>
+    </message>
+    <message>
         <source>Let it count again</source>
         <translation>Conta di nuovo</translation>
     </message>
@@ -11988,6 +12011,18 @@ Maiusc+F8 di lato</translation>
 </context>
 <context>
     <name>ReviewFlow</name>
+    <message>
+        <source>This result counts from now on.</source>
+        <translation>Da ora conta questo risultato.</translation>
+    </message>
+    <message>
+        <source>It stands there once more, as the newest; the others stay as they were.</source>
+        <translation>Compare lì un’altra volta, come il più recente; gli altri restano com’erano.</translation>
+    </message>
+    <message>
+        <source>Go on</source>
+        <translation>Continua</translation>
+    </message>
     <message>
         <source>Save film</source>
         <translation>Salva filmato</translation>
@@ -12571,6 +12606,10 @@ Maiusc+F8 di lato</translation>
 <context>
     <name>TopBar</name>
     <message>
+        <source>Back (Esc)</source>
+        <translation>Indietro (Esc)</translation>
+    </message>
+    <message>
         <source>Help (F1)</source>
         <translation>Aiuto (F1)</translation>
     </message>
@@ -12580,7 +12619,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Back from {name}</source>
-        <translation>Torna da: {name}</translation>
+        <translation type="vanished">Torna da: {name}</translation>
     </message>
     <message>
         <source>After the recording</source>

@@ -489,6 +489,7 @@ def test_what_is_decided_about_while_it_is_looked_for_waits_no_more(
     review._use_again(new)
     qtbot.waitUntil(lambda: len(told.shown) == 2, timeout=30_000)
     assert [one.session_id for one in library.results_of(new)][1:] == [new, told.shown[1][1]]
+    assert told.asked == ["This result counts from now on."]
     flow.close()
 
 

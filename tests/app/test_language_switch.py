@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from PySide6.QtWidgets import QSplashScreen
 from pytestqt.qtbot import QtBot
 
 from carpus.app.compose import Desktop
@@ -48,6 +49,19 @@ def test_another_language_at_the_same_place_and_none_while_something_is_at_work(
     assert desktop.journey.place == "patients"
     desktop.shell.close_surely()
     assert desktop.closed
+
+
+def test_a_window_that_cannot_be_built_leaves_no_picture_of_the_old_one(
+    qtbot: QtBot, desktop: Desktop, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(*_: object, **__: object) -> Desktop:
+        raise RuntimeError
+
+    monkeypatch.setattr(desktop, "anew", fails)
+    with pytest.raises(RuntimeError):
+        desktop.speak_anew()
+    shown = [widget for widget in desktop.application.topLevelWidgets() if isinstance(widget, QSplashScreen)]
+    assert not any(widget.isVisible() for widget in shown)
 
 
 def test_a_camera_that_waits_behind_the_review_keeps_no_language(

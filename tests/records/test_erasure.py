@@ -57,6 +57,11 @@ def deeds(house: House) -> list[str]:
     return [entry.did for entry in read_log(house.store)]
 
 
+def half_a_session(folder: Path, pseudonym: str) -> bytes:
+    """What is left of a session's file."""
+    return record(folder.with_name("elsewhere") / f"{pseudonym}.h5", pseudonym, T0).read_bytes()[:9000]
+
+
 def erase_patient(house: House, patient_id: str) -> int:
     return erasure.erase(house.store, erasure.plan_patient(house.store, patient_id), house.log)
 
@@ -319,8 +324,9 @@ def test_damaged_files_that_name_the_patient_go_and_no_others(folder: Path, hous
     gone += ("Linden-42_2.markers.jpg",)
     stay = ("Linden-421_2026.h5", "said of another.h5", "Fir-11_2026.h5")
     (sessions / "a").mkdir()
+    of_linden, of_another = (half_a_session(folder, one) for one in ("Linden 42", "Linden 421"))
     for name in (*gone, *stay):
-        said = b"\0Linden 421\0" if "another" in name else b"\0Linden 42\0" if name[0] in "xa" else b"damaged"
+        said = of_another if "another" in name else of_linden if name[0] in "xa" else b"damaged"
         (sessions / name).write_bytes(said)
     house.files.take_in()
     erase_patient(house, linden)
@@ -329,6 +335,18 @@ def test_damaged_files_that_name_the_patient_go_and_no_others(folder: Path, hous
     erase_patient(house, house.patients.called("Fir 11"))
     assert (sessions / "Fir-11_2026.h5").exists(), "it may be of Fir-11"
     assert traces(folder, "Linden-42_", "Linden 42\0") == []
+
+
+@pytest.mark.parametrize("pseudonym", ["right", "WRIST_FE", "Linden", "deg", "0"])
+def test_a_damaged_file_in_which_a_pseudonym_is_only_a_word_stays_and_is_named(
+    folder: Path, house: House, pseudonym: str
+) -> None:
+    erased, renamed = house.patients.add(PatientEntry(pseudonym, "left")), folder / "sessions" / "x.h5"
+    renamed.write_bytes(half_a_session(folder, "Linden 42"))  # who is in no list here
+    plan = erasure.plan_patient(house.store, erased)
+    assert (plan.files, plan.unsure) == ((), (renamed,))
+    erasure.erase(house.store, plan, house.log)
+    assert renamed.exists()
 
 
 @pytest.mark.parametrize("pseudonym", ["Linden", "42", "10", "right", "MCP2", "***"])
@@ -498,7 +516,7 @@ def test_an_earlier_pseudonym_and_a_folder_with_a_name_go_too(folder: Path, hous
     house.patients.add(HERON)
     for name in ("damaged.h5", "Linden 42/a/notes.txt", "letters/notes Erika Mustermann.txt", "letters/Heron 17.txt"):
         (sessions / name).parent.mkdir(parents=True, exist_ok=True)
-        (sessions / name).write_bytes(b"\0Fir 11\0" if name == "damaged.h5" else b"a note")
+        (sessions / name).write_bytes(half_a_session(folder, "Fir 11") if name == "damaged.h5" else b"a note")
     house.files.take_in()
     erase_patient(house, linden)
     assert [path.name for path in sessions.rglob("*") if path.is_file()] == ["Heron 17.txt"]
@@ -529,11 +547,11 @@ def test_the_clinics_list_keeps_words_in_which_a_short_name_stands_by_chance(fol
         assert of_clinic.diagnoses(house.store) == ["Ligament repair", "Zweizeitige Naht"]
 
 
-@pytest.mark.parametrize("pseudonym", ["1", "10", "2"])
+@pytest.mark.parametrize("pseudonym", ["1", "10", "2", "Linden", "Oliv"])
 def test_the_clinics_lists_keep_numbers_and_addresses_in_which_a_name_stands_by_chance(
     folder: Path, pseudonym: str
 ) -> None:
-    kept = ("Dr. Linde\nOak Street 10\n10115 Berlin", "Dr. Oliver\nElm Street 2")
+    kept = ("Dr. Linde\nLindenstraße 10\n10115 Berlin", "Dr. Oliver\nElm Street 2")
     with opened(folder) as house:
         gone = house.patients.add(PatientEntry(pseudonym, "right", name="Li"))
         for address in (*kept, "Family Li\nAsh Street 3"):

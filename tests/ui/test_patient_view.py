@@ -11,13 +11,17 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.hand.exercises import EXERCISES, exercise_named
+from carpus.ui.background import Background
+from carpus.ui.keys import Keys
 from carpus.ui.live.recording import Glance
+from carpus.ui.live.screen import LiveScreen
 from carpus.ui.patient.figure import arc_of, figure_at
 from carpus.ui.patient.guide import LOST_AFTER_S, Guide, GuideScene
 from carpus.ui.patient.view import PatientView
-from carpus.ui.patient.viewing import PatientWindow
+from carpus.ui.patient.viewing import PatientViewing, PatientWindow
 from carpus.ui.patient.words import said
 from carpus.ui.theme import Theme
+from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import set_up
 
 NONE = math.nan
@@ -117,6 +121,21 @@ def test_every_exercise_has_words_a_figure_and_a_way_and_a_left_hand_is_its_mirr
             assert not figure_at(exercise, 25.0).hand.isEmpty()
             arc = arc_of(exercise)
             assert (arc.at(0.0) - arc.at(30.0)).manhattanLength() > 40.0
+
+
+def test_esc_closes_a_view_that_lies_over_the_window(qtbot: QtBot, theme: Theme) -> None:
+    live = LiveScreen(theme, Keys(), Background())
+    qtbot.addWidget(live)
+    viewing = PatientViewing(a_context(theme, live, Told(), Background(), patient_sound=False), live)
+    assert not viewing.uncover()
+    viewing.toggle()
+    assert viewing.window is not None
+    qtbot.addWidget(viewing.window)
+    assert viewing.uncover()
+    assert not viewing.is_open
+    viewing.toggle()
+    qtbot.keyClick(viewing.window, Qt.Key.Key_Escape)
+    assert not viewing.is_open
 
 
 def test_a_window_that_hears_nothing_more_shows_no_hand(qtbot: QtBot, theme: Theme) -> None:

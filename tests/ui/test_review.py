@@ -305,6 +305,18 @@ def test_only_the_session_that_is_told_from_the_others_is_put_in_words() -> None
     assert time_beside(first, *others) == "09:05:07"
 
 
+def test_an_older_result_says_that_it_does_not_count(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
+    made = datetime(2026, 11, 21, 9, 5)
+    store.results = [
+        SessionEntry(name, Path(name), made, made, "r", "WRIST_FE", "right", 10, 1.0, complete=True)
+        for name in ("session-7", "session-6")
+    ]
+    for session_id, is_older in (("session-7", True), ("session-6", False)):
+        screen.begin("linden", session_id)
+        qtbot.waitUntil(lambda: screen.shown)
+        assert screen.card.count.text().startswith("older result, does not count") is is_older
+
+
 def test_an_older_result_is_told_by_its_time_and_can_count_again(
     qtbot: QtBot, theme: Theme, show: Show[ResultChoice]
 ) -> None:

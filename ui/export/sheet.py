@@ -53,7 +53,7 @@ class ExportSheet(Sheet):
         self.plain = Text(theme, words, 14, wrap=True)
         self.plain.hide()
         fill(body, self.plain, 8)
-        self.nobody = self._tick(self.tr("Nobody can be found by it: new random name, days counted, no notes"))
+        self.nobody = self._tick(self.tr("Nobody can be found by it: random name, no dates (day 1, 2 …), no notes"))
         self.bar = ThinBar(theme, self.tr("How far the export is"))
         fill(body, 8, self.bar, 8)
         self.close_button = Button(theme, self.tr("Cancel"), "plain", hint=self.tr("Esc"), height_px=44)

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QGuiApplication, QScreen
+from PySide6.QtGui import QCloseEvent, QGuiApplication, QKeyEvent, QScreen
 from PySide6.QtWidgets import QApplication, QWidget
 
 from carpus.core.records.set_up import SetUp
@@ -58,6 +58,13 @@ class PatientViewing(QObject):
         """Let it go; may be called although it is not there."""
         if self.window is not None:
             self.window.close()
+
+    def uncover(self) -> bool:
+        """Let it go where it lies over the other window; whether it did."""
+        covers = self.window is not None and self.is_open and self.window.screen() is self._context.shell.screen()
+        if covers:
+            self.close()
+        return covers
 
     def _screen_gone(self, _: object) -> None:
         """A screen was unplugged: what filled it must not cover the therapist's."""
@@ -122,7 +129,8 @@ LEAST_PX = (480, 360)
 
 
 class PatientWindow(QWidget):
-    """Never takes the keyboard: space bar and pedal go on stopping the recording. ``closed`` when it goes."""
+    """Never takes the keyboard: space bar and pedal go on stopping the recording. ``closed`` when it goes; Esc closes
+    it, also where the system has given it the keyboard."""
 
     closed = Signal()
 
@@ -131,7 +139,7 @@ class PatientWindow(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_ShowWithoutActivating)
         self.setAttribute(Qt.WidgetAttribute.WA_QuitOnClose, False)
         self.setProperty("stays_when_locked", True)
-        self.setWindowTitle("Carpus")
+        self.setWindowTitle(self.tr("Patient’s view (Esc closes it)"))
         self.setMinimumSize(*LEAST_PX)
         self.view = PatientView(theme)
         in_column(self.view, margins=(0, 0, 0, 0), within=self)
@@ -140,14 +148,14 @@ class PatientWindow(QWidget):
 
     def open_beside(self, other: QWidget) -> None:
         """Show on a screen that the other window is not on; on the same one as a window."""
-        own: QScreen | None = other.screen()
+        own: QScreen = other.screen()
         free = [screen for screen in QGuiApplication.screens() if screen is not own]
         if free:
             self.setScreen(free[0])
             self.setGeometry(free[0].geometry())
             self.setWindowState(Qt.WindowState.WindowFullScreen)  # showFullScreen would take the keyboard
         else:
-            self.resize(self.view.sizeHint())
+            self.resize(self.view.sizeHint().boundedTo(own.availableSize() * 0.7))
             self.setWindowState(Qt.WindowState.WindowNoState)
         self.show()
 
@@ -160,6 +168,10 @@ class PatientWindow(QWidget):
         """A scene that holds until another one comes."""
         self._watch.stop()
         self.view.show_scene(scene)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == Qt.Key.Key_Escape:
+            self.close()
 
     def closeEvent(self, event: QCloseEvent) -> None:
         self._watch.stop()

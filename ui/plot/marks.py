@@ -97,7 +97,8 @@ class Times:
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         face = style.end_label if self.days else style.label
         painter.setFont(face)
-        metrics, gap = QFontMetricsF(face), 6 * style.unit
+        metrics = QFontMetricsF(face)
+        gap = metrics.height()  # a blank would make one label of two
         baseline = panel.box.bottom() + self.below * style.unit + metrics.ascent()
         taken: list[tuple[float, float]] = []
         shown = [label for label in self.labels if panel.start_s <= label[0] <= panel.end_s]
@@ -139,9 +140,14 @@ class Target:
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         painter.setPen(pen)
         painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
+        self.paint_words(painter, style, panel)
+
+    def paint_words(self, painter: QPainter, style: PlotStyle, panel: Panel, ground: str = "") -> None:
+        """The words alone; on a ``ground`` over what else is drawn."""
+        y, height = float(panel.y(self.value)), QFontMetricsF(style.end_label).height()
         if self.words:
-            below = QFontMetricsF(style.end_label).height() + 4 * style.unit
-            _note(painter, style, panel, y if self.value >= 0 else y + below, self.words, "accent")
+            bottom = y if self.value >= 0 else y + height + 4 * style.unit
+            _note(painter, style, panel, bottom, self.words, "accent", ground)
 
 
 @dataclass(frozen=True, slots=True)
@@ -384,12 +390,17 @@ class EndLabels:
             painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter), text)
 
 
-def _note(painter: QPainter, style: PlotStyle, panel: Panel, bottom: float, text: str, token: str) -> None:
+def _note(
+    painter: QPainter, style: PlotStyle, panel: Panel, bottom: float, text: str, token: str, ground: str = ""
+) -> None:
     """Words inside the panel at its left end."""
+    metrics = QFontMetricsF(style.end_label)
+    at = QPointF(panel.box.left() + 6 * style.unit, bottom - metrics.descent() - 1 * style.unit)
+    if ground:
+        painter.fillRect(metrics.boundingRect(text).translated(at), style.color(ground))
     painter.setFont(style.end_label)
     painter.setPen(style.color(token))
-    descent = QFontMetricsF(style.end_label).descent()
-    painter.drawText(QPointF(panel.box.left() + 6 * style.unit, bottom - descent - 1 * style.unit), text)
+    painter.drawText(at, text)
 
 
 def _is_widget(device: QPaintDevice) -> bool:

@@ -15,7 +15,7 @@ from carpus.ui.figures import with_side
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD, font
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel
-from carpus.ui.plot.marks import NUMBERS_ABOVE, Cursor, Curves, Dot, Edges, MouseReadout, fitted, room_at
+from carpus.ui.plot.marks import NUMBERS_ABOVE, Cursor, Curves, Dot, Edges, MouseReadout, Target, fitted, room_at
 from carpus.ui.plot.session import HandPlot, SessionPlot, Value, paint_behind, paint_session, session_table, with_edge
 from carpus.ui.plot.style import PlotStyle, screen_style
 from carpus.ui.plot.zoom_card import ZoomCard
@@ -141,6 +141,9 @@ class CurveView(ZoomCard):
         if 0 <= plot.current < len(plot.repetitions):
             repetition = plot.repetitions[plot.current]
             Edges(repetition.start_s, repetition.end_s).paint(painter, style, panels[0][0])
+            for mark in plot.still(0, panels[0][1]):
+                if isinstance(mark, Target):
+                    mark.paint_words(painter, style, panels[0][0], "surface")
         start_s, end_s = plot.shown_s
         if start_s <= self._time_s <= end_s:
             for panel, _ in panels:

@@ -77,6 +77,7 @@ class Erasing(QObject):
                 files=len(plan.files),
                 size_mb=plan.size_bytes / 1e6,
                 made=tuple(str(one.path) for one in plan.made),
+                unsure=tuple(map(str, plan.unsure)),
                 others=plan.others,
                 by_hand=self._records.values_by_hand(plan.patient_id) if plan.kind == "patient" else 0,
                 last_backup=self._last_backup(),
@@ -184,9 +185,10 @@ MOST_PATHS = 3
 class ErasureFacts:
     """What is said before a session, or with ``when`` None a patient, is erased.
 
-    ``made``: reports and exports that Carpus saved elsewhere; they stay. ``others`` counts the patient's sessions that
-    stay. ``kept_until`` None where no years are set, ``last_backup`` None before the first. ``by_hand``: values that a
-    person measured, which go with a patient.
+    ``made``: reports and exports that Carpus saved elsewhere; they stay, and so do ``unsure``, damaged files of which
+    nobody can tell whose they are. ``others`` counts the patient's sessions that stay. ``kept_until`` None where no
+    years are set, ``last_backup`` None before the first. ``by_hand``: values that a person measured, which go with a
+    patient.
     """
 
     pseudonym: str
@@ -203,6 +205,7 @@ class ErasureFacts:
     retention_years: int
     today: date
     by_hand: int = 0
+    unsure: tuple[str, ...] = ()
 
 
 class EraseSheet(Sheet):
@@ -339,10 +342,13 @@ class EraseSheet(Sheet):
             )
         else:
             parts.append(self.tr("Files copied elsewhere: Carpus cannot reach them."))
-        if facts.made:
-            words = self.tr("Reports and exports saved elsewhere, delete them yourself ({n}): {path}.")
-            paths = ", ".join(facts.made[:MOST_PATHS]) + (", …" if len(facts.made) > MOST_PATHS else "")
-            parts.append(words.format(n=len(facts.made), path=paths))
+        for words, found in (
+            (self.tr("Reports and exports saved elsewhere, delete them yourself ({n}): {path}."), facts.made),
+            (self.tr("Damaged files of which nobody can tell whose they are ({n}): {path}."), facts.unsure),
+        ):
+            if found:
+                paths = ", ".join(found[:MOST_PATHS]) + (", …" if len(found) > MOST_PATHS else "")
+                parts.append(words.format(n=len(found), path=paths))
         parts.append(self.tr("The log keeps that it was erased, no name."))
         return " ".join(parts)
 

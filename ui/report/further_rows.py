@@ -97,7 +97,7 @@ def _of_two(item: FurtherMeasure) -> str:
     pattern = {
         "co-flexion": tr("Bend together, {one}–{other} (r)"),
         "lag": tr("Lag of {other} after {one}"),
-        "enslaving": tr("Share of {one} that {other} moves"),
+        "enslaving": tr("How far {other} moves with {one}"),
         "tip span": tr("Widest span, {one}–{other}"),
         "least distance": tr("Nearest, {one}–{other}"),
         "touches": tr("Touches, {one}–{other}"),

@@ -87,7 +87,8 @@ class ReviewCard(Card):
         when = f"{numbers.short_date(figures.when)} {figures.when:%H:%M}"
         what = f"{terms.exercise_name(figures.exercise.id)}, {hand} · {when}"
         self.title.setText(" · ".join(filter(None, (what, main_figure(figures)))))
-        said = " · ".join(filter(None, (repetition_words(figures), corrected_words(figures).rstrip("."))))
+        older = self.tr("older result, does not count") if reviewed.is_older else ""
+        said = " · ".join(filter(None, (older, repetition_words(figures), corrected_words(figures).rstrip("."))))
         self.count.setText(said)
         self.count.setToolTip(plain_tooltip(said))
         self._show_partner(reviewed)

@@ -7,9 +7,11 @@ from pathlib import Path
 from carpus.core.formats.film import write_film, write_picture
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.records.corrections import Corrections
+from carpus.core.words import Words
 from carpus.ui.check_card.standing_words import unsure_words
 from carpus.ui.export.flow import Exporting
 from carpus.ui.flow import Flow, ScreenContext
+from carpus.ui.messages.messages import Answer
 from carpus.ui.review.film import FilmWanted, film_pictures
 from carpus.ui.review.screen import ReviewScreen
 
@@ -54,16 +56,27 @@ class ReviewFlow(Flow):
         self.context.way.go("review")
 
     def _use_again(self, session_id: str) -> None:
-        def show(new: str) -> None:
+        def show(new: str) -> bool:
             way = self.context.way
-            if self.context.now.session_id == session_id and way.behind == "review":
+            is_looked_at = self.context.now.session_id == session_id and way.behind == "review"
+            if is_looked_at:
                 way.show_behind("review", new)
+            return is_looked_at
+
+        def done(new: str) -> None:
+            if show(new):
+                said = Words(
+                    self.tr("This result counts from now on."),
+                    self.tr("It stands there once more, as the newest; the others stay as they were."),
+                    "",
+                )
+                self.context.messages.ask(said, (Answer(self.tr("Go on"), lambda: None),))
 
         def failed(fault: Exception) -> None:
             self.context.messages.fault(fault)
             show(session_id)  # it may be asked for once more
 
-        self.run(lambda: Corrections(self.context.library).use_again(session_id), show, failed)
+        self.run(lambda: Corrections(self.context.library).use_again(session_id), done, failed)
 
     def sign_lines(self) -> list[str]:
         figures = self.screen.figures

@@ -68,6 +68,11 @@ class Reviewed:
         return self.session.header.session_id
 
     @property
+    def is_older(self) -> bool:
+        """Whether another result of the recording counts, which is newer."""
+        return bool(self.results) and self.results[-1].session_id != self.id
+
+    @property
     def is_hand(self) -> bool:
         return self.joints is not None
 
