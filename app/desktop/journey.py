@@ -178,10 +178,10 @@ class Bar(QObject):
 
     def show_counters(self, counters: LiveCounters) -> None:
         """Pictures a second, what was lost, and for how long the disk has room."""
-        simulated = self._now.kind == "practice"  # drawn with as few pictures as are enough
-        few = counters.fps < 25.0 and not simulated
-        words = self.tr("{count} pictures/s, under 25") if few else self.tr("{count} pictures/s")
-        words = words.format(count=round(counters.fps))
+        least = 12 if self._now.kind == "practice" else 25  # 15 are drawn, as few as are enough
+        few = counters.fps < least
+        words = self.tr("{count} pictures/s, under {least}") if few else self.tr("{count} pictures/s")
+        words = words.format(count=round(counters.fps), least=least)
         lost = counters.dropped + counters.missing
         if lost:
             words = self.tr("{words}, {lost} lost").format(words=words, lost=lost)

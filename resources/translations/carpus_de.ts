@@ -7924,8 +7924,8 @@
         <translation>{count} Bilder/s</translation>
     </message>
     <message>
-        <source>{count} pictures/s, under 25</source>
-        <translation>{count} Bilder/s, unter 25</translation>
+        <source>{count} pictures/s, under {least}</source>
+        <translation>{count} Bilder/s, unter {least}</translation>
     </message>
     <message>
         <source>{words}, {lost} lost</source>

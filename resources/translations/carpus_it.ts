@@ -7924,8 +7924,8 @@
         <translation>{count} immagini/s</translation>
     </message>
     <message>
-        <source>{count} pictures/s, under 25</source>
-        <translation>{count} immagini/s, meno di 25</translation>
+        <source>{count} pictures/s, under {least}</source>
+        <translation>{count} immagini/s, meno di {least}</translation>
     </message>
     <message>
         <source>{words}, {lost} lost</source>

@@ -25,6 +25,8 @@ from carpus.core.formats.film import UNFINISHED
 from carpus.ui import language
 from carpus.ui.flow import ASIDE, STEPS, TABS
 from carpus.ui.help import guide
+from carpus.ui.now_open import SourceChoice
+from tests.ui.fakes import FakeFeed
 from tests.ui.gallery import STATES
 
 ROOT = Path(__file__).parents[2]
@@ -91,6 +93,28 @@ def test_every_screen_has_a_page_and_every_place_that_is_named_is_there(open_des
     assert set(way.makers) - led == set(), "screens that nobody leads to"
     shown = {place for place in way.makers for state in STATES if f"{state}_".startswith(f"{place}_")}
     assert set(way.makers) - shown == set(), "screens without a picture"
+
+
+def test_esc_closes_the_patients_view_over_the_window_and_goes_nowhere(open_desktop: Callable[..., Desktop]) -> None:
+    journey = open_desktop().journey
+    journey.way.show("help")
+    journey.live.patient_view.toggle()
+    journey._take_key("back")
+    assert not journey.live.patient_view.is_open
+    assert journey.place == "help"
+    journey._take_key("back")
+    assert journey.place == "patients"
+
+
+@pytest.mark.parametrize(("kind", "slow_hz"), [("practice", 11.0), ("camera", 24.0)])
+def test_a_source_that_falls_behind_is_said_of_the_simulated_one_too(
+    open_desktop: Callable[..., Desktop], kind: str, slow_hz: float
+) -> None:
+    desktop = open_desktop()
+    desktop.journey.now.choice = SourceChoice(kind)  # type: ignore[arg-type]
+    for fps, state in ((slow_hz + 2.0, "good"), (slow_hz, "warn")):
+        desktop.journey.bar.show_counters(replace(FakeFeed().counters(), fps=fps))
+        assert desktop.shell.bar.camera.state == state
 
 
 def test_a_start_makes_no_screen_but_the_first_and_a_film_that_a_killed_program_left_goes(

@@ -51,6 +51,11 @@ class _Table(QWidget, Generic[Row]):
         """All of it."""
         raise NotImplementedError
 
+    @property
+    def _wraps(self) -> bool:
+        """Whether what is too long goes on in the next line, while there is room for it."""
+        return False
+
     # --- what they share ----------------------------------------------------------------------------------
     def sizeHint(self) -> QSize:
         return QSize(900, self._theme.px(self._height_px()))
@@ -80,15 +85,28 @@ class _Table(QWidget, Generic[Row]):
     def _write(
         self, painter: QPainter, text: str, box: QRectF, face: QFont, token: str, side: Qt.AlignmentFlag = LEFT
     ) -> None:
+        flags, wraps = int(Qt.AlignmentFlag.AlignVCenter | side), self._wraps
+        if wraps:
+            flags |= Qt.TextFlag.TextWordWrap
+
+        def fits() -> bool:
+            metrics = QFontMetricsF(face)
+            return (
+                box.contains(metrics.boundingRect(box, flags, text))
+                if wraps
+                else (metrics.horizontalAdvance(text) <= box.width())
+            )
+
         size = face.pixelSize()
-        while size > SMALLEST_PX and QFontMetricsF(face).horizontalAdvance(text) > box.width():
+        while size > SMALLEST_PX and not fits():
             size -= 1
             face = QFont(face)
             face.setPixelSize(size)
         painter.setFont(face)
         painter.setPen(self._theme.color(token))
-        shown = QFontMetricsF(face).elidedText(text, Qt.TextElideMode.ElideRight, box.width())
-        painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter | side), shown)
+        if not fits():
+            text = QFontMetricsF(face).elidedText(text, Qt.TextElideMode.ElideRight, box.width())
+        painter.drawText(box, flags, text)
 
 
 class RangeTable(_Table[TableRow]):
@@ -145,11 +163,11 @@ class RangeTable(_Table[TableRow]):
 class HandTable(_Table[FingerRow]):
     """One row for each finger: range and ends of every joint, total, change."""
 
-    ROW_PX, HEAD_PX = 37, 26
+    ROW_PX, HEAD_PX, TIGHT_ROW_PX, TIGHT_HEAD_PX = 37, 26, 64, 32
     EDGES = (0.0, 0.062, 0.178, 0.294, 0.406, 0.530, 0.672, 0.750, 0.832, 1.0)
     """Left edge of the finger's name, the five figures, the share of the total, last time and the change, as shares."""
-    TIGHT_EDGES = (0.0, 0.078, 0.186, 0.296, 0.396, 0.508, 0.650, 0.750, 0.835, 1.0)
-    """The same for large text in a narrow window."""
+    TIGHT_EDGES = (0.0, 0.104, 0.202, 0.300, 0.411, 0.513, 0.627, 0.729, 0.827, 1.0)
+    """The same for large text in a narrow window, where words go on in the next line."""
     TIGHT_BELOW_PX = 1000
     _heads: Sequence[str] = ()
 
@@ -162,10 +180,21 @@ class HandTable(_Table[FingerRow]):
         self._show(rows, spoken)
 
     def _height_px(self) -> float:
-        return self.HEAD_PX + self.ROW_PX * len(FINGERS)
+        head, row = self._heights_px()
+        return head + row * len(FINGERS)
+
+    @property
+    def _wraps(self) -> bool:
+        return self.width() < self.TIGHT_BELOW_PX * self._theme.text_scale
+
+    def _heights_px(self) -> tuple[int, int]:
+        return (self.TIGHT_HEAD_PX, self.TIGHT_ROW_PX) if self._wraps else (self.HEAD_PX, self.ROW_PX)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self.updateGeometry()
 
     def _paint(self, painter: QPainter) -> None:
-        top, height = self.HEAD_PX * self._theme.text_scale, self.ROW_PX * self._theme.text_scale
+        top, height = (self._theme.text_scale * px for px in self._heights_px())
         for column, head in enumerate(self._heads, 1):
             box = self._box(column, 0.0, top)
             if column < len(COLUMNS) and COLUMNS[column - 1] != "spread":
@@ -195,8 +224,8 @@ class HandTable(_Table[FingerRow]):
         self._write(painter, row.change, self._box(8, top, height), small, token)
 
     def _box(self, column: int, top: float, height: float) -> QRectF:
-        tight = self.width() < self.TIGHT_BELOW_PX * self._theme.text_scale
-        left, end = (share * self.width() for share in (self.TIGHT_EDGES if tight else self.EDGES)[column : column + 2])
+        edges = self.TIGHT_EDGES if self._wraps else self.EDGES
+        left, end = (share * self.width() for share in edges[column : column + 2])
         return QRectF(left, top, max(end - left - 6, 20.0), height)
 
 
