@@ -41,7 +41,6 @@ from carpus.core.records.set_up import SetUp
 from carpus.core.words import Words
 from carpus.ui import language
 from carpus.ui.background import Background
-from carpus.ui.check_card.standing_words import card_words
 from carpus.ui.fault_words import fault_words
 from carpus.ui.fonts import load_fonts
 from carpus.ui.icons import program_icon
@@ -56,6 +55,7 @@ from carpus.ui.shell import Shell
 from carpus.ui.style import apply_style
 from carpus.ui.theme import Theme, ThemeName
 from carpus.ui.translate import tr
+from carpus.ui.words.camera_standing import card_words
 
 if TYPE_CHECKING:
     from carpus.app.desktop.sources import Sources
@@ -351,7 +351,7 @@ def compose(
     follows = qt.styleHints().colorSchemeChanged.connect(lambda _: keeper.follow_system())
     library.who = lambda: journey.settings.report.therapist
     library.angle_order = lambda: journey.settings.report.angle_order
-    Witness(journey, library)
+    OpeningsLogged(journey, library)
     safe = _safekeeping(journey, keeper, settings, settings_folder)
     journey.way.when_made("settings", lambda: _connect_settings(keeper.screen, journey, theme))
     journey.way.when_made(
@@ -520,7 +520,7 @@ def with_data_folder(settings: Settings, folder: Path | None) -> Settings:
     return replace(settings, recording=replace(settings.recording, folder=str(folder)))
 
 
-class Witness(QObject):
+class OpeningsLogged(QObject):
     """Watches the journey; changes nothing of it."""
 
     log_lost = Signal(object)

@@ -7,6 +7,7 @@ import logging
 import threading
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
@@ -15,10 +16,12 @@ from carpus.core.errors import CameraLost, CarpusFault
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.types import Frame
 from carpus.ui.background import Background
-from carpus.ui.camera_calibration.screen import BoardScreen
-from carpus.ui.check_card.screen import CardScreen
 from carpus.ui.fault_words import fault_words
 from carpus.ui.flow import Flow, ScreenContext
+
+if TYPE_CHECKING:
+    from carpus.ui.camera_calibration.screen import BoardScreen
+    from carpus.ui.check_card.screen import CardScreen
 
 log = logging.getLogger(__name__)
 

@@ -24,7 +24,7 @@ def run(arguments: argparse.Namespace) -> int:
     if desktop.has_display() and not arguments.unattended:
         return desktop.open_window(arguments.data_folder, is_demo=True)
     from carpus.app import compose
-    from carpus.app.desktop.unattended import walk
+    from carpus.app.unattended import walk
 
     compose.write_log()
     settings = compose.with_data_folder(load_settings(), arguments.data_folder)

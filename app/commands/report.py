@@ -35,20 +35,19 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output.exists():
         raise OutputExists(arguments.output)
     settings = load_settings()
-    chosen = settings.report
-    order, therapist = arguments.angle_order or chosen.angle_order, chosen.therapist
-    named: dict[str, tuple[Path, Session]] = {}
+    order = arguments.angle_order or settings.report.angle_order
+    named: dict[str, Session] = {}
     for path in arguments.sessions:
         session = in_order(read_session(path), order)
-        if named.setdefault(session.header.session_id, (path, session))[1] is not session:
+        if named.setdefault(session.header.session_id, session) is not session:
             say(f"{path} is left out: it holds a session that was named before.")
-    paths, sessions = zip(*named.values(), strict=True)
+    sessions = list(named.values())
     from carpus.core.records.of_clinic import form_in
 
     form = form_in(settings.data_folder)
     if arguments.paper:
         form = replace(form, paper=arguments.paper)
-    look = {"form": form, "language": arguments.language}
+    look = {"form": form, "language": arguments.language, "therapist": settings.report.therapist}
     # Qt is loaded only now: a wrong file is told without it.
     from carpus.app.of_file import read_choices, read_comment
     from carpus.core.agreement.limits_file import read_limits
@@ -57,17 +56,16 @@ def run(arguments: argparse.Namespace) -> int:
     from carpus.core.results.progress import newest_results
     from carpus.ui.report.pdf import ensure_application, write_progress_report, write_session_report
 
-    choices = [read_choices(path) for path in paths]
+    choices = [read_choices(one.path) for one in sessions]
     cameras = [camera_of(one, folder_with_checks(one.path) or settings.data_folder) for one in sessions]
     application = ensure_application()
     if len(sessions) == 1:
         write_session_report(
             sessions[0],
             arguments.output,
-            therapist=therapist,
             choices=choices[0],
             camera=cameras[0],
-            comment=read_comment(paths[0]),
+            comment=read_comment(sessions[0].path),
             **look,
         )
     else:
@@ -78,9 +76,8 @@ def run(arguments: argparse.Namespace) -> int:
         ]
         for older in {one.session_id for one in figures} - {one.session_id for one in newest_results(figures)}:
             say(f"session {older} is left out: a newer result of its recording counts.")
-        write_progress_report(figures, arguments.output, therapist=therapist, software_version=__version__, **look)
+        write_progress_report(figures, arguments.output, software_version=__version__, **look)
     del application
-    kept = [(path, one.header.session_id) for path, one in zip(paths, sessions, strict=True)]
-    made(kept, [arguments.output], "report")
+    made([(one.path, one.header.session_id) for one in sessions], [arguments.output], "report")
     print(f"Report: {arguments.output}")
     return 0

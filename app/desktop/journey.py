@@ -59,8 +59,8 @@ from typing import TYPE_CHECKING
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.pipeline.live_values import LiveCounters
 from carpus.ui import numbers, terms
-from carpus.ui.check_card.standing_words import bar_words
 from carpus.ui.fault_words import finding_words, shortened
+from carpus.ui.words.camera_standing import bar_words
 
 if TYPE_CHECKING:
     from carpus.ui.review.screen import ReviewScreen

@@ -147,7 +147,7 @@ def _in_picture_plane(blobs: Detections, camera: Camera, usual_depth_m: float) -
 
 
 @dataclass(frozen=True, slots=True)
-class _Fit:
+class _LaidHand:
     """A posture laid over the blobs: places (M,) of the markers, complex, and the scale it took."""
 
     place: FloatArray
@@ -180,14 +180,14 @@ def _postures(side: Side, reference_m: float) -> FloatArray:
 
 def _rough_fits(
     place: FloatArray, rows: IntArray, side: Side, fixed: Mapping[int, int], settings: NamingSettings
-) -> list[_Fit]:
+) -> list[_LaidHand]:
     """The likeliest ways to lay a posture over the blobs, best first: two of its discs on two of the blobs."""
     if place.size < 3:
         return []
     first, second = (grid.ravel() for grid in np.meshgrid(np.arange(place.size), np.arange(place.size), indexing="ij"))
     apart = first != second
     first, second = first[apart], second[apart]
-    found: list[tuple[float, _Fit]] = []
+    found: list[tuple[float, _LaidHand]] = []
     for posture in _postures(side, settings.reference_m)[:, rows]:
         for a, b in _pairs(rows, fixed):
             ends = _ends(a, b, first, second, fixed)
@@ -204,7 +204,7 @@ def _rough_fits(
             for row, blob in fixed.items():
                 score -= 4.0 * (np.abs(laid[:, row] - place[blob]) > 2.0 * settings.gate_m)
             for i in np.argsort(-score)[:6]:
-                found.append((float(score[i]), _Fit(laid[i], float(scale[i]))))
+                found.append((float(score[i]), _LaidHand(laid[i], float(scale[i]))))
     found.sort(key=lambda one: -one[0])
     return [fit for _, fit in found[: settings.tried]]
 
@@ -228,7 +228,7 @@ def _ends(a: int, b: int, first: IntArray, second: IntArray, fixed: Mapping[int,
 
 
 def _refined(
-    place: FloatArray, fit: _Fit, fixed: Mapping[int, int], chains: Sequence[IntArray], settings: NamingSettings
+    place: FloatArray, fit: _LaidHand, fixed: Mapping[int, int], chains: Sequence[IntArray], settings: NamingSettings
 ) -> _Named:
     """Named by the nearest overall; the whole hand, then each of its digits, moved to what was named."""
     laid = fit.place

@@ -319,9 +319,7 @@ class SourceMeasuring:
         said = replace(self._info, recorded=recorded, recording_id=identity)
         looking_back, at_end = None, lambda: None
         if self._settings.smooth:
-            looking_back = LookingBack(
-                TrackedHand(calibration, self.camera, learnt.applied(self._settings.tracker)),
-            )
+            looking_back = LookingBack(TrackedHand(calibration, self.camera, learnt.applied(self._settings.tracker)))
             pipeline.keep, looked_back = looking_back.take, looking_back.wait
 
             def at_end() -> None:

@@ -46,7 +46,7 @@ from carpus.ui.background import Background
 from carpus.ui.correct.flow import CorrectFlow
 from carpus.ui.now_open import NowOpen
 from carpus.ui.review.flow import ReviewFlow
-from carpus.ui.sessions.flow import SessionShelf
+from carpus.ui.sessions.flow import StoredSessions
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 from tests.pipeline.test_correction import WRONG_FROM, Stored, put_right, stored  # noqa: F401  (a fixture)
@@ -176,7 +176,7 @@ def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
     (new,) = (entry.session_id for entry in library.sessions(patient))
     assert told.shown == [("review", new)]
     assert said[-1] == (-1, 0)
-    line = SessionShelf(library).with_figures(SessionShelf(library).lines(patient)[0])
+    line = StoredSessions(library).with_figures(StoredSessions(library).lines(patient)[0])
     assert line.corrected.startswith("Corrected on ")
     assert line.corrected.endswith(", from 00:02.0, by MK.")
     assert not told.faults

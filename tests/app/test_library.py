@@ -27,8 +27,8 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.ui.patients.flow import PatientShelf
-from carpus.ui.sessions.flow import SessionShelf
+from carpus.ui.patients.flow import StoredPatients
+from carpus.ui.sessions.flow import StoredSessions
 from carpus.ui.sessions.listing import remark
 from tests.session.samples import CAMERA, make_calibration, make_frame
 
@@ -72,20 +72,20 @@ def store(
 
 
 def test_practice_is_never_among_the_patients(library: Library) -> None:
-    shelf = PatientShelf(library)
-    linden = shelf.add(PatientEntry("Linden 42", "right", "right"))
+    patients = StoredPatients(library)
+    linden = patients.add(PatientEntry("Linden 42", "right", "right"))
     practice, measured = (
         store(library, set_up(PRACTICE_PATIENT, "Practice patient")),
         store(library, set_up(linden, "Linden 42")),
     )
-    assert [row.pseudonym for row in shelf.patients()] == ["Linden 42"]
+    assert [row.pseudonym for row in patients.patients()] == ["Linden 42"]
     assert [row.session_id for row in library.sessions(linden)] == [measured]
     assert [row.session_id for row in library.sessions(PRACTICE_PATIENT)] == [practice]
     assert len(library.session(practice)) == 40
 
 
 def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(library: Library) -> None:
-    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    linden = StoredPatients(library).add(PatientEntry("Linden 42", "right", "right"))
     wanted = set_up(linden, "Linden 42")
     places = NewSessions(library)
     assert math.isnan(places.last_hand_length_mm(wanted, simulated=False))
@@ -105,25 +105,25 @@ def test_the_length_of_the_hand_is_that_of_its_last_session_with_right_names(lib
 
 
 def test_a_simulated_session_of_a_patient_counts_nowhere_and_hides_no_real_result(library: Library) -> None:
-    shelf = PatientShelf(library)
-    linden = shelf.add(PatientEntry("Linden 42", "right", "right"))
+    patients = StoredPatients(library)
+    linden = patients.add(PatientEntry("Linden 42", "right", "right"))
     wanted, simulated = set_up(linden, "Linden 42"), json.dumps({"source": {"simulated": "yes"}})
     store(library, wanted, parameters=simulated)
-    (row,) = shelf.patients()
+    (row,) = patients.patients()
     assert (row.session_count, row.last_session) == (0, None)
-    assert shelf.card(linden).results == ()
+    assert patients.card(linden).results == ()
     real = store(library, wanted)
     store(library, wanted, parameters=simulated, after=timedelta(days=1))
-    (row,) = shelf.patients()
+    (row,) = patients.patients()
     assert (row.session_count, row.last_session) == (1, library.entry(real).created)
-    card = shelf.card(linden)
+    card = patients.card(linden)
     assert card.note_when == library.entry(real).created
     assert not any("imulated" in said for said in card.warnings)
     assert sorted(entry.simulated for entry in library.sessions(linden)) == [False, True, True]
 
 
 def test_the_last_set_up_comes_back_with_its_targets(library: Library) -> None:
-    linden = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    linden = StoredPatients(library).add(PatientEntry("Linden 42", "right", "right"))
     assert last_set_up(library.store, linden) is None
     wanted = set_up(linden, "Linden 42")
     store(library, wanted)
@@ -151,9 +151,9 @@ def test_choices_and_comments_are_kept_in_the_store(library: Library) -> None:
 
 
 def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(library: Library) -> None:
-    shelf, stored = PatientShelf(library), SessionShelf(library)
-    linden = shelf.add(PatientEntry("Linden 42", "right", "right"))
-    heron = shelf.add(PatientEntry("Heron 17", "right", "right"))
+    patients, stored = StoredPatients(library), StoredSessions(library)
+    linden = patients.add(PatientEntry("Linden 42", "right", "right"))
+    heron = patients.add(PatientEntry("Heron 17", "right", "right"))
     one = store(library, set_up(linden, "Linden 42"))
     two = store(library, set_up(linden, "Linden 42"), after=timedelta(hours=1))
     path = library.entry(one).path
@@ -173,7 +173,7 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
     assert [line.session_id for line in stored.lines(heron)] == [one]
     recover(library)
     assert [line.session_id for line in stored.lines(heron)] == [one], "the files do not undo it"
-    records, cards = Records(library), PatientShelf(library)
+    records, cards = Records(library), StoredPatients(library)
     records.archive_session(one)
     assert stored.lines(heron) == []
     assert cards.card(heron).has_sessions, "its list of sessions is the way to the archive"
@@ -196,7 +196,7 @@ def test_a_session_is_moved_renamed_set_aside_and_deleted_with_all_its_files(lib
 
 
 def test_another_order_of_the_angles_is_read_everywhere_but_in_files(library: Library, tmp_path: Path) -> None:
-    patient_id = PatientShelf(library).add(PatientEntry("Linden 42", "right", "right"))
+    patient_id = StoredPatients(library).add(PatientEntry("Linden 42", "right", "right"))
     session_id = store(library, set_up(patient_id, "Linden 42"))
     plain = library.session(session_id)
     assert [figures.angle_order for figures in library.history(patient_id)] == ["zyx"]

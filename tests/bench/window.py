@@ -20,8 +20,8 @@ from PySide6.QtCore import QEvent, QEventLoop, QObject, Qt, QTimer
 from carpus.app import compose
 from carpus.app.desktop.journey import Journey
 from carpus.app.desktop.sources import practice_spec
-from carpus.app.desktop.unattended import Walker
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
+from carpus.app.unattended import Walker
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.source import FrameSource

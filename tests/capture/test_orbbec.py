@@ -20,7 +20,7 @@ from carpus.core.capture.devices.cameras import open_camera
 from carpus.core.capture.devices.capture_process import CameraPlan, GaveUp
 from carpus.core.capture.devices.color_lock import ColorLock
 from carpus.core.capture.devices.orbbec import (
-    _Controls,
+    _OrbbecControls,
     choose_streams,
     driver_finding,
     find_camera,
@@ -207,7 +207,7 @@ def test_what_its_depth_is_worth(name: str, kind: str, origin: str) -> None:
 def test_exposure_and_white_balance_are_held_as_they_look() -> None:
     ob, device, sent = library(), FakeDevice(), list[Any]()
     streams = SimpleNamespace(color=Profile(640, 480, ob.OBFormat.RGB))
-    lock = ColorLock(SimpleNamespace(send=sent.append), _Controls(ob, device, streams))  # type: ignore[arg-type]
+    lock = ColorLock(SimpleNamespace(send=sent.append), _OrbbecControls(ob, device, streams))  # type: ignore[arg-type]
     lock.look(device._picture())
     before = np.frombuffer(device._picture(), np.uint8).reshape(-1, 3).mean(axis=0)
     assert lock.begin() is None

@@ -205,6 +205,20 @@ def test_what_comes_after_unmakes_no_repetition(end: str, count: int) -> None:
         assert any(other.start_s <= middle_s <= other.end_s for other in found)
 
 
+@pytest.mark.parametrize(("pace_deg_s", "first_s"), [(4.0, 0.0), (8.0, 1.5)])
+def test_a_hand_that_creeps_by_more_than_a_thirtieth_of_its_swing_does_not_stand(
+    pace_deg_s: float, first_s: float
+) -> None:
+    """Begun in the midst of a way of 60 degrees: what stands there is home, what moves is the piece of a repetition."""
+    creep = 15.0 + pace_deg_s * np.arange(0.0, 0.5, 1.0 / RATE)
+    way = 0.5 * (1.0 - np.cos(math.pi * np.arange(0.0, 1.0, 1.0 / RATE)))
+    first = creep[-1] + (60.0 - creep[-1]) * way
+    value = np.concatenate((creep, first, *[60.0 - 60.0 * way, 60.0 * way] * 2, np.full(int(RATE), 60.0)))
+    found = find_repetitions(signal_of(value))
+    assert [one.cut for one in found.cut] == ["cut_by_start" if first_s else "cut_by_end"]
+    assert [found.repetitions[0].start_s, len(found.repetitions)] == [pytest.approx(first_s, abs=0.05), 2]
+
+
 def test_why_there_is_none_is_said() -> None:
     def why(value: FloatArray) -> str | None:
         signal = signal_of(value)

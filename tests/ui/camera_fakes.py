@@ -18,8 +18,8 @@ from carpus.core.calibration.card.measure import CardWatch
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.simulation.practice_camera import LENS, Studio, card_scene, poses, texture_of
 from carpus.core.types import Frame
-from carpus.ui.camera_calibration.words import BoardProgress, BoardResult
-from carpus.ui.check_card.words import CameraChecks, CardProgress
+from carpus.ui.words.camera_calibration import BoardProgress, BoardResult
+from carpus.ui.words.check_card import CameraChecks, CardProgress
 from tests.ui.fakes import NOW
 
 

@@ -39,7 +39,6 @@ from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.camera_calibration.screen import BoardScreen
 from carpus.ui.check_card.screen import CardScreen
-from carpus.ui.check_card.words import CameraChecks
 from carpus.ui.clinic.screen import ClinicScreen
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.correct.flow import difference_words
@@ -81,9 +80,10 @@ from carpus.ui.theme import Theme, ThemeName
 from carpus.ui.tour.bubble import BubbleView
 from carpus.ui.tour.order import Bubble
 from carpus.ui.welcome.panel import Check, WelcomePanel
+from carpus.ui.words.check_card import CameraChecks
 from tests.moments import with_moment
 from tests.ui.camera_fakes import board_progress, board_result, camera_checks, card_progress
-from tests.ui.fake_shelf import FakeShelf
+from tests.ui.fake_stored_sessions import FakeStoredSessions
 from tests.ui.fakes import (
     NOW,
     FakeCalibrator,
@@ -344,10 +344,10 @@ class Gallery(GalleryWindow):
         self._markers(6, CalibrationFinding("other_spot", ("MCP3",), spot_px=spot))
 
     def sessions_list(self) -> None:
-        shelf = FakeShelf()
-        shelf.set_aside("s2", "discs lost")
+        sessions = FakeStoredSessions()
+        sessions.set_aside("s2", "discs lost")
         self.place(tab=0)
-        self.show(SessionsScreen(self.theme, self.background, shelf)).begin("linden", "Linden 42", "s1")
+        self.show(SessionsScreen(self.theme, self.background, sessions)).begin("linden", "Linden 42", "s1")
         self.settle()
 
     def sessions_erase(self) -> None:

@@ -13,7 +13,6 @@ from carpus.core.agreement.compare import Compared, Pairs
 from carpus.core.agreement.statistics import agreement, judged
 from carpus.ui.agreement.reference_sheet import missing
 from carpus.ui.agreement.screen import AgreementScreen
-from carpus.ui.agreement.words import angle_name, headline, in_order, interval, judgement_words, limits, signed
 from carpus.ui.controls.text import Text
 from carpus.ui.keys import Keys
 from carpus.ui.plot.agreement import AgreementPlot
@@ -21,6 +20,7 @@ from carpus.ui.plot.style import screen_style
 from carpus.ui.ports import Preferences
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme
+from carpus.ui.words.agreement import angle_name, headline, in_order, interval, judgement_words, limits, signed
 from tests.ui.conftest import Show
 from tests.ui.fakes import compared
 

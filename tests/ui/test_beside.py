@@ -13,9 +13,9 @@ from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.side_by_side import side_by_side
 from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
-from carpus.ui.beside.shown import Watched, kinds, shown
-from carpus.ui.beside.words import facts_words, headline, table_rows, unfair_words
 from carpus.ui.keys import Keys
+from carpus.ui.report.beside_shown import Watched, kinds, shown
+from carpus.ui.report.beside_words import facts_words, headline, table_rows, unfair_words
 from carpus.ui.report.hand_rows import followed_keys
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show

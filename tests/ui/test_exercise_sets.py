@@ -26,9 +26,8 @@ from carpus.core.results.progress import progress
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.live.course import LINGER_S, CourseRun
-from carpus.ui.live.recording import Glance
 from carpus.ui.live.screen import LiveScreen
-from carpus.ui.patient.guide import GuideScene
+from carpus.ui.patient.guide import Glance, GuideScene
 from carpus.ui.patient.viewing import PatientViewing
 from carpus.ui.plot.course import Goals, still
 from carpus.ui.setup.exercise import ExerciseScreen

@@ -33,7 +33,6 @@ from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.types import TrackedFrame
 from carpus.ui import numbers
 from carpus.ui.background import Background
-from carpus.ui.check_card.standing_words import unsure_name
 from carpus.ui.controls.text import StateText, Text
 from carpus.ui.figures import figure_of, spread_labels
 from carpus.ui.keys import Keys
@@ -45,7 +44,6 @@ from carpus.ui.plot.session import HandPlot
 from carpus.ui.plot.style import screen_style
 from carpus.ui.ports import PatientCard, Preferences, ResultLine
 from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.progress.words import before_after, doubt_words
 from carpus.ui.report.hand_rows import column_heads, compared_figures, limits_words
 from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.pdf import session_report
@@ -57,6 +55,8 @@ from carpus.ui.settings.limits import limit_lines
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import change_since_first, difference, limit_words, no_change_words, verdict_word
+from carpus.ui.words.camera_standing import unsure_name
+from carpus.ui.words.progress import before_after, doubt_words
 from tests.moments import with_moment
 from tests.sources import SOURCES, modules, nodes
 from tests.ui.fakes import NOW, FakeFeed, FakeSessions, FakeStore, figures_once, session

@@ -13,10 +13,9 @@ from pytestqt.qtbot import QtBot
 from carpus.core.hand.exercises import EXERCISES, exercise_named
 from carpus.ui.background import Background
 from carpus.ui.keys import Keys
-from carpus.ui.live.recording import Glance
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.patient.figure import arc_of, figure_at
-from carpus.ui.patient.guide import LOST_AFTER_S, Guide, GuideScene
+from carpus.ui.patient.guide import LOST_AFTER_S, Glance, Guide, GuideScene
 from carpus.ui.patient.view import PatientView
 from carpus.ui.patient.viewing import PatientViewing, PatientWindow
 from carpus.ui.patient.words import said

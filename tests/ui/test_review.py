@@ -23,10 +23,10 @@ from carpus.ui.plot.export import picture
 from carpus.ui.plot.series import Series
 from carpus.ui.plot.session import thinned
 from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.progress.words import headline
 from carpus.ui.review.card import ResultChoice
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
+from carpus.ui.words.progress import headline
 from tests.ui.conftest import Show
 from tests.ui.fakes import FakeSessions
 from tests.ui.test_plots import drag

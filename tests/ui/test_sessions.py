@@ -14,19 +14,19 @@ from carpus.ui.sessions.listing import cells
 from carpus.ui.sessions.screen import SessionsScreen
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
-from tests.ui.fake_shelf import FakeShelf
+from tests.ui.fake_stored_sessions import FakeStoredSessions
 
 
 @pytest.fixture
-def shelf() -> FakeShelf:
-    return FakeShelf()
+def sessions() -> FakeStoredSessions:
+    return FakeStoredSessions()
 
 
 @pytest.fixture
 def screen(
-    qtbot: QtBot, theme: Theme, show: Show[SessionsScreen], background: Background, shelf: FakeShelf
+    qtbot: QtBot, theme: Theme, show: Show[SessionsScreen], background: Background, sessions: FakeStoredSessions
 ) -> SessionsScreen:
-    screen = show(SessionsScreen(theme, background, shelf))
+    screen = show(SessionsScreen(theme, background, sessions))
     screen.begin("linden", "Linden 42", "s1")
     qtbot.waitUntil(lambda: all(line.figure or line.damaged for line in screen.list.rows.lines))
     return screen
@@ -53,35 +53,39 @@ def test_any_session_is_opened_by_enter_or_double_click(qtbot: QtBot, screen: Se
 
 
 def test_a_session_is_set_aside_with_a_reason_and_taken_back(
-    qtbot: QtBot, screen: SessionsScreen, shelf: FakeShelf
+    qtbot: QtBot, screen: SessionsScreen, sessions: FakeStoredSessions
 ) -> None:
     screen.aside_button.click()
     screen.aside_sheet.line.setText("splint on")
     qtbot.keyClick(screen.aside_sheet.line, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: shelf.done == [("aside", "s1", "splint on")])
+    qtbot.waitUntil(lambda: sessions.done == [("aside", "s1", "splint on")])
     qtbot.waitUntil(lambda: "splint on" in screen.remark.text())
     assert cells(screen.list.rows.lines[1])[4] == "set aside: splint on"
     assert chosen(screen) == "s1"
     screen.aside_button.click()
-    qtbot.waitUntil(lambda: shelf.done[-1] == ("aside", "s1", ""))
+    qtbot.waitUntil(lambda: sessions.done[-1] == ("aside", "s1", ""))
 
 
-def test_a_session_moves_to_the_patient_that_is_chosen(qtbot: QtBot, screen: SessionsScreen, shelf: FakeShelf) -> None:
+def test_a_session_moves_to_the_patient_that_is_chosen(
+    qtbot: QtBot, screen: SessionsScreen, sessions: FakeStoredSessions
+) -> None:
     screen.move_button.click()
     screen.move_sheet.box.setCurrentIndex(1)
     screen.move_sheet.take.click()
-    qtbot.waitUntil(lambda: shelf.done == [("move", "s1", "alder")])
+    qtbot.waitUntil(lambda: sessions.done == [("move", "s1", "alder")])
     qtbot.waitUntil(lambda: screen.list.rows.find("s1") < 0)
 
 
-def test_only_exercises_with_the_same_discs_are_offered(qtbot: QtBot, screen: SessionsScreen, shelf: FakeShelf) -> None:
+def test_only_exercises_with_the_same_discs_are_offered(
+    qtbot: QtBot, screen: SessionsScreen, sessions: FakeStoredSessions
+) -> None:
     screen.rename_button.click()
     offered = {screen.rename_sheet.box.itemData(row) for row in range(screen.rename_sheet.box.count())}
     assert "WRIST_RU" in offered
     assert not offered & {"WRIST_FE", "FIST_COMPOSITE"}
     screen.rename_sheet.box.setCurrentIndex(screen.rename_sheet.box.findData("WRIST_RU"))
     screen.rename_sheet.take.click()
-    qtbot.waitUntil(lambda: shelf.done == [("rename", "s1", "WRIST_RU")])
+    qtbot.waitUntil(lambda: sessions.done == [("rename", "s1", "WRIST_RU")])
 
 
 def test_deleting_is_asked_for_by_button_and_key(qtbot: QtBot, screen: SessionsScreen) -> None:
@@ -96,7 +100,7 @@ def test_deleting_is_asked_for_by_button_and_key(qtbot: QtBot, screen: SessionsS
 def test_a_patient_without_a_session_is_told_so(
     theme: Theme, show: Show[SessionsScreen], background: Background
 ) -> None:
-    screen = show(SessionsScreen(theme, background, FakeShelf(0)))
+    screen = show(SessionsScreen(theme, background, FakeStoredSessions(0)))
     screen.begin("fir", "Fir 12")
     assert screen.none.isVisible()
     assert not screen.open_button.isVisible()

@@ -11,7 +11,6 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QGridLayout, QSizePolicy, QWidget
 
 from carpus.core.hand.protocols import PALM_MARKERS
-from carpus.ui.agreement.words import angle_name
 from carpus.ui.controls.button import Button, Tick
 from carpus.ui.controls.field import Choices, Combo, Labelled
 from carpus.ui.controls.layouts import RING_PX, STRETCH, ScrollArea, fill, host_of, in_line
@@ -21,6 +20,7 @@ from carpus.ui.marker_words import marker_name
 from carpus.ui.ports import ReferenceChoice
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
+from carpus.ui.words.agreement import angle_name
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.agreement.reference import ReferenceOutline

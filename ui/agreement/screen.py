@@ -7,22 +7,6 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QBoxLayout, QGridLayout, QVBoxLayout, QWidget
 
-from carpus.ui.agreement.words import (
-    angle_name,
-    angle_token,
-    headline,
-    in_order,
-    interval,
-    joined_rows,
-    judgement_words,
-    left_words,
-    limits,
-    most_moved,
-    remark_words,
-    share,
-    signed,
-    tenths,
-)
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line, named_by_color
 from carpus.ui.controls.field import Choices, Combo
@@ -45,6 +29,22 @@ from carpus.ui.plot.agreement import AgreementPlot, View
 from carpus.ui.plot.agreement_view import AgreementChart
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.translate import say
+from carpus.ui.words.agreement import (
+    angle_name,
+    angle_token,
+    headline,
+    in_order,
+    interval,
+    joined_rows,
+    judgement_words,
+    left_words,
+    limits,
+    most_moved,
+    remark_words,
+    share,
+    signed,
+    tenths,
+)
 
 if TYPE_CHECKING:
     from carpus.core.agreement.compare import Compared, Pairs

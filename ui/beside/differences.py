@@ -10,8 +10,6 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from carpus.core.results.motion_curves import Quantity
-from carpus.ui.beside.shown import Shown, Watched, kinds
-from carpus.ui.beside.words import BesideRow, facts_words, heads, other_hand_words, quantity_name, table_rows
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line, named_by_color
 from carpus.ui.controls.field import Combo
@@ -31,6 +29,8 @@ from carpus.ui.keys import Keys
 from carpus.ui.plot.beside import BesidePlot
 from carpus.ui.plot.card import StillPlot
 from carpus.ui.plot.style import screen_style
+from carpus.ui.report.beside_shown import Shown, Watched, kinds
+from carpus.ui.report.beside_words import BesideRow, facts_words, heads, other_hand_words, quantity_name, table_rows
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import limit_words
 

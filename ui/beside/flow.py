@@ -14,10 +14,10 @@ from carpus.core.results.side_by_side import ComparedRange, SideBySide
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background
 from carpus.ui.beside.screen import BesideScreen
-from carpus.ui.beside.shown import Shown
-from carpus.ui.beside.words import column_of
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.report.beside_page import BesideReport
+from carpus.ui.report.beside_shown import Shown
+from carpus.ui.report.beside_words import column_of
 from carpus.ui.saved_table import named_beside, save_table
 from carpus.ui.sessions.sheets import ChooseSheet
 

@@ -13,14 +13,14 @@ from PySide6.QtWidgets import QGridLayout
 from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.core.results.side_by_side import InStep, Step, in_step
 from carpus.ui import numbers
-from carpus.ui.beside.shown import Watched
-from carpus.ui.beside.words import step_words
 from carpus.ui.controls.card import Card, KeyCaps
 from carpus.ui.controls.field import Combo
 from carpus.ui.controls.layouts import fill, in_grid, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text
 from carpus.ui.playback.transport import Playing, Scrubber, Transport
 from carpus.ui.plot.session import row_at
+from carpus.ui.report.beside_shown import Watched
+from carpus.ui.report.beside_words import step_words
 from carpus.ui.theme import Theme
 
 

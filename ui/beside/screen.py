@@ -13,8 +13,6 @@ from carpus.ui.background import Background
 from carpus.ui.beside.differences import DifferencesCard, MeanCard
 from carpus.ui.beside.picture import BesidePicture
 from carpus.ui.beside.player import BesidePlayer, Together, ends_s
-from carpus.ui.beside.shown import Shown, Watched, shown, value_words
-from carpus.ui.beside.words import doubts, headline, picture_words, unfair_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import Fitted, in_column, in_line, page
@@ -22,6 +20,8 @@ from carpus.ui.controls.progress_bar import ThinBar
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, Sign, Text, heading
 from carpus.ui.keys import Keys, bind_screen
 from carpus.ui.playback.transport import Playing
+from carpus.ui.report.beside_shown import Shown, Watched, shown, value_words
+from carpus.ui.report.beside_words import doubts, headline, picture_words, unfair_words
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 
 if TYPE_CHECKING:

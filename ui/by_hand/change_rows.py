@@ -7,10 +7,10 @@ from collections.abc import Iterable
 from PySide6.QtWidgets import QVBoxLayout
 
 from carpus.core.measures.by_hand import HandChange, Key
-from carpus.ui.by_hand.names import change_words, full_name, verdict_words
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.theme import Theme
+from carpus.ui.words.by_hand import change_words, full_name, verdict_words
 
 
 def add_changes(body: QVBoxLayout, theme: Theme, found: Iterable[tuple[Key, HandChange]]) -> None:

@@ -27,12 +27,12 @@ from carpus.core.measures.by_hand import (
 from carpus.core.results.ranges import RangeRow
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
-from carpus.ui.by_hand.names import direction_words, group_names, measure_name, unit_name, value_words, way_name
 from carpus.ui.controls.card import Line
 from carpus.ui.controls.field import lay_inside
 from carpus.ui.controls.layouts import in_grid
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Text, caption
 from carpus.ui.theme import Theme
+from carpus.ui.words.by_hand import direction_words, group_names, measure_name, unit_name, value_words, way_name
 
 FIELD_PX = {"angle": 84, "force": 84, "size": 104, "score": 104}
 CARPUS, OTHER, LAST = 4, 5, 6

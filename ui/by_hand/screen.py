@@ -17,7 +17,6 @@ from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.by_hand.change_rows import add_changes
 from carpus.ui.by_hand.form import HandForm
-from carpus.ui.by_hand.names import changes, measure_name
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.field import Choices, Combo, leave_wheel
@@ -26,6 +25,7 @@ from carpus.ui.controls.text import REGULAR, SEMIBOLD, Text, heading
 from carpus.ui.plot.by_hand import paint_course
 from carpus.ui.plot.card import StillPlot
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
+from carpus.ui.words.by_hand import changes, measure_name
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,11 +16,11 @@ from carpus.core.types import Frame
 from carpus.ui import numbers
 from carpus.ui.camera_at_hand import AtCameraFlow, Look
 from carpus.ui.camera_calibration.screen import BoardScreen
-from carpus.ui.camera_calibration.words import BoardChoice, BoardProgress, BoardResult
-from carpus.ui.check_card.standing_words import card_words
 from carpus.ui.flow import ScreenContext
 from carpus.ui.report.calibration_page import write_calibration_page
 from carpus.ui.report.pdf import write_sheets
+from carpus.ui.words.camera_calibration import BoardChoice, BoardProgress, BoardResult
+from carpus.ui.words.camera_standing import card_words
 
 
 class BoardFlow(AtCameraFlow):

@@ -13,7 +13,6 @@ from carpus.core.calibration.camera.sheet import RULER_MM, Paper
 from carpus.ui.camera_calibration.maps import LandingMap
 from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 from carpus.ui.camera_calibration.showing import BoardShowing
-from carpus.ui.camera_calibration.words import BoardChoice, BoardResult, effect_rows, headline, kept_words, result_rows
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.field import Choices, leave_wheel
@@ -31,6 +30,7 @@ from carpus.ui.controls.layouts import (
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, Sign, Text, caption, heading
 from carpus.ui.keys import Keys, bind
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
+from carpus.ui.words.camera_calibration import BoardChoice, BoardResult, effect_rows, headline, kept_words, result_rows
 
 
 class BoardScreen(QWidget):

@@ -9,15 +9,6 @@ from PySide6.QtWidgets import QGridLayout, QWidget
 from carpus.core.types import Frame
 from carpus.ui.camera_calibration.maps import FieldMap
 from carpus.ui.camera_calibration.overlay import paint_corners, paint_target
-from carpus.ui.camera_calibration.words import (
-    BoardProgress,
-    Row,
-    check_rows,
-    lack_words,
-    side_name,
-    step_words,
-    to_go_words,
-)
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, KeyCaps, Line
 from carpus.ui.controls.layouts import STRETCH, Fitted, fill, in_column, in_line, scrolled
@@ -27,6 +18,15 @@ from carpus.ui.keys import Keys, bind
 from carpus.ui.picture.photo import label_size, paint_label
 from carpus.ui.picture.view import PictureView
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
+from carpus.ui.words.camera_calibration import (
+    BoardProgress,
+    Row,
+    check_rows,
+    lack_words,
+    side_name,
+    step_words,
+    to_go_words,
+)
 
 COLUMN_PX = 376
 EMPTY: Row = ("open", "", "", "")

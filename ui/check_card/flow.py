@@ -17,10 +17,10 @@ from carpus.core.types import Frame
 from carpus.ui import numbers
 from carpus.ui.camera_at_hand import AtCameraFlow, Look
 from carpus.ui.check_card.screen import CardScreen
-from carpus.ui.check_card.words import CameraChecks, CardProgress
 from carpus.ui.flow import ScreenContext
 from carpus.ui.report.check_page import CheckResult, write_check_report
 from carpus.ui.report.pdf import write_sheets
+from carpus.ui.words.check_card import CameraChecks, CardProgress
 
 
 class CardFlow(AtCameraFlow):

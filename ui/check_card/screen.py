@@ -10,7 +10,6 @@ from carpus.core.calibration.card.card import CHECK_S
 from carpus.core.types import ByteImage
 from carpus.ui.camera_calibration.name_sheet import CameraNameSheet
 from carpus.ui.camera_calibration.overlay import paint_discs
-from carpus.ui.check_card.words import CameraChecks, CardProgress, cause_words, check_day, figure_rows, headline, hint
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.field import Choices
@@ -34,6 +33,7 @@ from carpus.ui.picture.view import PictureView
 from carpus.ui.plot.control_view import ControlCharts
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.translate import tr
+from carpus.ui.words.check_card import CameraChecks, CardProgress, cause_words, check_day, figure_rows, headline, hint
 
 COLUMN_PX = 352
 MOST_PX = 16777215

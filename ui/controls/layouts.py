@@ -192,7 +192,7 @@ class ScrolledColumn(QWidget):
         return QSize(whole.width(), 0) if wraps else whole
 
 
-class _Page(ScrolledColumn):
+class _ScrolledPage(ScrolledColumn):
     """Never lower than everything on it can be."""
 
     def heightForWidth(self, width: int) -> int:
@@ -232,7 +232,7 @@ class ScrollArea(QScrollArea):
 
 def page(layout: QVBoxLayout) -> ScrollArea:
     """The whole of a screen, which scrolls where the window is lower than everything on it can be."""
-    host = _Page()
+    host = _ScrolledPage()
     host.setLayout(layout)
     return ScrollArea(host)
 

@@ -18,13 +18,13 @@ from carpus.core.session.marker_doubts import Correction, corrections_in
 from carpus.core.session.reader import read_detections
 from carpus.core.session.values import Session, SessionHeader
 from carpus.ui import numbers, terms
-from carpus.ui.agreement.words import angle_name
 from carpus.ui.background import Background
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.marker_words import finger_of, marker_name
 from carpus.ui.translate import inside, tr
+from carpus.ui.words.agreement import angle_name
 
 
 class CorrectFlow(Flow):

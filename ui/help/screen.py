@@ -49,7 +49,7 @@ class HelpScreen(QWidget):
         self.cards_button.clicked.connect(self._ask_cards)
         self.tour_button = Button(theme, self.tr("Show me around"), icon="arrow-right")
         self.tour_button.clicked.connect(self.tour)
-        self.text = _Page(theme)
+        self.text = _GuidePage(theme)
         self.text.wanted.connect(self.show_page)
         self.pages: dict[str, Button] = {}
         self._group = QButtonGroup(self)
@@ -115,7 +115,7 @@ class HelpScreen(QWidget):
             self.told.emit(fault)
 
 
-class _Page(QTextBrowser):
+class _GuidePage(QTextBrowser):
     """Shows one page; ``wanted`` carries the page of a link."""
 
     wanted = Signal(str)

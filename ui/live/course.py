@@ -8,9 +8,9 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from carpus.core.records.set_up import SetUp, next_part
 from carpus.ui import numbers
-from carpus.ui.live.recording import Glance
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.now_open import NowOpen
+from carpus.ui.patient.guide import Glance
 from carpus.ui.patient.viewing import PatientViewing
 from carpus.ui.setup.set_words import course_words
 from carpus.ui.translate import say

@@ -8,12 +8,12 @@ from carpus.core.errors import CameraLost
 from carpus.core.pipeline.live_values import LiveEvent
 from carpus.core.words import Words
 from carpus.ui import numbers
-from carpus.ui.check_card.standing_words import session_lines
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.live.course import CourseRun
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.messages.messages import Answer
 from carpus.ui.patient.viewing import PatientViewing
+from carpus.ui.words.camera_standing import session_lines
 
 log = logging.getLogger(__name__)
 

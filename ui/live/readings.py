@@ -10,7 +10,8 @@ from carpus.core.measures.signals import LARGEST_SD_RAD
 from carpus.core.types import TrackStatus
 from carpus.ui.figures import FIGURES, FINGERS, Figure, figure_of
 from carpus.ui.live.number_card import Reading
-from carpus.ui.live.recording import Glance, Recording
+from carpus.ui.live.recording import Recording
+from carpus.ui.patient.guide import Glance
 from carpus.ui.plot.history import History
 
 TIMED_MARKS = 10

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
@@ -18,6 +17,7 @@ from carpus.core.types import FloatArray, SpotAnswer, TrackStatus
 from carpus.ui.background import Background
 from carpus.ui.figures import FIGURES, FINGERS, Figure
 from carpus.ui.live.counting import RunningCount
+from carpus.ui.patient.guide import RecordingState
 from carpus.ui.plot.history import History
 
 if TYPE_CHECKING:
@@ -280,31 +280,3 @@ class Beginning:
             self._lately.popleft()
         seen = np.array([angles for _, angles in self._lately])
         return float(np.nanmax(seen.max(axis=0) - seen.min(axis=0)))
-
-
-RecordingState = Literal["off", "recording", "paused"]
-
-
-@dataclass(frozen=True, slots=True)
-class Glance:
-    """One look at the hand; degrees, unknown is NaN.
-
-    ``at_s`` on a clock that never stands still. ``value_deg`` of the trained angle with its sign, ``sure`` whether it
-    is measured now; ``hand_seen`` whether at least the hand is, where the trained joint is not. ``wrist_deg``
-    deviation, flexion, pro/supination and ``bent_deg`` the mean bending of the fingers, for exercises without a
-    trained angle. ``done`` full repetitions of ``asked``; ``found`` as they
-    are counted now, of which one may still turn out to be none. ``starts_s``: seconds that are still counted down
-    to the recording, 0 for none.
-    """
-
-    at_s: float
-    value_deg: float = math.nan
-    sure: bool = False
-    hand_seen: bool = False
-    wrist_deg: tuple[float, float, float] = (math.nan, math.nan, math.nan)
-    bent_deg: float = math.nan
-    state: RecordingState = "off"
-    done: int = 0
-    asked: int = 0
-    found: int = 0
-    starts_s: int = 0

@@ -29,7 +29,8 @@ from carpus.ui.live.number_card import NumberCard, Reading
 from carpus.ui.live.on_picture import OnPicture
 from carpus.ui.live.question import SpotQuestion
 from carpus.ui.live.readings import Readings
-from carpus.ui.live.recording import Glance, Recording
+from carpus.ui.live.recording import Recording
+from carpus.ui.patient.guide import Glance
 from carpus.ui.picture.view import HAND_ROOM, PALM_ROOM, PictureView
 from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.finger_curves import FingerCurves

@@ -94,7 +94,8 @@ class Clicking:
         A name that was on this disc moves to where the current one was, or is taken off.
         """
         had_place = self.current in self.proposed or self.current in self.pixel
-        swapped = had_place and bool(self._on(pixel) - {self.current})
+        places = {name: one.pixel for name, one in self.proposed.items()} | self.pixel
+        swapped = had_place and any(name != self.current and _same(place, pixel) for name, place in places.items())
         mine = self.proposed.pop(self.current, None)
         before = self.pixel.pop(self.current, None)
         before_width_px = self.widths_px.get(self.current, width_px)
@@ -113,11 +114,6 @@ class Clicking:
         self.widths_px[self.current] = width_px
         self._go_on()
         return swapped
-
-    def _on(self, pixel: FloatArray) -> set[str]:
-        """Names, given or proposed, that are on this disc."""
-        places = {name: one.pixel for name, one in self.proposed.items()} | self.pixel
-        return {name for name, place in places.items() if _same(place, pixel)}
 
     def undo(self) -> str:
         """Take back the marker set last; its name, empty when there is none."""

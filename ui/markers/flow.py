@@ -8,10 +8,10 @@ from pathlib import Path
 from carpus.core.calibration.result import Verdict
 from carpus.core.words import Words
 from carpus.ui import numbers
-from carpus.ui.check_card.standing_words import session_lines
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.messages.messages import Answer
+from carpus.ui.words.camera_standing import session_lines
 
 
 class MarkersFlow(Flow):

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Literal
 
 from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
-from carpus.ui.live.recording import Glance
 
 Phase = Literal["out", "there", "back", "free", "hidden", "lost", "paused", "done", "rest", "away"]
 """Way to the goal, at it, way back; no goal; the trained joint is out of sight at the far end; the hand is not surely
@@ -25,6 +24,34 @@ TURN_DEG, TURN_SHARE = 3.0, 0.2
 """A hand that has come back by so much, and by this part of the way, has turned round."""
 NEUTRAL_SHARE = 0.35
 """Back is who has come back to this part of the way."""
+
+
+RecordingState = Literal["off", "recording", "paused"]
+
+
+@dataclass(frozen=True, slots=True)
+class Glance:
+    """One look at the hand; degrees, unknown is NaN.
+
+    ``at_s`` on a clock that never stands still. ``value_deg`` of the trained angle with its sign, ``sure`` whether it
+    is measured now; ``hand_seen`` whether at least the hand is, where the trained joint is not. ``wrist_deg``
+    deviation, flexion, pro/supination and ``bent_deg`` the mean bending of the fingers, for exercises without a
+    trained angle. ``done`` full repetitions of ``asked``; ``found`` as they
+    are counted now, of which one may still turn out to be none. ``starts_s``: seconds that are still counted down
+    to the recording, 0 for none.
+    """
+
+    at_s: float
+    value_deg: float = math.nan
+    sure: bool = False
+    hand_seen: bool = False
+    wrist_deg: tuple[float, float, float] = (math.nan, math.nan, math.nan)
+    bent_deg: float = math.nan
+    state: RecordingState = "off"
+    done: int = 0
+    asked: int = 0
+    found: int = 0
+    starts_s: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,14 +11,13 @@ from PySide6.QtWidgets import QApplication, QWidget
 
 from carpus.core.records.set_up import SetUp
 from carpus.ui.controls.layouts import in_column
-from carpus.ui.live.recording import Glance
-from carpus.ui.live.screen import LiveScreen
-from carpus.ui.patient.guide import Guide, GuideScene
+from carpus.ui.patient.guide import Glance, Guide, GuideScene
 from carpus.ui.patient.view import PatientView
 from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:
     from carpus.ui.flow import ScreenContext
+    from carpus.ui.live.screen import LiveScreen
 
 
 class PatientViewing(QObject):

@@ -24,7 +24,7 @@ from carpus.ui.fault_words import fault_words
 from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:  # it reads and writes files
-    from carpus.ui.patients.flow import PatientShelf
+    from carpus.ui.patients.flow import StoredPatients
 
 NOTE_HEIGHT_PX = 84
 WHOLE_DAY = re.compile(r"\d\d?\D+\d\d?\D+(?:(?:19|20)\d\d|\d\d)|(?:19|20)\d\d\D+\d\d?\D+\d\d?")
@@ -40,7 +40,7 @@ class PatientForm(Sheet):
     accepted = Signal(PatientEntry)
     removal_wanted = Signal()
 
-    def __init__(self, host: QWidget, theme: Theme, store: PatientShelf, today: Callable[[], date]) -> None:
+    def __init__(self, host: QWidget, theme: Theme, store: StoredPatients, today: Callable[[], date]) -> None:
         super().__init__(host, theme, 740)
         self._store, self._today = store, today
         self._taken: frozenset[str] = frozenset()

@@ -34,7 +34,7 @@ class PatientsFlow(Flow):
     screen: PatientsScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        super().__init__(context, PatientsScreen(context.theme, PatientShelf(context.library), context.today))
+        super().__init__(context, PatientsScreen(context.theme, StoredPatients(context.library), context.today))
         screen, way, camera = self.screen, context.way, context.camera
         camera.when_looked(lambda: screen.set_camera_ready(camera.there))
         screen.start.connect(lambda patient_id: way.show("camera", patient_id))
@@ -70,7 +70,7 @@ _ENDS = ("arc",)
 """Movements that the card leaves out: it shows the two ends, which the therapist trains."""
 
 
-class PatientShelf:
+class StoredPatients:
     """The register of patients. Names beyond the pseudonym are known behind it alone."""
 
     def __init__(self, library: Library) -> None:

@@ -27,7 +27,7 @@ from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme
 from carpus.ui.welcome.panel import WelcomePanel
 
 if TYPE_CHECKING:  # it reads and writes files
-    from carpus.ui.patients.flow import PatientShelf
+    from carpus.ui.patients.flow import StoredPatients
 
 LOOK_AT_DAY_MS = 30_000
 ARCHIVED_NAMED = 3
@@ -48,7 +48,7 @@ class PatientsScreen(QWidget):
     archive_wanted = Signal()
     clinic_wanted = Signal()
 
-    def __init__(self, theme: Theme, store: PatientShelf, today: Callable[[], date]) -> None:
+    def __init__(self, theme: Theme, store: StoredPatients, today: Callable[[], date]) -> None:
         """``today`` is asked each time: the program may stand open for days."""
         super().__init__()
         self._theme, self._store, self._today = theme, store, today

@@ -15,12 +15,12 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter
 
 from carpus.core.types import FloatArray
-from carpus.ui.agreement.words import angle_token, ends, interval, signed
 from carpus.ui.plot.axes import Panel, Scale, hatch, time_labels
 from carpus.ui.plot.marks import Curves, Level, Mark, Remark, Scales, Times
 from carpus.ui.plot.series import Curve, Series
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
+from carpus.ui.words.agreement import angle_token, ends, interval, signed
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.agreement.compare import Pairs

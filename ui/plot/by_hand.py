@@ -13,12 +13,12 @@ from PySide6.QtGui import QFontMetricsF, QPainter, QPen, QPolygonF
 
 from carpus.core.measures.by_hand import HandMeasure, HandValue
 from carpus.ui import numbers
-from carpus.ui.by_hand.names import measure_name, value_words
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.marks import EndLabels, Scales, Times
 from carpus.ui.plot.style import PlotStyle
 from carpus.ui.translate import tr
+from carpus.ui.words.by_hand import measure_name, value_words
 
 HALF_PX = 4.5
 DAY_S = 86_400.0

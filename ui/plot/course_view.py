@@ -18,9 +18,8 @@ from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.marks import MouseReadout
 from carpus.ui.plot.style import PlotStyle, screen_style
 from carpus.ui.plot.zoom_card import ZoomCard
-from carpus.ui.progress.words import doubt_words, unfair_words
-from carpus.ui.report.words import corrected_words
 from carpus.ui.theme import Theme
+from carpus.ui.words.progress import corrected_words, doubt_words, unfair_words
 
 if TYPE_CHECKING:
     from carpus.ui.plot.canvas import Canvas, Layer

@@ -15,7 +15,6 @@ from carpus.core.results.progress import Comparison, Progress, other_hand_of, pr
 from carpus.ui import numbers, terms
 from carpus.ui.background import Background
 from carpus.ui.by_hand.change_rows import add_changes
-from carpus.ui.by_hand.names import changes, day_words
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, Line
 from carpus.ui.controls.field import Combo
@@ -34,10 +33,11 @@ from carpus.ui.controls.layouts import (
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption, heading
 from carpus.ui.keys import Keys, bind_screen, letter_key
 from carpus.ui.plot.course_view import ProgressChart
-from carpus.ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
 from carpus.ui.report.hand_rows import followed_keys, followed_kinds
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
 from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, verdict_word
+from carpus.ui.words.by_hand import changes, day_words
+from carpus.ui.words.progress import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
 
 if TYPE_CHECKING:  # it reads and writes files
     from carpus.core.records.library import Library

@@ -11,13 +11,13 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, Q
 from PySide6.QtGui import QColor, QImage, QPageLayout, QPageSize, QPainter, QPdfWriter
 
 from carpus.core.formats.new_output import new_bytes
-from carpus.ui.agreement.words import angle_name, remark_words, share, tenths
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.agreement import AgreementPlot
 from carpus.ui.plot.style import paper_style
 from carpus.ui.report.pdf import ensure_application
 from carpus.ui.theme import LIGHT
 from carpus.ui.translate import say, tr
+from carpus.ui.words.agreement import angle_name, remark_words, share, tenths
 
 if TYPE_CHECKING:  # a window loads nothing that reads files
     from carpus.core.agreement.compare import Compared, Pairs

@@ -8,8 +8,9 @@ from carpus.core.results.figures import SessionFigures
 from carpus.core.results.motion_curves import Quantity
 from carpus.core.results.report_form import USUAL_FORM, ReportForm
 from carpus.ui import numbers, terms
-from carpus.ui.beside.shown import Shown
-from carpus.ui.beside.words import (
+from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
+from carpus.ui.report.beside_shown import Shown
+from carpus.ui.report.beside_words import (
     doubts,
     facts_words,
     headline,
@@ -19,7 +20,6 @@ from carpus.ui.beside.words import (
     table_rows,
     unfair_words,
 )
-from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page, PageColumn, paint_to_fit
 from carpus.ui.report.progress_page import paint_made_of
 from carpus.ui.report.session_page import paint_head

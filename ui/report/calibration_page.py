@@ -6,11 +6,11 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus.ui import numbers
-from carpus.ui.camera_calibration.words import BoardResult, effect_rows, headline, kept_words, result_rows
 from carpus.ui.fonts import MEDIUM, SEMIBOLD
 from carpus.ui.report.page import Page, PageColumn
 from carpus.ui.report.pdf import write_page
 from carpus.ui.translate import tr
+from carpus.ui.words.camera_calibration import BoardResult, effect_rows, headline, kept_words, result_rows
 
 _ROW_PT = 21.0
 FIGURES = (

@@ -10,13 +10,13 @@ from pathlib import Path
 from carpus.core.calibration.card.card import FIGURES
 from carpus.core.calibration.card.chart import USUAL_OF, CardCheck, Verdict, sentence_of, verdict_of
 from carpus.ui import numbers
-from carpus.ui.check_card.words import figure_name
 from carpus.ui.fonts import MEDIUM, SEMIBOLD
 from carpus.ui.plot.control_chart import ControlMarks, ControlPlot, control_plots, paint_control_ground
 from carpus.ui.plot.marks import Scales
 from carpus.ui.report.page import Page, PageColumn
 from carpus.ui.report.pdf import write_page
 from carpus.ui.translate import say, tr
+from carpus.ui.words.check_card import figure_name
 
 TITLE = "Carpus camera check"
 _ROW_PT, _CHART_PT = 20.0, 140.0

@@ -18,8 +18,9 @@ from carpus.ui.report.hand_rows import AT_LEAST, compared_figures, hand_since_wo
 from carpus.ui.report.page import MARGIN_PT, Page, PageColumn, paint_to_fit, painted_on_nothing
 from carpus.ui.report.session_page import OfSession, SessionReport, comment_lines
 from carpus.ui.report.tables import table_rows
-from carpus.ui.report.words import corrected_words, method, since_compared, since_sessions, warnings
+from carpus.ui.report.words import method, since_compared, since_sessions, warnings
 from carpus.ui.translate import inside, tr
+from carpus.ui.words.progress import corrected_words
 
 SMALLEST = 0.82
 OMISSIONS = 3

@@ -9,14 +9,14 @@ from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Progress
 from carpus.core.results.report_form import USUAL_FORM, ReportForm
 from carpus.ui import numbers, terms
-from carpus.ui.by_hand.names import change_words, changes, day_words, full_name, verdict_words
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.plot.course import paint_chart
-from carpus.ui.progress.words import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page, PageColumn, painted_on_nothing
 from carpus.ui.report.session_page import paint_head
 from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import counted_once_words, limit_words, verdict_token, verdict_word
+from carpus.ui.words.by_hand import change_words, changes, day_words, full_name, verdict_words
+from carpus.ui.words.progress import before_after, change_line, comparison_name, doubt_words, headline, unfair_words
 
 CHART_HEIGHT_PT, LEAST_CHART_PT = 390.0, 180.0
 MOST_UNFAIR = 4

@@ -20,7 +20,6 @@ from carpus.core.results.report_form import USUAL_FORM, ReportForm
 from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
-from carpus.ui.by_hand.names import day_words
 from carpus.ui.fonts import MEDIUM, REGULAR, SEMIBOLD
 from carpus.ui.icons import State, paint_mark, paint_state
 from carpus.ui.plot.session import SessionPlot, paint_session
@@ -30,9 +29,11 @@ from carpus.ui.report.hand_part import paint_finger_curves, paint_finger_table, 
 from carpus.ui.report.hand_rows import compared_figures, hand_summary
 from carpus.ui.report.page import A4_PT, MARGIN_PT, Page, PageColumn, paint_to_fit, painted_on_nothing
 from carpus.ui.report.tables import TableRow, column_names, norm_words, repetition_words, table_rows
-from carpus.ui.report.words import corrected_words, method, other_lines, quality_lines, summary, warnings
+from carpus.ui.report.words import method, other_lines, quality_lines, summary, warnings
 from carpus.ui.theme import LIGHT
 from carpus.ui.translate import inside, tr
+from carpus.ui.words.by_hand import day_words
+from carpus.ui.words.progress import corrected_words
 
 INSIDE_PT = 11.0
 """Between the line of a card and its words."""

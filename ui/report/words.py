@@ -10,11 +10,11 @@ from carpus.core.hand.exercises import SIDES, STILL_RADIUS_MM
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Comparison, compare
 from carpus.ui import numbers, terms
-from carpus.ui.check_card.standing_words import unsure_words
 from carpus.ui.fault_words import finding_words
 from carpus.ui.report.tables import is_deficit, prints_spread, too_slow
 from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import counted_once_words, limit_words, reason_words
+from carpus.ui.words.camera_standing import unsure_words
 
 
 def summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
@@ -157,18 +157,6 @@ def warnings(figures: SessionFigures) -> list[str]:
     if said := unsure_words(figures.camera):
         lines.append(said)
     return lines
-
-
-def corrected_words(figures: SessionFigures) -> str:
-    """``Corrected on 22 Nov 2026, from 00:31.4, by MK.``: markers were put right after the recording; empty as
-    measured."""
-    said = figures.corrected
-    if said is None:
-        return ""
-    day, at = numbers.day_of_year(said.when), numbers.clock_tenths(said.from_s)
-    if said.by:
-        return tr("Corrected on {day}, from {time}, by {who}.").format(day=day, time=at, who=said.by)
-    return tr("Corrected on {day}, from {time}.").format(day=day, time=at)
 
 
 def target_words(figures: SessionFigures) -> str:

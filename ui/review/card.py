@@ -22,11 +22,11 @@ from carpus.ui.report.further_rows import further_rows, further_title
 from carpus.ui.report.hand_rows import column_heads, finger_rows, limits_words
 from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.tables import column_names, repetition_words, table_rows
-from carpus.ui.report.words import corrected_words
 from carpus.ui.review.reviewed import Reviewed
 from carpus.ui.review.tables import FurtherTable, HandTable, RangeTable
 from carpus.ui.theme import Theme
 from carpus.ui.translate import inside
+from carpus.ui.words.progress import corrected_words
 
 LEAST_TABLE_PX = 84
 """The head of the table and two rows."""

@@ -8,12 +8,12 @@ from carpus.core.formats.film import write_film, write_picture
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.records.corrections import Corrections
 from carpus.core.words import Words
-from carpus.ui.check_card.standing_words import unsure_words
 from carpus.ui.export.flow import Exporting
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.messages import Answer
 from carpus.ui.review.film import FilmWanted, film_pictures
 from carpus.ui.review.screen import ReviewScreen
+from carpus.ui.words.camera_standing import unsure_words
 
 
 class ReviewFlow(Flow):

@@ -12,14 +12,15 @@ from carpus.core.records.library import Library
 from carpus.core.records.log import fingerprint
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import SessionEntry
-from carpus.ui.check_card.standing_words import unsure_name
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.messages import put_off_last
 from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.tables import repetition_words
-from carpus.ui.report.words import corrected_words, warnings
+from carpus.ui.report.words import warnings
 from carpus.ui.sessions.listing import SessionLine
 from carpus.ui.sessions.screen import SessionsScreen
+from carpus.ui.words.camera_standing import unsure_name
+from carpus.ui.words.progress import corrected_words
 
 
 class SessionsFlow(Flow):
@@ -29,8 +30,8 @@ class SessionsFlow(Flow):
     screen: SessionsScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        shelf = SessionShelf(context.library)
-        super().__init__(context, SessionsScreen(context.theme, context.background, shelf, context.keys))
+        stored = StoredSessions(context.library)
+        super().__init__(context, SessionsScreen(context.theme, context.background, stored, context.keys))
         screen, way = self.screen, context.way
         screen.told.connect(context.messages.fault)
         screen.opened.connect(lambda session_id: way.show("review", session_id))
@@ -71,7 +72,7 @@ class SessionsFlow(Flow):
         self.context.now.session_id = ""
 
 
-class SessionShelf:
+class StoredSessions:
     """All sessions of a patient and what can be done with them. All but ``lines`` and ``other_patients`` may read or
     write the disk: called in the background."""
 

@@ -22,7 +22,7 @@ from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
 from carpus.ui.theme import MARGIN_PX, Theme
 
 if TYPE_CHECKING:  # it reads and writes files
-    from carpus.ui.sessions.flow import SessionShelf
+    from carpus.ui.sessions.flow import StoredSessions
 
 
 class SessionsScreen(QWidget):
@@ -42,9 +42,9 @@ class SessionsScreen(QWidget):
     """To whom, by name."""
     changed = Signal()
 
-    def __init__(self, theme: Theme, background: Background, shelf: SessionShelf, keys: Keys | None = None) -> None:
+    def __init__(self, theme: Theme, background: Background, stored: StoredSessions, keys: Keys | None = None) -> None:
         super().__init__()
-        self._theme, self._background, self._shelf = theme, background, shelf
+        self._theme, self._background, self._stored = theme, background, stored
         self._patient_id = self._pseudonym = ""
         self._round = 0
         self.title = heading(theme)
@@ -126,7 +126,7 @@ class SessionsScreen(QWidget):
             lambda patient_id: self._do(lambda line: self._move(line.session_id, patient_id), self.moved.emit)
         )
         self.rename_sheet.chosen.connect(
-            lambda exercise: self._do(lambda line: self._shelf.rename_exercise(line.session_id, exercise))
+            lambda exercise: self._do(lambda line: self._stored.rename_exercise(line.session_id, exercise))
         )
 
     # --- showing ------------------------------------------------------------------------------------------
@@ -134,11 +134,11 @@ class SessionsScreen(QWidget):
         self._patient_id, self._pseudonym = patient_id, pseudonym
         self._round += 1
         number = self._round
-        lines = self._shelf.lines(patient_id)
+        lines = self._stored.lines(patient_id)
         self.title.setText(self.tr("Sessions of {name}").format(name=pseudonym))
         self.list.rows.show_lines(lines)
         self._show_ticks()
-        archived = self._shelf.archived(patient_id)
+        archived = self._stored.archived(patient_id)
         self.archive_button.setVisible(archived > 0)
         self.archive_button.set_face(self.tr("In the archi&ve: {n}").format(n=archived))
         self.none.setVisible(not lines)
@@ -149,7 +149,7 @@ class SessionsScreen(QWidget):
         self._show_chosen()
         for line in lines:
             self._background.run(
-                lambda line=line: self._shelf.with_figures(line),  # type: ignore[misc]
+                lambda line=line: self._stored.with_figures(line),  # type: ignore[misc]
                 lambda known: self._take_figures(number, known),
                 lambda _: None,
                 self,
@@ -222,7 +222,7 @@ class SessionsScreen(QWidget):
             self.aside_sheet.begin()
 
     def _set_aside(self, reason: str) -> None:
-        self._do(lambda line: self._shelf.set_aside(line.session_id, reason))
+        self._do(lambda line: self._stored.set_aside(line.session_id, reason))
 
     def _ask_move(self) -> None:
         words = self.tr("It then counts in the other patient’s progress, and no more in that of {name}.")
@@ -230,7 +230,7 @@ class SessionsScreen(QWidget):
             self.tr("To whom does this session belong?"),
             words.format(name=self._pseudonym),
             self.tr("Move it there"),
-            [one for one in self._shelf.other_patients(self._patient_id) if one[0] != self._patient_id],
+            [one for one in self._stored.other_patients(self._patient_id) if one[0] != self._patient_id],
         )
 
     def _ask_rename(self) -> None:
@@ -252,8 +252,8 @@ class SessionsScreen(QWidget):
             self.erase_wanted.emit(line.session_id)
 
     def _move(self, session_id: str, patient_id: str) -> str:
-        self._shelf.move(session_id, patient_id)
-        return dict(self._shelf.other_patients(self._patient_id))[patient_id]
+        self._stored.move(session_id, patient_id)
+        return dict(self._stored.other_patients(self._patient_id))[patient_id]
 
     def _do(self, action, told=lambda _: None) -> None:  # type: ignore[no-untyped-def]
         line = self.chosen()

@@ -229,7 +229,7 @@ def _require(views: Sequence[BoardView], width_px: int, height_px: int, subject:
 
 
 @dataclass(frozen=True, slots=True)
-class _Fit:
+class _FittedLens:
     camera: Camera
     focal_sd_px: float
     middle_sd_px: float
@@ -239,7 +239,7 @@ class _Fit:
     shift_m: FloatArray
 
 
-def _fitted(views: Sequence[BoardView], width_px: int, height_px: int) -> _Fit:
+def _fitted(views: Sequence[BoardView], width_px: int, height_px: int) -> _FittedLens:
     points = [view.found.board.corners_m[view.found.corner].astype(np.float32) for view in views]
     pixels = [view.found.pixel.astype(np.float32).reshape(-1, 1, 2) for view in views]
     guess = np.array([[width_px * 0.82, 0.0, 0.5 * (width_px - 1)], [0.0, width_px * 0.82, 0.5 * (height_px - 1)],
@@ -255,7 +255,7 @@ def _fitted(views: Sequence[BoardView], width_px: int, height_px: int) -> _Fit:
         float(k[0, 0]), float(k[1, 1]), float(k[0, 2]), float(k[1, 2]), width_px, height_px, (k1, k2, p1, p2, k3),
         origin="calibration",
     )  # fmt: skip
-    return _Fit(
+    return _FittedLens(
         camera,
         float(max(sd[0], sd[1])),
         float(max(sd[2], sd[3])),

@@ -267,8 +267,8 @@ def _watch(ob: Any, outlet: Outlet, plan: CameraPlan) -> None:
     config.set_frame_aggregate_output_mode(ob.OBFrameAggregateOutputMode.ANY_SITUATION)
     outlet.hold(context, device, pipeline, streams, config, changed)
     pipeline.start(config)
-    pictures = _Pictures(ob, outlet, streams)
-    lock = ColorLock(outlet, _Controls(ob, device, streams))
+    pictures = _OrbbecPictures(ob, outlet, streams)
+    lock = ColorLock(outlet, _OrbbecControls(ob, device, streams))
     outlet.lock_exposure = lock.begin
     is_told = False
 
@@ -294,7 +294,7 @@ def _watch(ob: Any, outlet: Outlet, plan: CameraPlan) -> None:
     pipeline.stop()
 
 
-class _Pictures:
+class _OrbbecPictures:
     """Passes colour on, and depth, laid on colour by the library; both with the camera's own times."""
 
     def __init__(self, ob: Any, outlet: Outlet, streams: OrbbecStreams) -> None:
@@ -337,7 +337,7 @@ class _Pictures:
         return pixels
 
 
-class _Controls:
+class _OrbbecControls:
     """Exposure and white balance of the colour camera."""
 
     def __init__(self, ob: Any, device: Any, streams: OrbbecStreams) -> None:

@@ -297,8 +297,8 @@ def _watch(rs: Any, outlet: Outlet, plan: CameraPlan) -> None:
                 _next(waiting, 0.0)  # the oldest; its number is missing then, and counted
 
     _start(streams, take)
-    pictures = _Pictures(rs, outlet, streams)
-    hold = ColorLock(outlet, _Controls(rs, streams))
+    pictures = _RealSensePictures(rs, outlet, streams)
+    hold = ColorLock(outlet, _RealSenseControls(rs, streams))
     outlet.lock_exposure = hold.begin
     is_told = False
 
@@ -341,7 +341,7 @@ def _play(rs: Any, outlet: Outlet, path: Path) -> None:
     playback.pause()  # else it begins with the first sensor, and the other's pictures are lost
     _start(streams, take)
     playback.resume()
-    pictures = _Pictures(rs, outlet, streams)
+    pictures = _RealSensePictures(rs, outlet, streams)
     heard = time.monotonic()
     is_told = False
     while not outlet.stopping:
@@ -399,7 +399,7 @@ def _opened(rs: Any, streams: RealsenseStreams, settings: dict[str, str]) -> Ope
     return Opened(streams.modes, mirrored, None, settings, lens_of(rs, streams.color), depth_unit_m(rs, streams))
 
 
-class _Pictures:
+class _RealSensePictures:
     """Passes colour on, and depth, laid on colour by the library; both with their own times."""
 
     def __init__(self, rs: Any, outlet: Outlet, streams: RealsenseStreams) -> None:
@@ -452,7 +452,7 @@ def _turned(blue_first: memoryview) -> memoryview:
     return memoryview(out)
 
 
-class _Controls:
+class _RealSenseControls:
     """Exposure and white balance of the colour sensor."""
 
     def __init__(self, rs: Any, streams: RealsenseStreams) -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from datetime import datetime, timedelta
 
-from carpus.ui.sessions.flow import SessionShelf
+from carpus.ui.sessions.flow import StoredSessions
 from carpus.ui.sessions.listing import SessionLine
 
 
-class FakeShelf(SessionShelf):
+class FakeStoredSessions(StoredSessions):
     """A list of sessions that remembers what was done with it."""
 
     def __init__(self, count: int = 6) -> None:

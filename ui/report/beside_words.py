@@ -17,12 +17,12 @@ from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
 from carpus.ui.icons import State
 from carpus.ui.plot.style import CURVE_TOKENS
-from carpus.ui.progress.words import comparison_name, doubt_words
-from carpus.ui.progress.words import headline as progress_headline
 from carpus.ui.report.hand_rows import AT_LEAST
 from carpus.ui.report.tables import is_deficit, mean_words, repetition_words, too_slow, turned
 from carpus.ui.translate import tr
 from carpus.ui.verdicts import difference, no_change_words, reason_words
+from carpus.ui.words.progress import comparison_name, doubt_words
+from carpus.ui.words.progress import headline as progress_headline
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,9 +15,9 @@ from carpus.core.results.seen import best_motion
 from carpus.core.results.side_by_side import SideBySide, side_by_side
 from carpus.core.session.values import Session
 from carpus.ui import numbers, terms
-from carpus.ui.beside.words import middle_words, name_of
 from carpus.ui.figures import FINGERS, Figure, figure_of, with_side
 from carpus.ui.plot.beside import BesidePlot
+from carpus.ui.report.beside_words import middle_words, name_of
 from carpus.ui.report.hand_rows import compared_row, followed_keys, followed_kinds, trains_thumb
 from carpus.ui.translate import tr
 

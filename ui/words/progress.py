@@ -6,15 +6,16 @@ import math
 from collections.abc import Sequence
 
 from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
+from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import Comparison, Progress, ProgressPoint
 from carpus.core.results.ranges import is_total
 from carpus.ui import numbers, terms
-from carpus.ui.check_card.standing_words import unsure_words
 from carpus.ui.fault_words import finding_words
 from carpus.ui.figures import figure_of
 from carpus.ui.marker_words import long_finger_name
 from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import difference, reason_words
+from carpus.ui.words.camera_standing import unsure_words
 
 
 def headline(progress: Progress) -> tuple[str, str]:
@@ -153,3 +154,15 @@ def unfair_words(point: ProgressPoint, progress: Progress) -> str:
     has_ring = point.figures.rows or point.figures.joint_rows
     pattern = tr("{day}: {reasons}. Shown as a ring and left out.") if has_ring else tr("{day}: {reasons}. Left out.")
     return pattern.format(day=day, reasons=", ".join(reasons))
+
+
+def corrected_words(figures: SessionFigures) -> str:
+    """``Corrected on 22 Nov 2026, from 00:31.4, by MK.``: markers were put right after the recording; empty as
+    measured."""
+    said = figures.corrected
+    if said is None:
+        return ""
+    day, at = numbers.day_of_year(said.when), numbers.clock_tenths(said.from_s)
+    if said.by:
+        return tr("Corrected on {day}, from {time}, by {who}.").format(day=day, time=at, who=said.by)
+    return tr("Corrected on {day}, from {time}.").format(day=day, time=at)
