@@ -142,14 +142,14 @@ class Walker:
         self.until(lambda: bool(saved))
 
 
-def walk(settings: Settings, progress: Progress, *, repetitions: int = REPETITIONS, speed: float = 1.0) -> Walked:
+def walk(settings: Settings, progress: Progress) -> Walked:
     """Walk the whole way on the practice patient; raises the first fault that the windows would tell."""
     settings = replace(settings, screen=ScreenSettings("light"), first_start=FirstStartSettings(answered=True))
     stopping = threading.Event()
     on_stop(stopping.set)  # first of all: an exception out of the middle of a window's own work would be lost
     qInstallMessageHandler(_told_by_qt)
     qt = compose.application(["carpus"])
-    desktop = compose.compose(qt, settings, is_demo=True, speed=speed)
+    desktop = compose.compose(qt, settings, is_demo=True)
     try:
         walker = Walker(desktop, stopping.is_set)
         desktop.show()
@@ -162,7 +162,7 @@ def walk(settings: Settings, progress: Progress, *, repetitions: int = REPETITIO
         walker.take_picture()
         walker.click_markers(clicks_of(SimulatedPictures(practice_spec(set_up)).truth).pixel)
         walker.until(lambda: is_cached(practice_spec(set_up)), patience_s=1800.0)  # here nobody sees the hand rest
-        session_id = walker.record(repetitions, lambda done: progress(done, repetitions))
+        session_id = walker.record(REPETITIONS, lambda done: progress(done, REPETITIONS))
         walker.tab("progress")
         walker.tab("review")
         walker.until(lambda: desktop.journey.review.screen.shown)

@@ -31,10 +31,10 @@ class BundledPart:
     texts: tuple[str, ...] = ()
 
 
-def bundled_parts(root: str = "carpus") -> list[BundledPart]:
+def bundled_parts() -> list[BundledPart]:
     """Every package that an installed program needs, itself first, then by name; without what is not installed."""
     seen: dict[str, BundledPart] = {}
-    waiting = [root]
+    waiting = ["carpus"]
     while waiting:
         name = _normal(waiting.pop())
         if name in seen:
@@ -46,7 +46,7 @@ def bundled_parts(root: str = "carpus") -> list[BundledPart]:
         seen[name] = BundledPart(found.metadata["Name"], found.version, _licence(found), tuple(_texts(found)))
         needs = (line.partition(";") for line in found.requires or ())
         waiting += [re.split(r"[<>=!~ \[(]", need.strip())[0] for need, _, marker in needs if "extra" not in marker]
-    return sorted(seen.values(), key=lambda part: (_normal(part.name) != root, _normal(part.name)))
+    return sorted(seen.values(), key=lambda part: (_normal(part.name) != "carpus", _normal(part.name)))
 
 
 def licence_texts() -> str:

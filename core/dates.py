@@ -8,9 +8,9 @@ _EARLIEST = datetime(2000, 1, 1, tzinfo=UTC)
 """No depth camera is older: an earlier time counts from when the camera was switched on."""
 
 
-def time_of_day(timestamp_s: float, now: datetime | None = None) -> datetime | None:
+def time_of_day(timestamp_s: float) -> datetime | None:
     """The moment that a picture's time names when it counts from 1970, None when it counts from anything else."""
-    latest_s = (now or datetime.now(UTC)).timestamp() + 86400.0
+    latest_s = datetime.now(UTC).timestamp() + 86400.0
     if not _EARLIEST.timestamp() <= timestamp_s <= latest_s:
         return None
     return datetime.fromtimestamp(timestamp_s, UTC)

@@ -31,13 +31,13 @@ _GIVE_WAY = ("default", "driver", "factory")
 class CalibratedSource:
     """``source`` with the intrinsics of ``info``, its depth corrected, and both said in its settings."""
 
-    def __init__(self, source: FrameSource, info: CameraInfo, now: datetime | None = None) -> None:
+    def __init__(self, source: FrameSource, info: CameraInfo) -> None:
         assert info.calibration is not None
         self._source, self._calibration = source, info.calibration
         self.info: SourceInfo = replace(
             source.info,
             camera=replace(info.camera, origin=ORIGIN, sensor=source.info.sensor),
-            settings={**source.info.settings, **_said(info.calibration, source.info, now or datetime.now(UTC))},
+            settings={**source.info.settings, **_said(info.calibration, source.info, datetime.now(UTC))},
         )
         self._table: tuple[float, DepthImage] | None = None
 
@@ -68,7 +68,7 @@ def correction_table(made: StoredCalibration, unit_m: float) -> DepthImage:
     return np.where((counts < 1) | (counts > _MOST_COUNTS) | (measured_m == 0.0), 0, counts).astype(np.uint16)
 
 
-def with_stored_calibration(source: FrameSource, data_folder: Path, now: datetime | None = None) -> FrameSource:
+def with_stored_calibration(source: FrameSource, data_folder: Path) -> FrameSource:
     """``source`` as the newest stored calibration of its camera has it; itself where there is none, where nobody
     knows which camera it was, or where it brings intrinsics of its own."""
     serial = source.info.serial
@@ -78,7 +78,7 @@ def with_stored_calibration(source: FrameSource, data_folder: Path, now: datetim
     size = (source.info.camera.width_px, source.info.camera.height_px)
     if info is None or (info.camera.width_px, info.camera.height_px) != size:
         return source
-    return CalibratedSource(source, info, now)
+    return CalibratedSource(source, info)
 
 
 def stored_calibration(data_folder: Path, serial: str) -> CameraInfo | None:

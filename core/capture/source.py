@@ -106,11 +106,11 @@ def recording_id(info: SourceInfo, first: Frame) -> str:
     return str(uuid.uuid5(uuid.NAMESPACE_OID, digest.hexdigest()))
 
 
-def recorded_at(info: SourceInfo, first_s: float, path: Path | None, now: datetime | None = None) -> Recorded | None:
+def recorded_at(info: SourceInfo, first_s: float, path: Path | None) -> Recorded | None:
     """When a stored recording was made; the date of its file is the last resort, None where there is none."""
     if is_moment(info.recorded):
         return Recorded(info.recorded, "recording")
-    by_times = time_of_day(first_s, now)
+    by_times = time_of_day(first_s)
     if by_times is not None:
         return Recorded(iso(by_times), "times")
     if path is None or not path.exists():

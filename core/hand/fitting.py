@@ -58,21 +58,17 @@ class AnatomyFit:
     """A subject's hand and how well it is known.
 
     ``digits`` constants of the thumb and of fingers 2 to 5, mean (5, 11) and covariance (5, 11, 11), in the order of
-    ``DIGIT_CONSTANTS``; ``neutral_angles_rad`` and ``neutral_angles_sd_rad`` (J,) at the
-    neutral pose (zero is the straight chain); ``neutral_digits`` angles of each digit at the neutral pose (4 or 5) and
-    ``neutral_cross`` (4 or 5, 11) how they err together with its constants; ``residual_m`` (21, 3) model minus
-    measurement at the neutral pose; ``absurd_depth`` markers whose depth was left out.
+    ``DIGIT_CONSTANTS``; ``neutral_digits`` angles of each digit at the neutral pose (4 or 5, zero is the straight
+    chain) and ``neutral_cross`` (4 or 5, 11) how they err together with its constants; ``residual_m`` (21, 3) model
+    minus measurement at the neutral pose; ``absurd_depth`` markers whose depth was left out.
     """
 
     anatomy: HandAnatomy
     digits: Gaussian
-    neutral_angles_rad: FloatArray
-    neutral_angles_sd_rad: FloatArray
     neutral_digits: tuple[Gaussian, ...]
     neutral_cross: tuple[FloatArray, ...]
     residual_m: FloatArray
     absurd_depth: tuple[str, ...]
-    dip_free: bool
 
 
 def fit_anatomy(
@@ -115,7 +111,7 @@ def fit_anatomy(
         for i in _absurd_depths(model, known, angles, disc[:, own], information[:, own], across[:, own], prior):
             information[:, own[i]] = across[:, own[i]]
             absurd.append(SITES[own[i]])
-    return _fitted(average, digits, neutral, disc, information, tuple(absurd), dip_free)
+    return _fitted(average, digits, neutral, disc, information, tuple(absurd))
 
 
 def _not_evidently_bent(
@@ -146,7 +142,6 @@ def _fitted(
     disc_m: FloatArray,
     information_m2: FloatArray,
     absurd_depth: tuple[str, ...],
-    dip_free: bool,
 ) -> AnatomyFit:
     """Fit each digit to the neutral pose, discs (1, 21, 3) in axes of a right hand; ``average`` constants (5, 11);
     ``neutral`` angles expected of each."""
@@ -165,13 +160,10 @@ def _fitted(
     return AnatomyFit(
         anatomy=with_constants(hand, digits.mean),
         digits=digits,
-        neutral_angles_rad=_all_angles([fit.angles.mean[0] for fit in fits], dip_free),
-        neutral_angles_sd_rad=_all_angles([np.sqrt(np.diagonal(fit.angles.covariance[0])) for fit in fits], dip_free),
         neutral_digits=tuple(Gaussian(fit.angles.mean[0], fit.angles.covariance[0]) for fit in fits),
         neutral_cross=tuple(fit.cross[0] for fit in fits),
         residual_m=residual * _mirror(hand.side),
         absurd_depth=absurd_depth,
-        dip_free=dip_free,
     )
 
 
@@ -218,8 +210,3 @@ def _absurd_depths(
         cost = without[best]
         absurd.append(best)
     return absurd
-
-
-def _all_angles(per_digit: list[FloatArray], dip_free: bool) -> FloatArray:
-    """The 17 (21) angles from those of the five digits."""
-    return np.concatenate([per_digit[0]] + [chain if dip_free else chain[:3] for chain in per_digit[1:]])

@@ -60,6 +60,12 @@ def test_what_a_hidden_joint_was_thought_to_do_is_not_its_range_but_is_told() ->
     assert not found.bottom_limited
 
 
+@pytest.mark.parametrize(("share", "repetitions"), [(0.33, 3), (0.27, 0)])
+def test_a_repetition_counts_for_a_joint_that_was_seen_in_three_tenths_of_it(share: float, repetitions: int) -> None:
+    seen = between(0.0, 4.0 * share)
+    assert joint_range(track("PIP3_flexion", 80.0 * WAVE, seen), REPETITIONS).repetitions == repetitions
+
+
 @pytest.mark.parametrize(("further_deg", "limited"), [(2.0, False), (4.0, True)])
 def test_a_hidden_joint_is_limited_where_it_may_have_gone_five_degrees_further(
     further_deg: float, limited: bool

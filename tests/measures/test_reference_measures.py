@@ -79,6 +79,8 @@ def test_tremor_is_told_only_where_it_exceeds_the_noise() -> None:
     assert found.peak_hz == pytest.approx(5.0, abs=0.5)
     assert math.degrees(found.rms_rad) == pytest.approx(1.5 / math.sqrt(2.0), rel=0.15)
     assert not tremor(even_signal(t, rng.normal(0.0, noise, len(t))), noise).is_tremor
+    limits = [tremor(even_signal(t, held), found.rms_rad / times).is_tremor for times in (2.9, 3.1)]
+    assert limits == [False, True], "three times the noise"
     assert math.isnan(tremor(even_signal(t[:100], held[:100]), noise).rms_rad)
 
 

@@ -8,7 +8,16 @@ import numpy as np
 import pytest
 from scipy import signal as sps
 
-from carpus.core.measures.signals import even_signal, low_pass, rate_of_change, stretches
+from carpus.core import so3
+from carpus.core.measures.signals import (
+    even_signal,
+    low_pass,
+    rate_of_change,
+    settled,
+    stretches,
+    valid_angle,
+    valid_view,
+)
 
 RATE = 30.0
 
@@ -136,3 +145,33 @@ def test_stretches() -> None:
     flag = np.array([True, True, False, True, False, False, True])
     assert stretches(flag) == [slice(0, 2), slice(3, 4), slice(6, 7)]
     assert stretches(np.zeros(3, dtype=bool)) == []
+
+
+@pytest.mark.parametrize(
+    ("status", "discs", "tilt_deg", "counts"),
+    [(0, 4, 69.0, True), (0, 3, 0.0, False), (0, 6, 71.0, False), (1, 6, 0.0, False), (3, 6, 0.0, False)],
+)
+def test_a_frame_counts_that_is_tracked_by_four_discs_no_more_than_70_degrees_aslant(
+    status: int, discs: int, tilt_deg: float, counts: bool
+) -> None:
+    pixel = np.full((1, 6, 2), np.nan)
+    pixel[:, :discs] = 100.0
+    tilted = so3.exp(np.array([[math.radians(tilt_deg), 0.0, 0.0]]))
+    towards_camera = np.diag([1.0, -1.0, -1.0])
+    assert valid_view(np.array([status]), pixel, tilted, towards_camera).tolist() == [counts]
+
+
+def test_an_angle_counts_that_is_known_to_8_degrees() -> None:
+    sd_deg = np.array([7.9, 8.1, np.nan, 1.0])
+    valid = valid_angle(np.full(4, True), np.array([0.0, 0.0, 0.0, np.nan]), np.radians(sd_deg))
+    assert valid.tolist() == [True, False, False, False]
+
+
+@pytest.mark.parametrize(("gone_s", "taken_s"), [(0.15, 0.0), (0.3, 0.09)])
+def test_what_lies_beside_a_gap_that_is_not_filled_does_not_count(gone_s: float, taken_s: float) -> None:
+    time_s = np.arange(200) / 100.0
+    gone = (time_s > 1.0) & (time_s < 1.0 + gone_s)
+    kept = time_s[settled(~gone, time_s)]
+    first_gone_s, last_gone_s = time_s[gone][[0, -1]]
+    assert kept[kept < first_gone_s].max() == pytest.approx(first_gone_s - 0.01 - taken_s, abs=0.011)
+    assert kept[kept > last_gone_s].min() == pytest.approx(last_gone_s + 0.01 + taken_s, abs=0.011)

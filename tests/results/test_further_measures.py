@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from carpus.core.results.figures import SessionFigures, session_figures
-from carpus.core.results.further_measures import FurtherMeasure, session_reaches
+from carpus.core.results.further_measures import FurtherMeasure, _distance_sd_m, session_reaches
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.norms import graded_totals
 from carpus.ui.report.further_rows import further_rows, main_words, measure_name, short_words
@@ -155,6 +155,19 @@ def test_touches_that_the_camera_does_not_see_are_not_counted() -> None:
     assert not any(math.isfinite(item.mean) for item in figures.further if item.of in ("thumb across", "thumb back"))
     said = [row.today for row in further_rows(figures) if "across" in row.name]
     assert said == ["hidden from the camera"], "one line for all that is not known of the ways"
+
+
+@pytest.mark.parametrize(("sds", "touches"), [(2.2, 0.0), (1.8, math.nan)])
+def test_hidden_tips_may_have_touched_within_two_standard_deviations(sds: float, touches: float) -> None:
+    made = hand_session(exercise="THUMB_OPP", motion="abduction", hidden=[(0.5, 60.0, "TIP1")])
+    tips = made.motion.joint_position_m.copy()
+    away = tips[:, 4] - tips[:, 8]
+    tips[:, 4] = tips[:, 8] + 0.030 * away / np.linalg.norm(away, axis=1, keepdims=True)
+    apart = replace(made.motion, joint_position_m=tips)
+    scale = (0.030 - 0.015) / sds / _distance_sd_m(replace(made, motion=apart), 1)
+    unsure = replace(apart, joint_angles_sd_rad=apart.joint_angles_sd_rad * scale[:, None])
+    found = named(session_figures(replace(made, motion=unsure)), "touches", "TIP1-TIP2")
+    assert found.mean == pytest.approx(touches, nan_ok=True)
 
 
 def test_a_reach_that_goes_out_of_sight_half_way_has_no_time() -> None:

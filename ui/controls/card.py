@@ -14,14 +14,11 @@ from carpus.ui.keys import key_name
 from carpus.ui.theme import CARD_PADDING_PX, CARD_RADIUS_PX, Theme
 
 
-def paint_card(
-    painter: QPainter, theme: Theme, box: QRectF, fill: str = "surface", edge: str = "line", edge_px: float = 1.0
-) -> QRectF:
+def paint_card(painter: QPainter, theme: Theme, box: QRectF) -> QRectF:
     """The surface of a card that fills ``box``; the rectangle of its line."""
-    half = edge_px / 2
-    frame = box.adjusted(half, half, -half, -half)
-    painter.setPen(QPen(theme.color(edge), edge_px))
-    painter.setBrush(theme.color(fill))
+    frame = box.adjusted(0.5, 0.5, -0.5, -0.5)
+    painter.setPen(QPen(theme.color("line"), 1.0))
+    painter.setBrush(theme.color("surface"))
     painter.drawRoundedRect(frame, CARD_RADIUS_PX, CARD_RADIUS_PX)
     return frame
 
@@ -62,23 +59,23 @@ class Card(Surface):
 class Line(Surface):
     """A 1 px separator."""
 
-    def __init__(self, theme: Theme, token: str = "line", *, vertical: bool = False) -> None:
-        super().__init__(theme, token)
+    def __init__(self, theme: Theme, *, vertical: bool = False) -> None:
+        super().__init__(theme, "line")
         if vertical:
             self.setFixedWidth(1)
         else:
             self.setFixedHeight(1)
 
 
-SPACE_PX = 7
+SPACE_PX, BETWEEN_PX = 7, 16
 
 
 class KeyCaps(Fitted):
     """Keys and what they do, in one line: ``[("Space", "accept"), ...]``."""
 
-    def __init__(self, theme: Theme, keys: Sequence[tuple[str, str]], gap_px: int = 16) -> None:
+    def __init__(self, theme: Theme, keys: Sequence[tuple[str, str]]) -> None:
         super().__init__()
-        self._theme, self._gap_px = theme, gap_px
+        self._theme = theme
         self._keys: tuple[tuple[str, str], ...] = ()
         self._pairs: list[tuple[QWidget, Text]] = []
         self.set_keys(keys)
@@ -106,7 +103,7 @@ class KeyCaps(Fitted):
         for cap, said in self._pairs:
             words = left + cap.sizeHint().width() + SPACE_PX
             places.append((left, words, words + said.sizeHint().width()))
-            left = places[-1][2] + self._gap_px
+            left = places[-1][2] + BETWEEN_PX
         return places
 
     def _fit(self) -> None:

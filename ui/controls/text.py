@@ -147,9 +147,9 @@ def heading(theme: Theme, text: str = "", *, wrap: bool = False) -> Text:
     return Text(theme, text, 28, SEMIBOLD, wrap=wrap)
 
 
-def caption(theme: Theme, text: str = "", weight: int = MEDIUM, *, wrap: bool = False) -> Text:
+def caption(theme: Theme, text: str = "", *, wrap: bool = False) -> Text:
     """Small secondary text."""
-    return Text(theme, text, 12, weight, "text2", wrap=wrap)
+    return Text(theme, text, 12, MEDIUM, "text2", wrap=wrap)
 
 
 STATE_TOKENS: dict[State, str] = {

@@ -30,7 +30,11 @@ class Lamp:
     remedy: str
 
 
-def lamp_for(frame: TrackedFrame | None, markers: Sequence[str], forearm_moved: bool, trackable: int = 3) -> Lamp:
+TRACKABLE = 3
+"""Discs that tell where the hand is."""
+
+
+def lamp_for(frame: TrackedFrame | None, markers: Sequence[str], forearm_moved: bool) -> Lamp:
     """The light for one frame as it stands, without any delay."""
     if frame is None:
         return Lamp("idle", tr("Waiting for the first picture"), "")
@@ -39,7 +43,7 @@ def lamp_for(frame: TrackedFrame | None, markers: Sequence[str], forearm_moved: 
     hidden = [
         name for name, pixel in zip(markers, frame.marker_measured_px, strict=True) if not math.isfinite(pixel[0])
     ]
-    if len(markers) - len(hidden) < trackable or frame.status == TrackStatus.PREDICTED:
+    if len(markers) - len(hidden) < TRACKABLE or frame.status == TrackStatus.PREDICTED:
         return Lamp("warn", tr("Too few markers seen"), tr("Turn the back of the hand to the camera"))
     if len(hidden) == 1:
         return Lamp("warn", tr("{marker} hidden").format(marker=marker_name(hidden[0])), hidden_remedy(hidden[0]))

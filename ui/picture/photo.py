@@ -59,9 +59,9 @@ def paint_wrong_label(painter: QPainter, theme: Theme, text: str, plate: QRectF)
 class Photo(QWidget):
     """Shows one picture that does not change."""
 
-    def __init__(self, theme: Theme, height_px: int = 185) -> None:
+    def __init__(self, theme: Theme) -> None:
         super().__init__()
-        self._theme, self._height_px = theme, height_px
+        self._theme = theme
         self._image: QImage | None = None
         self._label = ""
         self._roomy = True
@@ -81,7 +81,7 @@ class Photo(QWidget):
         self.setVisible(self._image is not None and roomy)
 
     def sizeHint(self) -> QSize:
-        return QSize(280, self._height_px)
+        return QSize(280, 185)
 
     def place(self) -> tuple[QRectF, QPointF]:
         """Room of the picture, and where its label is."""
