@@ -211,6 +211,12 @@ def quick_age(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(autouse=True)
+def no_niceness_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A command run in this process gives way to others for good: all later tests would be slower for it."""
+    monkeypatch.setattr("os.nice", lambda _: 0)
+
+
+@pytest.fixture(autouse=True)
 def no_thread_left() -> Iterator[None]:
     """Fails a test that leaves a thread or a child process running."""
     threads_before = set(threading.enumerate())

@@ -242,10 +242,7 @@ def test_a_log_that_cannot_be_written_is_told_and_stops_nothing_else(
     assert [type(one).__name__ for one in told] == ["OutputNotWritable"]
 
 
-def test_a_back_up_by_command_comes_back_elsewhere(
-    library: Library, tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("os.nice", lambda _: 0)
+def test_a_back_up_by_command_comes_back_elsewhere(library: Library, tmp_path: Path, command: Command) -> None:
     linden = StoredPatients(library).add(PatientEntry("Linden 42", "right", "right"))
     store(library, set_up(linden, "Linden 42"))
     place, new = tmp_path / "disk", tmp_path / "new"
@@ -279,7 +276,6 @@ def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(
         path = library.entry(session).path
     assert path.is_relative_to(share)
     assert (read_comment(path), read_choices(path).left_out) == ("Less swelling.", {0: "pain"})
-    monkeypatch.setattr("os.nice", lambda _: 0)
     assert command("backup", tmp_path / "disk").code == 0
     assert command("erase", path, "--for-good", "Linden 42").code == 0
     assert not path.exists()
