@@ -345,7 +345,6 @@ class Tracker:
         return there
 
     def _status_after(self, posterior: Posterior, scan: Scan) -> TrackStatus:
-        """What becomes of the track."""
         if self._manager.is_refuted(posterior.seen, scan.timestamp_s):
             return TrackStatus.LOST
         self._filter.learn(posterior, scan.dt_s)

@@ -16,7 +16,6 @@ STILL_S = 0.9
 SECONDS = 5.6
 GRASPS = Path(__file__).parents[3] / "shared" / "data" / "motion" / "kinesis_reach_to_grasp.npz"
 """Real reach-to-grasp movements, where a developer has them; a grasp of our own stands in."""
-_WIDEST_DEG = 12.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,7 +28,6 @@ from tests.second_patient.skeleton import Bone, placed_bones, rest_posture
 from tests.sources import ROOT, SOURCES, nodes
 
 CUPPED = row_named("hand: power grip, cupped palm")
-WRIST_CUPPED = row_named("power grip, cupped palm")
 
 
 @pytest.fixture(scope="module")

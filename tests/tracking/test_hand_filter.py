@@ -81,6 +81,9 @@ def test_the_rate_about_a_line_of_discs_fades_while_no_other_is_seen() -> None:
     assert line @ after == pytest.approx(kept * (line @ before), rel=0.05)
     across = before - line * (line @ before)
     np.testing.assert_allclose(after - line * (line @ after), across, atol=0.02 * np.linalg.norm(before))
+    assert not own.showed_turn
+    own.begin(own.estimate_at(FOUND))
+    assert own.showed_turn, "what was not seen before is none of a hand found anew"
 
 
 def test_a_scan_without_blobs_is_one_of_nothing() -> None:

@@ -8,18 +8,21 @@ import numpy as np
 import pytest
 
 from carpus.core.hand.anatomy import HARD_LIMITS_RAD
-from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, SLOTS
+from carpus.core.tracking.digit_filter import ANATOMY
+from carpus.core.tracking.finger_settings import FingerSettings
+from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
 from carpus.core.tracking.joint_limits import (
     MID_RANGE_RAD,
     RANGE_SD_RAD,
     LimitSettings,
     constrained,
     outside_limits,
+    settled,
     slot_limits_rad,
 )
 from carpus.core.tracking.kernel import ModeMixture
 
-SIZE = SLOTS + CONSTANTS
+SIZE = ANATOMY.stop
 INDEX, PIP = 1, 2
 SETTINGS = LimitSettings()
 
@@ -125,3 +128,10 @@ def test_a_limit_is_felt_from_three_standard_deviations_off(pip_deg: float) -> N
     angle, _ = pulled(pip_deg, 5.0)
     assert angle < pip_deg
     assert pulled(104.0, 5.0)[0] == pytest.approx(104.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(("beyond_deg", "is_misread"), [(29.0, False), (31.0, True)])
+def test_a_digit_surely_30_degrees_beyond_a_limit_was_misread(beyond_deg: float, is_misread: bool) -> None:
+    surely = estimate(math.degrees(HARD_LIMITS_RAD["PIP2_flexion"][1]) + beyond_deg, 0.01)
+    _, _, misread = settled(surely, FingerSettings().most_beyond_rad, SETTINGS)
+    assert misread.tolist() == [False, is_misread, False, False, False]

@@ -12,6 +12,7 @@ from carpus.core import so3
 from carpus.core.tracking.palm_state import SKIN, View
 from carpus.core.tracking.reacquire import Facing, FindingSettings, FoundPalm, find_palm
 from carpus.core.tracking.soft_tissue import SoftTissue, stationary_covariance
+from carpus.core.tracking.track_manager import HoldingSettings
 from carpus.core.types import Detections, Side
 from tests.tracking.hands import CAMERA, CMC1, FROM_ABOVE, MCP5, MIDDLE_M, WRIST, Pose, blobs, palm, rotation_of
 
@@ -128,12 +129,11 @@ def test_four_discs_are_named_rightly_or_not_at_all() -> None:
     assert right > 100
 
 
-def test_a_palm_turned_further_than_a_hand_can_be_is_none() -> None:
-    backwards = blobs(Pose(np.array([170.0, 0.0, 0.0])))
-    within = Facing(np.eye(3), 1.9, 1.9)
-    assert looked_for(backwards) is not None
-    assert looked_for(backwards, about=within) is None
-    assert looked_for(blobs(Pose(np.array([60.0, 0.0, 0.0]))), about=within) is not None
+@pytest.mark.parametrize(("turned_deg", "is_one"), [(60.0, True), (106.0, True), (112.0, False), (170.0, False)])
+def test_a_palm_turned_further_than_a_hand_can_be_is_none(turned_deg: float, is_one: bool) -> None:
+    turned, most_rad = blobs(Pose(np.array([turned_deg, 0.0, 0.0]))), HoldingSettings().most_turn_rad
+    assert looked_for(turned) is not None
+    assert (looked_for(turned, about=Facing(np.eye(3), most_rad, most_rad)) is not None) == is_one
 
 
 def test_what_every_disc_shows_counts_for_more_than_the_turn_that_was_expected() -> None:

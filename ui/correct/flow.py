@@ -195,29 +195,25 @@ class CorrectFlow(Flow):
         one = self._decided()
         if one is None:
             return
-
-        def failed(fault: Exception) -> None:
-            self.context.messages.fault(fault)
-            self.look_for_waiting()
-
         # A look from before may still come, and tell of it once more: the last look is the true one.
-        self._background.run(lambda: self._stored.drop(one.trial), lambda _: self.look_for_waiting(), failed, self)
+        self._background.run(
+            lambda: self._stored.drop(one.trial), lambda _: self.look_for_waiting(), self._not_decided, self
+        )
 
     def _use(self) -> None:
         one = self._decided()
         if one is None:
             return
-
-        def failed(fault: Exception) -> None:
-            self.context.messages.fault(fault)
-            self.look_for_waiting()
-
         self._background.run(
             lambda: self._stored.use(one.session_id, one.trial),
             lambda new: self._used(one.session_id, str(new)),
-            failed,
+            self._not_decided,
             self,
         )
+
+    def _not_decided(self, fault: Exception) -> None:
+        self.context.messages.fault(fault)
+        self.look_for_waiting()
 
     def _used(self, before: str, new: str) -> None:
         """A new result counts from now on; where the old one was on the screen the new one is shown."""

@@ -73,7 +73,6 @@ def _apart(a: QPointF, b: QPointF) -> float:
 
 
 def _nearest(plate: QRectF, point: QPointF) -> QPointF:
-    """The place of a plate that is nearest to a point."""
     return QPointF(min(max(point.x(), plate.left()), plate.right()), min(max(point.y(), plate.top()), plate.bottom()))
 
 

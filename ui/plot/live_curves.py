@@ -77,7 +77,6 @@ class LiveCurves(PlotCard):
 
     @property
     def shows_speeds(self) -> bool:
-        """Whether the speeds are shown."""
         return self._speeds
 
     def refresh_values(self) -> None:

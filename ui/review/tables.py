@@ -48,7 +48,6 @@ class _Table(QWidget, Generic[Row]):
         raise NotImplementedError
 
     def _paint(self, painter: QPainter) -> None:
-        """All of it."""
         raise NotImplementedError
 
     @property
