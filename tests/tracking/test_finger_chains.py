@@ -11,6 +11,7 @@ from carpus.core.hand.anatomy_prior import constants_of
 from carpus.core.hand.kinematics import DIP_PER_PIP, disc_centres, joint_centres, segment_frames
 from carpus.core.hand.protocols import HAND21, SITE_CHAINS, joint_angle_names
 from carpus.core.tracking.digit_filter import DIGIT_SIZE, RATES, SEEN, DigitView, digits_linearised, spread_points
+from carpus.core.tracking.digit_search import DigitSearchSettings, in_reach
 from carpus.core.tracking.hand_geometry import (
     CHAINS,
     CONSTANTS,
@@ -148,3 +149,22 @@ def test_every_joint_is_measured_by_the_disc_on_it_and_the_next() -> None:
         assert HAND21.markers[at] == name.split("_")[0]
         assert HAND21.markers[past][-1] == name.split("_")[0][-1]
         assert past == at + 1
+
+
+@pytest.mark.parametrize(
+    ("digit", "off_m", "is_reached"),
+    [
+        (1, (0.099, 0.0, 0.0), True), (1, (0.101, 0.0, 0.0), False),
+        (1, (-0.019, 0.0, 0.0), True), (1, (-0.021, 0.0, 0.0), False),
+        (1, (0.0, 0.0, 0.049), True), (1, (0.0, 0.0, 0.051), False),
+        (0, (0.0, -0.029, 0.0), True), (0, (0.0, -0.031, 0.0), False),
+    ],
+)  # fmt: skip
+def test_a_disc_is_a_digit_s_within_its_length_and_a_little(
+    digit: int, off_m: tuple[float, ...], is_reached: bool
+) -> None:
+    """15 mm beyond it, 20 mm behind its root and 50 mm above the palm; of the thumb 30 mm across it."""
+    roots = np.array([[0.0, float(k), 0.0] for k in range(CHAINS)])  # so far apart that one reaches no other's
+    state = np.zeros((CHAINS, SLOTS + CONSTANTS))
+    state[:, SLOTS : SLOTS + 3] = 0.040, 0.025, 0.020
+    assert in_reach(roots[digit] + off_m, roots, state, DigitSearchSettings()) == is_reached
