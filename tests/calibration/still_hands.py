@@ -89,7 +89,11 @@ def still(scene: Scene, count: int = 17) -> list[Frame]:
     return list(_painted(scene)[:count])
 
 
-def outcome_of(scene: Scene, clicks: Clicks | None = None, frames: list[Frame] | None = None) -> CalibrationOutcome:
-    return calibrate(
-        clicks or clicks_on(scene), frames or still(scene), CAMERA, CalibrationSettings(), DetectionSettings()
-    )
+def outcome_of(
+    scene: Scene,
+    clicks: Clicks | None = None,
+    frames: list[Frame] | None = None,
+    settings: CalibrationSettings | None = None,
+) -> CalibrationOutcome:
+    own = settings or CalibrationSettings()
+    return calibrate(clicks or clicks_on(scene), frames or still(scene), CAMERA, own, DetectionSettings())

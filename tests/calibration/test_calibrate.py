@@ -206,7 +206,7 @@ def test_a_hole_in_one_picture_only_is_filled_by_the_others() -> None:
 @pytest.mark.parametrize(
     ("scene", "kind", "value", "limit", "unit"),
     [
-        (Scene(tilt_deg=25.0), "tilt", pytest.approx(25.0, abs=6.0), CalibrationSettings().most_tilt_deg, "deg"),
+        (Scene(tilt_deg=25.0), "tilt", pytest.approx(25.0, abs=6.0), 15.0, "deg"),
         (Scene(distance_m=0.52), "distance", pytest.approx(0.52, abs=0.005), 0.6, "m"),
         (Scene(size=0.55), "hand_length", pytest.approx(0.55 * 82.0 / 0.446, rel=0.03), 110.0, "mm"),
         (Scene(size=1.3), "hand_length", pytest.approx(1.3 * 82.0 / 0.446, rel=0.03), 225.0, "mm"),
@@ -218,6 +218,18 @@ def test_how_the_hand_lies_is_told_with_its_figure(
     finding = only(outcome_of(scene).verdict.findings, kind)
     assert finding.value == value
     assert (finding.limit, finding.unit, finding.blocks) == (limit, unit, False)
+
+
+@pytest.mark.parametrize(
+    ("limit", "kind", "within"), [("most_tilt_deg", "tilt", 1.01), ("least_distance_m", "distance", 0.99)]
+)
+def test_what_lies_beyond_its_limit_by_a_hundredth_is_told(limit: str, kind: str, within: float) -> None:
+    scene = Scene(tilt_deg=9.0, distance_m=0.66)
+    verdict = outcome_of(scene).verdict
+    value = verdict.tilt_deg if kind == "tilt" else verdict.distance_m
+    for share, findings in ((within, []), (1.0 / within, [kind])):
+        settings = replace(CalibrationSettings(), **{limit: share * value})
+        assert [one.kind for one in outcome_of(scene, settings=settings).verdict.findings] == findings
 
 
 @pytest.mark.parametrize("count", [1, 4])
