@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import math
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
@@ -247,6 +248,14 @@ def test_drift_over_minutes_is_no_other_movement() -> None:
     noise = replace(curves, other=np.random.default_rng(0).normal(size=curves.other.shape))
     with pytest.raises(ReferenceUnsuited):
         _check_match(Reference(Path("x.mot"), "angles"), noise, with_drift(noise, best_shift(noise, 10.0)))
+
+
+@pytest.mark.parametrize(("match", "suits"), [(0.51, True), (-0.51, True), (0.49, False)])
+def test_curves_that_match_by_less_than_a_half_are_no_same_movement(match: float, suits: bool) -> None:
+    time_s = np.arange(0.0, 10.0, 0.1)
+    curves = ClockCurves(time_s, time_s[:, None], time_s, time_s[:, None], either_sign=True)
+    with nullcontext() if suits else pytest.raises(ReferenceUnsuited):
+        _check_match(Reference(Path("x.mot"), "angles"), curves, Shift(0.0, match))
 
 
 def test_against_each_other_may_be_a_shift_beyond_the_search() -> None:

@@ -160,6 +160,12 @@ def test_names_that_are_plainly_wrong_are_told_and_right_ones_are_not(stored: St
     assert told.alone == "MCP3"
     assert 0.02 < told.off_m < 0.2
     assert name_doubt(session, WRONG_FROM, far, ["MCP5"]) is None  # somebody else's fault is not this change's
+    first_off_m = next(
+        told.off_m
+        for away_px in np.arange(0.0, 60.0, 0.25)
+        if (told := name_doubt(session, WRONG_FROM, right + away_px * (np.arange(6) == MCP3)[:, None], ["MCP3"]))
+    )
+    assert 0.012 < first_off_m < 0.015, "where the palm's misfit tells it too"
 
 
 def test_a_name_that_did_not_hold_is_told(stored: Stored, tmp_path: Path) -> None:
