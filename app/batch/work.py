@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import glob
 import time
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -19,7 +20,7 @@ from carpus.app.sources import TrackingInput, open_recording
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Verdict, finding_sentence
 from carpus.core.capture.source import Recorded
-from carpus.core.errors import CarpusFault, IntrinsicsAssumed, OutputBusy, OutputNotWritable
+from carpus.core.errors import CarpusFault, IntrinsicsAssumed, OutputBusy, OutputExists, OutputNotWritable
 from carpus.core.pipeline.told_settings import differences, settings_told
 from carpus.core.pipeline.track import TrackSettings, retrack_session, track_recording
 from carpus.core.results.figures import session_figures
@@ -90,8 +91,9 @@ def _worked(task: Task) -> Outcome:
     result: Result = "kept"
     _make_room(place.session)
     if not place.session.exists():
-        result = "tracked"
-        _tracked(task, said)
+        with suppress(OutputExists):  # another run of the same batch was faster
+            _tracked(task, said)
+            result = "tracked"
     session = read_session(place.session)
     told = settings_told(session.header.parameters)
     if result == "kept" and (told is None or differences(told.settings, task.settings)):

@@ -6,6 +6,7 @@ import os
 import threading
 import time
 from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -14,11 +15,12 @@ from carpus.app.batch import processes, work
 from carpus.app.batch.processes import DIED, cores, outcomes
 from carpus.app.batch.work import Outcome, Task
 from carpus.app.sources import TrackingInput
-from carpus.core.errors import OutputBusy
+from carpus.core.errors import OutputBusy, OutputExists
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.disk import part_path
 from carpus.core.session.recovery import Heartbeat
 from tests.batch.deadly import deadly
+from tests.records.samples import record
 
 
 def task(folder: Path, name: str, kind: str = "") -> Task:
@@ -103,6 +105,16 @@ def test_what_another_run_is_writing_is_waited_for(tmp_path: Path, monkeypatch: 
     heart.path.write_text("{}")  # a heartbeat alone, of a process that was killed as it ended
     work.clear_leftovers(session)
     assert [path.name for path in tmp_path.iterdir()] == [other.name]
+
+
+def test_what_another_run_finished_meanwhile_was_done_before(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def slower(_: Path, output: Path, *__: object, **___: object) -> None:
+        record(output, "", datetime(2026, 11, 1, tzinfo=UTC))
+        raise OutputExists(output)
+
+    monkeypatch.setattr(work, "retrack_session", slower)
+    outcome = work.work(task(tmp_path, "r0"))
+    assert (outcome.result, outcome.frames > 0) == ("kept", True)
 
 
 def test_a_worker_with_another_version_tracks_nothing(tmp_path: Path) -> None:
