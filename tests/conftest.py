@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 from tqdm import tqdm
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ os.environ["LANGUAGE"] = "en_GB"  # the window speaks the computer's language; w
 
 # The same examples everywhere and each time, and no limit of time: a busy machine is no fault of the program.
 # `--hypothesis-profile=default` looks for new ones.
-settings.register_profile("carpus", deadline=None, derandomize=True)
+settings.register_profile("carpus", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("carpus")
 
 _FOLDERS = ("XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_CACHE_HOME", "XDG_STATE_HOME")
