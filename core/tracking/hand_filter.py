@@ -55,7 +55,7 @@ from carpus.core.tracking.predicted_measurement import (
     predicted_measurement,
     shape_covariance,
 )
-from carpus.core.tracking.reacquire import Facing, FoundPalm, find_palm
+from carpus.core.tracking.reacquire import Facing, FoundPalm, find_palm, is_other_hand
 from carpus.core.tracking.readout import Readout
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.soft_tissue import (
@@ -352,13 +352,16 @@ class HandFilter:
         return None if self.fingers is None else self.fingers.start(timestamp_s, self._known is None)
 
     def find(self, ideal: Detections, facing: Facing) -> FoundPalm | None:
-        """The palm as the blobs show it without any prediction; as calibrated, but for discs that a person showed
-        elsewhere."""
+        """The palm as the blobs show it without any prediction."""
         shapes = SHAPE.stop - SHAPE.start
-        view = with_discs_as_known(self.view, self._learnt[:shapes], self._placed_anew)
         strays = self._stationary[SKIN, SKIN] + self._learnt_covariance[:shapes, :shapes]
         reach = None if self.fingers is None else self.fingers.reach
-        return find_palm(ideal, view, strays, facing, self._settings.finding, reach)
+        return find_palm(ideal, self._as_known, strays, facing, self._settings.finding, reach)
+
+    @property
+    def _as_known(self) -> View:
+        """The palm as calibrated, but for discs that a person showed elsewhere."""
+        return with_discs_as_known(self.view, self._learnt[: SHAPE.stop - SHAPE.start], self._placed_anew)
 
     def estimate_at(self, found: FoundPalm) -> PalmEstimate:
         """The state estimate of a palm found without any prediction."""
@@ -379,6 +382,13 @@ class HandFilter:
         off = so3.log(nominal.rotation_w2_w0.T @ found.rotation_w2_w0)
         either = nominal.covariance[TURN, TURN] + found.pose_covariance(self.view.palm_m, own.finding)[3:, 3:]
         return bool(off @ np.linalg.solve(either, off) > own.association.gate_sd**2)
+
+    def is_other_hand(self, posterior: Posterior, scan: Scan) -> bool:
+        """Whether discs of the other hand were taken for some of this palm."""
+        assigned, rest = posterior.palm.assigned, ~posterior.is_finger
+        is_named = np.zeros(rest.size, dtype=bool)
+        is_named[assigned[assigned >= 0]] = True
+        return is_other_hand(scan.ideal.only(rest), is_named[rest], self._as_known, self._settings.finding)
 
     def predicted_at(self, found: FoundPalm, predicted: PredictedMeasurement) -> PredictedMeasurement:
         """What was predicted, should the palm be where it was found."""

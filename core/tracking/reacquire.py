@@ -165,8 +165,8 @@ def find_palm(
     Triples of discs with the distances of the palm fix a pose; the pose that most other discs confirm wins if it is
     confirmed by at least four in all and no other names of as many fit about as well. Of just four every naming is
     asked: knuckles in a row look much like others. ``strays`` (18, 18): covariance of the discs' places on the palm.
-    Needs depth; the back of the hand must face the camera, and the other hand must not explain more discs, nor one that
-    is turned further than ``facing`` allows.
+    Needs depth; the back of the hand must face the camera, turned no further than ``facing`` allows, and the other hand
+    must not explain the discs better.
     With ``reach`` the blobs left over must mostly lie where the fingers could be.
     """
     known = np.flatnonzero(np.isfinite(detections.depth_m) & (detections.similarity > 0.0))
@@ -187,13 +187,45 @@ def find_palm(
     if best is None:
         return None
     matched = best.named[0] >= 0
-    if not matched.all():
-        mirrored = _fits(palm * _MIRROR, triple, blobs, points, settings, None)
-        if mirrored.count.size and mirrored.count.max() > np.count_nonzero(matched):
-            return None
+    is_named = np.zeros(len(detections), dtype=bool)
+    is_named[known[best.named[0, matched]]] = True
+    if is_other_hand(detections, is_named, view, settings):
+        return None
     rotation = view.rotation_w0_cam.T @ best.rotation[0]
     position = view.rotation_w0_cam.T @ (best.translation[0] - view.translation_w0_cam_m)
     return FoundPalm(position, rotation, matched)
+
+
+def is_other_hand(detections: Detections, is_named: NDArray[np.bool_], view: View, settings: FindingSettings) -> bool:
+    """Whether of the blobs ``is_named`` (B,) for discs of this palm some are the other hand's: of the blobs about them
+    its mirror image explains at least five and as many as were named, better than this palm does, however it lies."""
+    palm, least = view.palm_m, max(settings.least + 1, int(np.count_nonzero(is_named)))
+    known = np.isfinite(detections.depth_m)
+    points, is_named = view.camera.back_project(detections.pixel[known], detections.depth_m[known]), is_named[known]
+    if len(points) < least or not is_named.any():
+        return False
+    across_m = np.linalg.norm(palm[:, None] - palm, axis=-1).max() + settings.distance_m
+    about = (np.linalg.norm(points[:, None] - points[is_named], axis=-1) < across_m).any(axis=1)
+    points, is_named = points[about], is_named[about]
+    mirrored = _likest(palm * _MIRROR, points, settings)
+    if not (mirrored.count >= least).any():
+        return False
+    others = mirrored.named[0, mirrored.named[0] >= 0]
+    own = _likest(palm, points[others], settings)
+    is_better = (_likeness(own, settings) < _likeness(mirrored, settings)).all()
+    return bool(is_better and is_named[others].any())
+
+
+def _likest(model: FloatArray, points: FloatArray, settings: FindingSettings) -> _Fits:
+    """The pose of the model (6, 3) that most points (B, 3) confirm, and these best; or none."""
+    triple, blobs = _triples(model, points, settings)
+    fits = _fits(model, triple, blobs, points, settings, None)
+    return fits.only(np.argsort(-_likeness(fits, settings), kind="stable")[:1])
+
+
+def _likeness(fits: _Fits, settings: FindingSettings) -> FloatArray:
+    """Confirming discs (N,), less by how far they lie from their places."""
+    return np.asarray(fits.count - fits.gap_m / settings.fit_m)
 
 
 def _triples(

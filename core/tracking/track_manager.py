@@ -146,6 +146,12 @@ class TrackManager:
         few = seen <= self._settings.least_discs or self.stage is TrackStage.TENTATIVE
         return (few or self.is_vague(turn_sd_rad)) and unassigned + seen > self._settings.least_discs
 
+    def is_unsure(self, seen: int, turn_sd_rad: float) -> bool:
+        """Whether what shows ``seen`` discs may be another hand: they are few, or it was not seen a moment ago."""
+        return (
+            seen <= self._settings.least_discs or self.stage is not TrackStage.CONFIRMED or self.is_vague(turn_sd_rad)
+        )
+
     def may_be_turned_over(self, seen: int, unassigned: int) -> bool:
         """Whether blobs are left over for the discs that are not where they were predicted: the knuckles can be where
         they should be and the hand turned over about their line."""

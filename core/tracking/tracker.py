@@ -279,7 +279,10 @@ class Tracker:
             # A vague prediction has nothing against the place found: the smoother may go on through it.
             is_linked = is_linked and self._manager.is_vague(posterior.turn_sd_rad)
             posterior = reacquired
-        elif self._manager.is_ambiguous(posterior.seen, posterior.turn_sd_rad):
+        elif self._manager.is_ambiguous(posterior.seen, posterior.turn_sd_rad) or (
+            self._manager.is_unsure(posterior.seen, posterior.turn_sd_rad)
+            and self._filter.is_other_hand(posterior, scan)
+        ):
             posterior = self._filter.update(predicted, scan.without_blobs())
 
         status = self._status_after(posterior, scan)

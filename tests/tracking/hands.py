@@ -126,6 +126,12 @@ def blobs(
     )
 
 
+def together(*every: Detections) -> Detections:
+    """The blobs of one picture with several hands."""
+    fields = ("pixel", "depth_m", "depth_sd_m", "area_px", "similarity")
+    return Detections(*(np.concatenate([getattr(one, field) for one in every]) for field in fields))
+
+
 Motion = Callable[[float], Pose]
 
 

@@ -10,11 +10,23 @@ import pytest
 
 from carpus.core import so3
 from carpus.core.tracking.palm_state import SKIN, View
-from carpus.core.tracking.reacquire import Facing, FindingSettings, FoundPalm, find_palm
+from carpus.core.tracking.reacquire import Facing, FindingSettings, FoundPalm, find_palm, is_other_hand
 from carpus.core.tracking.soft_tissue import SoftTissue, stationary_covariance
 from carpus.core.tracking.track_manager import HoldingSettings
 from carpus.core.types import Detections, Side
-from tests.tracking.hands import CAMERA, CMC1, FROM_ABOVE, MCP5, MIDDLE_M, WRIST, Pose, blobs, palm, rotation_of
+from tests.tracking.hands import (
+    CAMERA,
+    CMC1,
+    FROM_ABOVE,
+    MCP5,
+    MIDDLE_M,
+    WRIST,
+    Pose,
+    blobs,
+    palm,
+    rotation_of,
+    together,
+)
 
 FINDING = FindingSettings()
 ANYHOW = Facing(np.eye(3), np.pi, np.pi)
@@ -112,6 +124,41 @@ def test_the_other_hand_is_never_taken_for_all_of_this_one(side: Side) -> None:
     assert refused == 20
 
 
+@pytest.mark.parametrize("side", SIDES)
+@pytest.mark.parametrize("hidden", range(6))
+def test_five_discs_of_the_other_hand_are_not_this_palm(side: Side, hidden: int) -> None:
+    other: Side = "left" if side == "right" else "right"
+    rng = np.random.default_rng(45)
+    for _ in range(20):
+        pose = Pose(rng.uniform(-1.0, 1.0, 3) * [30.0, 20.0, 20.0])
+        assert looked_for(blobs(pose, rng, side=other, hidden=[hidden]), side) is None
+
+
+@pytest.mark.parametrize("hidden", [(), (WRIST,), (MCP5,)])
+def test_what_is_named_by_the_other_hand_is_told_from_this_palm(hidden: tuple[int, ...]) -> None:
+    """By whichever of its blobs were named, and however the hand lies; nothing of this palm is said to be the other."""
+    rng = np.random.default_rng(46)
+    told = {"right": 0, "left": 0}
+    for _ in range(20):
+        pose = some_pose(rng)
+        for side in SIDES:
+            seen = blobs(pose, rng, side=side, hidden=hidden)
+            is_named = np.zeros(len(seen), dtype=bool)
+            is_named[rng.choice(len(seen), 3, replace=False)] = True
+            told[side] += is_other_hand(seen, is_named, view("right"), FINDING)
+    assert told["left"] == 20
+    assert told["right"] == 0
+
+
+def test_the_other_hand_in_the_picture_does_not_keep_this_one_from_being_found() -> None:
+    rng = np.random.default_rng(47)
+    own = blobs(Pose(), rng, hidden=(CMC1,))
+    other = blobs(Pose(position_m=np.array([0.0, 0.2, 0.0])), rng, side="left")
+    found = looked_for(together(own, other))
+    assert found is not None
+    assert np.linalg.norm(found.position_m) < 0.004
+
+
 def test_four_discs_are_named_rightly_or_not_at_all() -> None:
     """Knuckles in a row look much like others, more so where skin has glided: what fits two ways is not taken."""
     rng = np.random.default_rng(44)
@@ -160,11 +207,7 @@ def test_without_depth_nothing_is_found() -> None:
 def test_two_palms_are_one_too_many() -> None:
     """Two equal constellations far apart: neither is taken."""
     one, other = blobs(Pose()), blobs(Pose(position_m=np.array([0.0, 0.12, 0.0])))
-    both = Detections(
-        *(np.concatenate((getattr(one, f), getattr(other, f))) for f in ("pixel", "depth_m", "depth_sd_m", "area_px")),
-        np.concatenate((one.similarity, other.similarity)),
-    )
-    assert looked_for(both) is None
+    assert looked_for(together(one, other)) is None
     assert looked_for(one) is not None
 
 

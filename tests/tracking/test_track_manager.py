@@ -73,6 +73,18 @@ def test_what_just_enough_discs_found_is_tentative_until_more_bear_it_out(count:
     assert track.stage is TrackStage.CONFIRMED
 
 
+def test_what_was_not_seen_a_moment_ago_or_shows_little_may_be_another_hand() -> None:
+    track = manager()
+    seen(track, 0.0, 6)
+    assert not track.is_unsure(OWN.least_discs + 1, OWN.vague_rad)
+    assert track.is_unsure(OWN.least_discs, 0.0)
+    assert track.is_unsure(6, OWN.vague_rad + 0.01)
+    seen(track, 0.1, 0)
+    assert track.is_unsure(6, 0.0)
+    seen(track, 0.2, 6)
+    assert not track.is_unsure(6, 0.0)
+
+
 def test_a_hand_found_again_is_refuted_by_the_next_pictures_and_by_no_later_ones() -> None:
     track = manager()
     track.lose(1.0)

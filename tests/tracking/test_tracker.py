@@ -29,13 +29,13 @@ from tests.tracking.hands import (
     moved,
     rotation_of,
     swing,
+    together,
     track,
     truth_deg,
 )
 
 SIDES: tuple[Side, Side] = ("right", "left")
 ALL = range(6)
-FIELDS = ("pixel", "depth_m", "depth_sd_m", "area_px", "similarity")
 
 
 def times(count: int) -> list[float]:
@@ -570,12 +570,33 @@ def test_four_blobs_in_the_shape_of_the_palm_do_not_carry_off_a_hand_of_which_th
     frames = []
     for k, t in enumerate(times(40)):
         own = blobs(Pose(), rng, hidden=(CMC1, MCP3, MCP4) if k >= 20 else ())
-        both = (np.concatenate((getattr(own, field), getattr(like, field))) for field in FIELDS)
-        frames.append((t, own if k < 20 else Detections(*both)))
+        frames.append((t, own if k < 20 else together(own, like)))
     tracked = track(frames)
     assert set(statuses(tracked)) == {TrackStatus.TRACKED}
     assert all(named_rightly(frame, Pose()) for frame in tracked)
     assert np.abs(angles_deg(tracked)).max() < 4.0
+
+
+@pytest.mark.parametrize("side", SIDES)
+@pytest.mark.parametrize("seed", range(4))
+def test_the_other_hand_beside_a_hidden_one_is_never_followed(seed: int, side: Side) -> None:
+    """It shows five or six discs, mirrored, while the hand is covered for longer than it is kept."""
+    rng = np.random.default_rng(seed)
+    own, other = swing(seed % 3, 25.0, 0.8), swing((seed + 1) % 3, 20.0, 0.6)
+    beside_m = np.array([0.02, (0.13 + 0.03 * seed) * (1 if seed % 2 else -1), 0.02])
+    frames = []
+    for k, t in enumerate(times(100)):
+        covered = 30 <= k < 85
+        hand = blobs(own(t), rng, side=side, hidden=ALL if covered else ())
+        hidden = (int(rng.integers(6)),) if rng.random() < 0.3 else ()
+        mirrored: Side = "left" if side == "right" else "right"
+        frames.append((t, together(hand, blobs(moved(other(t), beside_m), rng, side=mirrored, hidden=hidden))))
+    tracked = track(frames, side=side)
+    assert set(statuses(tracked[:30])) == set(statuses(tracked[88:])) == {TrackStatus.TRACKED}
+    assert TrackStatus.TRACKED not in statuses(tracked[30:85])
+    assert tracked[84].status is TrackStatus.LOST
+    off_m = np.linalg.norm(tracked[-1].marker_position_cam_m - discs_cam_m(own(frames[-1][0]), side), axis=1)
+    assert off_m.max() < 0.01
 
 
 def test_after_a_long_pause_without_pictures_the_hand_is_found_anew() -> None:
