@@ -264,8 +264,9 @@ class _Names:
                 path.open("rb") as file,
                 mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content,
             ):
-                if self.subject.search(content):
-                    return True
+                whose = self.subject.search(content)
+                if whose is not None:
+                    return whose["own"] is not None
                 return None if any(one["own"] for one in self.in_file.finditer(content)) else False
         return False
 
@@ -282,7 +283,7 @@ def _names_of(store: Store, patients: Sequence[str]) -> Iterator[_Names]:
         foreign = {one for other, theirs in names.items() if other != patient for one in theirs}
         stems, others = ({file_name(one) for one in them} - {""} for them in (own, foreign))
         written = {name for name in own if file_name(name) not in others} | (stems - others)
-        yield _Names(stems, others, _words(written, foreign | others), _in_bytes(own, foreign), _subject(own))
+        yield _Names(stems, others, _words(written, foreign | others), _in_bytes(own, foreign), _subject(own, foreign))
 
 
 def _words(own: Collection[str], others: Collection[str]) -> re.Pattern[str]:
@@ -295,12 +296,16 @@ def _in_bytes(own: Collection[str], others: Collection[str]) -> re.Pattern[bytes
     return re.compile(_found(mine, theirs, a, z).encode("latin-1"))
 
 
-def _subject(own: Collection[str]) -> re.Pattern[bytes]:
+def _subject(own: Collection[str], others: Collection[str]) -> re.Pattern[bytes]:
     """Finds them as ``subject_id`` in what HDF5 keeps of a session's texts, each with its length and filled up to 8
-    bytes: after the recording's identity, before a moment."""
-    texts = (struct.pack("<Q", len(one)) + one + bytes(-len(one) % 8) for one in map(str.encode, own))
-    mine = b"|".join(map(re.escape, texts)) or rb"(?!)"
-    return re.compile(rb"[0-9a-f]{12}\0{4}.{8}(?:" + mine + rb").{16}\d{4}-\d\d-\d\dT", re.DOTALL)
+    bytes: after the recording's identity, before a moment. Those of this patient are the group ``own``."""
+
+    def texts(names: Collection[str]) -> bytes:
+        stored = (struct.pack("<Q", len(one)) + one + bytes(-len(one) % 8) for one in map(str.encode, names))
+        return b"|".join(map(re.escape, stored)) or rb"(?!)"
+
+    either = rb"(?:(?P<own>" + texts(own) + rb")|" + texts(others) + rb")"
+    return re.compile(rb"[0-9a-f]{12}\0{4}.{8}" + either + rb".{16}\d{4}-\d\d-\d\dT", re.DOTALL)
 
 
 def _found(own: Collection[str], others: Collection[str], before: str, after: str) -> str:

@@ -131,10 +131,11 @@ def write_anew(path: Path, target: Path, said: Mapping[str, str]) -> None:
 
 
 def _copy(old: h5py.File, file: h5py.File, said: Mapping[str, str]) -> None:
+    told = {**old.attrs, **said}
+    for name in sorted(told, key=[*schema.ROOT_ATTRIBUTES, *told].index):  # as it was recorded
+        if name != ATTRIBUTE:
+            file.attrs[name] = told[name]
     for name in old:
         old.copy(name, file)
-    for name, value in {**old.attrs, **said}.items():
-        if name != ATTRIBUTE:
-            file.attrs[name] = value
     if ATTRIBUTE in old.attrs:
         file.attrs[ATTRIBUTE] = seal_of(file)

@@ -57,9 +57,12 @@ def test_a_window_that_cannot_be_built_leaves_no_picture_of_the_old_one(
     def fails(*_: object, **__: object) -> Desktop:
         raise RuntimeError
 
+    ended = list[int]()
     monkeypatch.setattr(desktop, "anew", fails)
+    monkeypatch.setattr(desktop.application, "exit", ended.append)
     with pytest.raises(RuntimeError):
         desktop.speak_anew()
+    assert ended == [1]
     shown = [widget for widget in desktop.application.topLevelWidgets() if isinstance(widget, QSplashScreen)]
     assert not any(widget.isVisible() for widget in shown)
 

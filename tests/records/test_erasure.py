@@ -347,6 +347,21 @@ def test_a_damaged_file_in_which_a_pseudonym_is_only_a_word_stays_and_is_named(
     assert (plan.files, plan.unsure) == ((), (renamed,))
     erasure.erase(house.store, plan, house.log)
     assert renamed.exists()
+    again, _ = house.patients.add(PatientEntry(pseudonym, "left")), house.patients.add(LINDEN)
+    assert erasure.plan_patient(house.store, again).unsure == (), "it says that it is Linden 42's"
+
+
+@pytest.mark.parametrize("pseudonym", ["Heron 17", "Heron 171"])
+def test_what_is_left_of_a_session_that_was_given_to_another_says_whose_it_is(
+    folder: Path, house: House, pseudonym: str
+) -> None:
+    path = record(folder.with_name("elsewhere") / "of Linden 42.h5", "Linden 42", T0)
+    write_anew(path, path.with_name("given.h5"), subject_id=pseudonym)
+    renamed = folder / "sessions" / "x.h5"
+    renamed.write_bytes(path.with_name("given.h5").read_bytes()[:9000])
+    linden, other = (house.patients.add(PatientEntry(one, "left")) for one in ("Linden 42", pseudonym))
+    plans = (erasure.plan_patient(house.store, one) for one in (linden, other))
+    assert [(plan.files, plan.unsure) for plan in plans] == [((), ()), ((renamed,), ())]
 
 
 @pytest.mark.parametrize("pseudonym", ["Linden", "42", "10", "right", "MCP2", "***"])

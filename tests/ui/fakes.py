@@ -584,6 +584,7 @@ class FakeSessions:
         self.sessions = dict(sessions_of_linden())
         self.kept: dict[str, RepetitionChoices] = {}
         self.results: list[SessionEntry] = []
+        self.owners: dict[str, str] = {}
         self.pictures = pictures
 
     def pictures_of(self, side: str) -> SimulatedPictures:
@@ -602,6 +603,9 @@ class FakeSessions:
 
     def results_of(self, session_id: str) -> list[SessionEntry]:
         return list(self.results)
+
+    def owner(self, session_id: str) -> str:
+        return self.owners.get(session_id, "linden")
 
     def choices(self, session_id: str) -> RepetitionChoices:
         return self.kept.get(session_id, RepetitionChoices())

@@ -311,7 +311,12 @@ def test_an_older_result_says_that_it_does_not_count(qtbot: QtBot, screen: Revie
         SessionEntry(name, Path(name), made, made, "r", "WRIST_FE", "right", 10, 1.0, complete=True)
         for name in ("session-7", "session-6")
     ]
-    for session_id, is_older in (("session-7", True), ("session-6", False)):
+    for session_id, owners, is_older in (
+        ("session-7", {}, True),
+        ("session-6", {}, False),
+        ("session-7", {"session-6": "somebody else"}, False),
+    ):
+        store.owners = owners
         screen.begin("linden", session_id)
         qtbot.waitUntil(lambda: screen.shown)
         assert screen.card.count.text().startswith("older result, does not count") is is_older

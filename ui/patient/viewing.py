@@ -60,10 +60,16 @@ class PatientViewing(QObject):
 
     def uncover(self) -> bool:
         """Let it go where it lies over the other window; whether it did."""
-        covers = self.window is not None and self.is_open and self.window.screen() is self._context.shell.screen()
-        if covers:
-            self.close()
-        return covers
+        window = self.window
+        if (
+            window is None
+            or not self.is_open
+            or window.isMinimized()
+            or window.screen() is not self._context.shell.screen()
+        ):
+            return False
+        window.close()
+        return True
 
     def _screen_gone(self, _: object) -> None:
         """A screen was unplugged: what filled it must not cover the therapist's."""

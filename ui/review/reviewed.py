@@ -54,7 +54,7 @@ class Reviewed:
         session, choices = store.session(session_id), store.choices(session_id)
         history, camera = store.history(patient_id), store.camera(session)
         by_hand = of_session(store.by_hand(patient_id), session.header.hand, session.header.when.date())
-        results = tuple(store.results_of(session_id))
+        results = tuple(one for one in store.results_of(session_id) if store.owner(one.session_id) == patient_id)
         drawn = session_curves(session), joint_curves(session), motion_curves(session)
         modelled = None if drawn[1] is None else modelled_px(session.camera, session.markers.position_cam_m)
         figures = _figures(session, choices, history, camera)
