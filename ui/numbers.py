@@ -199,6 +199,8 @@ def day_typed(text: str) -> date | None:
     (datetime.date(2026, 8, 21), datetime.date(2026, 8, 21), None, None)
     >>> day_typed("21.8.202"), day_typed("21.8.99999999999"), day_typed("21.8.2026 5")  # a slip, and a year nobody has
     (None, None, None)
+    >>> day_typed("3 Oct 2026") == day_typed("3 October 2026") == date(2026, 10, 3)
+    True
     """
     if found := re.fullmatch(r"(\d{1,4})[\s./-]+(\d{1,2})[\s./-]+(\d{1,4})", text.strip().strip(".")):
         day, month, year = map(int, found.groups() if len(found[1]) < 3 else reversed(found.groups()))
@@ -206,8 +208,11 @@ def day_typed(text: str) -> date | None:
             typed_day = date(year + 2000 if year < 100 else year, month, day)
             return typed_day if typed_day.year >= FIRST_YEAR else None
         return None
-    typed = language.locale().toDate(text.strip(), day_format())
-    return date(typed.year(), typed.month(), typed.day()) if typed.isValid() else None
+    for pattern in (day_format(), day_format().replace("MMM", "MMMM")):  # the month written out too
+        typed = language.locale().toDate(text.strip(), pattern)
+        if typed.isValid():
+            return date(typed.year(), typed.month(), typed.day())
+    return None
 
 
 def ordinal(number: int) -> str:

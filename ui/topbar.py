@@ -164,8 +164,9 @@ class TopBar(Surface):
         self._under.set_colors("band_bad" if recording else "surface")
 
     def lock_aside(self, locked: bool) -> None:
-        """Help and settings cannot be opened, nor take the keys, from a running recording."""
+        """Nothing leads away from a running recording, nor takes its keys."""
         for button, words in (
+            (self.back_button, self.tr("Back (Esc)")),
             (self.help_button, self.tr("Help (F1)")),
             (self.settings_button, self.tr("Settings (Ctrl+,)")),
         ):

@@ -76,10 +76,10 @@ def test_every_label_follows_a_change_of_colours_also_on_screens_not_opened_yet(
 
 
 def test_a_running_recording_keeps_its_keys(qtbot: QtBot, open_desktop: Open) -> None:
-    """Help and settings cannot take the focus from it, nor the keys and the pedal with it."""
+    """What leads away cannot take the focus from it, nor the keys and the pedal with it."""
     bar = open_desktop().shell.bar
     bar.lock_aside(True)
-    for button in (bar.help_button, bar.settings_button):
+    for button in (bar.back_button, bar.help_button, bar.settings_button):
         qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
         assert not button.hasFocus()
         assert "recording" in button.toolTip()

@@ -70,7 +70,7 @@ class ReviewFlow(Flow):
                     self.tr("It stands there once more, as the newest; the others stay as they were."),
                     "",
                 )
-                self.context.messages.ask(said, (Answer(self.tr("Go on"), lambda: None),))
+                self.context.messages.ask(said, (Answer(self.tr("Go on"), lambda: None),), icon="good")
 
         def failed(fault: Exception) -> None:
             self.context.messages.fault(fault)
