@@ -12016,8 +12016,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Ab jetzt zählt dieses Ergebnis.</translation>
     </message>
     <message>
-        <source>It stands there once more, as the newest; the others stay as they were.</source>
-        <translation>Es steht dort noch einmal, als neuestes; die anderen bleiben, wie sie waren.</translation>
+        <source>The others stay as they were.</source>
+        <translation>Die anderen bleiben, wie sie waren.</translation>
+    </message>
+    <message>
+        <source>It stands there once more, as the newest.</source>
+        <translation>Es steht dort noch einmal, als neuestes.</translation>
     </message>
     <message>
         <source>Go on</source>

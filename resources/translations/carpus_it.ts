@@ -12016,8 +12016,12 @@ Maiusc+F8 di lato</translation>
         <translation>Da ora conta questo risultato.</translation>
     </message>
     <message>
-        <source>It stands there once more, as the newest; the others stay as they were.</source>
-        <translation>Compare lì un’altra volta, come il più recente; gli altri restano com’erano.</translation>
+        <source>The others stay as they were.</source>
+        <translation>Gli altri restano com’erano.</translation>
+    </message>
+    <message>
+        <source>It stands there once more, as the newest.</source>
+        <translation>Compare lì un’altra volta, come il più recente.</translation>
     </message>
     <message>
         <source>Go on</source>

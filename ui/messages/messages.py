@@ -279,7 +279,7 @@ class StopCard(Sheet):
         self.todo = Text(theme, "", 20, SEMIBOLD, wrap=True)
         self.todo_detail = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.waiting = Text(theme, "", 14, REGULAR, "text2")
-        self._icon, self._icon_safe, self._onward = (
+        self._icon, self._icon_safe, onward = (
             Sign(theme, name, 26, (44, 40), lean=0.5) for name in ("unplug", "good", "chevron-right")
         )
         self._buttons = in_line(gap=12)
@@ -291,7 +291,7 @@ class StopCard(Sheet):
         rows = (
             (self._icon, self.what, self.detail),
             (self._icon_safe, self.safe, self.safe_detail),
-            (self._onward, self.todo, self.todo_detail),
+            (onward, self.todo, self.todo_detail),
         )
         for icon, head, detail in rows:
             row = in_line((icon, 0, Qt.AlignmentFlag.AlignVCenter), gap=24)
@@ -308,7 +308,6 @@ class StopCard(Sheet):
         self._set_row(self.what, self.detail, words.happened.rstrip("."), detail)
         self._set_row(self.safe, self.safe_detail, words.safe, safe_detail)
         self._set_row(self.todo, self.todo_detail, words.do, "")
-        self._onward.setVisible(bool(words.do))
         self._icon.show_sign(icon or ("bad" if alarm else "circle-help"), "bad" if alarm else "accent", 36)
         self._icon_safe.show_sign("good" if data_safe else "warn", size_px=26)
         self.waiting.setText("")

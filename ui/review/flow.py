@@ -67,8 +67,8 @@ class ReviewFlow(Flow):
             if show(new):
                 said = Words(
                     self.tr("This result counts from now on."),
-                    self.tr("It stands there once more, as the newest; the others stay as they were."),
-                    "",
+                    self.tr("The others stay as they were."),
+                    self.tr("It stands there once more, as the newest."),
                 )
                 self.context.messages.ask(said, (Answer(self.tr("Go on"), lambda: None),), icon="good")
 
