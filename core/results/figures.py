@@ -225,6 +225,8 @@ class SessionFigures:
     """Whether a simulated hand was measured: nobody's movement."""
     not_counted: bool = False
     """Whether a person decided that the session shall not count."""
+    older: bool = False
+    """Whether a result of the same recording that was made later counts instead."""
     targets_deg: tuple[float, float] = (math.nan, math.nan)
     """Targets of the trained angle, of its positive and its negative direction, signed; NaN for none."""
     pain_s: tuple[float, ...] = ()

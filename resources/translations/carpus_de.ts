@@ -3836,8 +3836,20 @@
         <translation>Diese Sitzung ist als nicht zählend markiert.</translation>
     </message>
     <message>
+        <source>An older result: a newer one of the same recording counts instead.</source>
+        <translation>Ein älteres Ergebnis: Es zählt ein neueres derselben Aufnahme.</translation>
+    </message>
+    <message>
         <source>This recording was cut short and recovered.</source>
         <translation>Diese Aufnahme brach ab und wurde wiederhergestellt.</translation>
+    </message>
+    <message>
+        <source>Warning</source>
+        <translation>Warnung</translation>
+    </message>
+    <message>
+        <source>at the top of the page</source>
+        <translation>oben auf der Seite</translation>
     </message>
     <message>
         <source>Corrected on {day}, from {time}, by {who}.</source>
@@ -3897,11 +3909,11 @@
     </message>
     <message>
         <source>Markers and camera</source>
-        <translation>Marker und Kamera</translation>
+        <translation type="vanished">Marker und Kamera</translation>
     </message>
     <message>
         <source>doubtful, see above</source>
-        <translation>zweifelhaft, siehe oben</translation>
+        <translation type="vanished">zweifelhaft, siehe oben</translation>
     </message>
     <message>
         <source>Peak speed, mean ± sd</source>

@@ -3836,8 +3836,20 @@
         <translation>Questa seduta è segnata come non valida.</translation>
     </message>
     <message>
+        <source>An older result: a newer one of the same recording counts instead.</source>
+        <translation>Risultato precedente: conta uno più recente della stessa registrazione.</translation>
+    </message>
+    <message>
         <source>This recording was cut short and recovered.</source>
         <translation>Questa registrazione si è interrotta ed è stata recuperata.</translation>
+    </message>
+    <message>
+        <source>Warning</source>
+        <translation>Avvertenza</translation>
+    </message>
+    <message>
+        <source>at the top of the page</source>
+        <translation>in alto nella pagina</translation>
     </message>
     <message>
         <source>Corrected on {day}, from {time}, by {who}.</source>
@@ -3897,11 +3909,11 @@
     </message>
     <message>
         <source>Markers and camera</source>
-        <translation>Marcatori e telecamera</translation>
+        <translation type="vanished">Marcatori e telecamera</translation>
     </message>
     <message>
         <source>doubtful, see above</source>
-        <translation>dubbi, vedere sopra</translation>
+        <translation type="vanished">dubbi, vedere sopra</translation>
     </message>
     <message>
         <source>Peak speed, mean ± sd</source>

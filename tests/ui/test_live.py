@@ -361,7 +361,7 @@ def test_a_busy_computer_shows_the_newest_picture_and_says_how_late_the_figures_
     screen._show_values()
     late = Lamp("idle", "The figures are 4 s late", "The computer is busy; every picture is kept")
     assert screen.controls.light.lamp == late
-    assert math.isnan(screen.glance().value_deg)
+    assert (math.isnan(screen.glance().value_deg), screen.glance().late) == (True, True)
     newest = feed.newest_frame()
     feed.newest_frame = lambda: newest  # type: ignore[method-assign]
     screen.picture.show_frame = shown.append  # type: ignore[method-assign, assignment]

@@ -29,6 +29,7 @@ from carpus.ui.report.pdf import session_report, write_report, write_session_rep
 from carpus.ui.report.screen import SIZES, ReportScreen, print_on, printer_for, suggested_name
 from carpus.ui.report.session_page import SessionReport
 from carpus.ui.report.sheets import HomeSheet
+from carpus.ui.report.words import warnings
 from carpus.ui.settings.report_card import LogoRefused, logo_png
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.theme import Theme
@@ -141,6 +142,16 @@ def test_places_of_a_sentence_take_figures_with_their_spread_or_say_not_measured
     )
     assert "13 Nov" in filled("{change}", made)
     assert filled("{change}", replace(made, previous=None)) == "Not measured."
+
+
+def test_the_report_of_an_older_result_says_that_a_newer_one_counts() -> None:
+    store = FakeSessions()
+    session = store.session("session-7")
+    made = session_report(session).figures
+    newer = replace(made, session_id="newer", created=made.when + timedelta(days=1))
+    said = "An older result: a newer one of the same recording counts instead."
+    for history, is_older in (((), False), ((newer,), True), ((made, replace(newer, recording_id="another")), False)):
+        assert (said in warnings(session_report(session, history=history).figures)) is is_older
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

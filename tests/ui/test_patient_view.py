@@ -18,7 +18,7 @@ from carpus.ui.patient.figure import arc_of, figure_at
 from carpus.ui.patient.guide import LOST_AFTER_S, Glance, Guide, GuideScene
 from carpus.ui.patient.view import PatientView
 from carpus.ui.patient.viewing import PatientViewing, PatientWindow
-from carpus.ui.patient.words import said
+from carpus.ui.patient.words import Said, said
 from carpus.ui.theme import Theme
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import set_up
@@ -89,6 +89,14 @@ def test_a_hand_not_surely_seen_fades_and_goes_and_comes_back(sure: bool) -> Non
     gone = [scene for k, scene in enumerate(unsure) if 0.1 * k >= LOST_AFTER_S]
     assert all(scene.phase == "lost" and math.isnan(scene.value_deg) for scene in gone)
     assert walk(guide, [22.0] * 5, from_s=1.4)[-1].phase == "out"
+
+
+def test_nobody_is_told_to_show_the_dots_where_the_computer_is_late() -> None:
+    guide = Guide(exercise_named("WRIST_FE"), 60.0, NONE)
+    walk(guide, [20.0] * 5)
+    scenes = [guide.take(Glance(0.5 + 0.1 * k, state="recording", asked=10, late=True)) for k in range(8)]
+    assert {scene.phase for scene in scenes[int(10 * LOST_AFTER_S) + 1 :]} == {"away"}
+    assert said("WRIST_FE", scenes[-1], "adult") == Said("", "One moment.")
 
 
 def test_a_fist_hidden_at_its_end_is_no_lost_hand_but_shows_no_pose() -> None:

@@ -99,7 +99,7 @@ def test_a_simulated_and_doubtful_session_says_so_and_shows_its_targets(report: 
     for words in (
         "Simulated hand: nobody’s movement was measured.",
         "Measured although doubtful: The hand is tilted 22° to the camera",
-        "Markers and camera doubtful, see above",
+        "Warning at the top of the page",
         "Flexion 45°, Extension 30°",
         "dashed: target",
     ):

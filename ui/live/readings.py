@@ -76,7 +76,7 @@ class Readings:
         if set_up is not None and set_up.course is not None and set_up.course.part.seconds:
             done, asked = int(TIMED_MARKS * recording.recorded_s / set_up.course.part.seconds), TIMED_MARKS
         if set_up is None or recording.camera_lost or not is_now:
-            return Glance(now_s, state=state, done=done, asked=asked)
+            return Glance(now_s, state=state, done=done, asked=asked, late=True)
         deviation, flexion, turned = (float(value) for value in history.angles_deg)
         seen = history.status == TrackStatus.TRACKED
         angle, whole_hand = set_up.exercise.angle, set_up.protocol.has_fingers

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from carpus.core.hand.exercises import FLEXION, PRONOSUPINATION, Exercise
 
 Phase = Literal["out", "there", "back", "free", "hidden", "lost", "paused", "done", "rest", "away"]
 """Way to the goal, at it, way back; no goal; the trained joint is out of sight at the far end; the hand is not surely
-seen; a break; all repetitions done; rest before the next exercise; nothing is measured."""
+seen; a break; all repetitions done; rest before the next exercise; nothing is measured of this moment."""
 
 LOST_AFTER_S = 0.5
 FOUND_AFTER_S = 0.3
@@ -38,7 +38,7 @@ class Glance:
     deviation, flexion, pro/supination and ``bent_deg`` the mean bending of the fingers, for exercises without a
     trained angle. ``done`` full repetitions of ``asked``; ``found`` as they
     are counted now, of which one may still turn out to be none. ``starts_s``: seconds that are still counted down
-    to the recording, 0 for none.
+    to the recording, 0 for none. ``late``: nothing is known of this moment, and that is not the patient's doing.
     """
 
     at_s: float
@@ -52,6 +52,7 @@ class Glance:
     asked: int = 0
     found: int = 0
     starts_s: int = 0
+    late: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,25 +102,31 @@ class Guide:
         """How often the goal was reached, for a sound."""
 
     def take(self, glance: Glance) -> GuideScene:
-        counted = {"tries": glance.state == "off", "done": glance.done, "asked": glance.asked}
-        counted["starts_s"] = glance.starts_s
-        goal = self._goals[self._aim]
+        scene = GuideScene(
+            aim=self._aim, tries=glance.state == "off", done=glance.done, asked=glance.asked, starts_s=glance.starts_s
+        )
+        with_goal = replace(scene, goal_deg=self._goals[self._aim])
         if glance.state == "paused":
-            return GuideScene("paused", self._aim, goal_deg=goal, **counted)  # type: ignore[arg-type]
+            return replace(with_goal, phase="paused")
         if self._is_lost(glance):
-            return GuideScene("lost", self._aim, goal_deg=goal, **counted)  # type: ignore[arg-type]
+            return scene if glance.late else replace(with_goal, phase="lost")
         if glance.state == "recording" and 0 < glance.asked <= glance.done:
-            return GuideScene("done", self._aim, **counted)  # type: ignore[arg-type]
+            return replace(scene, phase="done")
         opacity = self._opacity(glance)
         if not self._exercise.counts:
-            wrist = glance.wrist_deg
-            return GuideScene("free", wrist_deg=wrist, bent_deg=glance.bent_deg, opacity=opacity, **counted)  # type: ignore[arg-type]
+            return replace(scene, phase="free", wrist_deg=glance.wrist_deg, bent_deg=glance.bent_deg, opacity=opacity)
         if not glance.sure and self._is_at_far_end() and glance.hand_seen:
-            return GuideScene("hidden", self._aim, goal_deg=goal, **counted)  # type: ignore[arg-type]
+            return replace(with_goal, phase="hidden")
         if glance.sure:
             self._move(glance.value_deg, glance.at_s)
-        goal = self._goals[self._aim]
-        return GuideScene(self._phase, self._aim, glance.value_deg, goal, opacity, **counted)  # type: ignore[arg-type]
+        return replace(
+            scene,
+            phase=self._phase,
+            aim=self._aim,
+            value_deg=glance.value_deg,
+            goal_deg=self._goals[self._aim],
+            opacity=opacity,
+        )
 
     # --- whether the hand is there ------------------------------------------------------------------------
     def _is_lost(self, glance: Glance) -> bool:

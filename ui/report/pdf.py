@@ -17,7 +17,7 @@ from carpus.core.provenance import said_in, with_revision
 from carpus.core.results.camera_said import CameraSaid
 from carpus.core.results.figures import SessionFigures, data_digest, session_figures
 from carpus.core.results.motion_curves import motion_curves
-from carpus.core.results.progress import limits_of, other_hand_of, previous_of, progress
+from carpus.core.results.progress import limits_of, newest_results, other_hand_of, previous_of, progress
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.report_form import PAPER_PT, ReportForm
 from carpus.core.results.seen import joint_curves, session_curves
@@ -67,7 +67,12 @@ def session_report(
     say of it besides; ``language`` of the page, empty for the window's."""
     figures = session_figures(session, choices, limits_of(history))
     known = next((other for other in history if other.session_id == figures.session_id), figures)
-    figures = replace(figures, earlier_results=known.earlier_results, camera=camera or figures.camera)
+    figures = replace(
+        figures,
+        earlier_results=known.earlier_results,
+        older=all(one is not figures for one in newest_results((*history, figures))),
+        camera=camera or figures.camera,
+    )
     earlier = [other for other in history if other.when < figures.when]
     alike = [other for other in earlier if (other.exercise.id, other.side) == (figures.exercise.id, figures.side)]
     fair = [point.figures for point in progress(alike).points if point.fair]

@@ -355,7 +355,7 @@ def _point(page: Page, x: float, y: float) -> QPointF:
 def paint_boxes(page: Page, report: SessionReport, top: float) -> float:
     """How sure the figures are beside speed, pain and notes, as far as they are wanted."""
     lines, others = quality_lines(report.figures), other_lines(report.figures)
-    good = all(fine for _, _, fine in lines) and not warnings(report.figures)
+    good = all(fine for _, _, fine in lines)
     sure, other = report.form.has("quality") or not good, report.form.has("speed")  # doubts are never left out
     if not (sure or other):
         return top

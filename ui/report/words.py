@@ -142,8 +142,8 @@ def _sd_words(figures: SessionFigures) -> str:
 
 
 def warnings(figures: SessionFigures) -> list[str]:
-    """What must be read before any figure: that it is simulated, doubtful, cut short, is not to count, or was measured
-    with a camera that was out."""
+    """What must be read before any figure: that it is simulated, doubtful, cut short, is not to count, is an older
+    result, or was measured with a camera that was out."""
     lines = []
     if figures.simulated:
         lines.append(tr("Simulated hand: nobody’s movement was measured."))
@@ -152,6 +152,8 @@ def warnings(figures: SessionFigures) -> list[str]:
         lines.append(tr("Measured although doubtful: {findings}").format(findings=said))
     if figures.not_counted:
         lines.append(tr("This session is marked as not counting."))
+    if figures.older:
+        lines.append(tr("An older result: a newer one of the same recording counts instead."))
     if not figures.complete or figures.recovered:
         lines.append(tr("This recording was cut short and recovered."))
     if said := unsure_words(figures.camera):
@@ -212,8 +214,8 @@ def quality_lines(figures: SessionFigures) -> list[tuple[str, str, bool]]:
                 angle=numbers.degrees(value), limit=numbers.degrees(limit)
             )
             lines.append((names[angle], words, value <= limit))
-    if figures.findings:
-        lines.append((tr("Markers and camera"), tr("doubtful, see above"), False))
+    if warnings(figures):
+        lines.append((tr("Warning"), tr("at the top of the page"), False))
     return lines
 
 
