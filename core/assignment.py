@@ -32,3 +32,14 @@ def linear_sum_assignment(cost: FloatArray, *, maximize: bool = False) -> tuple[
 
     found: Any = optimize.linear_sum_assignment(cost, maximize=maximize)
     return found  # type: ignore[no-any-return]
+
+
+def nearest_within(distance: FloatArray, reach: FloatArray) -> NDArray[np.int64]:
+    """Column of every row (R,) by distances (R, C), each once and the nearest overall; -1 where none is within the
+    row's ``reach`` (R,)."""
+    far = distance > reach[:, None]
+    rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
+    out = np.full(len(distance), -1, dtype=np.int64)
+    near = ~far[rows, columns]
+    out[rows[near]] = columns[near]
+    return out

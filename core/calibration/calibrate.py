@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.assignment import linear_sum_assignment
+from carpus.core.assignment import nearest_within
 from carpus.core.calibration.candidates import is_paper, marker_candidates
 from carpus.core.calibration.name_checks import looks_like_other_side, misnamed, odd_disc, plan_view, shifted_names
 from carpus.core.calibration.neutral_pose import pose_by_least_squares
@@ -183,10 +184,13 @@ def _with_near_spot(
     return _doubted(hand, CalibrationFinding("near_spot", (clicks.protocol.markers[marker],), spot_px=spot_px))
 
 
-def _doubted(hand: MeasuredHand, finding: CalibrationFinding) -> MeasuredHand:
-    verdict = replace(hand.verdict, findings=(*hand.verdict.findings, finding))
-    calibration = None if hand.calibration is None else replace(hand.calibration, verdict=verdict)
-    return replace(hand, verdict=verdict, calibration=calibration)
+_Judged = TypeVar("_Judged", MeasuredHand, CalibrationOutcome)
+
+
+def _doubted(judged: _Judged, finding: CalibrationFinding) -> _Judged:
+    verdict = replace(judged.verdict, findings=(*judged.verdict.findings, finding))
+    calibration = None if judged.calibration is None else replace(judged.calibration, verdict=verdict)
+    return replace(judged, verdict=verdict, calibration=calibration)
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,15 +231,8 @@ def _discs_clicked(
 
 def _snapped(pixel: FloatArray, blobs: Detections, reach_px: FloatArray) -> FloatArray:
     """Clicks (M, 2) moved onto the blob that each means, all together; where there is none, as clicked."""
-    if not len(blobs):
-        return pixel
-    distance = np.linalg.norm(pixel[:, None] - blobs.pixel[None], axis=-1)
-    far = distance > reach_px[:, None]
-    rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
-    good = ~far[rows, columns]
-    out = pixel.copy()
-    out[rows[good]] = blobs.pixel[columns[good]]
-    return out
+    taken = nearest_within(np.linalg.norm(pixel[:, None] - blobs.pixel[None], axis=-1), reach_px)
+    return np.where((taken >= 0)[:, None], _rows(blobs.pixel, taken), pixel)
 
 
 def require_calibration(outcome: CalibrationOutcome) -> Calibration:
@@ -267,15 +264,11 @@ def _named(
 ) -> tuple[NDArray[np.int64], list[CalibrationFinding]]:
     """Blob of every click (M,), -1 for none, each blob once, nearest overall; and what was wrong."""
     names = clicks.protocol.markers
-    taken = np.full(len(names), -1, dtype=np.int64)
     findings: list[CalibrationFinding] = []
     distance = np.linalg.norm(clicks.pixel[:, None] - blobs.pixel[None], axis=-1)
-    far = distance > reach_px[:, None]
-    rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
-    good = ~far[rows, columns]
-    taken[rows[good]] = columns[good]
+    taken = nearest_within(distance, reach_px)
     for marker in np.flatnonzero(taken < 0):
-        rivals = [int(r) for r in range(len(names)) if taken[r] >= 0 and not far[marker, taken[r]]]
+        rivals = [r for r in range(len(names)) if taken[r] >= 0 and distance[marker, taken[r]] <= reach_px[marker]]
         if rivals:
             rival = min(rivals, key=lambda r: float(distance[marker, taken[r]]))
             findings.append(CalibrationFinding("two_clicks_on_one", (names[rival], names[marker]), blocks=True))
@@ -507,11 +500,4 @@ def compared_with_last_time(
         return outcome
     if abs(now_mm - last_length_mm) <= settings.most_length_change * last_length_mm:
         return outcome
-    finding = CalibrationFinding("other_length", (), now_mm, last_length_mm, "mm")
-    verdict: Verdict = replace(outcome.verdict, findings=(*outcome.verdict.findings, finding))
-    calibration = outcome.calibration
-    return replace(
-        outcome,
-        verdict=verdict,
-        calibration=None if calibration is None else replace(calibration, verdict=verdict),
-    )
+    return _doubted(outcome, CalibrationFinding("other_length", (), now_mm, last_length_mm, "mm"))

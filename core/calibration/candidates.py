@@ -67,7 +67,7 @@ def marker_candidates(frame: Frame, camera: Camera, settings: DetectionSettings,
     # In cloth of the paper's hue there are more spots than discs: they must not crowd these out before they are tried.
     found = Detector(looks, camera, replace(settings, most_blobs=own.most_tried)).detect(frame)
     kept = is_paper(found.pixel, frame, hsv, camera, settings, own)
-    return _some(found, kept) if np.count_nonzero(kept) >= own.fewest else Detections.none()
+    return found.only(kept) if np.count_nonzero(kept) >= own.fewest else Detections.none()
 
 
 def _paper(
@@ -159,30 +159,17 @@ def disc_at(
     if not is_paper(centre + corner, frame, appearance.to_hsv(frame.color_rgb), camera, settings, own).all():
         return Detections.none()
     window = Detector(looks, camera, settings).region_about(centre, np.zeros((1, 2, 2)), np.array([0.5]))
-    return _nearest(_moved(Detector(looks, camera, settings).detect(part, window), corner), pixel, radius_px, settings)
+    found = Detector(looks, camera, settings).detect(part, window)
+    return snapped(replace(found, pixel=found.pixel + corner), pixel, radius_px, settings)
 
 
 def snapped(blobs: Detections, pixel: FloatArray, radius_px: float, settings: DetectionSettings) -> Detections:
     """The blob within a click's reach of a pixel (2,), the nearest one: one blob, or none."""
-    return _nearest(blobs, pixel, radius_px, settings)
+    distance = np.linalg.norm(blobs.pixel - pixel, axis=1)
+    if not distance.size or float(distance.min()) > settings.click_reach * radius_px:
+        return Detections.none()
+    return blobs.only(np.arange(distance.size) == distance.argmin())
 
 
 def _radii_px(frame: Frame, centre_px: FloatArray, camera: Camera, settings: DetectionSettings) -> FloatArray:
     return np.array([expected_radius_px(frame, at, camera, settings) for at in centre_px])
-
-
-def _nearest(blobs: Detections, pixel: FloatArray, radius_px: float, settings: DetectionSettings) -> Detections:
-    distance = np.linalg.norm(blobs.pixel - pixel, axis=1)
-    if not distance.size or float(distance.min()) > settings.click_reach * radius_px:
-        return Detections.none()
-    return _some(blobs, slice(int(distance.argmin()), int(distance.argmin()) + 1))
-
-
-def _some(blobs: Detections, rows: slice | NDArray[np.bool_]) -> Detections:
-    return Detections(
-        blobs.pixel[rows], blobs.depth_m[rows], blobs.depth_sd_m[rows], blobs.area_px[rows], blobs.similarity[rows]
-    )
-
-
-def _moved(blobs: Detections, corner_px: FloatArray) -> Detections:
-    return replace(blobs, pixel=blobs.pixel + corner_px)

@@ -19,10 +19,11 @@ from numpy.typing import NDArray
 
 from carpus.core.hand.anatomy import REFERENCE_LENGTH_M, anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
-from carpus.core.hand.protocols import PALM_MARKERS, MarkerProtocol
+from carpus.core.hand.protocols import PALM_MARKERS, WRIST6, MarkerProtocol
 from carpus.core.types import FloatArray, Side
 
 _THUMB = 1
+_OTHER: dict[Side, Side] = {"right": "left", "left": "right"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,11 +191,11 @@ def shifted_names(side: Side, palm_plan: FloatArray, settings: PalmNameSettings)
     was given a wrong name comes first, and after each name the one that its disc should have: WRIST, MCP5 say that
     the disc clicked as wrist is the little knuckle. Two names only are two that were exchanged.
     """
-    misfits = _misfits(average_palm(side), palm_plan)
+    misfits = misfit(average_palm(side), palm_plan[_ORDERS])
     best = int(misfits.argmin())
     if misfits[0] < settings.good_misfit or misfits[best] > settings.clearly * misfits[0]:
         return ()
-    if misfits[best] > _misfits(average_palm("left" if side == "right" else "right"), palm_plan)[0]:
+    if misfits[best] > misfit(average_palm(_OTHER[side]), palm_plan):
         return ()  # the names are in order, but on the other hand
     right_name = np.argsort(_ORDERS[best])  # of the disc clicked under each name
     return tuple(PALM_MARKERS[i] for i in _ring_by_ring(right_name))
@@ -203,33 +204,35 @@ def shifted_names(side: Side, palm_plan: FloatArray, settings: PalmNameSettings)
 def names_fit(side: Side, palm_plan: FloatArray, settings: PalmNameSettings) -> bool:
     """Whether six names, given by nobody yet, lie where a palm of this hand has them, and not better on the other
     hand. ``palm_plan`` as in :func:`shifted_names`."""
-    misfits = _misfits(average_palm(side), palm_plan)
-    other = _misfits(average_palm("left" if side == "right" else "right"), palm_plan)
-    return bool(misfits[0] < settings.good_misfit and misfits[0] == misfits.min() < other.min())
+    misfits, others = (misfit(average_palm(one), palm_plan[_ORDERS]) for one in (side, _OTHER[side]))
+    return bool(misfits[0] < settings.good_misfit and misfits[0] == misfits.min() < others.min())
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=8)
+def _average_plan(protocol: MarkerProtocol, side: Side) -> FloatArray:
+    """The discs (M, 2) of the average hand, seen from the camera, y up, in metres."""
+    discs = disc_centres(anatomy_from_size(REFERENCE_LENGTH_M), np.zeros(17))[list(protocol.sites)]
+    return discs[:, :2] * (1.0, 1.0 if side == "right" else -1.0)
+
+
 def average_palm(side: Side) -> FloatArray:
     """The discs (6, 2) of the average palm in the order of ``PALM_MARKERS``, seen from the camera, y up, in metres."""
-    return anatomy_from_size(REFERENCE_LENGTH_M).palm_disc_m[:, :2] * (1.0, 1.0 if side == "right" else -1.0)
+    return _average_plan(WRIST6, side)
 
 
-def misfit(average: FloatArray, plan: FloatArray) -> float:
-    """Residual share of the best similarity (turn, scale, shift; no mirror) of discs (M, 2) as they were named."""
+def misfit(average: FloatArray, plan: FloatArray) -> FloatArray:
+    """Residual share (...) of the best similarity (turn, scale, shift; no mirror) of discs (..., M, 2) as named."""
     axes = np.array([1.0, 1j])
-    mine, theirs = (average - average.mean(axis=0)) @ axes, (plan - plan.mean(axis=0)) @ axes
-    factor = np.vdot(mine, theirs) / np.vdot(mine, mine)
-    return float(np.linalg.norm(theirs - factor * mine) / max(float(np.linalg.norm(theirs)), 1e-12))
-
-
-def _misfits(average: FloatArray, plan: FloatArray) -> FloatArray:
-    """Residual share (720,) of the best similarity (turn, scale, shift; no mirror) for every order of the names."""
-    mine = (average - average.mean(axis=0)) @ np.array([1.0, 1j])
-    theirs = ((plan - plan.mean(axis=0)) @ np.array([1.0, 1j]))[_ORDERS]
+    mine, theirs = (average - average.mean(axis=0)) @ axes, (plan - plan.mean(axis=-2, keepdims=True)) @ axes
     factor = theirs @ mine.conj() / np.vdot(mine, mine)
-    return np.asarray(
-        np.linalg.norm(theirs - factor[:, None] * mine, axis=1) / max(float(np.linalg.norm(theirs[0])), 1e-12)
-    )
+    off = np.linalg.norm(theirs - factor[..., None] * mine, axis=-1)
+    return np.asarray(off / np.maximum(np.linalg.norm(theirs, axis=-1), 1e-12))
+
+
+def misfit_without(average: FloatArray, plan: FloatArray) -> FloatArray:
+    """The :func:`misfit` (M,) that is left without each of the discs (M, 2)."""
+    each = range(len(plan))
+    return np.array([misfit(np.delete(average, k, axis=0), np.delete(plan, k, axis=0)) for k in each])
 
 
 def _ring_by_ring(right_name: NDArray[np.int64]) -> list[int]:
@@ -251,37 +254,22 @@ class SideSettings:
     clearly: float = 0.6
 
 
-@lru_cache(maxsize=4)
-def _average_plan(protocol: MarkerProtocol, side: Side) -> FloatArray:
-    discs = disc_centres(anatomy_from_size(REFERENCE_LENGTH_M), np.zeros(17))[list(protocol.sites)]
-    plan = discs[:, :2].copy()
-    if side == "left":
-        plan[:, 1] = -plan[:, 1]
-    return plan
-
-
 def plan_view(point_cam_m: FloatArray) -> FloatArray:
     """Points (M, 3) of the camera as a drawing (M, 2) seen from the camera, y up."""
     return np.stack((point_cam_m[:, 0], -point_cam_m[:, 1]), axis=1)
 
 
-def _best_swap(average: FloatArray, plan: FloatArray) -> float:
-    """Least misfit that exchanging two places of a plan (M, 2) leaves."""
-    best = np.inf
-    for i, j in combinations(range(len(plan)), 2):
-        other = plan.copy()
-        other[[i, j]] = other[[j, i]]
-        best = min(best, misfit(average, other))
-    return best
-
-
 def looks_like_other_side(protocol: MarkerProtocol, side: Side, plan: FloatArray, settings: SideSettings) -> bool:
     """Whether the constellation is clearly the other hand's, and not this one's with two names swapped."""
-    other: Side = "left" if side == "right" else "right"
     average = _average_plan(protocol, side)
-    own = misfit(average, plan)
-    mirrored = misfit(_average_plan(protocol, other), plan)
-    return own >= settings.good_misfit and mirrored < settings.clearly * own and mirrored < _best_swap(average, plan)
+    own, mirrored = misfit(average, plan), misfit(_average_plan(protocol, _OTHER[side]), plan)
+    if own < settings.good_misfit or mirrored >= settings.clearly * own:
+        return False
+    pairs = np.array(list(combinations(range(len(plan)), 2)))
+    swapped = np.repeat(plan[None], len(pairs), axis=0)
+    which = np.arange(len(pairs))[:, None]
+    swapped[which, pairs] = plan[pairs[:, ::-1]]
+    return bool(mirrored < misfit(average, swapped).min())
 
 
 @dataclass(frozen=True, slots=True)
@@ -321,17 +309,17 @@ def odd_disc(side: Side, palm_plan: FloatArray, spots_plan: FloatArray, settings
     """What is odd about a palm (6, 2), seen from the camera with y up, among the spots (S, 2) that have no name."""
     average = average_palm(side)
     own = misfit(average, palm_plan)
-    best = (own, -1, -1)
+    best = (float(own), -1, -1)
     if own >= settings.questioned:
         for marker in range(len(palm_plan)):
             for spot in range(len(spots_plan)):
                 other = palm_plan.copy()
                 other[marker] = spots_plan[spot]
-                best = min(best, (misfit(average, other), marker, spot))
+                best = min(best, (float(misfit(average, other)), marker, spot))
     if best[0] < settings.clearly * own:
         return OddDisc(best[1], best[2], fits=True)
     if own >= settings.no_palm:
-        return OddDisc(_worst(average, palm_plan), -1, fits=False)
+        return OddDisc(int(misfit_without(average, palm_plan).argmin()), -1, fits=False)
     spare = _beside(palm_plan, spots_plan, settings)
     if 0 < len(spare) <= settings.most_spare:
         return OddDisc(-1, int(spare[0]), fits=False)
@@ -352,9 +340,3 @@ def _is_inside(spot: FloatArray, corners: FloatArray) -> bool:
     angles = np.sort(np.arctan2(corners[:, 1] - spot[1], corners[:, 0] - spot[0]))
     gaps = np.diff(np.append(angles, angles[0] + 2.0 * np.pi))
     return bool(gaps.max() < np.pi)
-
-
-def _worst(average: FloatArray, palm_plan: FloatArray) -> int:
-    """The disc without which the five others make the best palm."""
-    left = [misfit(np.delete(average, k, axis=0), np.delete(palm_plan, k, axis=0)) for k in range(len(palm_plan))]
-    return int(np.argmin(left))

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.assignment import linear_sum_assignment
-from carpus.core.calibration.name_checks import PalmNameSettings, average_palm, misfit, names_fit
+from carpus.core.calibration.name_checks import PalmNameSettings, average_palm, misfit, misfit_without, names_fit
 from carpus.core.camera import Camera
 from carpus.core.hand.anatomy import anatomy_from_size
 from carpus.core.hand.kinematics import disc_centres
@@ -123,8 +123,7 @@ def _of_one_palm(
             average, plan = average_palm(side)[named], np.stack((place[spots].real, place[spots].imag), axis=1)
             if misfit(average, plan) < settings.no_palm:
                 break
-            left = [misfit(np.delete(average, k, axis=0), np.delete(plan, k, axis=0)) for k in range(len(plan))]
-            badness = 1.0 - np.array(left)
+            badness = 1.0 - misfit_without(average, plan)
         badness = np.where(free[named], badness, -1.0)
         if badness.max() < 0.0:
             break

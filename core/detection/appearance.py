@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.assignment import linear_sum_assignment
+from carpus.core.assignment import nearest_within
 from carpus.core.camera import Camera
 from carpus.core.detection.blobs import outlines, refined_centres
 from carpus.core.detection.components import Components, components
@@ -223,16 +223,7 @@ def _appearance(
 
 def _blobs_under(click_px: FloatArray, reach_px: FloatArray, blobs: Components) -> NDArray[np.int64]:
     """Disc-sized blob of every click (M,), -1 when none is within its reach; each blob once, nearest overall."""
-    taken = np.full(len(click_px), -1, dtype=np.int64)
     full = np.pi * blobs.radius_px**2
     fits = (blobs.area_px > 0.2 * full) & (blobs.area_px < 3.0 * full)
     distance = np.linalg.norm(click_px[:, None] - blobs.centre_px[None], axis=-1)
-    far = (distance > reach_px[:, None]) | ~fits
-    rows, columns = linear_sum_assignment(np.where(far, 1e6, distance))
-    near = ~far[rows, columns]
-    taken[rows[near]] = columns[near]
-    return taken
-
-
-def _rows(values: FloatArray, index: NDArray[np.int64]) -> FloatArray:
-    return values[np.maximum(index, 0)]
+    return nearest_within(np.where(fits, distance, np.inf), reach_px)

@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ from carpus.core.camera import Camera
 from carpus.core.hand import clinical_angles
 from carpus.core.hand.protocols import SITES, joint_angle_names, joint_discs
 from carpus.core.papers.chain import PaperSettings, hand_measured
+from carpus.core.tracking.readout import lost_frame, lost_moment
 from carpus.core.tracking.unscented import Spread, deviations, weights_for
 from carpus.core.types import Detections, FloatArray, Moment, TrackedFrame, TrackStatus
 
@@ -376,22 +377,8 @@ class PaperTracker:
 
     def _lost(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int) -> TrackedFrame:
         """A row of which nothing is known but the blobs."""
-        none = replace(
-            self._shown(
-                index,
-                timestamp_s,
-                TrackStatus.LOST,
-                Corrected(self._state, float("nan")),
-                np.zeros((self._markers, 2)),
-                np.zeros((self._markers, 2, 2)),
-                np.full(self._markers, -1),
-                detections,
-                dropped_before,
-            ),
-        )
-        unknown = (np.full_like(getattr(none.moment, of.name), np.nan) for of in fields(Moment))
-        places = {name: np.full_like(getattr(none, name), np.nan) for name in _OF_THE_HAND}
-        return replace(none, moment=Moment(*unknown), **places)
+        unknown = lost_moment(self._hand.joint_count, self._markers)
+        return lost_frame(index, timestamp_s, unknown, self._markers, detections, dropped_before, self._share())
 
     def _remember(self, timestamp_s: float, taken: NDArray[np.int64]) -> None:
         self._recent.append((timestamp_s, taken))
@@ -407,11 +394,6 @@ class PaperTracker:
 
 
 _SHOWING = np.array([[SITES.index(disc) for disc in joint_discs(name)] for name in joint_angle_names()])
-_OF_THE_HAND = (
-    "marker_position_cam_m",
-    "marker_predicted_px",
-    "marker_predicted_cov_px2",
-)
 
 
 def _is_sane(corrected: Corrected) -> bool:

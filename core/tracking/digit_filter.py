@@ -217,17 +217,6 @@ class DigitView:
         out[..., 1] += camera.cy_px
         return out
 
-    def slope(self, image: FloatArray) -> FloatArray:
-        """Derivative (..., 3, 3) of u, v, z by the place in camera axes, at u, v, z (..., 3)."""
-        camera, z = self.camera, image[..., 2]
-        out = np.zeros((*image.shape, 3))
-        out[..., 0, 0] = camera.fx_px / z
-        out[..., 1, 1] = camera.fy_px / z
-        out[..., 0, 2] = (camera.cx_px - image[..., 0]) / z
-        out[..., 1, 2] = (camera.cy_px - image[..., 1]) / z
-        out[..., 2, 2] = 1.0
-        return out
-
 
 @dataclass(frozen=True, slots=True)
 class DigitsLinearisation(Linearisation):
@@ -268,7 +257,7 @@ def digits_linearised(points: DigitPoints, view: DigitView, spread: Spread) -> D
     error = (2.0 * weights.covariance[1]) * (np.swapaxes(bend, 1, 2) @ bend)
     middle = image[:, :1] - value[:, None]
     error += weights.covariance[0] * (np.swapaxes(middle, 1, 2) @ middle)
-    by_place = view.slope(image[:, 0].reshape(CHAINS, DISCS, 3))
+    by_place = view.camera.slope(image[:, 0].reshape(CHAINS, DISCS, 3))
     by_constants = ((by_place @ view.rotation) @ points.by_constants).reshape(CHAINS, 3 * DISCS, -1)
     own = half - points.along @ np.swapaxes(by_constants, 1, 2)
     slope = np.zeros((CHAINS, 3 * DISCS, DIGIT_SIZE))

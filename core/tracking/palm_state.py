@@ -212,23 +212,12 @@ def palm_linearised(estimate: PalmEstimate, view: View, spread: Spread) -> Linea
     from scipy.linalg.lapack import dtrtrs  # a fifth of a second to load, and the kernels in C do without
 
     slope[:, POSE] = dtrtrs(root.T, half)[0].T
-    slope[_OF_DISC, _BY_SHAPE] = slope[_OF_DISC, _BY_SKIN] = _by_camera_place(view.camera, centre) @ (
+    slope[_OF_DISC, _BY_SHAPE] = slope[_OF_DISC, _BY_SKIN] = view.camera.slope(centre) @ (
         view.rotation_w0_cam @ estimate.rotation_w2_w0
     )
     slope[2::3, SHAPE] -= view.hidden
     value[2::3] -= view.hidden @ estimate.value[SHAPE]
     return Linearisation(value[None], slope[None], error[None], ABOUT)
-
-
-def _by_camera_place(camera: Camera, image: FloatArray) -> FloatArray:
-    """Derivative (6, 3, 3) of u, v, z by the place in camera axes, at u, v, z (6, 3)."""
-    z = image[:, 2]
-    out = np.zeros((len(image), 3, 3))
-    out[:, 0, 0], out[:, 1, 1] = camera.fx_px / z, camera.fy_px / z
-    out[:, 0, 2] = (camera.cx_px - image[:, 0]) / z
-    out[:, 1, 2] = (camera.cy_px - image[:, 1]) / z
-    out[:, 2, 2] = 1.0
-    return out
 
 
 def error_reset(nominal: PalmEstimate, mixture: ModeMixture) -> tuple[PalmEstimate, ModeMixture]:

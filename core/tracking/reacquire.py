@@ -137,6 +137,10 @@ class _Fits:
     def count(self) -> NDArray[np.int64]:
         return np.asarray((self.named >= 0).sum(axis=1))
 
+    def likeness(self, settings: FindingSettings) -> FloatArray:
+        """Confirming discs (N,), less by how far they lie from their places."""
+        return np.asarray(self.count - self.gap_m / settings.fit_m)
+
     def only(self, rows: NDArray[np.int64]) -> _Fits:
         return _Fits(
             self.rotation[rows], self.translation[rows], self.named[rows], self.gap_m[rows], self.explained[rows]
@@ -175,15 +179,11 @@ def find_palm(
     if known.size > settings.most_blobs:
         known = known[np.argsort(-detections.similarity[known])[: settings.most_blobs]]
     points = view.camera.back_project(detections.pixel[known], detections.depth_m[known])
-    palm = view.palm_m
-    triple, blobs = _triples(palm, points, settings)
-    if not triple.size:
-        return None
-    fits = _fits(palm, triple, blobs, points, settings, reach)
+    search = _Search(view.palm_m, points, settings, reach)
     seen = _Blobs(points, np.hypot(detections.depth_sd_m[known], view.camera.sensor.stays_sd_m(points[:, 2])))
     neutral = view.rotation_w0_cam
     about = _Turns(neutral @ facing.rotation_w2_w0, facing.most_rad, neutral, facing.anyhow_rad)
-    best = _best(fits, palm, seen, strays, about, known.size if reach is not None else 0, settings, reach)
+    best = _best(search, seen, strays, about)
     if best is None:
         return None
     matched = best.named[0] >= 0
@@ -207,42 +207,100 @@ def is_other_hand(detections: Detections, is_named: NDArray[np.bool_], view: Vie
     across_m = np.linalg.norm(palm[:, None] - palm, axis=-1).max() + settings.distance_m
     about = (np.linalg.norm(points[:, None] - points[is_named], axis=-1) < across_m).any(axis=1)
     points, is_named = points[about], is_named[about]
-    mirrored = _likest(palm * _MIRROR, points, settings)
+    mirrored = _Search(palm * _MIRROR, points, settings).likest()
     if not (mirrored.count >= least).any():
         return False
     others = mirrored.named[0, mirrored.named[0] >= 0]
-    own = _likest(palm, points[others], settings)
-    is_better = (_likeness(own, settings) < _likeness(mirrored, settings)).all()
+    own = _Search(palm, points[others], settings).likest()
+    is_better = (own.likeness(settings) < mirrored.likeness(settings)).all()
     return bool(is_better and is_named[others].any())
 
 
-def _likest(model: FloatArray, points: FloatArray, settings: FindingSettings) -> _Fits:
-    """The pose of the model (6, 3) that most points (B, 3) confirm, and these best; or none."""
-    triple, blobs = _triples(model, points, settings)
-    fits = _fits(model, triple, blobs, points, settings, None)
-    return fits.only(np.argsort(-_likeness(fits, settings), kind="stable")[:1])
+@dataclass(frozen=True, slots=True)
+class _Search:
+    """A palm whose discs lie as in the ``model`` (6, 3), looked for among ``points`` (B, 3) before the camera, which
+    the fingers on it may ``reach``."""
 
+    model: FloatArray
+    points: FloatArray
+    settings: FindingSettings
+    reach: Reach | None = None
 
-def _likeness(fits: _Fits, settings: FindingSettings) -> FloatArray:
-    """Confirming discs (N,), less by how far they lie from their places."""
-    return np.asarray(fits.count - fits.gap_m / settings.fit_m)
+    def fits(self) -> _Fits:
+        """The poses that most points confirm, refitted to all discs that do."""
+        triple, blobs = self._triples()
+        corners, seen, settings = self.model[_TRIPLES], self.points[blobs], self.settings
+        rotation = _frames(seen) @ np.swapaxes(_frames(corners), -1, -2)[triple]
+        # The dorsal side looks at the camera: Z of the palm has a negative component along its axis.
+        facing = np.flatnonzero(rotation[:, 2, 2] < 0.0)
+        rotation = rotation[facing]
+        middle = corners.mean(axis=1)[triple[facing]]
+        translation = seen[facing].mean(axis=1) - (rotation @ middle[..., None])[..., 0]
+        for last in (False, True):
+            nearest, gap_m = self._nearest(rotation, translation)
+            matched = gap_m < settings.fit_m
+            count = matched.sum(axis=1)
+            worth = count - np.where(matched, gap_m, 0.0).sum(axis=1) / (6.0 * settings.fit_m)
+            kept = np.argsort(-worth, kind="stable")[: settings.most_fitted]
+            kept = kept[count[kept] >= settings.least - (0 if last else 1)]
+            rotation, translation = _refitted(self.model, self.points[nearest[kept]], matched[kept])
+        return self._scored(rotation, translation)
 
+    def likest(self) -> _Fits:
+        """The pose that most points confirm, and these best; or none."""
+        fits = self.fits()
+        return fits.only(np.argsort(-fits.likeness(self.settings), kind="stable")[:1])
 
-def _triples(
-    palm_m: FloatArray, points: FloatArray, settings: FindingSettings
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Which of the triples (N,) of palm discs has its distances between which blobs (N, 3)."""
-    between = np.linalg.norm(points[:, None] - points[None], axis=-1)
-    triples, blobs = [], []
-    for number, (a, b, c) in enumerate(_TRIPLES):
-        ab, ac, bc = (
-            np.abs(between - np.linalg.norm(palm_m[first] - palm_m[second])) < settings.distance_m
-            for first, second in ((a, b), (a, c), (b, c))
-        )
-        found = np.argwhere(ab[:, :, None] & ac[:, None, :] & bc[None, :, :])
-        triples.append(np.full(len(found), number))
-        blobs.append(found)
-    return np.concatenate(triples), np.concatenate(blobs)
+    def believable(self, fits: _Fits) -> _Fits:
+        """Those with enough discs, the back of the hand before the camera, and, where fingers are there to explain the
+        rest, their share of the points explained."""
+        share = np.array(self.settings.explained)[fits.count] * (0 if self.reach is None else len(self.points))
+        good = (fits.count >= self.settings.least) & (fits.rotation[:, 2, 2] < 0.0)
+        return fits.only(np.flatnonzero(good & (fits.explained >= share)))
+
+    def every_assignment(self, four: NDArray[np.int64]) -> _Fits:
+        """The poses that four points would have by all their names, where these fit at all."""
+        used = np.zeros((len(_FOURS), len(self.model)), dtype=bool)
+        np.put_along_axis(used, _FOURS, True, axis=1)
+        at = np.zeros(used.shape, dtype=np.int64)
+        np.put_along_axis(at, _FOURS, np.broadcast_to(four, _FOURS.shape), axis=1)
+        fits = self._scored(*_refitted(self.model, self.points[at], used))
+        return fits.only(np.flatnonzero((fits.named == np.where(used, at, -1)).all(axis=1)))
+
+    def _triples(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Which of the triples (N,) of palm discs has its distances between which points (N, 3)."""
+        between = np.linalg.norm(self.points[:, None] - self.points[None], axis=-1)
+        triples, blobs = [], []
+        for number, (a, b, c) in enumerate(_TRIPLES):
+            ab, ac, bc = (
+                np.abs(between - np.linalg.norm(self.model[first] - self.model[second])) < self.settings.distance_m
+                for first, second in ((a, b), (a, c), (b, c))
+            )
+            found = np.argwhere(ab[:, :, None] & ac[:, None, :] & bc[None, :, :])
+            triples.append(np.full(len(found), number))
+            blobs.append(found)
+        return np.concatenate(triples), np.concatenate(blobs)
+
+    def _scored(self, rotation: FloatArray, translation: FloatArray) -> _Fits:
+        """What the points confirm of these poses."""
+        nearest, gap_m = self._nearest(rotation, translation)
+        matched = gap_m < self.settings.fit_m
+        count = matched.sum(axis=1)
+        mean_m = np.sqrt(np.where(matched, gap_m**2, 0.0).sum(axis=1) / np.maximum(count, 1))
+        explained = count
+        if self.reach is not None and count.size:
+            is_finger = self.reach((self.points - translation[:, None]) @ rotation)
+            np.put_along_axis(is_finger, np.where(matched, nearest, nearest[:, :1]), False, axis=1)
+            explained = count + is_finger.sum(axis=1)
+        return _Fits(rotation, translation, np.where(matched, nearest, -1), mean_m, explained)
+
+    def _nearest(self, rotation: FloatArray, translation: FloatArray) -> tuple[NDArray[np.int64], FloatArray]:
+        """Nearest point (N, 6) to each disc of the placed models, and its gap (N, 6)."""
+        points, placed = self.points, self.model @ np.swapaxes(rotation, -1, -2) + translation[:, None, :]
+        gap2 = (placed * placed).sum(axis=-1)[..., None] + (points * points).sum(axis=-1) - 2.0 * (placed @ points.T)
+        nearest = gap2.argmin(axis=-1)
+        least = np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0]
+        return nearest, np.sqrt(np.maximum(least, 0.0))
 
 
 def _frames(points: FloatArray) -> FloatArray:
@@ -260,66 +318,6 @@ def _cross(a: FloatArray, b: FloatArray) -> FloatArray:
     return np.asarray(a[..., [1, 2, 0]] * b[..., [2, 0, 1]] - a[..., [2, 0, 1]] * b[..., [1, 2, 0]])
 
 
-def _fits(
-    model: FloatArray,
-    triple: NDArray[np.int64],
-    blobs: NDArray[np.int64],
-    points: FloatArray,
-    settings: FindingSettings,
-    reach: Reach | None,
-) -> _Fits:
-    """The poses of the model (6, 3) that most points (B, 3) confirm, refitted to all discs that do."""
-    corners, seen = model[_TRIPLES], points[blobs]
-    rotation = _frames(seen) @ np.swapaxes(_frames(corners), -1, -2)[triple]
-    # The dorsal side looks at the camera: Z of the palm has a negative component along its axis.
-    facing = np.flatnonzero(rotation[:, 2, 2] < 0.0)
-    rotation = rotation[facing]
-    middle = corners.mean(axis=1)[triple[facing]]
-    translation = seen[facing].mean(axis=1) - (rotation @ middle[..., None])[..., 0]
-    for last in (False, True):
-        nearest, gap_m = _nearest(model, points, rotation, translation)
-        matched = gap_m < settings.fit_m
-        count = matched.sum(axis=1)
-        worth = count - np.where(matched, gap_m, 0.0).sum(axis=1) / (6.0 * settings.fit_m)
-        kept = np.argsort(-worth, kind="stable")[: settings.most_fitted]
-        kept = kept[count[kept] >= settings.least - (0 if last else 1)]
-        rotation, translation = _refitted(model, points[nearest[kept]], matched[kept])
-    return _scored(model, rotation, translation, points, settings, reach)
-
-
-def _scored(
-    model: FloatArray,
-    rotation: FloatArray,
-    translation: FloatArray,
-    points: FloatArray,
-    settings: FindingSettings,
-    reach: Reach | None,
-) -> _Fits:
-    """What the points (B, 3) confirm of these poses."""
-    nearest, gap_m = _nearest(model, points, rotation, translation)
-    matched = gap_m < settings.fit_m
-    count = matched.sum(axis=1)
-    mean_m = np.sqrt(np.where(matched, gap_m**2, 0.0).sum(axis=1) / np.maximum(count, 1))
-    explained = count
-    if reach is not None and count.size:
-        local = (points - translation[:, None]) @ rotation
-        is_finger = reach(local)
-        np.put_along_axis(is_finger, np.where(matched, nearest, nearest[:, :1]), False, axis=1)
-        explained = count + is_finger.sum(axis=1)
-    return _Fits(rotation, translation, np.where(matched, nearest, -1), mean_m, explained)
-
-
-def _nearest(
-    model: FloatArray, points: FloatArray, rotation: FloatArray, translation: FloatArray
-) -> tuple[NDArray[np.int64], FloatArray]:
-    """Nearest point (N, 6) to each disc of the placed models, and its gap (N, 6)."""
-    placed = model @ np.swapaxes(rotation, -1, -2) + translation[:, None, :]
-    gap2 = (placed * placed).sum(axis=-1)[..., None] + (points * points).sum(axis=-1) - 2.0 * (placed @ points.T)
-    nearest = gap2.argmin(axis=-1)
-    least = np.take_along_axis(gap2, nearest[..., None], axis=-1)[..., 0]
-    return nearest, np.sqrt(np.maximum(least, 0.0))
-
-
 def _refitted(model: FloatArray, points: FloatArray, used: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray]:
     """Least-squares poses (N, 3, 3), (N, 3) that carry the used (N, 6) discs of the model to points (N, 6, 3)."""
     weight = used / used.sum(axis=1, keepdims=True)
@@ -330,28 +328,17 @@ def _refitted(model: FloatArray, points: FloatArray, used: NDArray[np.bool_]) ->
     return rotation, point_mean - (rotation @ model_mean[..., None])[..., 0]
 
 
-def _best(
-    fits: _Fits,
-    model: FloatArray,
-    seen: _Blobs,
-    strays: FloatArray,
-    about: _Turns,
-    blobs: int,
-    settings: FindingSettings,
-    reach: Reach | None,
-) -> _Fits | None:
-    """The one pose to believe; None when none is good enough, or when other names are about as good.
-
-    ``blobs`` of which palm and fingers must explain their share, 0 where there are no fingers to explain any.
-    """
-    fits = _believable(fits, blobs, settings)
+def _best(search: _Search, seen: _Blobs, strays: FloatArray, about: _Turns) -> _Fits | None:
+    """The one pose to believe; None when none is good enough, or when other names are about as good."""
+    model, settings = search.model, search.settings
+    fits = search.believable(search.fits())
     if not fits.count.size:
         return None
-    best, misfit = _best_first(fits, model, seen, strays, about, settings)
+    best, misfit = _best_first(fits, search, seen, strays, about)
     if best.count[0] == settings.least:
-        every = _every_assignment(model, seen.point_m, best.named[0, best.named[0] >= 0], settings, reach)
-        both = best.only(np.arange(1)).and_more(_believable(every, blobs, settings))
-        best, misfit = _best_first(both, model, seen, strays, about, settings)
+        every = search.every_assignment(best.named[0, best.named[0] >= 0])
+        both = best.only(np.arange(1)).and_more(search.believable(every))
+        best, misfit = _best_first(both, search, seen, strays, about)
     beyond = _turned_beyond(best, about)
     most_misfit = most_chi2(settings.consistent)[3 * int(best.count[0]) - POSE.size]
     if best.gap_m[0] > settings.most_gap_m or misfit[0] > most_misfit or beyond[0]:
@@ -365,17 +352,11 @@ def _best(
     return None if rival.any() else best.only(np.arange(1))
 
 
-def _believable(fits: _Fits, blobs: int, settings: FindingSettings) -> _Fits:
-    """Those with enough discs, the back of the hand before the camera, and their share of the blobs explained."""
-    good = (fits.count >= settings.least) & (fits.rotation[:, 2, 2] < 0.0)
-    return fits.only(np.flatnonzero(good & (fits.explained >= np.array(settings.explained)[fits.count] * blobs)))
-
-
 def _best_first(
-    fits: _Fits, model: FloatArray, seen: _Blobs, strays: FloatArray, about: _Turns, settings: FindingSettings
+    fits: _Fits, search: _Search, seen: _Blobs, strays: FloatArray, about: _Turns
 ) -> tuple[_Fits, FloatArray]:
     """The poses by worth, then those a hand can have, then by their misfits (N,), which come with them."""
-    misfit = _misfit(fits, model, seen, strays, settings)
+    misfit = _misfit(fits, search.model, seen, strays, search.settings)
     order = np.lexsort((misfit, _turned_beyond(fits, about), -(fits.explained + fits.count)))
     return fits.only(order), misfit[order]
 
@@ -391,23 +372,6 @@ def _turned_rad(fits: _Fits, about: FloatArray) -> FloatArray:
     """How far (N,) the poses are turned from ``about`` (3, 3)."""
     cosine = 0.5 * (np.einsum("ij,nij->n", about, fits.rotation) - 1.0)
     return np.asarray(np.arccos(np.clip(cosine, -1.0, 1.0)))
-
-
-def _every_assignment(
-    model: FloatArray,
-    points: FloatArray,
-    four: NDArray[np.int64],
-    settings: FindingSettings,
-    reach: Reach | None,
-) -> _Fits:
-    """The poses that four blobs would have by all their names, where these fit at all."""
-    used = np.zeros((len(_FOURS), len(model)), dtype=bool)
-    np.put_along_axis(used, _FOURS, True, axis=1)
-    at = np.zeros(used.shape, dtype=np.int64)
-    np.put_along_axis(at, _FOURS, np.broadcast_to(four, _FOURS.shape), axis=1)
-    rotation, translation = _refitted(model, points[at], used)
-    fits = _scored(model, rotation, translation, points, settings, reach)
-    return fits.only(np.flatnonzero((fits.named == np.where(used, at, -1)).all(axis=1)))
 
 
 def _misfit(fits: _Fits, model: FloatArray, seen: _Blobs, strays: FloatArray, settings: FindingSettings) -> FloatArray:

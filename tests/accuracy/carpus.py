@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -14,17 +15,19 @@ from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CalibrationImpossible
+from carpus.core.papers.tracker import PaperTracker
 from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
-from carpus.core.session.reader import read_session
-from carpus.core.session.values import Motion, motion_of
+from carpus.core.session.reader import read_detections, read_session
+from carpus.core.session.values import Motion, Session, motion_of
 from carpus.core.simulation.recording import CLICKS_FILE, cached_recording, clicks_of
+from carpus.core.simulation.truth import Truth
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
-from tests.accuracy.readings import Reading, reading_of
-from tests.accuracy.runs import CARPUS, Estimate, Run, degrees_between, longest_s
+from carpus.core.types import Detections, FloatArray, TrackedFrame, TrackStatus
+from tests.accuracy.readings import reading_of
+from tests.accuracy.runs import CARPUS, Estimate, Mode, Run, degrees_between, longest_s
 from tests.accuracy.scenarios import Scenario
-from tests.accuracy.sequences import detected_sequence, longest_untracked_s, scored_frames, true_names, wrongly_taken
+from tests.accuracy.sequences import longest_untracked_s, markers_of, names_taken, scored_frames, true_names
 from tests.accuracy.speeds import stroke_speeds
 from tests.rendered import truth_in
 from tests.simulation.measurements import MeasurementSequence
@@ -40,119 +43,133 @@ def measured_hand(sequence: MeasurementSequence, settings: CalibrationSettings) 
     return hand, float(truth.timestamp_s[capture.frames - 1])
 
 
+def learnt_tracker(sequence: MeasurementSequence, settings: TrackerSettings | None = None) -> tuple[Tracker, float]:
+    """A tracker of the hand that has learnt from the still frames how much the measurements scatter, and when those
+    end."""
+    settings = settings or TrackerSettings()
+    hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
+    if hand.calibration is None:
+        raise CalibrationImpossible(str(sequence.truth.spec.seed))
+    learnt = learnt_from(hand.noise, neutral_ends_s, settings)
+    return Tracker(hand.calibration, sequence.truth.camera, learnt.applied(settings)), neutral_ends_s
+
+
+def stepped(
+    tracker: Tracker | PaperTracker, sequence: MeasurementSequence, neutral_ends_s: float
+) -> tuple[list[TrackedFrame], float]:
+    """The frames of measurements, tracked as :func:`core.pipeline.track.track_recording` does those of pictures, and
+    the CPU milliseconds of one."""
+    truth, begin = sequence.truth, time.process_time()
+    times_s, dropped = truth.timestamp_s.tolist(), truth.dropped_before.tolist()
+    frames = [
+        tracker.step(i, times_s[i], sequence.detections[i], dropped[i])
+        for i in from_neutral(range(len(times_s)), tracker, neutral_ends_s, lambda row: times_s[row])
+    ]
+    return frames, 1e3 * (time.process_time() - begin) / len(times_s)
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """A recording tracked through the whole of Carpus, from folder to session file: what the session holds, the blobs
+    of its frames, when the neutral pose ended, CPU milliseconds a frame."""
+
+    session: Session
+    blobs: tuple[Detections, ...]
+    neutral_ends_s: float
+    ms: float
+
+
+def measured_session(folder: Path, settings: TrackSettings | None = None) -> Measured:
+    """Track a rendered recording."""
+    source, clicks = TumFolder(folder), read_clicks(folder / CLICKS_FILE)
+    with tempfile.TemporaryDirectory() as place:
+        output = Path(place) / "session.h5"
+        begin = time.process_time()
+        track_recording(source, clicks, output, settings or TrackSettings(), software_version="accuracy")
+        ms = 1e3 * (time.process_time() - begin)
+        session, table = read_session(output), read_detections(output)
+    learnt = learnt_in(session.header.parameters)
+    assert learnt is not None
+    count = len(session.status)
+    return Measured(session, tuple(table.of_frame(i) for i in range(count)), learnt.neutral_ends_s, ms / count)
+
+
+def detected_sequence(truth: Truth, measured: Measured) -> MeasurementSequence:
+    """The blobs that were found in a simulated recording, named by the truth."""
+    labels = (markers_of(b, truth.disc_pixel[i], truth.visible_share[i]) for i, b in enumerate(measured.blobs))
+    return MeasurementSequence(truth, measured.blobs, tuple(labels))
+
+
 def run_on_blobs(
     scenario: Scenario,
     sequence: MeasurementSequence,
     settings: TrackerSettings | None = None,
     method: str = CARPUS,
 ) -> tuple[Run, float]:
-    """Track and smooth measurements as :func:`core.pipeline.track.track_recording` does those of pictures.
-
-    Also when the neutral pose ends: only frames after it are scored.
-    """
-    settings = TrackerSettings() if settings is None else settings
-    truth = sequence.truth
-    hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
-    if hand.calibration is None:
-        raise CalibrationImpossible(scenario.name, str(truth.spec.seed))
-    learnt = learnt_from(hand.noise, neutral_ends_s, settings)
-    tracker = Tracker(hand.calibration, truth.camera, learnt.applied(settings))
-    frames: list[TrackedFrame] = []
-    times = truth.timestamp_s
-    begin = time.process_time()
-    for i in from_neutral(range(len(times)), tracker, neutral_ends_s, lambda row: float(times[row])):
-        dropped = int(truth.dropped_before[i])
-        frames.append(tracker.step(i, float(times[i]), sequence.detections[i], dropped))
-    ms = 1e3 * (time.process_time() - begin) / len(times)
-    scored = scored_frames(truth, neutral_ends_s)
+    """Track and smooth measurements; also when the neutral pose ends: only frames after it are scored."""
+    tracker, neutral_ends_s = learnt_tracker(sequence, settings)
+    frames, ms = stepped(tracker, sequence, neutral_ends_s)
     status = np.array([frame.status for frame in frames])
-    smoothed = motion_of(tracker.smoothed())
-    measured_px = np.array([frame.marker_measured_px for frame in frames])[scored]
-    part = _part(sequence, scored)
-    wrong = wrongly_taken(measured_px, part)
-    live = _estimate(motion_of(frames), truth.angles_rad, scored)
-    return Run(
-        scenario.name,
-        truth.spec.seed,
-        "blobs",
-        method,
-        live,
-        _estimate(smoothed, truth.angles_rad, scored),
-        status[scored],
-        int(np.isfinite(measured_px[..., 0]).sum()),
-        int(wrong.sum()),
-        longest_s(wrong, times[scored]),
-        longest_untracked_s(sequence, status == TrackStatus.TRACKED),
-        ms,
-        stroke_speeds(truth, scored, smoothed),
-        _reading(part, scored, live, measured_px),
+    measured_px = np.array([frame.marker_measured_px for frame in frames])
+    motions = motion_of(frames), motion_of(tracker.smoothed())
+    return _scored(
+        scenario, "blobs", method, sequence, neutral_ends_s, *motions, measured_px, status, ms
     ), neutral_ends_s
 
 
 def run_on_pictures(
     scenario: Scenario, seed: int, seconds: float, settings: TrackSettings | None = None
 ) -> tuple[Run, MeasurementSequence, float, Path]:
-    """Track a rendered recording through the whole of Carpus, from folder to session file.
+    """Track a rendered recording through the whole of Carpus.
 
     Also the blobs that were found, by their true names, when the neutral pose ended, and the recording's folder.
     """
     spec = scenario.spec(seed, seconds)
     folder = cached_recording(spec)
-    truth = truth_in(spec, folder)
-    source = TumFolder(folder)
-    clicks = read_clicks(folder / CLICKS_FILE)
-    with tempfile.TemporaryDirectory() as place:
-        output = Path(place) / "session.h5"
-        begin = time.process_time()
-        track_recording(source, clicks, output, settings or TrackSettings(), software_version="accuracy")
-        ms = 1e3 * (time.process_time() - begin) / len(truth.timestamp_s)
-        session = read_session(output)
-        sequence = detected_sequence(truth, output)
-    learnt = learnt_in(session.header.parameters)
-    assert learnt is not None
-    scored = scored_frames(truth, learnt.neutral_ends_s)
-    measured_px = session.markers.measured_px[scored]
-    part = _part(sequence, scored)
-    wrong = wrongly_taken(measured_px, part)
-    live = _estimate(session.motion, truth.angles_rad, scored)
+    found = measured_session(folder, settings)
+    sequence, session = detected_sequence(truth_in(spec, folder), found), found.session
     assert session.smoothed is not None
-    run = Run(
+    run = _scored(
+        scenario, "pictures", CARPUS, sequence, found.neutral_ends_s, session.motion, session.smoothed,
+        session.markers.measured_px, session.status.astype(np.int64), found.ms,
+    )  # fmt: skip
+    return run, sequence, found.neutral_ends_s, folder
+
+
+def _scored(
+    scenario: Scenario,
+    mode: Mode,
+    method: str,
+    sequence: MeasurementSequence,
+    begin_s: float,
+    live: Motion,
+    back: Motion,
+    measured_px: FloatArray,
+    status: NDArray[np.int64],
+    ms: float,
+) -> Run:
+    truth = sequence.truth
+    scored = scored_frames(truth, begin_s)
+    names = names_taken(measured_px, sequence.detections, sequence.marker, scored)
+    causal, smoothed = (
+        Estimate(degrees_between(one.angles_rad, truth.angles_rad)[scored], np.degrees(one.angles_sd_rad)[scored])
+        for one in (live, back)
+    )
+    return Run(
         scenario.name,
-        seed,
-        "pictures",
-        CARPUS,
-        live,
-        _estimate(session.smoothed, truth.angles_rad, scored),
-        session.status[scored].astype(np.int64),
-        int(np.isfinite(measured_px[..., 0]).sum()),
-        int(wrong.sum()),
-        longest_s(wrong, truth.timestamp_s[scored]),
-        longest_untracked_s(sequence, session.status == TrackStatus.TRACKED),
+        truth.spec.seed,
+        mode,
+        method,
+        causal,
+        smoothed,
+        status[scored],
+        int(names.taken.sum()),
+        int(names.wrong.sum()),
+        longest_s(names.wrong, truth.timestamp_s[scored]),
+        longest_untracked_s(sequence, status == TrackStatus.TRACKED),
         ms,
-        stroke_speeds(truth, scored, session.smoothed),
-        _reading(part, scored, live, measured_px),
+        stroke_speeds(truth, scored, back),
+        reading_of(
+            truth, scored, truth.angles_rad, causal.error_deg, causal.sd_deg, unused=names.missed, shown=names.shown
+        ),
     )
-    return run, sequence, learnt.neutral_ends_s, folder
-
-
-def _part(sequence: MeasurementSequence, rows: NDArray[np.bool_]) -> MeasurementSequence:
-    """The blobs and names of some frames; the truth stays whole."""
-    kept = np.flatnonzero(rows)
-    return MeasurementSequence(
-        sequence.truth, tuple(sequence.detections[i] for i in kept), tuple(sequence.marker[i] for i in kept)
-    )
-
-
-def _reading(part: MeasurementSequence, scored: NDArray[np.bool_], live: Estimate, measured_px: FloatArray) -> Reading:
-    """What a therapist reads live off the wrist; ``part`` and ``measured_px`` are of the scored frames alone."""
-    truth = part.truth
-    present = np.array([np.isin(np.arange(measured_px.shape[1]), names) for names in part.marker])
-    unused = present & ~np.isfinite(measured_px[..., 0])
-    return reading_of(
-        truth, scored, truth.angles_rad, live.error_deg, live.sd_deg, unused=int(unused.sum()), shown=int(present.sum())
-    )
-
-
-def _estimate(motion: Motion, true_rad: FloatArray, scored: NDArray[np.bool_]) -> Estimate:
-    error_deg, sd_deg = degrees_between(motion.angles_rad, true_rad), np.degrees(motion.angles_sd_rad)
-    return Estimate(error_deg[scored], sd_deg[scored])

@@ -2,33 +2,25 @@
 
 from __future__ import annotations
 
-import tempfile
-import time
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.calibration.clicks import read_clicks
-from carpus.core.calibration.settings import CalibrationSettings
-from carpus.core.capture.files.tum import TumFolder
 from carpus.core.hand.kinematics import DIP_PER_PIP
 from carpus.core.hand.protocols import HAND21, joint_angle_names
-from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, learnt_in, track_recording
-from carpus.core.session.reader import read_session
+from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.values import Motion, motion_of
-from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
+from carpus.core.simulation.recording import cached_recording
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking.settings import TrackerSettings
-from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import FloatArray, Moment, TrackedFrame, TrackStatus
-from tests.accuracy.carpus import measured_hand
+from carpus.core.types import FloatArray, TrackStatus
+from tests.accuracy.carpus import detected_sequence, learnt_tracker, measured_session, stepped
 from tests.accuracy.readings import Reading, reading_of
 from tests.accuracy.runs import Mode, degrees_between, longest_s
-from tests.accuracy.sequences import detected_sequence, scored_frames, true_names, wrongly_taken
+from tests.accuracy.sequences import names_taken, scored_frames, true_names
 from tests.rendered import truth_in
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 
@@ -153,74 +145,38 @@ def seen_joints(present: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return np.asarray(present[:, at] & present[:, at + 1])
 
 
-def run_on_blobs(row: HandScenario, spec: RecordingSpec) -> HandRun:
-    """Track simulated measurements as :func:`core.pipeline.track.track_recording` does those of pictures.
-
-    A hand of which a disc cannot be seen at the start could not be clicked: another takes its place.
-    """
+def clickable_sequence(spec: RecordingSpec) -> MeasurementSequence:
+    """Measurements of a recording. A hand of which a disc cannot be seen at the start could not be clicked: another
+    takes its place."""
     sequence = measurement_sequence(spec)
-    while (true_names(sequence.marker[0], len(HAND21.markers)) < 0).any():
+    while (true_names(sequence.marker[0], len(spec.marker_protocol.markers)) < 0).any():
         spec = replace(spec, seed=spec.seed + _NEXT_SEED)
         sequence = measurement_sequence(spec)
-    truth, times = sequence.truth, sequence.truth.timestamp_s
-    hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
-    assert hand.calibration is not None
-    learnt = learnt_from(hand.noise, neutral_ends_s, row.tracker)
-    tracker = Tracker(hand.calibration, truth.camera, learnt.applied(row.tracker))
-    frames: list[TrackedFrame] = []
-    begin = time.process_time()
-    for i in from_neutral(range(len(times)), tracker, neutral_ends_s, lambda row: float(times[row])):
-        dropped = int(truth.dropped_before[i])
-        frames.append(tracker.step(i, float(times[i]), sequence.detections[i], dropped))
-    ms = 1e3 * (time.process_time() - begin) / len(times)
+    return sequence
+
+
+def run_on_blobs(row: HandScenario, spec: RecordingSpec) -> HandRun:
+    """Track simulated measurements."""
+    sequence = clickable_sequence(spec)
+    tracker, neutral_ends_s = learnt_tracker(sequence, row.tracker)
+    frames, ms = stepped(tracker, sequence, neutral_ends_s)
     measured_px = np.array([frame.marker_measured_px for frame in frames])
     disc_m = np.array([frame.marker_position_cam_m for frame in frames])
     status = np.array([frame.status for frame in frames])
-    live, back = _of_rows(frames), _of_rows(tracker.smoothed())
-    return _scored(row, "blobs", sequence, neutral_ends_s, live, back, measured_px, disc_m, status, ms)
+    motions = motion_of(frames), motion_of(tracker.smoothed())
+    return _scored(row, "blobs", sequence, neutral_ends_s, *motions, measured_px, disc_m, status, ms)
 
 
 def run_on_pictures(row: HandScenario, spec: RecordingSpec) -> HandRun:
     """Track a rendered recording through the whole of Carpus, from folder to session file."""
     folder = cached_recording(spec)
-    truth, clicks = truth_in(spec, folder), read_clicks(folder / CLICKS_FILE)
-    with tempfile.TemporaryDirectory() as place:
-        output = Path(place) / "session.h5"
-        begin = time.process_time()
-        settings = TrackSettings(tracker=row.tracker)
-        track_recording(TumFolder(folder), clicks, output, settings, software_version="accuracy")
-        ms = 1e3 * (time.process_time() - begin) / len(truth.timestamp_s)
-        session = read_session(output)
-        sequence = detected_sequence(truth, output)
-    learnt = learnt_in(session.header.parameters)
-    assert learnt is not None
+    found = measured_session(folder, TrackSettings(tracker=row.tracker))
+    sequence, session = detected_sequence(truth_in(spec, folder), found), found.session
     assert session.smoothed is not None
-    live, back = _of_motion(session.motion), _of_motion(session.smoothed)
-    marker = session.markers
     return _scored(
-        row,
-        "pictures",
-        sequence,
-        learnt.neutral_ends_s,
-        live,
-        back,
-        marker.measured_px,
-        marker.position_cam_m,
-        session.status.astype(np.int64),
-        ms,
-    )
-
-
-_Series = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
-"""Joint angles (N, J), their sds, wrist angles (N, 3), their sds; radians."""
-
-
-def _of_rows(rows: list[TrackedFrame] | list[Moment]) -> _Series:
-    return _of_motion(motion_of(rows))
-
-
-def _of_motion(motion: Motion) -> _Series:
-    return motion.joint_angles_rad, motion.joint_angles_sd_rad, motion.angles_rad, motion.angles_sd_rad
+        row, "pictures", sequence, found.neutral_ends_s, session.motion, session.smoothed, session.markers.measured_px,
+        session.markers.position_cam_m, session.status.astype(np.int64), found.ms,
+    )  # fmt: skip
 
 
 def _scored(
@@ -228,8 +184,8 @@ def _scored(
     mode: Mode,
     sequence: MeasurementSequence,
     begin_s: float,
-    live: _Series,
-    back: _Series,
+    live: Motion,
+    back: Motion,
     measured_px: FloatArray,
     disc_m: FloatArray,
     status: NDArray[np.int64],
@@ -237,23 +193,19 @@ def _scored(
 ) -> HandRun:
     truth = sequence.truth
     kept = scored_frames(truth, begin_s)
-    rows = np.flatnonzero(kept)
-    wrong = wrongly_taken(
-        measured_px[kept],
-        MeasurementSequence(
-            truth, tuple(sequence.detections[i] for i in rows), tuple(sequence.marker[i] for i in rows)
-        ),
-    )
-    present = np.array([np.isin(np.arange(len(HAND21.markers)), names) for names in sequence.marker])[kept]
-    taken = np.isfinite(measured_px[kept][..., 0])
+    names = names_taken(measured_px, sequence.detections, sequence.marker, kept)
     off_m = disc_m[kept] / depth_scale(truth.spec) - truth.disc_position_cam_m[kept]
-    disc_mm = 1e3 * np.linalg.norm(off_m, axis=-1)[present]
+    disc_mm = 1e3 * np.linalg.norm(off_m, axis=-1)[names.present]
     joint_true = with_end_joints(truth.joint_angles_rad)
-    joint_deg = degrees_between(with_end_joints(live[0]), joint_true)[kept]
-    joint_sd_deg = np.degrees(with_end_joints(live[1]))[kept]
-    wrist_deg, wrist_sd_deg = degrees_between(live[2], truth.angles_rad)[kept], np.degrees(live[3])[kept]
-    seen, compared = seen_joints(present), readable(joint_true)[kept]
-    missed, shown = int((present & ~taken).sum()), int(present.sum())
+    joint_deg, smoothed_deg = (
+        degrees_between(with_end_joints(one.joint_angles_rad), joint_true)[kept] for one in (live, back)
+    )
+    joint_sd_deg, smoothed_sd_deg = (np.degrees(with_end_joints(one.joint_angles_sd_rad))[kept] for one in (live, back))
+    wrist_deg = degrees_between(live.angles_rad, truth.angles_rad)[kept]
+    wrist_sd_deg = np.degrees(live.angles_sd_rad)[kept]
+    seen, compared = seen_joints(names.present), readable(joint_true)[kept]
+    discs = {"unused": names.missed, "shown": names.shown}
+    joints_seen_deg = np.where(seen & compared, joint_deg, np.nan)
     return HandRun(
         row.name,
         truth.spec.motion,
@@ -261,30 +213,22 @@ def _scored(
         mode,
         joint_deg,
         joint_sd_deg,
-        degrees_between(with_end_joints(back[0]), joint_true)[kept],
-        np.degrees(with_end_joints(back[1]))[kept],
+        smoothed_deg,
+        smoothed_sd_deg,
         wrist_deg,
         wrist_sd_deg,
         seen,
         compared,
         disc_mm[np.isfinite(disc_mm)],
         status[kept],
-        int(taken.sum()),
-        int(wrong.sum()),
-        longest_s(wrong, truth.timestamp_s[kept]),
-        missed,
-        shown,
+        int(names.taken.sum()),
+        int(names.wrong.sum()),
+        longest_s(names.wrong, truth.timestamp_s[kept]),
+        names.missed,
+        names.shown,
         ms,
-        reading_of(truth, kept, truth.angles_rad, wrist_deg, wrist_sd_deg, unused=missed, shown=shown),
-        reading_of(
-            truth,
-            kept,
-            joint_true,
-            np.where(seen & compared, joint_deg, np.nan),
-            joint_sd_deg,
-            unused=missed,
-            shown=shown,
-        ),
+        reading_of(truth, kept, truth.angles_rad, wrist_deg, wrist_sd_deg, **discs),
+        reading_of(truth, kept, joint_true, joints_seen_deg, joint_sd_deg, **discs),
     )
 
 

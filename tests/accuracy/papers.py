@@ -5,9 +5,8 @@ Twice: as written, with the palm's discs in one plane, and with the palm as meas
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,27 +15,24 @@ from threadpoolctl import threadpool_limits
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.papers.chain import PalmModel, PaperSettings, as_written
 from carpus.core.papers.tracker import PaperTracker
-from carpus.core.pipeline.track import from_neutral
+from carpus.core.session.values import motion_of
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import FloatArray, TrackedFrame, TrackStatus
-from tests.accuracy.carpus import measured_hand
-from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, HandScenario, seen_joints, with_end_joints
+from carpus.core.types import FloatArray, TrackStatus
+from tests.accuracy.carpus import measured_hand, stepped
+from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, HandScenario, clickable_sequence, seen_joints, with_end_joints
 from tests.accuracy.hand21 import ROWS as HAND
 from tests.accuracy.jobs import BLOB_SECONDS
 from tests.accuracy.readings import Reading, read_figures, reading_of, unused_share
 from tests.accuracy.runs import degrees_between, longest_s
 from tests.accuracy.scenarios import TROUBLE, WRIST, Scenario
-from tests.accuracy.sequences import longest_untracked_s, scored_frames, true_names, wrongly_taken
+from tests.accuracy.sequences import longest_untracked_s, names_taken, scored_frames
 from tests.accuracy.side_by_side import side_by_side
 from tests.accuracy.soft import SOFT_HAND, SOFT_WRIST
-from tests.simulation.measurements import MeasurementSequence, measurement_sequence
-
-Series = Callable[[TrackedFrame], FloatArray]
+from tests.simulation.measurements import MeasurementSequence
 
 PALMS: dict[PalmModel, str] = {"flat": "as written", "measured": "palm as measured"}
 _TROUBLES = ("no false blobs", "10 false blobs", "30 % hidden", "leaves and returns")
 _HANDS = ("discs on the skin", "discs in the joints", "10 false blobs", "30 % hidden", "leaves and returns")
-_ANOTHER_SEED = 50
 
 WRIST_ROWS: tuple[Scenario, ...] = (*WRIST, *(row for row in TROUBLE if row.name in _TROUBLES), *SOFT_WRIST)
 HAND_ROWS: tuple[HandScenario, ...] = (*(row for row in HAND if row.name in _HANDS), *SOFT_HAND)
@@ -78,68 +74,41 @@ def paper_jobs(wrist: Sequence[Scenario], hand: Sequence[HandScenario], seeds: i
 
 
 def paper_runs(job: PaperJob) -> list[PaperRun]:
-    """Track one recording by every model of the palm; a hand of which a disc cannot be seen at the start could not be
-    clicked: the next one."""
-    spec = job.spec
-    sequence = measurement_sequence(spec)
-    while (true_names(sequence.marker[0], len(spec.marker_protocol.markers)) < 0).any():
-        spec = replace(spec, seed=spec.seed + _ANOTHER_SEED)
-        sequence = measurement_sequence(spec)
+    """Track one recording by every model of the palm."""
+    sequence = clickable_sequence(job.spec)
     return [_run(job.row, sequence, palm) for palm in PALMS]
 
 
 def _run(row: str, sequence: MeasurementSequence, palm: PalmModel) -> PaperRun:
-    truth, times = sequence.truth, sequence.truth.timestamp_s
+    truth = sequence.truth
     hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
     assert hand.calibration is not None
     settings = PaperSettings(palm=palm)
     tracker = PaperTracker(as_written(hand.calibration, truth.camera, palm), truth.camera, settings)
-    frames: list[TrackedFrame] = []
-    begin = time.process_time()
-    for i in from_neutral(range(len(times)), tracker, neutral_ends_s, lambda row: float(times[row])):
-        frames.append(tracker.step(i, float(times[i]), sequence.detections[i], int(truth.dropped_before[i])))
-    ms = 1e3 * (time.process_time() - begin) / len(times)
-
-    kept = scored_frames(truth, neutral_ends_s)
-    rows = np.flatnonzero(kept)
-    part = MeasurementSequence(
-        truth, tuple(sequence.detections[i] for i in rows), tuple(sequence.marker[i] for i in rows)
-    )
-    measured_px = np.array([frames[i].marker_measured_px for i in rows])
-    taken, wrong = np.isfinite(measured_px[..., 0]), wrongly_taken(measured_px, part)
-    present = np.array([np.isin(np.arange(taken.shape[1]), names) for names in part.marker])
+    frames, ms = stepped(tracker, sequence, neutral_ends_s)
+    kept, motion = scored_frames(truth, neutral_ends_s), motion_of(frames)
+    measured_px = np.array([frame.marker_measured_px for frame in frames])
+    names = names_taken(measured_px, sequence.detections, sequence.marker, kept)
     status = np.array([frame.status for frame in frames])
 
-    def read(true_rad: FloatArray, found: Series, stated: Series, compared: NDArray[np.bool_]) -> Reading:
-        error = degrees_between(np.array([found(frame) for frame in frames]), true_rad)[kept]
-        sd = np.degrees(np.array([stated(frame) for frame in frames]))[kept]
-        missed = int((present & ~taken).sum())
-        error = np.where(compared, error, np.nan)
-        return reading_of(truth, kept, true_rad, error, sd, unused=missed, shown=int(present.sum()))
+    def read(true_rad: FloatArray, found: FloatArray, sd: FloatArray, compared: NDArray[np.bool_] | None) -> Reading:
+        error, sd_deg = degrees_between(found, true_rad)[kept], np.degrees(sd)[kept]
+        error = error if compared is None else np.where(compared, error, np.nan)
+        return reading_of(truth, kept, true_rad, error, sd_deg, unused=names.missed, shown=names.shown)
 
     joints = None
     if truth.spec.marker_protocol.has_fingers:
-        joints = read(
-            with_end_joints(truth.joint_angles_rad),
-            lambda frame: with_end_joints(frame.moment.joint_angles_rad[None])[0],
-            lambda frame: with_end_joints(frame.moment.joint_angles_sd_rad[None])[0],
-            seen_joints(present),
-        )
-    everywhere = np.ones((rows.size, 1), dtype=bool)
+        every = (truth.joint_angles_rad, motion.joint_angles_rad, motion.joint_angles_sd_rad)
+        joints = read(*map(with_end_joints, every), seen_joints(names.present))
     return PaperRun(
         row,
         palm,
-        read(
-            truth.angles_rad,
-            lambda frame: frame.moment.angles_rad,
-            lambda frame: frame.moment.angles_sd_rad,
-            everywhere,
-        ),
+        read(truth.angles_rad, motion.angles_rad, motion.angles_sd_rad, None),
         joints,
         status[kept],
-        int(taken.sum()),
-        int(wrong.sum()),
-        longest_s(wrong, times[kept]),
+        int(names.taken.sum()),
+        int(names.wrong.sum()),
+        longest_s(names.wrong, truth.timestamp_s[kept]),
         longest_untracked_s(sequence, status == TrackStatus.TRACKED),
         ms,
     )

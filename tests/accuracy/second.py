@@ -5,33 +5,27 @@ Every row is rendered pictures tracked by the whole of Carpus, from folder to se
 
 from __future__ import annotations
 
-import tempfile
-import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from carpus.core.calibration.clicks import read_clicks
-from carpus.core.capture.files.tum import TumFolder
 from carpus.core.errors import CarpusFault
-from carpus.core.pipeline.track import TrackSettings, learnt_in, track_recording
-from carpus.core.session.reader import read_detections, read_session
+from carpus.core.pipeline.track import TrackSettings
 from carpus.core.types import FloatArray, TrackStatus
 from tests.accuracy import readings_table
+from tests.accuracy.carpus import measured_session
 from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, readable, seen_joints, with_end_joints
 from tests.accuracy.pages import marked
 from tests.accuracy.readings import AT_NEUTRAL_RAD, Reading, reading_in
 from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
 from tests.accuracy.runs import degrees_between
-from tests.accuracy.sequences import LEAST_DISCS, markers_of, true_names
+from tests.accuracy.sequences import enough_inside, markers_of, names_taken
 from tests.accuracy.side_by_side import side_by_side
 from tests.second_patient.motions import ROWS, Row, motion_of
-from tests.second_patient.recording import CLICKS_FILE, clear_px, kept_recording, take_of
-from tests.second_patient.truth import Truth
+from tests.second_patient.recording import clear_px, kept_recording, take_of
 
 SECOND_SEEDS = 9_000_000
 """Seeds of these rows start here, sides in turn."""
@@ -69,62 +63,43 @@ def _tracked(job: tuple[Row, int]) -> SecondRun | str:
 
 def _tracked_run(row: Row, seed: int, settings: TrackSettings | None) -> SecondRun:
     folder, truth = kept_recording(row, seed)
-    with tempfile.TemporaryDirectory() as place, threadpool_limits(1):
-        output = Path(place) / "session.h5"
-        begin = time.process_time()
-        clicks = read_clicks(folder / CLICKS_FILE)
-        track_recording(TumFolder(folder), clicks, output, settings or TrackSettings(), software_version="accuracy")
-        ms = 1e3 * (time.process_time() - begin) / len(truth.timestamp_s)
-        session = read_session(output)
-        table = read_detections(output)
-    learnt = learnt_in(session.header.parameters)
-    assert learnt is not None
+    with threadpool_limits(1):
+        found = measured_session(folder, settings)
+    session = found.session
     pixel = np.array([truth.camera.distort(some) for some in truth.disc_pixel])
-    blobs = [table.of_frame(i) for i in range(len(pixel))]
-    names = [markers_of(some, pixel[i], truth.visible_share[i]) for i, some in enumerate(blobs)]
-    kept = (truth.timestamp_s > learnt.neutral_ends_s) & _enough_inside(truth, pixel)
-    present = np.array([true_names(some, pixel.shape[1]) >= 0 for some in names])
-    measured = session.markers.measured_px
-    taken = np.isfinite(measured[..., 0])
-    wrong = np.zeros(taken.shape, dtype=bool)
-    for i, marker in np.argwhere(taken):
-        blob = int(np.abs(blobs[i].pixel - measured[i, marker]).sum(axis=1).argmin())
-        wrong[i, marker] = names[i][blob] != marker
-    unused, shown = int((present & ~taken)[kept].sum()), int(present[kept].sum())
-    off = np.linalg.norm(session.markers.position_cam_m - truth.disc_position_cam_m, axis=-1)[kept][present[kept]]
+    labels = [markers_of(some, pixel[i], truth.visible_share[i]) for i, some in enumerate(found.blobs)]
+    kept = truth.timestamp_s > found.neutral_ends_s
+    kept &= enough_inside(pixel[:, list(truth.protocol.palm)], truth.camera)
+    names = names_taken(session.markers.measured_px, found.blobs, labels, kept)
+    off = np.linalg.norm(session.markers.position_cam_m - truth.disc_position_cam_m, axis=-1)[kept][names.present]
 
     time_s = (truth.timestamp_s - truth.timestamp_s[0])[kept]
     posture = motion_of(row.motion, seed).at(time_s)
     moves = np.hstack((posture.wrist, posture.fingers))
 
     def reading(true: FloatArray, found: FloatArray, sd: FloatArray, where: NDArray[np.bool_] | None = None) -> Reading:
-        error = degrees_between(found, true)[kept]
+        error, sd_deg = degrees_between(found, true)[kept], np.degrees(sd)[kept]
         near = (np.abs(true - true[0]) < AT_NEUTRAL_RAD)[kept]
-        error = error if where is None else np.where(where[kept], error, np.nan)
-        return reading_in(time_s, moves, true[kept], near, error, np.degrees(sd)[kept], unused=unused, shown=shown)
+        error = error if where is None else np.where(where, error, np.nan)
+        discs = {"unused": names.missed, "shown": names.shown}
+        return reading_in(time_s, moves, true[kept], near, error, sd_deg, **discs)
 
     motion = session.motion
     joints = None
     if truth.protocol.has_fingers:
-        found, sd = with_end_joints(motion.joint_angles_rad), with_end_joints(motion.joint_angles_sd_rad)
-        joints = reading(truth.joint_angles_rad, found, sd, seen_joints(present) & readable(truth.joint_angles_rad))
+        angles, sd = with_end_joints(motion.joint_angles_rad), with_end_joints(motion.joint_angles_sd_rad)
+        compared = seen_joints(names.present) & readable(truth.joint_angles_rad)[kept]
+        joints = reading(truth.joint_angles_rad, angles, sd, compared)
     return SecondRun(
         row.name,
         reading(truth.angles_rad, motion.angles_rad, motion.angles_sd_rad),
         joints,
         session.status[kept].astype(np.int64),
         1e3 * off[np.isfinite(off)],
-        int(taken[kept].sum()),
-        int(wrong[kept].sum()),
-        ms,
+        int(names.taken.sum()),
+        int(names.wrong.sum()),
+        found.ms,
     )
-
-
-def _enough_inside(truth: Truth, pixel: FloatArray) -> NDArray[np.bool_]:
-    """Frames (N,) with three discs of the palm inside the picture: without, nothing can be known."""
-    palm = pixel[:, list(truth.protocol.palm)]
-    inside = ((palm >= 0.0) & (palm <= [truth.camera.width_px - 1, truth.camera.height_px - 1])).all(axis=-1)
-    return np.asarray(inside.sum(axis=1) >= LEAST_DISCS)
 
 
 def rows_named(only: str) -> list[Row]:

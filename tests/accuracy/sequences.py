@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.session.reader import read_detections
+from carpus.core.camera import Camera
 from carpus.core.simulation.truth import Truth
 from carpus.core.types import Detections, FloatArray
 from tests.simulation.measurements import MeasurementSequence
@@ -41,20 +42,16 @@ def markers_of(blobs: Detections, disc_px: FloatArray, visible_share: FloatArray
     return labels
 
 
-def detected_sequence(truth: Truth, session: Path) -> MeasurementSequence:
-    """The blobs that a session of a simulated recording holds, named by the truth."""
-    table = read_detections(session)
-    blobs = tuple(table.of_frame(i) for i in range(len(truth.timestamp_s)))
-    labels = tuple(markers_of(b, truth.disc_pixel[i], truth.visible_share[i]) for i, b in enumerate(blobs))
-    return MeasurementSequence(truth, blobs, labels)
+def enough_inside(palm_px: FloatArray, camera: Camera) -> NDArray[np.bool_]:
+    """Frames (N,) with three discs of the palm (N, 6, 2) inside the picture: without, nothing can be known."""
+    inside = ((palm_px >= 0.0) & (palm_px <= [camera.width_px - 1, camera.height_px - 1])).all(axis=-1)
+    return np.asarray(inside.sum(axis=1) >= LEAST_DISCS)
 
 
 def scored_frames(truth: Truth, begin_s: float) -> NDArray[np.bool_]:
-    """Frames (N,) after ``begin_s`` with three discs of the palm inside the picture: without, nothing can be known."""
-    camera = truth.camera
-    palm = truth.disc_pixel[:, list(truth.spec.marker_protocol.palm)]
-    inside = ((palm >= 0.0) & (palm <= [camera.width_px - 1, camera.height_px - 1])).all(axis=-1)
-    return np.asarray((truth.timestamp_s > begin_s) & (inside.sum(axis=1) >= LEAST_DISCS))
+    """Frames (N,) after ``begin_s`` in which something can be known."""
+    palm_px = truth.disc_pixel[:, list(truth.spec.marker_protocol.palm)]
+    return np.asarray((truth.timestamp_s > begin_s) & enough_inside(palm_px, truth.camera))
 
 
 def longest_untracked_s(sequence: MeasurementSequence, tracked: NDArray[np.bool_]) -> float:
@@ -71,11 +68,8 @@ def longest_untracked_s(sequence: MeasurementSequence, tracked: NDArray[np.bool_
 
 def without_false(sequence: MeasurementSequence) -> MeasurementSequence:
     """The blobs of true markers only."""
-    kept = [np.flatnonzero(labels >= 0) for labels in sequence.marker]
-    blobs = tuple(
-        Detections(b.pixel[rows], b.depth_m[rows], b.depth_sd_m[rows], b.area_px[rows], b.similarity[rows])
-        for b, rows in zip(sequence.detections, kept, strict=True)
-    )
+    kept = [labels >= 0 for labels in sequence.marker]
+    blobs = tuple(b.only(rows) for b, rows in zip(sequence.detections, kept, strict=True))
     names = tuple(labels[rows] for labels, rows in zip(sequence.marker, kept, strict=True))
     return MeasurementSequence(sequence.truth, blobs, names)
 
@@ -93,10 +87,36 @@ def measured_and_errors(sequence: MeasurementSequence) -> tuple[FloatArray, Floa
     return measured, measured - true
 
 
-def wrongly_taken(measured_px: FloatArray, sequence: MeasurementSequence) -> NDArray[np.bool_]:
-    """Whether the blob taken for a marker, by its pixel (N, M, 2), NaN for none, is another thing's."""
-    wrong = np.zeros(measured_px.shape[:2], dtype=bool)
-    for i, marker in np.argwhere(np.isfinite(measured_px[..., 0])):
-        gap = np.abs(sequence.detections[i].pixel - measured_px[i, marker]).sum(axis=1)
-        wrong[i, marker] = sequence.marker[i][int(gap.argmin())] != marker
-    return wrong
+@dataclass(frozen=True, slots=True)
+class NamesTaken:
+    """Of F frames and M markers (F, M): there to be seen, measured, measured by another thing's blob."""
+
+    present: NDArray[np.bool_]
+    taken: NDArray[np.bool_]
+    wrong: NDArray[np.bool_]
+
+    @property
+    def missed(self) -> int:
+        """Discs that were there and not taken."""
+        return int((self.present & ~self.taken).sum())
+
+    @property
+    def shown(self) -> int:
+        return int(self.present.sum())
+
+
+def names_taken(
+    measured_px: FloatArray, blobs: Sequence[Detections], labels: Sequence[NDArray[np.int64]], frames: NDArray[np.bool_]
+) -> NamesTaken:
+    """What was taken in the scored ``frames`` (N,), by the pixels (N, M, 2) of the measurements, NaN for none, and the
+    true markers of every frame's blobs."""
+    rows = np.flatnonzero(frames)
+    taken = np.isfinite(measured_px[rows, :, 0])
+    present = np.array([np.isin(np.arange(taken.shape[1]), labels[i]) for i in rows])
+    wrong = np.zeros(taken.shape, dtype=bool)
+    for k, marker in np.argwhere(taken):
+        i = rows[k]
+        wrong[k, marker] = (
+            labels[i][int(np.abs(blobs[i].pixel - measured_px[i, marker]).sum(axis=1).argmin())] != marker
+        )
+    return NamesTaken(present, taken, wrong)

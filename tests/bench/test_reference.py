@@ -49,10 +49,10 @@ def test_the_spy_measures_the_parts_of_a_frame_and_leaves_no_trace() -> None:
         assert hand_filter.associate_and_update is not true
     assert hand_filter.associate_and_update is true
     assert spy.calls("narrow") == 5
-    assert spy.calls("names") >= 5
-    assert spy.calls("predict") == 5  # once for each: what the search expects, its blobs are named by
+    assert spy.calls("association") >= 5
+    assert spy.calls("filter") == 5  # once for each: what the search expects, its blobs are named by
     assert spy.calls("surface") == 10  # the readings, and the update by them
-    assert spy.cpu_since("names", 0) > 0.0
+    assert spy.cpu_since("association", 0) > 0.0
 
 
 def test_a_row_of_the_table_tells_median_percentile_and_ratio() -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -31,23 +33,32 @@ LEAVING = RecordingSpec(
 MOST_MEDIAN_MS = 1.3
 
 
+WRIST_PARTS = (
+    (hand_filter, "associate_and_update", "association"),
+    (palm_association, "associate_jointly", "joint"),
+    (hand_filter, "predicted_ahead", "filter"),
+    (hand_filter, "reset_and_levelled", "surface"),
+    (track, "surface_samples", "surface"),
+    (hand_filter, "find_palm", "find"),
+)
+"""Where the parts of a frame are called, and what they are part of; within others: ``joint`` and ``find``."""
+
+
 @dataclass(slots=True)
 class Costs:
-    """CPU milliseconds for each frame: ``whole`` with nothing measured inside, the parts when the same frames are
-    tracked once more; ``rest``, and of a whole hand ``filter``, is what the parts leave of the whole."""
+    """CPU milliseconds for each frame: ``whole`` with nothing measured inside; of its ``part``s when the same frames
+    are tracked once more, *rest* what these leave of the whole; ``with_part`` of whole frames that had one; the plain
+    filter's step as ``reference``."""
 
     whole: list[float] = field(default_factory=list)
-    detection: list[float] = field(default_factory=list)
-    association: list[float] = field(default_factory=list)
-    filter: list[float] = field(default_factory=list)
-    surface: list[float] = field(default_factory=list)
-    rest: list[float] = field(default_factory=list)
-    narrow: list[float] = field(default_factory=list)
-    wide: list[float] = field(default_factory=list)
-    joint: list[float] = field(default_factory=list)
-    found_again: list[float] = field(default_factory=list)
+    part: defaultdict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
+    with_part: defaultdict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
     reference: list[float] = field(default_factory=list)
     tracked: int = 0
+
+    @property
+    def in_words(self) -> str:
+        return f"640 x 480, {len(self.whole)} frames, {100.0 * self.tracked / len(self.whole):.1f} % tracked"
 
 
 def frames_of(folder: Path) -> list[Frame]:
@@ -76,13 +87,13 @@ def plain_step(plain: reference.ReferenceFilter, time_s: float, rng: np.random.G
     return times.cpu_ms[0]
 
 
-def measure(folder: Path, costs: Costs, rounds: int) -> None:
+def measure(folder: Path, costs: Costs, rounds: int, parts: Sequence[tuple[object, str, str]] = WRIST_PARTS) -> None:
     """Track the recording so often: once as a whole, and once with its parts measured, whose measuring costs itself."""
     frames = frames_of(folder)
     for _ in range(rounds):
         whole_ms = whole_frames(folder, frames, costs)
         pipeline, ends_s = pipeline_of(folder, frames)
-        with spied(pipeline) as spy:
+        with spied(pipeline, parts) as spy:
             for (frame, step_ms), whole in zip(beside_the_plain(frames, ends_s), whole_ms, strict=True):
                 _parts(pipeline, frame, spy, whole, costs)
                 step_ms()
@@ -112,26 +123,17 @@ def beside_the_plain(frames: list[Frame], ends_s: float) -> Iterator[tuple[Frame
             yield frame, partial(plain_step, plain, frame.timestamp_s - ends_s, rng)
 
 
-class spied:  # noqa: N801  (read as a word)
-    """The pipeline with its parts measured, as a context."""
-
-    def __init__(self, pipeline: FramePipeline) -> None:
-        self._pipeline, self._spy = pipeline, Spy()
-
-    def __enter__(self) -> Spy:
-        spy = self._spy
-        whole_picture = lambda _, region=None: int(region is None)  # noqa: E731
-        spy.watch(self._pipeline.detector, "detect", "narrow", "wide", choose=whole_picture)
-        spy.watch(hand_filter, "associate_and_update", "names")
-        spy.watch(palm_association, "associate_jointly", "joint")
-        spy.watch(hand_filter, "predicted_ahead", "predict")
-        spy.watch(hand_filter, "reset_and_levelled", "surface")
-        spy.watch(track, "surface_samples", "surface")
-        spy.watch(hand_filter, "find_palm", "find")
-        return spy
-
-    def __exit__(self, *_: object) -> None:
-        self._spy.leave()
+@contextmanager
+def spied(pipeline: FramePipeline, parts: Sequence[tuple[object, str, str]] = WRIST_PARTS) -> Iterator[Spy]:
+    """The pipeline with its parts measured."""
+    spy = Spy()
+    spy.watch(pipeline.detector, "detect", "narrow", "wide", choose=lambda _, region=None: int(region is None))
+    try:
+        for place, name, label in parts:
+            spy.watch(place, name, label)
+        yield spy
+    finally:
+        spy.leave()
 
 
 def _parts(pipeline: FramePipeline, frame: Frame, spy: Spy, whole: float, costs: Costs) -> None:
@@ -139,19 +141,15 @@ def _parts(pipeline: FramePipeline, frame: Frame, spy: Spy, whole: float, costs:
     before = {label: spy.calls(label) for label in spy.times}
     pipeline(frame)
     part = {label: spy.cpu_since(label, before[label]) for label in spy.times}
-    detection = part["narrow"] + part["wide"]
-    association, filtering = part["names"], part["predict"]
-    costs.detection.append(detection)
-    costs.association.append(association)
-    costs.filter.append(filtering)
-    costs.surface.append(part["surface"])
-    costs.rest.append(whole - detection - association - filtering - part["surface"])
-    costs.narrow += spy.times["narrow"].cpu_ms[before["narrow"] :]
-    costs.wide += spy.times["wide"].cpu_ms[before["wide"] :]
-    if spy.calls("joint") > before["joint"]:
-        costs.joint.append(whole)
-    if spy.calls("find") > before["find"]:
-        costs.found_again.append(whole)
+    part["detection"] = part.pop("narrow") + part.pop("wide")
+    for label in ("joint", "find"):
+        if label in part and part.pop(label) and spy.calls(label) > before[label]:
+            costs.with_part[label].append(whole)
+    part["rest"] = whole - sum(part.values())
+    for label, ms in part.items():
+        costs.part[label].append(ms)
+    for label in ("narrow", "wide"):
+        costs.part[label] += spy.times[label].cpu_ms[before[label] :]
 
 
 def report(rounds: int) -> Iterator[str]:
@@ -159,25 +157,24 @@ def report(rounds: int) -> Iterator[str]:
     costs, leaving = Costs(), Costs()
     measure(cached_recording(ORDINARY, workers=2), costs, rounds)
     measure(cached_recording(LEAVING, workers=2), leaving, rounds)
-    plain = float(np.median(costs.reference))
-    yield f"Wrist, 640 x 480, {len(costs.whole)} frames, {100.0 * costs.tracked / len(costs.whole):.1f} % tracked"
+    plain, part = float(np.median(costs.reference)), costs.part
+    yield f"Wrist, {costs.in_words}"
     yield HEAD
     yield line("plain augmented UKF, 49/99", costs.reference, plain, "the yardstick: 21 markers, filter only")
     promised = f"nothing measured inside; promised: {MOST_MEDIAN_MS} ms"
     yield line("whole frame", costs.whole, plain, promised)
-    yield line("- detection", costs.detection, plain, "the parts: the same frames tracked once more")
-    yield line("- association", costs.association, plain, "with the update by the discs")
-    yield line("- filter", costs.filter, plain, "predict, and what the camera should see, all motion modes")
-    yield line("- surface", costs.surface, plain, "readings taken, error reset, fitted, and the update by it")
-    yield line("- rest", costs.rest, plain, "what is left of the whole: angles, standard deviations, bookkeeping")
-    yield line("search where expected", costs.narrow, plain)
-    yield line("search of the whole picture", costs.wide + leaving.wide, plain)
-    yield line(
-        "frame with joint association",
-        costs.joint + leaving.joint,
-        plain,
-        f"{len(costs.joint)} of {len(costs.whole)} frames",
-    )
-    again = costs.found_again + leaving.found_again
+    for label, note in {
+        "detection": "the parts: the same frames tracked once more",
+        "association": "with the update by the discs",
+        "filter": "predict, and what the camera should see, all motion modes",
+        "surface": "readings taken, error reset, fitted, and the update by it",
+        "rest": "what is left of the whole: angles, standard deviations, bookkeeping",
+    }.items():
+        yield line(f"- {label}", part[label], plain, note)
+    yield line("search where expected", part["narrow"], plain)
+    yield line("search of the whole picture", part["wide"] + leaving.part["wide"], plain)
+    joint, again = (costs.with_part[label] + leaving.with_part[label] for label in ("joint", "find"))
+    seldom = f"{len(costs.with_part['joint'])} of {len(costs.whole)} frames"
+    yield line("frame with joint association", joint, plain, seldom)
     yield line("frame that looks for the lost hand", again, plain)
     yield line("hand that leaves and returns, whole frame", leaving.whole, plain)

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 
 from carpus.core.pipeline import track
-from carpus.core.pipeline.track import FramePipeline
 from carpus.core.simulation.recording import cached_recording
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.tracking import digit_association, hand_filter
-from carpus.core.types import Frame
-from tests.bench.timing import HEAD, Spy, line
-from tests.bench.tracking import Costs, beside_the_plain, frames_of, pipeline_of, whole_frames
+from tests.bench.timing import HEAD, line
+from tests.bench.tracking import Costs, measure
 
 FIST, FINGERS = (
     RecordingSpec(
@@ -32,60 +29,32 @@ FIST, FINGERS = (
 MOST_MEDIAN_MS, MOST_P95_MS = 3.0, 6.0
 
 
-def measure(folder: Path, costs: Costs, rounds: int) -> None:
-    """Track the recording so often: once as a whole, and once with its parts measured, whose measuring costs itself."""
-    frames = frames_of(folder)
-    for _ in range(rounds):
-        whole_ms = whole_frames(folder, frames, costs)
-        pipeline, ends_s = pipeline_of(folder, frames)
-        spy = Spy()
-        spy.watch(pipeline.detector, "detect", "detect")
-        spy.watch(hand_filter, "associate_and_update", "names")
-        spy.watch(digit_association, "_digit_jointly", "names")
-        spy.watch(hand_filter, "reset_and_levelled", "surface")
-        spy.watch(track, "surface_samples", "surface")
-        try:
-            for (frame, step_ms), whole in zip(beside_the_plain(frames, ends_s), whole_ms, strict=True):
-                _parts(pipeline, frame, spy, whole, costs)
-                step_ms()
-        finally:
-            spy.leave()
-
-
-def _parts(pipeline: FramePipeline, frame: Frame, spy: Spy, whole: float, costs: Costs) -> None:
-    """Track a frame that costs ``whole`` once more, its parts measured."""
-    before = {label: spy.calls(label) for label in spy.times}
-    pipeline(frame)
-    detection, association, surface = (spy.cpu_since(part, before[part]) for part in ("detect", "names", "surface"))
-    costs.detection.append(detection)
-    costs.association.append(association)
-    costs.surface.append(surface)
-    costs.filter.append(whole - detection - association - surface)
-
-
-def measured(rounds: int) -> Costs:
-    """A fist and single fingers, pooled."""
-    costs = Costs()
-    for spec in (FIST, FINGERS):
-        measure(cached_recording(spec, workers=2), costs, rounds)
-    return costs
+PARTS = (
+    (hand_filter, "associate_and_update", "association"),
+    (digit_association, "_digit_jointly", "association"),
+    (hand_filter, "reset_and_levelled", "surface"),
+    (track, "surface_samples", "surface"),
+)
 
 
 def report(rounds: int, *, compare: bool = False) -> Iterator[str]:
     """Measure and tell, line by line; ``compare`` with other people's work too."""
-    costs = measured(rounds)
+    costs = Costs()
+    for spec in (FIST, FINGERS):
+        measure(cached_recording(spec, workers=2), costs, rounds, PARTS)
     plain = float(np.median(costs.reference))
-    yield f"Whole hand, 640 x 480, {len(costs.whole)} frames, {100.0 * costs.tracked / len(costs.whole):.1f} % tracked"
+    yield f"Whole hand, {costs.in_words}"
     yield HEAD
     yield line("plain augmented UKF, 49/99", costs.reference, plain, "the yardstick: 21 markers, filter only")
     promised = f"promised: {MOST_MEDIAN_MS} ms, p95 {MOST_P95_MS} ms"
     yield line("whole frame", costs.whole, plain, f"nothing measured inside; {promised}")
-    yield line("- detection", costs.detection, plain, "the parts: the same frames tracked once more")
-    yield line(
-        "- association", costs.association, plain, "of the palm with the update by the discs, of fingers what is joint"
-    )
-    yield line("- surface", costs.surface, plain, "depth on the back of the hand: readings taken, and fitted")
-    yield line("- filter", costs.filter, plain, "what is left: predict, update, all motion modes, angles, their sd")
+    for label, part, note in (
+        ("detection", "detection", "the parts: the same frames tracked once more"),
+        ("association", "association", "of the palm with the update by the discs, of fingers what is joint"),
+        ("surface", "surface", "depth on the back of the hand: readings taken, and fitted"),
+        ("filter", "rest", "what is left: predict, update, all motion modes, angles, their sd"),
+    ):
+        yield line(f"- {label}", costs.part[part], plain, note)
     if compare:
         from tests.bench import peers
 

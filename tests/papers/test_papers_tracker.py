@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
-
 import numpy as np
 import pytest
 
@@ -19,7 +17,7 @@ from tests.papers.hands import (
     palm_blobs,
     tilted,
 )
-from tests.tracking.hands import CAMERA, RIGHT_PALM_M, palm
+from tests.tracking.hands import CAMERA, RIGHT_PALM_M, is_unknown, palm
 
 FRAMES = 120
 NOTHING = blobs(np.empty((0, 2)))
@@ -94,12 +92,6 @@ def test_the_wrist_disc_is_where_position_says() -> None:
         assert np.allclose(place, frame.marker_position_cam_m[0], atol=1e-9)
 
 
-def unknown(frame: TrackedFrame) -> bool:
-    moment = [getattr(frame.moment, field.name) for field in fields(frame.moment)]
-    values = (*moment, frame.marker_position_cam_m, frame.marker_measured_px)
-    return all(np.isnan(value).all() for value in values)
-
-
 @pytest.mark.parametrize("whole_hand", [False, True])
 def test_a_hand_out_of_sight_is_predicted_then_lost_and_found_again_at_neutral(whole_hand: bool) -> None:
     at = swing(0, 0.0)
@@ -115,7 +107,7 @@ def test_a_hand_out_of_sight_is_predicted_then_lost_and_found_again_at_neutral(w
     assert set(status[20:last]) == {TrackStatus.PREDICTED}
     assert away[last].timestamp_s - away[19].timestamp_s == pytest.approx(1.5, abs=0.05)
     assert set(status[last:]) == {TrackStatus.LOST}
-    assert all(unknown(frame) for frame in away[last:])
+    assert all(is_unknown(frame) for frame in away[last:])
     assert all(np.isfinite(frame.moment.angles_rad).all() for frame in away[:last])
     sd = [frame.moment.angles_sd_rad[1] for frame in away[20:last]]
     assert (np.diff(sd) > 0.0).all(), "what is not seen grows less sure"
@@ -130,7 +122,7 @@ def test_a_hand_out_of_sight_is_predicted_then_lost_and_found_again_at_neutral(w
 def test_a_gap_in_the_recording_loses_the_hand() -> None:
     tracker, seen = wrist_tracker(), palm_blobs(swing(0, 0.0), 5)
     followed(tracker, seen)
-    assert unknown(tracker.step(5, 9.0, seen[0]))
+    assert is_unknown(tracker.step(5, 9.0, seen[0]))
     assert tracker.step(6, 9.03, seen[0]).status is TrackStatus.TRACKED
 
 
@@ -142,7 +134,7 @@ def test_nonsense_never_ends_it(seed: int) -> None:
             found = blobs(rng.uniform((0.0, 0.0), (640.0, 480.0), (int(rng.integers(0, 40)), 2)))
             frame = tracker.step(i, i / 30.0 + (i > 75) * 4.0, found)
             if frame.status is TrackStatus.LOST:
-                assert unknown(frame)
+                assert is_unknown(frame)
             else:
                 assert np.isfinite(frame.moment.angles_rad).all()
                 assert (frame.moment.angles_sd_rad >= 0.0).all()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -161,6 +161,12 @@ def track(
 
 def angles_deg(frames: Iterable[TrackedFrame]) -> FloatArray:
     return np.degrees(np.array([frame.moment.angles_rad for frame in frames]))
+
+
+def is_unknown(frame: TrackedFrame) -> bool:
+    """Whether nothing is told of the hand."""
+    moment = [getattr(frame.moment, field.name) for field in fields(frame.moment)]
+    return all(np.isnan(value).all() for value in (*moment, frame.marker_position_cam_m, frame.marker_measured_px))
 
 
 def truth_deg(motion: Motion, times_s: Iterable[float]) -> FloatArray:

@@ -16,8 +16,9 @@ from carpus.core.tracking.finger_smoother import FingerTrajectory, _Filtered
 from carpus.core.tracking.hand_geometry import CHAINS, SLOTS
 from carpus.core.tracking.palm_smoother import Smoother
 from carpus.core.types import FloatArray
+from tests.accuracy.carpus import learnt_tracker
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
-from tests.tracking.sequences import learnt_tracker, tracker_of
+from tests.tracking.sequences import tracker_of
 
 RECORDED_S, PIECE_S, LAG_S = 2.0, 2.0, 1.5
 SPEC = RecordingSpec(seed=77, protocol="hand21", motion="fist", seconds=9.0, range_share=0.5, hand_length_mm=185.0)

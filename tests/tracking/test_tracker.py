@@ -26,6 +26,7 @@ from tests.tracking.hands import (
     blobs,
     calibration,
     discs_cam_m,
+    is_unknown,
     moved,
     rotation_of,
     swing,
@@ -186,34 +187,16 @@ def test_uncertainty_grows_while_nothing_is_seen_and_the_true_angle_stays_inside
 def test_a_hand_hidden_for_long_is_lost_and_everything_is_unknown_until_it_is_found_elsewhere() -> None:
     rng = np.random.default_rng(3)
     elsewhere = moved(Pose(np.array([15.0, 20.0, -10.0])), [0.06, 0.05, 0.03])
-    frames = []
-    for k, t in enumerate(times(120)):
-        if k < 20:
-            frames.append((t, blobs(Pose(), rng)))
-        elif k < 90:
-            frames.append((t, blobs(Pose(), rng, hidden=ALL)))
-        else:
-            frames.append((t, blobs(elsewhere, rng)))
-    tracked = track(frames)
+    tracked = track(
+        (t, blobs(elsewhere if k >= 90 else Pose(), rng, hidden=ALL if 20 <= k < 90 else ()))
+        for k, t in enumerate(times(120))
+    )
     assert tracked[20].status is TrackStatus.PREDICTED
     lost = [frame for frame in tracked[:90] if frame.status is TrackStatus.LOST]
     # 1.5 seconds after the last sight, and then until it is back.
     assert [frame.index for frame in lost] == list(range(lost[0].index, 90))
     assert 1.45 < lost[0].timestamp_s - tracked[19].timestamp_s < 1.6
-    for frame in lost:
-        for value in (
-            frame.moment.position_m,
-            frame.moment.velocity_m_s,
-            frame.moment.w0_turn_rad,
-            frame.moment.rotation_w2_w0,
-            frame.moment.angular_velocity_rad_s,
-            frame.moment.angles_rad,
-            frame.moment.angles_sd_rad,
-            frame.moment.angles_zyz_rad,
-            frame.marker_position_cam_m,
-            frame.marker_measured_px,
-        ):
-            assert np.isnan(value).all()
+    assert all(map(is_unknown, lost))
     assert set(statuses(tracked[90:])) == {TrackStatus.TRACKED}
     error = np.abs(angles_deg(tracked[93:]) - elsewhere.angles_deg)
     assert error.max() < 4.0
@@ -222,36 +205,27 @@ def test_a_hand_hidden_for_long_is_lost_and_everything_is_unknown_until_it_is_fo
 
 def test_what_lies_turned_about_is_not_the_hand_that_was_just_covered() -> None:
     """Blobs in the shape of a palm that points backwards: no wrist turns so far while it is covered for a blink."""
-    tracker = Tracker(calibration(), CAMERA, RIGID)
     backwards = Pose(np.array([175.0, 0.0, 0.0]), np.array([0.08, 0.0, 0.0]))
     rng = np.random.default_rng(5)
-    for i in range(60):
-        there = Pose() if not 20 <= i < 50 else backwards
-        frame = tracker.step(i, i * DT_S, blobs(there, rng))
-        assert np.abs(np.degrees(frame.moment.angles_rad)).max() < 20.0
-        assert frame.status is (TrackStatus.PREDICTED if 20 <= i < 50 else TrackStatus.TRACKED)
+    frames = track(((t, blobs(backwards if 20 <= k < 50 else Pose(), rng)) for k, t in enumerate(times(60))), RIGID)
+    assert np.abs(angles_deg(frames)).max() < 20.0
+    assert set(statuses(frames[20:50])) == {TrackStatus.PREDICTED}
+    assert set(statuses(frames[:20] + frames[50:])) == {TrackStatus.TRACKED}
 
 
 def test_a_lone_blob_is_no_disc_of_a_hand_long_unseen() -> None:
     """Something blue lies where a disc might be while a sleeve covers the hand for a second."""
-    tracker = Tracker(calibration(), CAMERA, TrackerSettings())
-    rng = np.random.default_rng(6)
-    moving = swing(0, 20.0, 0.4)
-    wrist_px = CAMERA.project(discs_cam_m(Pose())[WRIST])
-    for i in range(60):
-        covered = 20 <= i < 50
-        found = blobs(
-            moving(i * DT_S),
-            rng,
-            hidden=range(6) if covered else (),
-            false_px=[wrist_px + [9.0, 6.0]] if covered else (),
-            false_depth_m=0.705,
-        )
-        frame = tracker.step(i, i * DT_S, found)
-        if covered and i > 30:
-            assert np.isnan(frame.marker_measured_px).all()
-    assert frame.status is TrackStatus.TRACKED
-    assert np.abs(np.degrees(frame.moment.angles_rad) - moving(59 * DT_S).angles_deg).max() < 2.0
+    rng, moving = np.random.default_rng(6), swing(0, 20.0, 0.4)
+    thing_px = [CAMERA.project(discs_cam_m(Pose())[WRIST]) + [9.0, 6.0]]
+    seen_at = [
+        (t, blobs(moving(t), rng, hidden=ALL, false_px=thing_px, false_depth_m=0.705) if 20 <= k < 50
+         else blobs(moving(t), rng))
+        for k, t in enumerate(times(60))
+    ]  # fmt: skip
+    frames = track(seen_at)
+    assert np.isnan([frame.marker_measured_px for frame in frames[31:50]]).all()
+    assert frames[-1].status is TrackStatus.TRACKED
+    assert np.abs(angles_deg(frames[-1:])[0] - moving(59 * DT_S).angles_deg).max() < 2.0
 
 
 @pytest.mark.parametrize("shown", [(), (WRIST,), (WRIST, CMC1)])
@@ -284,26 +258,21 @@ def test_a_jump_in_plain_sight_is_followed_within_three_frames() -> None:
 
 
 def test_false_blobs_close_to_markers_are_not_taken_for_them() -> None:
-    motion = swing(0, 20.0, 0.4)
-    rng = np.random.default_rng(5)
-    frames = []
-    for t in times(120):
-        true = CAMERA.project(discs_cam_m(motion(t)))
-        beside = true[[2, 5]] + [[9.0, -6.0], [-8.0, 7.0]]  # two radii away, moving along
-        frames.append((t, blobs(motion(t), rng, false_px=beside, false_depth_m=0.70)))
-    tracked = track(frames)
+    motion, rng = swing(0, 20.0, 0.4), np.random.default_rng(5)
+
+    def beside_px(time_s: float) -> FloatArray:
+        """Two radii away, moving along."""
+        return CAMERA.project(discs_cam_m(motion(time_s)))[[2, 5]] + [[9.0, -6.0], [-8.0, 7.0]]
+
+    tracked = track((t, blobs(motion(t), rng, false_px=beside_px(t), false_depth_m=0.70)) for t in times(120))
     assert set(statuses(tracked)) == {TrackStatus.TRACKED}
     assert all(named_rightly(frame, motion(t)) for frame, t in zip(tracked, times(120), strict=True))
 
 
 def test_false_blobs_are_not_taken_for_covered_markers() -> None:
     rng = np.random.default_rng(6)
-    true = CAMERA.project(discs_cam_m(Pose()))
-    frames = []
-    for k, t in enumerate(times(60)):
-        false = [true[MCP3] + [10.0, 10.0]] if k >= 20 else []
-        frames.append((t, blobs(Pose(), rng, hidden=[MCP3] if k >= 20 else (), false_px=false)))
-    tracked = track(frames)
+    covered = {"hidden": [MCP3], "false_px": [CAMERA.project(discs_cam_m(Pose()))[MCP3] + [10.0, 10.0]]}
+    tracked = track((t, blobs(Pose(), rng, **(covered if k >= 20 else {}))) for k, t in enumerate(times(60)))
     assert np.isnan([frame.marker_measured_px[MCP3] for frame in tracked[20:]]).all()
     assert np.abs(angles_deg(tracked)).max() < 3.0
 
@@ -390,13 +359,9 @@ def test_standard_deviations_are_honest() -> None:
 def test_lens_distortion_is_taken_out_before_and_put_back_after() -> None:
     lens = replace(CAMERA, distortion=(0.08, -0.15, 0.001, -0.001, 0.0))
     motion = swing(0, 20.0, 0.4)
-    rng = np.random.default_rng(9)
-    tracker = Tracker(calibration(), lens, TrackerSettings())
-    frames = []
-    for t in times(60):
-        found = blobs(motion(t), rng)
-        frames.append((t, replace(found, pixel=lens.distort(found.pixel))))
-    tracked = track(frames, tracker=tracker)
+    ideal = seen(motion, 60, seed=9)
+    frames = [(t, replace(found, pixel=lens.distort(found.pixel))) for t, found in ideal]
+    tracked = track(frames, tracker=Tracker(calibration(), lens, TrackerSettings()))
     error = angles_deg(tracked) - truth_deg(motion, times(60))
     assert np.sqrt((error[:, 0] ** 2).mean()) < 0.3
     off = tracked[-1].marker_predicted_px - tracked[-1].marker_measured_px
@@ -538,14 +503,9 @@ def test_the_whole_picture_is_searched_for_the_palm_or_what_shows_how_it_is_turn
 def test_alone_a_blob_at_another_depth_is_no_disc() -> None:
     """Something over the hand with blue on it where a covered disc is expected."""
     rng = np.random.default_rng(7)
-    frames = []
-    for k, t in enumerate(times(46)):
-        found = blobs(Pose(), rng, hidden=range(1, 6) if k >= 40 else ())
-        if k >= 40:
-            found = replace(found, depth_m=found.depth_m - 0.12)
-        frames.append((t, found))
-    after = track(frames)[40:]
-    assert all(np.isnan(frame.marker_measured_px).all() for frame in after)
+    frames = [(t, blobs(Pose(), rng, hidden=range(1, 6) if k >= 40 else ())) for k, t in enumerate(times(46))]
+    frames[40:] = [(t, replace(found, depth_m=found.depth_m - 0.12)) for t, found in frames[40:]]
+    assert np.isnan([frame.marker_measured_px for frame in track(frames)[40:]]).all()
 
 
 @pytest.mark.parametrize("before_m", [0.06, -0.1])
@@ -553,11 +513,8 @@ def test_far_before_or_behind_a_covered_disc_is_something_else_whatever_bears_it
     """A blue thing rests over the covered WRIST, or seems to lie on the table there, while the hand turns away."""
     rng, motion = np.random.default_rng(8), swing(0, 20.0, 0.4)
     wrist_px = CAMERA.project(discs_cam_m(Pose())[WRIST])
-    frames = []
-    for k, t in enumerate(times(60)):
-        hidden, thing = ([WRIST], [wrist_px]) if k >= 4 else ((), ())
-        frames.append((t, blobs(motion(t), rng, hidden=hidden, false_px=thing, false_depth_m=0.7 - before_m)))
-    tracked = track(frames)
+    covered = {"hidden": [WRIST], "false_px": [wrist_px], "false_depth_m": 0.7 - before_m}
+    tracked = track((t, blobs(motion(t), rng, **(covered if k >= 4 else {}))) for k, t in enumerate(times(60)))
     assert np.isnan([frame.marker_measured_px[WRIST] for frame in tracked[4:]]).all()
     assert set(statuses(tracked)) == {TrackStatus.TRACKED}
     assert np.abs(angles_deg(tracked) - truth_deg(motion, times(60))).max() < 4.0
@@ -567,11 +524,8 @@ def test_four_blobs_in_the_shape_of_the_palm_do_not_carry_off_a_hand_of_which_th
     """They are one more than what is seen of the hand, and as far away as no hand was predicted to be."""
     rng = np.random.default_rng(9)
     like = blobs(moved(Pose(np.array([38.0, 0.0, 0.0])), [0.05, 0.03, 0.0]), rng, hidden=(MCP3, MCP4))
-    frames = []
-    for k, t in enumerate(times(40)):
-        own = blobs(Pose(), rng, hidden=(CMC1, MCP3, MCP4) if k >= 20 else ())
-        frames.append((t, own if k < 20 else together(own, like)))
-    tracked = track(frames)
+    frames = [(t, blobs(Pose(), rng, hidden=(CMC1, MCP3, MCP4) if k >= 20 else ())) for k, t in enumerate(times(40))]
+    tracked = track([*frames[:20], *((t, together(own, like)) for t, own in frames[20:])])
     assert set(statuses(tracked)) == {TrackStatus.TRACKED}
     assert all(named_rightly(frame, Pose()) for frame in tracked)
     assert np.abs(angles_deg(tracked)).max() < 4.0
@@ -606,28 +560,19 @@ def test_after_a_long_pause_without_pictures_the_hand_is_found_anew() -> None:
     before = [(t, blobs(moving(t), rng)) for t in times(65)]
     after = [(before[-1][0] + 12.0 + t, blobs(elsewhere, rng)) for t in times(10)]
     tracker = Tracker(calibration(), CAMERA, TrackerSettings())
-    for i, (t, found) in enumerate(before):
-        tracker.step(i, t, found)
+    track(before, tracker=tracker)
     assert tracker.expect(after[0][0]) is None
-    for i, (t, found) in enumerate(after):
-        frame = tracker.step(len(before) + i, t, found)
-        assert frame.status is TrackStatus.TRACKED
-        assert np.abs(np.degrees(frame.moment.angles_rad) - elsewhere.angles_deg).max() < 4.0
-        assert np.linalg.norm(frame.moment.velocity_m_s) < 0.3
+    frames = track(after, tracker=tracker)
+    assert set(statuses(frames)) == {TrackStatus.TRACKED}
+    assert np.abs(angles_deg(frames) - elsewhere.angles_deg).max() < 4.0
+    assert max(np.linalg.norm(frame.moment.velocity_m_s) for frame in frames) < 0.3
 
 
 def lost_and_found(shown_after: int) -> list[TrackStatus]:
     """A hand hidden until it is lost, then there for ``shown_after`` pictures, then all but one disc hidden again."""
-    gone, back = 20, 90
-    frames = []
-    rng = np.random.default_rng(11)
-    for k, t in enumerate(times(back + shown_after + 3)):
-        if k < gone or back <= k < back + shown_after:
-            hidden: tuple[int, ...] = ()
-        else:
-            hidden = tuple(ALL) if k < back else (0, 1, 2, 4, 5)
-        frames.append((t, blobs(Pose(), rng, hidden=hidden)))
-    return statuses(track(frames))[back:]
+    gone, back, rng = 20, 90, np.random.default_rng(11)
+    hidden = [()] * gone + [tuple(ALL)] * (back - gone) + [()] * shown_after + [(0, 1, 2, 4, 5)] * 3
+    return statuses(track((k * DT_S, blobs(Pose(), rng, hidden=some)) for k, some in enumerate(hidden)))[back:]
 
 
 def test_what_is_doubted_is_stated_so_much_less_surely_and_nothing_else_changes() -> None:

@@ -198,15 +198,14 @@ def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, 
     """
     if not views:
         raise BoardMissing(subject, phrase("in none of the pictures"))
-    used = list(range(len(views)))
-    _require(views, width_px, height_px, subject)
-    fit = _fitted([views[k] for k in used], width_px, height_px)
+    missing = judge(views, width_px, height_px).missing
+    if missing:
+        raise BoardViewsAlike(subject, missing)
+    fit, view_error_px = _fitted(views, range(len(views)), width_px, height_px)
     # A picture that was blurred or bent the board counts no more.
-    limit = _OUTLIER * float(np.median(fit.view_error_px))
-    kept = [k for k, error in zip(used, fit.view_error_px, strict=True) if error <= limit]
-    if _FEWEST_AFTER <= len(kept) < len(used):
-        used = kept
-        fit = _fitted([views[k] for k in used], width_px, height_px)
+    kept = np.flatnonzero(view_error_px <= _OUTLIER * float(np.median(view_error_px))).tolist()
+    if _FEWEST_AFTER <= len(kept) < len(views):
+        fit, _ = _fitted(views, kept, width_px, height_px)
     if fit.error_px > MOST_PX or not math.isfinite(fit.error_px):
         raise BoardUnfit(
             subject,
@@ -219,29 +218,16 @@ def solve_intrinsics(views: Sequence[BoardView], width_px: int, height_px: int, 
     if fit.focal_sd_px > MOST_FOCAL_SD * fit.camera.fx_px:
         share = 100.0 * fit.focal_sd_px / fit.camera.fx_px
         raise BoardViewsAlike(subject, phrase("the focal length is known to {share} % only", share=f"{share:.1f}"))
-    return Intrinsics(fit.camera, fit.focal_sd_px, fit.middle_sd_px, fit.error_px, fit.turn, fit.shift_m, tuple(used))
+    return fit
 
 
-def _require(views: Sequence[BoardView], width_px: int, height_px: int, subject: str) -> None:
-    missing = judge(views, width_px, height_px).missing
-    if missing:
-        raise BoardViewsAlike(subject, missing)
-
-
-@dataclass(frozen=True, slots=True)
-class _FittedLens:
-    camera: Camera
-    focal_sd_px: float
-    middle_sd_px: float
-    error_px: float
-    view_error_px: FloatArray
-    turn: FloatArray
-    shift_m: FloatArray
-
-
-def _fitted(views: Sequence[BoardView], width_px: int, height_px: int) -> _FittedLens:
-    points = [view.found.board.corners_m[view.found.corner].astype(np.float32) for view in views]
-    pixels = [view.found.pixel.astype(np.float32).reshape(-1, 1, 2) for view in views]
+def _fitted(
+    views: Sequence[BoardView], used: Sequence[int], width_px: int, height_px: int
+) -> tuple[Intrinsics, FloatArray]:
+    """The intrinsics by the ``used`` views, and the root mean square error (U,) of each of these."""
+    some = [views[k].found for k in used]
+    points = [found.board.corners_m[found.corner].astype(np.float32) for found in some]
+    pixels = [found.pixel.astype(np.float32).reshape(-1, 1, 2) for found in some]
     guess = np.array([[width_px * 0.82, 0.0, 0.5 * (width_px - 1)], [0.0, width_px * 0.82, 0.5 * (height_px - 1)],
                       [0.0, 0.0, 1.0]])  # fmt: skip
     # k3 cannot be told from k2 on a lens of 60 degrees, and bends the corners of the picture when it is let free.
@@ -255,15 +241,10 @@ def _fitted(views: Sequence[BoardView], width_px: int, height_px: int) -> _Fitte
         float(k[0, 0]), float(k[1, 1]), float(k[0, 2]), float(k[1, 2]), width_px, height_px, (k1, k2, p1, p2, k3),
         origin="calibration",
     )  # fmt: skip
-    return _FittedLens(
-        camera,
-        float(max(sd[0], sd[1])),
-        float(max(sd[2], sd[3])),
-        float(error),
-        np.asarray(view_error, dtype=np.float64).ravel(),
-        np.array([np.ravel(turn) for turn in turns]),
-        np.array([np.ravel(shift) for shift in shifts]),
-    )
+    board_turn, board_shift_m = (np.array([np.ravel(one) for one in each]) for each in (turns, shifts))
+    focal_sd_px, middle_sd_px = float(max(sd[0], sd[1])), float(max(sd[2], sd[3]))
+    found = Intrinsics(camera, focal_sd_px, middle_sd_px, float(error), board_turn, board_shift_m, tuple(used))
+    return found, np.asarray(view_error, dtype=np.float64).ravel()
 
 
 @dataclass(frozen=True, slots=True)
