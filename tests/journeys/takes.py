@@ -17,7 +17,7 @@ from carpus.core.types import FloatArray
 Take = Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]
 
 SPEC = RecordingSpec(
-    seed=5, motion="flexion", seconds=6.5, fps=15.0, speed_hz=0.6, repetitions=3, range_share=0.6,
+    seed=5, motion="flexion", seconds=4.9, fps=15.0, speed_hz=0.6, repetitions=2, range_share=0.6,
     hand_length_mm=188.0, skin_tone=1, light="bright", sleeve="grey", distance_m=0.64, click_error_px=1.0,
 )  # fmt: skip
 RANGE_DEG = 0.6 * 50.0

@@ -40,6 +40,7 @@ from tests.journeys.conftest import SPEED, Open
 from tests.journeys.takes import RANGE_DEG, SPEC, clicks_of
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
 from tests.ui.printed import words_of
+from tests.ui.test_markers import walk
 
 PATIENCE_MS = 60_000
 """Only a failing test ever waits that long."""
@@ -101,6 +102,19 @@ def check_file(path: Path, subject: str) -> None:
         assert angles.min() == pytest.approx(-0.97 * RANGE_DEG, abs=4.0)
 
 
+def check_pictures(desktop: Desktop, path: Path) -> None:
+    """The pictures that were kept show the discs where the session says."""
+    assert path.with_suffix(".carpusraw").exists()
+    session = desktop.library.session(session_id := desktop.journey.now.session_id)
+    for row in (0, len(session) - 1):
+        picture = desktop.library.picture(session_id, row)
+        assert picture.shape == (480, 640, 3)
+        known = np.isfinite(session.markers.measured_px[row, :, 0])
+        u, v = np.round(session.markers.measured_px[row][known][0]).astype(int)
+        red, _, blue = picture[v, u].astype(int)
+        assert blue > red + 30
+
+
 def test_the_whole_journey_by_mouse(
     qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -114,6 +128,7 @@ def test_the_whole_journey_by_mouse(
     click(qtbot, journey.patients.screen.card.start_button)
     at(qtbot, desktop.journey, "exercise")
     click(qtbot, journey.exercise.screen.exercises.option("WRIST_FE"))
+    journey.exercise.screen.pictures.choose(True)
     click(qtbot, journey.exercise.screen.primary)
     at(qtbot, desktop.journey, "camera")
     click(qtbot, journey.camera.screen.sources.option("practice"))
@@ -140,6 +155,7 @@ def test_the_whole_journey_by_mouse(
     assert desktop.shell.sign.isVisible()
     assert any("imulated" in line for line in journey.bar.sign_lines())
     check_file(path, name)
+    check_pictures(desktop, path)
     assert path.is_relative_to(desktop.library.store.sessions_folder)
     assert desktop.shell.bar.pill.state == "off"
     click(qtbot, desktop.shell.bar.way()[2])
@@ -167,6 +183,16 @@ def test_the_whole_journey_by_mouse(
     assert (row.pseudonym, row.session_count) == (name, 0), "a simulated hand counts nowhere"
     assert journey.patients.screen._store.card(row.patient_id).has_sessions
     assert [folder.stat().st_mode & 0o777 for folder in (desktop.library.folder, path.parent)] == [0o700, 0o700]
+    before, counted = path.read_bytes(), journey.review.screen.figures.counted
+    journey.review.screen._leave_out(journey.review.screen.current + 1, "pain", and_after=False)
+    wait(qtbot, lambda: not journey.background.busy)
+    assert path.read_bytes() == before, "what was left out is stored beside the session"
+    desktop.close()
+    again = open_desktop()
+    (entry,) = again.library.sessions(row.patient_id)
+    stored = again.library.figures(entry)
+    assert stored.counted == counted - 1
+    assert stored.counted == 0 or math.isfinite(stored.rows[0].mean_deg)
 
 
 def test_the_whole_journey_by_keyboard(
@@ -185,18 +211,7 @@ def test_the_whole_journey_by_keyboard(
     picture = journey.markers.screen.picture
     press(Qt.Key.Key_Left)
     for target in clicks_of(take):
-        cursor = picture.cursor_px
-        assert cursor is not None
-        for step, keys in zip(
-            np.round(target - cursor).astype(int),
-            ((Qt.Key.Key_Left, Qt.Key.Key_Right), (Qt.Key.Key_Up, Qt.Key.Key_Down)),
-            strict=True,
-        ):
-            tens, ones = divmod(abs(int(step)), 10)
-            for _ in range(tens):
-                press(keys[int(step > 0)], Qt.KeyboardModifier.ShiftModifier)
-            for _ in range(ones):
-                press(keys[int(step > 0)])
+        walk(qtbot, picture, target)
         press(Qt.Key.Key_Space)
     wait(qtbot, journey.markers.screen.primary.isEnabled)
     press(Qt.Key.Key_Return)
@@ -228,61 +243,45 @@ def test_the_whole_journey_by_keyboard(
     assert desktop.library.patients.listed() == []  # practice never counts
 
 
-def test_a_recording_is_measured_from_its_first_picture_to_its_last(
-    qtbot: QtBot, open_desktop: Open, take: Path
+@pytest.mark.parametrize("kind", ["folder", "oni"])
+def test_a_recording_is_measured_from_its_first_picture_to_its_last_in_real_time(
+    qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path, kind: str
 ) -> None:
+    recording, source = take, TumFolder(take)
+    if kind == "oni":
+        recording = tmp_path / "Übung 1.oni"
+        write_oni(recording, in_millimetres(source.frames()), source.info.camera, fps=round(SPEC.fps))
+        camera_info = sidecar_path(recording)
+        camera_info.write_text(re.sub("registered: .*\n", "", camera_info.read_text()))
     journey = (desktop := open_desktop()).journey
     journey.camera.show(PRACTICE_PATIENT)
     at(qtbot, desktop.journey, "markers")
     journey.way.back()
     at(qtbot, desktop.journey, "camera")
-    journey.camera.screen.set_path(str(take))
-    click(qtbot, journey.camera.screen.primary)
-    at(qtbot, desktop.journey, "markers")
-    assert not journey.markers.screen.new_picture.isVisible()
-    click_discs(qtbot, desktop, take)
-    qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
-    at(qtbot, desktop.journey, "live")
-    assert journey.live.screen.recording.state == "off", "it waits for the key, as every source does"
-    qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Space)
-    path = reviewed(qtbot, desktop)  # recorded, played to its end and stopped by itself
-    stored = [float(line.split()[0]) for line in (take / "rgb.txt").read_text().splitlines() if line[:1] != "#"]
-    with h5py.File(path) as file:
-        times = file["frames/timestamp"][:]
-        assert set(np.round(times, 6)) <= set(stored)
-        assert times[0] == pytest.approx(stored[0])
-        assert times[-1] == pytest.approx(stored[-1])
-        assert len(times) + int(file["quality/dropped_frames"][:].sum()) == len(stored)
-    assert not journey.review.screen.card.again_button.isVisible()
-
-
-def test_a_recording_of_the_camera_plays_through_its_own_library_in_real_time(
-    qtbot: QtBot, open_desktop: Open, take: Path, tmp_path: Path
-) -> None:
-    recording, source = tmp_path / "Übung 1.oni", TumFolder(take)
-    write_oni(recording, in_millimetres(source.frames()), source.info.camera, fps=round(SPEC.fps))
-    camera_info = sidecar_path(recording)
-    camera_info.write_text(re.sub("registered: .*\n", "", camera_info.read_text()))
-    journey = (desktop := open_desktop()).journey
-    journey.camera.show(PRACTICE_PATIENT)
-    at(qtbot, desktop.journey, "markers")
-    journey.way.back()
     journey.camera.screen.set_path(str(recording))
     click(qtbot, journey.camera.screen.primary)
     at(qtbot, desktop.journey, "markers")  # nothing says that depth lies on colour: it is measured, nobody is asked
+    assert not journey.markers.screen.new_picture.isVisible()
     click_discs(qtbot, desktop, take)
     assert not journey.messages.busy
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
     at(qtbot, desktop.journey, "live")
-    journey.live.screen.recording.toggle()
+    assert journey.live.screen.recording.state == "off", "it waits for the key, as every source does"
+    qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Space)
     begun_s = time.monotonic()
-    path = reviewed(qtbot, desktop)
+    path = reviewed(qtbot, desktop)  # recorded, played to its end and stopped by itself
+    assert not journey.review.screen.card.again_button.isVisible()
+    check_file(path, "practice")
+    stored = [float(line.split()[0]) for line in (take / "rgb.txt").read_text().splitlines() if line[:1] != "#"]
     with h5py.File(path) as file:
         times = file["frames/timestamp"][:]
-        assert len(times) + int(file["quality/dropped_frames"][:].sum()) == source.info.frame_count
-    assert json.loads(read_session(path).header.parameters)["source"]["registered"] == "assumed"
+        assert len(times) + int(file["quality/dropped_frames"][:].sum()) == len(stored)
     assert time.monotonic() - begun_s > 0.9 * (times[-1] - times[0]) / SPEED
-    check_file(path, "practice")
+    if kind == "folder":
+        assert set(np.round(times, 6)) <= set(stored)
+        assert (times[0], times[-1]) == (pytest.approx(stored[0]), pytest.approx(stored[-1]))
+    else:
+        assert json.loads(read_session(path).header.parameters)["source"]["registered"] == "assumed"
 
 
 def test_depth_that_is_measured_beside_the_colours_is_opened_again_the_other_way(
@@ -344,95 +343,78 @@ def to_live(qtbot: QtBot, desktop: Desktop, take: Path) -> tuple[Desktop, Journe
     return desktop, desktop.journey
 
 
-def one_set(qtbot: QtBot, desktop: Desktop) -> Path:
-    live = desktop.journey.live.screen
-    live.recording.toggle()
-    wait(qtbot, lambda: live.recording.recorded_s > 1.0)
-    live.recording.toggle()
-    return reviewed(qtbot, desktop)
-
-
-def test_a_window_closed_while_recording_keeps_the_session(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
-    desktop, journey = to_live(qtbot, open_desktop(), take)
-    journey.live.screen.recording.toggle()
-    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 1.0)
-    desktop.shell.close()
-    card = desktop.journey.messages.card
-    assert card.isVisible(), "it asks first"
-    assert desktop.shell.isVisible()
-    click(qtbot, card.answers[1])
-    assert journey.live.screen.recording.state == "recording"
-    desktop.shell.close()
-    click(qtbot, card.answers[0])
-    assert not desktop.shell.isVisible()
-    again = open_desktop()
-    (entry,) = again.library.sessions(PRACTICE_PATIENT)
-    assert entry.complete
-    assert entry.duration_s > 0.8
-    assert entry.path.with_suffix(MARKERS_SUFFIX).is_file()
-    assert again.journey.patients.screen.findChildren(NoticeStrip) == []
-
-
-def test_a_card_takes_every_key_and_its_first_button_does_what_it_says(
-    qtbot: QtBot, open_desktop: Open, take: Path
-) -> None:
-    desktop = open_desktop()
-    journey, shell = desktop.journey, desktop.shell
-    to_live(qtbot, desktop, take)
-    shell.activateWindow()
-    qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Space)
-    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.5)
-    shell.close()
-    card = journey.messages.card
-    assert card.isVisible()
-    whole = journey.live.screen.picture.shows_whole
-    for key in (Qt.Key.Key_F7, Qt.Key.Key_F9, Qt.Key.Key_F5, Qt.Key.Key_F1):
-        qtbot.keyClick(shell.focusWidget(), key)
-    assert card.isVisible()
-    assert journey.live.screen.recording.state == "recording"
-    assert (journey.live.screen.picture.shows_whole, journey.place) == (whole, "live")
-    journey.live.screen.setFocus()  # as a click beside the card would
-    assert card.isAncestorOf(shell.focusWidget())
-    qtbot.mouseClick(journey.live.screen.controls.main, Qt.MouseButton.LeftButton)
-    assert journey.live.screen.recording.state == "recording"
-    qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Space)  # "Go on measuring"
-    assert not card.isVisible()
-    assert journey.live.screen.recording.state == "recording"
-    shell.close()
-    qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Escape)  # the answer that loses nothing
-    assert not card.isVisible()
-    assert journey.live.screen.recording.state == "recording"
-    shell.close()
-    journey.live.screen.recording.stop()  # as the end of the source does
-    at(qtbot, desktop.journey, "review")
-    assert not journey.messages.busy, "the question has answered itself"
-    wait(qtbot, lambda: journey.review.screen.shown)
-    qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Escape)
-    at(qtbot, desktop.journey, "patients")
-
-
-def test_a_hasty_end_asks_and_the_recording_goes_on_and_a_message_moves_with_the_screen(
+def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_needs_no_new_markers(
     qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    _, journey = to_live(qtbot, open_desktop(), take)
+    desktop, journey = to_live(qtbot, open_desktop(), take)
+    shell, live, card = desktop.shell, journey.live.screen, journey.messages.card
+    recording, feed = live.recording, journey.now.source.measuring.feed
+
+    def goes_on(key: Qt.Key) -> None:
+        assert card.isVisible()
+        qtbot.keyClick(shell.focusWidget(), key)
+        assert (card.isVisible(), recording.state) == (False, "recording")
+
+    def record() -> None:
+        shell.activateWindow()
+        qtbot.keyClick(shell.focusWidget(), Qt.Key.Key_Space)
+        wait(qtbot, lambda: recording.recorded_s > 0.5)
+
+    record()
+    shell.close()
+    assert card.isVisible(), "it asks first"
+    whole = live.picture.shows_whole
+    for key in (Qt.Key.Key_F7, Qt.Key.Key_F9, Qt.Key.Key_F5, Qt.Key.Key_F1):
+        qtbot.keyClick(shell.focusWidget(), key)
+    assert (card.isVisible(), recording.state) == (True, "recording"), "a card takes every key"
+    assert (live.picture.shows_whole, journey.place) == (whole, "live")
+    live.setFocus()  # as a click beside the card would
+    assert card.isAncestorOf(shell.focusWidget())
+    qtbot.mouseClick(live.controls.main, Qt.MouseButton.LeftButton)
+    goes_on(Qt.Key.Key_Space)  # "Go on measuring"
+    shell.close()
+    goes_on(Qt.Key.Key_Escape)  # the answer that loses nothing
     monkeypatch.setattr("carpus.ui.live.recording.HASTY_S", 3600.0)
-    recording, card = journey.live.screen.recording, journey.messages.card
     recording.toggle()
-    wait(qtbot, lambda: recording.recorded_s > 0.5)
+    goes_on(Qt.Key.Key_Return)
+    feed.notice(CameraLost("Xtion", "unplugged"))
+    wait(qtbot, card.isVisible)
+    assert "sends no more pictures" in card.what.text()
+    assert "stored" in card.safe_detail.text()
+    feed.notice(CameraReturned("Xtion", "3 s"))
+    wait(qtbot, lambda: not card.isVisible())
     recording.toggle()
-    assert (card.isVisible(), recording.state) == (True, "recording")
-    qtbot.keyClick(card.answers[-1], Qt.Key.Key_Return)
-    assert (card.isVisible(), recording.state) == (False, "recording")
-    recording.toggle()
-    card.answers[0].click()
+    click(qtbot, card.answers[0])  # "Stop and review"
     assert journey.place == "live"
     journey.messages.fault(DiskFull("x"))
-    at(qtbot, journey, "review")
-    card = journey.messages.card
-    assert card.isVisible()
+    first = reviewed(qtbot, desktop)
+    assert card.isVisible(), "a message moves with the screen"
     assert "disk" in card.what.text()
-    card.answers[-1].click()
+    click(qtbot, card.answers[-1])
     assert not journey.messages.busy
+    with h5py.File(first) as file:
+        assert {"camera_lost", "camera_back"} <= set(file["events/kind"].asstr()[:])
+    click(qtbot, journey.review.screen.card.again_button)
+    at(qtbot, journey, "live")
+    record()
+    shell.close()
+    recording.stop()  # as the end of the source does
+    second = reviewed(qtbot, desktop)
+    assert not journey.messages.busy, "the question has answered itself"
+    click(qtbot, journey.review.screen.card.again_button)
+    at(qtbot, journey, "live")
+    record()
+    shell.close()
+    click(qtbot, card.answers[0])  # "Stop, save and close"
+    assert not shell.isVisible()
+    again = open_desktop()
+    entries = again.library.sessions(PRACTICE_PATIENT)
+    (last,) = (entry for entry in entries if entry.path not in (first, second))
+    assert len(entries) == 3
+    assert all(entry.complete for entry in entries)
+    assert last.duration_s > 0.4
+    assert last.path.with_suffix(MARKERS_SUFFIX).is_file()
+    assert again.journey.patients.screen.findChildren(NoticeStrip) == []
 
 
 def test_neither_a_full_disk_nor_a_stop_at_once_leaves_a_file_and_both_are_told(
@@ -484,13 +466,14 @@ def test_a_session_rescued_later_is_in_the_list_as_soon_as_the_list_is_shown(ope
 
 @pytest.mark.parametrize("demo", [False, True])
 def test_the_simulated_camera_is_the_practice_patient_s_and_nobody_else_s(
-    qtbot: QtBot, open_desktop: Open, take: Path, demo: bool, monkeypatch: pytest.MonkeyPatch
+    qtbot: QtBot, open_desktop: Open, demo: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(CareCameras, "name", lambda _: None)
     journey = (desktop := open_desktop()).journey
     if demo:
         journey.now.choice = SourceChoice("practice")
-    to_live(qtbot, desktop, take)
+    journey.camera.show(PRACTICE_PATIENT)
+    at(qtbot, journey, "markers")
     journey.patients.show()
     linden = desktop.library.patients.add(PatientEntry("Linden 42", "right"))
     for _ in range(2):
@@ -541,71 +524,3 @@ def test_a_camera_that_is_not_there_is_told_with_what_to_do(
     click(qtbot, journey.messages.card.answers[-1])
     assert journey.place == "camera"
     assert journey.now.source is None
-
-
-def test_a_lost_camera_stops_the_eye_and_goes_by_itself_when_it_is_back(
-    qtbot: QtBot, open_desktop: Open, take: Path
-) -> None:
-    desktop, journey = to_live(qtbot, open_desktop(), take)
-    source = journey.now.source
-    journey.live.screen.recording.toggle()
-    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.5)
-    source.measuring.feed.notice(CameraLost("Xtion", "unplugged"))
-    wait(qtbot, journey.messages.card.isVisible)
-    assert "sends no more pictures" in journey.messages.card.what.text()
-    assert "stored" in journey.messages.card.safe_detail.text()
-    source.measuring.feed.notice(CameraReturned("Xtion", "3 s"))
-    wait(qtbot, lambda: not journey.messages.card.isVisible())
-    journey.live.screen.recording.toggle()
-    path = reviewed(qtbot, desktop)
-    with h5py.File(path) as file:
-        assert {"camera_lost", "camera_back"} <= set(file["events/kind"].asstr()[:])
-
-
-def test_raw_pictures_are_kept_on_request_and_shown_in_the_review_and_a_second_set_needs_no_new_markers(
-    qtbot: QtBot, open_desktop: Open, take: Path
-) -> None:
-    journey = (desktop := open_desktop()).journey
-    journey.exercise.show(PRACTICE_PATIENT)
-    journey.exercise.screen.pictures.choose(True)
-    click(qtbot, journey.exercise.screen.primary)
-    at(qtbot, desktop.journey, "camera")
-    click(qtbot, journey.camera.screen.primary)
-    still_hand(qtbot, desktop)
-    journey.markers.screen.accept()
-    click_discs(qtbot, desktop, take)
-    click(qtbot, journey.markers.screen.primary)
-    at(qtbot, desktop.journey, "live")
-    path = one_set(qtbot, desktop)
-    session = desktop.library.session(journey.now.session_id)
-    assert path.with_suffix(".carpusraw").exists()
-    for row in (0, len(session) - 1):
-        picture = desktop.library.picture(journey.now.session_id, row)
-        assert picture.shape == (480, 640, 3)
-        known = np.isfinite(session.markers.measured_px[row, :, 0])
-        u, v = np.round(session.markers.measured_px[row][known][0]).astype(int)
-        red, _, blue = picture[v, u].astype(int)
-        assert blue > red + 30  # the disc is where the session says
-    click(qtbot, journey.review.screen.card.again_button)
-    at(qtbot, journey, "live")
-    second = one_set(qtbot, desktop)
-    assert {row.path for row in desktop.library.sessions(PRACTICE_PATIENT)} == {path, second} != {path}
-
-
-def test_what_was_left_out_is_stored_beside_the_session(qtbot: QtBot, open_desktop: Open, take: Path) -> None:
-    desktop, journey = to_live(qtbot, open_desktop(), take)
-    journey.live.screen.recording.toggle()
-    wait(qtbot, lambda: journey.live.screen.recording.repetitions >= 2)
-    journey.live.screen.recording.toggle()
-    path = reviewed(qtbot, desktop)
-    before = path.read_bytes()
-    figures = journey.review.screen.figures
-    counted = figures.counted
-    journey.review.screen._leave_out(journey.review.screen.current + 1, "pain", and_after=False)
-    wait(qtbot, lambda: not journey.background.busy)
-    assert path.read_bytes() == before
-    desktop.close()
-    again = open_desktop()
-    stored = again.library.figures(again.library.sessions(PRACTICE_PATIENT)[0])
-    assert stored.counted == counted - 1
-    assert stored.counted == 0 or math.isfinite(stored.rows[0].mean_deg)

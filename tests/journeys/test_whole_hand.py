@@ -11,8 +11,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop
-from carpus.app.settings import ScreenSettings, Settings
+from carpus.app.settings import Settings
 from carpus.core.hand.protocols import HAND21, joint_angle_names
 from carpus.core.pipeline.track import NOT_LOOKED_BACK, retrack_session
 from carpus.core.records.set_up import PRACTICE_PATIENT
@@ -35,14 +34,12 @@ def hand_take(rendered: Rendered) -> Path:
     return rendered(SPEC)
 
 
-@pytest.fixture
-def desktop(open_desktop: Open, hand_take: Path) -> Desktop:
-    return open_desktop(Settings(screen=ScreenSettings("light")), take=take_of(hand_take, SPEC.fps), speed=1.0)
-
-
-def record(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
-    """From the practice patient's exercise to a running recording."""
+def test_the_whole_hand_from_set_up_to_session_file_and_a_killed_looking_back_costs_nothing_else(
+    qtbot: QtBot, open_desktop: Open, hand_take: Path, tmp_path: Path
+) -> None:
+    desktop = open_desktop(take=take_of(hand_take, SPEC.fps), speed=1.0)
     journey = desktop.journey
+    markers, live = journey.markers.screen, journey.live.screen
     journey.exercise.show(PRACTICE_PATIENT)
     at(qtbot, desktop.journey, "exercise")
     click(qtbot, journey.exercise.screen.protocol.buttons()[1])
@@ -52,29 +49,41 @@ def record(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
     click(qtbot, journey.camera.screen.sources.option("practice"))
     click(qtbot, journey.camera.screen.primary)
     still_hand(qtbot, desktop)
-    click(qtbot, journey.markers.screen.primary)
-    assert journey.markers.screen.clicking.order == HAND21.markers
-    wait(qtbot, lambda: bool(journey.markers.screen.clicking and journey.markers.screen.clicking.proposed))
-    assert not journey.markers.screen.clicking.unnamed
-    qtbot.keyClick(journey.markers.screen.picture, Qt.Key.Key_Return)  # the names proposed are right
-    np.testing.assert_allclose(journey.markers.screen.clicking.clicks().pixel, clicks_of(hand_take), atol=4.0)
-    wait(qtbot, lambda: journey.markers.screen.naming.outcome is not None)
+    click(qtbot, markers.primary)
+    assert markers.clicking.order == HAND21.markers
+    wait(qtbot, lambda: bool(markers.clicking and markers.clicking.proposed))
+    assert not markers.clicking.unnamed
+    qtbot.keyClick(markers.picture, Qt.Key.Key_Return)  # the names proposed are right
+    np.testing.assert_allclose(markers.clicking.clicks().pixel, clicks_of(hand_take), atol=4.0)
+    wait(qtbot, lambda: markers.naming.outcome is not None)
     qtbot.keyClick(desktop.shell.focusWidget(), Qt.Key.Key_Return)
     at(qtbot, desktop.journey, "live")
-    wait(qtbot, lambda: len(journey.live.screen.history) > 5)
-    assert "seen" in journey.live.screen.hand_map.seen.values()
-    qtbot.keyClick(journey.live.screen, Qt.Key.Key_Space)
-    wait(qtbot, lambda: journey.live.screen.recording.state == "recording")
-
-
-def test_the_whole_hand_from_set_up_to_session_file(
-    qtbot: QtBot, desktop: Desktop, hand_take: Path, tmp_path: Path
-) -> None:
-    record(qtbot, desktop, hand_take)
-    journey = desktop.journey
-    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 3.0)
-    qtbot.keyClick(journey.live.screen, Qt.Key.Key_Space)
+    wait(qtbot, lambda: len(live.history) > 5)
+    assert "seen" in live.hand_map.seen.values()
+    qtbot.keyClick(live, Qt.Key.Key_Space)
+    wait(qtbot, lambda: live.recording.recorded_s > 3.0)
+    qtbot.keyClick(live, Qt.Key.Key_Space)
     path = reviewed(qtbot, desktop)
+    is_the_movement(path, hand_take)
+    looked_back_as_tracking_it_again(path, tmp_path / "again.h5")
+    click(qtbot, journey.review.screen.card.again_button)
+    at(qtbot, desktop.journey, "live")
+    qtbot.keyClick(live, Qt.Key.Key_Space)
+    wait(qtbot, lambda: live.recording.recorded_s > 0.5)
+    (process,) = (child for child in multiprocessing.active_children() if child.name == "carpus-looking-back")
+    process.kill()
+    wait(qtbot, lambda: live.recording.recorded_s > 2.0)
+    qtbot.keyClick(live, Qt.Key.Key_Space)
+    session = read_session(reviewed(qtbot, desktop))
+    assert session.complete
+    assert session.smoothed is None
+    assert np.mean(session.status == 0) > 0.8
+    assert [event.kind for event in session.events] == [NOT_LOOKED_BACK]
+    assert not journey.messages.busy
+
+
+def is_the_movement(path: Path, hand_take: Path) -> None:
+    """The session file, read by plain h5py, holds the fist that was made."""
     with h5py.File(path) as file:
         assert (file.attrs["protocol"], file.attrs["exercise"]) == ("hand21", "FIST_COMPOSITE")
         names = [str(name) for name in file["joints/angles"].attrs["names"]]
@@ -89,23 +98,6 @@ def test_the_whole_hand_from_set_up_to_session_file(
         column = names.index(joint)
         assert np.nanmax(angles_deg[:, column]) == pytest.approx(true_deg[:, column].max(), abs=13.0)
         assert np.nanmin(angles_deg[:, column]) == pytest.approx(true_deg[:, column].min(), abs=13.0)
-    looked_back_as_tracking_it_again(path, tmp_path / "again.h5")
-
-
-def test_a_killed_looking_back_costs_the_session_nothing_else(qtbot: QtBot, desktop: Desktop, hand_take: Path) -> None:
-    record(qtbot, desktop, hand_take)
-    journey = desktop.journey
-    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 0.5)
-    (process,) = (child for child in multiprocessing.active_children() if child.name == "carpus-looking-back")
-    process.kill()
-    wait(qtbot, lambda: journey.live.screen.recording.recorded_s > 3.3)
-    qtbot.keyClick(journey.live.screen, Qt.Key.Key_Space)
-    session = read_session(reviewed(qtbot, desktop))
-    assert session.complete
-    assert session.smoothed is None
-    assert np.mean(session.status == 0) > 0.8
-    assert [event.kind for event in session.events] == [NOT_LOOKED_BACK]
-    assert not journey.messages.busy
 
 
 def looked_back_as_tracking_it_again(path: Path, again: Path) -> None:

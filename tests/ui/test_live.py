@@ -16,8 +16,8 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from pytestqt.qtbot import QtBot
 
 from carpus.core.errors import DiskFull
-from carpus.core.hand.exercises import FLEXION, exercise_named
-from carpus.core.hand.protocols import WRIST6, WRIST_ANGLES
+from carpus.core.hand.exercises import exercise_named
+from carpus.core.hand.protocols import WRIST6
 from carpus.core.measures.repetitions import find_repetitions
 from carpus.core.measures.signals import even_signal
 from carpus.core.pipeline.live_values import StartMode
@@ -41,33 +41,40 @@ from tests.ui.live_tried import TriedLive
 MARKERS = ("WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5")
 
 
-def test_the_number_is_that_of_the_picture_shown(live: Live) -> None:
+def test_the_number_is_that_of_the_picture_shown_and_f4_changes_between_angles_and_speeds(live: Live) -> None:
     tried = live(FakeFeed(), 5.0)
     shown = math.degrees(float(tried.feed.newest().tracked.moment.angles_rad[1]))
     assert tried.reading().value_deg == pytest.approx(shown)
     assert tried.screen.number.movement() == ("Flexion" if shown > 0 else "Extension")
     assert tried.screen.controls.light.lamp.rank == "good"
+    curves = tried.screen.curves
+    for panels in (2, 3):
+        tried.press(Qt.Key.Key_F4)
+        assert (len(curves.panels()), curves.shows_speeds) == (panels, panels == 2)
 
 
-def test_space_records_and_space_stops_and_leads_to_the_session(qtbot: QtBot, live: Live) -> None:
+def test_what_each_key_does_while_a_recording_runs(qtbot: QtBot, live: Live) -> None:
     tried = live(FakeFeed(), 1.0)
     tried.record()
-    recording = tried.screen.recording
+    screen, recording = tried.screen, tried.screen.recording
     assert recording.state == "recording"
-    tried.run(4.0)
-    assert recording.recorded_s == pytest.approx(4.0, abs=0.2)
-    with qtbot.waitSignal(recording.stopped) as stopped:
-        tried.press(Qt.Key.Key_Space)
-    assert stopped.args == ["session-7"]
-    assert recording.state == "off"
-
-
-def test_the_large_view_leaves_the_figure_the_light_and_the_keys(qtbot: QtBot, live: Live) -> None:
-    tried = live(FakeFeed(), 1.0)
-    tried.record()
-    screen = tried.screen
+    tried.run(2.0)
+    tried.press(Qt.Key.Key_F7)
+    assert recording.state == "paused"
+    tried.run(3.0)
+    tried.press(Qt.Key.Key_F7)
+    tried.run(2.0)
+    assert recording.recorded_s == pytest.approx(4.0, abs=0.4), "a pause is not recorded time"
+    tried.press(Qt.Key.Key_F5)
+    assert screen.note_sheet.isVisible()
+    qtbot.keyClicks(screen.note_sheet.line, "strap loose")
+    qtbot.keyClick(screen.note_sheet.line, Qt.Key.Key_Return)
+    tried.press(Qt.Key.Key_F6)
+    qtbot.keyClick(screen.pain_sheet.buttons[0], Qt.Key.Key_3)
+    assert tried.feed.noted == [("note", "strap loose"), ("pain", "3")]
+    assert not screen.pain_sheet.isVisible()
     height_px = screen.number.height()
-    tried.press(Qt.Key.Key_F11)
+    tried.press(Qt.Key.Key_F11)  # the figure and the light alone; keys go on working
     qtbot.waitUntil(lambda: screen.number.height() > 2 * height_px)
     tried.run(0.5)
     assert screen.controls.light.isVisible()
@@ -78,6 +85,10 @@ def test_the_large_view_leaves_the_figure_the_light_and_the_keys(qtbot: QtBot, l
     tried.press(Qt.Key.Key_F11)
     qtbot.waitUntil(lambda: screen.number.height() == height_px)
     assert screen.picture.isVisible()
+    with qtbot.waitSignal(recording.stopped) as stopped:
+        tried.press(Qt.Key.Key_Space)
+    assert stopped.args == ["session-7"]
+    assert recording.state == "off"
 
 
 def test_repetitions_and_best_are_counted_from_recorded_frames_only(live: Live) -> None:
@@ -103,33 +114,6 @@ def test_frames_from_before_the_recording_that_are_drawn_late_do_not_count(live:
     tried.record()
     tried.screen.tick()
     assert tried.screen.recording.recorded_s == pytest.approx(10 / 30, abs=0.05)
-
-
-def test_a_pause_is_not_recorded_time(live: Live) -> None:
-    tried = live(FakeFeed(), 1.0)
-    tried.record()
-    tried.run(2.0)
-    tried.press(Qt.Key.Key_F7)
-    assert tried.screen.recording.state == "paused"
-    tried.run(3.0)
-    tried.press(Qt.Key.Key_F7)
-    tried.run(2.0)
-    assert tried.screen.recording.recorded_s == pytest.approx(4.0, abs=0.4)
-
-
-def test_note_and_pain_are_stored_by_keyboard(qtbot: QtBot, live: Live) -> None:
-    tried = live(FakeFeed(), 1.0)
-    tried.record()
-    screen = tried.screen
-    screen.controls.refresh()
-    tried.press(Qt.Key.Key_F5)
-    assert screen.note_sheet.isVisible()
-    qtbot.keyClicks(screen.note_sheet.line, "strap loose")
-    qtbot.keyClick(screen.note_sheet.line, Qt.Key.Key_Return)
-    tried.press(Qt.Key.Key_F6)
-    qtbot.keyClick(screen.pain_sheet.buttons[0], Qt.Key.Key_3)
-    assert tried.feed.noted == [("note", "strap loose"), ("pain", "3")]
-    assert not screen.pain_sheet.isVisible()
 
 
 def test_a_recording_that_cannot_start_tells_its_fault_and_shows_no_recording(qtbot: QtBot, live: Live) -> None:
@@ -175,31 +159,17 @@ def test_a_lost_camera_leaves_no_old_picture_and_no_old_number_and_nothing_offer
     assert screen.controls.pause.isEnabled()
 
 
-@pytest.mark.parametrize(
-    ("since_s", "drawing_ms", "drawn"),
-    [
+def test_a_new_picture_is_drawn_at_once_but_drawing_never_takes_all_the_time(live: Live) -> None:
+    tried = live(FakeFeed(), 0.5)
+    for since_s, drawing_ms, drawn in (
         (math.inf, 5.0, True),
         (-1000.0, 5.0, False),  # too soon after the last drawing
         (1000.0, 4e6, False),  # drawing takes so long that tracking would have no time left
-    ],
-)
-def test_a_new_picture_is_drawn_at_once_but_drawing_never_takes_all_the_time(
-    live: Live, since_s: float, drawing_ms: float, drawn: bool
-) -> None:
-    tried = live(FakeFeed(), 0.5)
-    tried.feed.step(2)
-    tried.screen._ticked_at_s, tried.screen._drawing_ms = time.monotonic() - since_s, drawing_ms
-    tried.screen.look()
-    assert (tried.screen.history.last_index == tried.feed.place) == drawn
-
-
-def test_f4_changes_between_angles_and_speeds(live: Live) -> None:
-    tried = live(FakeFeed(), 2.0)
-    tried.press(Qt.Key.Key_F4)
-    assert tried.screen.curves.shows_speeds
-    assert len(tried.screen.curves.panels()) == 2
-    tried.press(Qt.Key.Key_F4)
-    assert len(tried.screen.curves.panels()) == 3
+    ):
+        tried.feed.step(2)
+        tried.screen._ticked_at_s, tried.screen._drawing_ms = time.monotonic() - since_s, drawing_ms
+        tried.screen.look()
+        assert (tried.screen.history.last_index == tried.feed.place) == drawn
 
 
 def test_large_text_on_a_small_screen_keeps_what_is_read_from_afar(live: Live, theme: Theme) -> None:
@@ -243,14 +213,12 @@ def test_pain_of_ten_is_typed_and_escape_closes_the_card(qtbot: QtBot, live: Liv
     assert kept == [10, 7, 3, 0, 1]
 
 
-@pytest.mark.parametrize(
-    ("value_deg", "word"), [(0.4, "Straight"), (-0.4, "Straight"), (0.6, "Flexion"), (-0.6, "Extension")]
-)
-def test_zero_degrees_name_no_side(qtbot: QtBot, theme: Theme, value_deg: float, word: str) -> None:
+def test_zero_degrees_name_no_side(qtbot: QtBot, theme: Theme) -> None:
     card = NumberCard(theme)
     qtbot.addWidget(card)
-    card.show_reading(Reading(angle=1, value_deg=value_deg, sd_deg=1.0))
-    assert card.movement() == word
+    for value_deg, word in ((0.4, "Straight"), (-0.4, "Straight"), (0.6, "Flexion"), (-0.6, "Extension")):
+        card.show_reading(Reading(angle=1, value_deg=value_deg, sd_deg=1.0))
+        assert card.movement() == word
 
 
 @pytest.mark.parametrize("stored", [False, True])
@@ -599,6 +567,21 @@ def any_frame() -> TrackedFrame:
     return FakeFeed(seconds=1.0).frames[20]
 
 
+def bending(time_s: np.ndarray, flexion_deg: np.ndarray, seen: np.ndarray | None = None) -> list[TrackedFrame]:
+    """Frames of a wrist that bends so; where it is not ``seen``, predicted."""
+    tracked = np.ones(len(time_s), dtype=bool) if seen is None else seen
+    return [
+        replace(
+            with_moment(
+                any_frame(), angles_rad=np.radians([0.0, angle, 0.0]), angles_sd_rad=np.radians([0.5, 0.7, 1.2])
+            ),
+            timestamp_s=float(at_s),
+            status=TrackStatus.TRACKED if on else TrackStatus.PREDICTED,
+        )
+        for at_s, angle, on in zip(time_s, flexion_deg, tracked, strict=True)
+    ]
+
+
 @settings(max_examples=25, deadline=None)
 @given(
     amplitude_deg=st.floats(3.0, 60.0),
@@ -620,15 +603,7 @@ def test_counted_piece_by_piece_is_counted_as_a_whole(
     seen = np.ones(count, dtype=bool)
     for start in hidden:
         seen[start : start + 12] = False
-    frame, flexion = any_frame(), np.arange(len(WRIST_ANGLES)) == FLEXION
-    frames = [
-        replace(
-            with_moment(frame, angles_rad=np.where(flexion, np.radians(angle_deg[k]), frame.moment.angles_rad)),
-            timestamp_s=float(time_s[k]),
-            status=TrackStatus.TRACKED if seen[k] else TrackStatus.PREDICTED,
-        )
-        for k in range(count)
-    ]
+    frames = bending(time_s, angle_deg, seen)
     running, end, most = RunningCount(exercise_named("WRIST_FE")), 0, 0
     for length in lengths:
         running.append(frames[end : end + length])
@@ -641,16 +616,8 @@ def test_counted_piece_by_piece_is_counted_as_a_whole(
 
 
 def test_what_somebody_else_moved_neither_counts_nor_is_a_best() -> None:
-    frame, time_s = any_frame(), np.arange(0.0, 30.0, 1.0 / RATE_HZ)
-    angle_deg = np.where(time_s < 15.0, 30.0, 60.0) * np.sin(2.0 * np.pi * 0.4 * time_s)
-    frames = [
-        replace(
-            with_moment(frame, angles_rad=np.radians([0.0, angle, 0.0]), angles_sd_rad=np.radians([0.5, 0.7, 1.2])),
-            timestamp_s=float(at_s),
-            status=TrackStatus.TRACKED,
-        )
-        for at_s, angle in zip(time_s, angle_deg, strict=True)
-    ]
+    time_s = np.arange(0.0, 30.0, 1.0 / RATE_HZ)
+    frames = bending(time_s, np.where(time_s < 15.0, 30.0, 60.0) * np.sin(2.0 * np.pi * 0.4 * time_s))
     half, running = len(frames) // 2, RunningCount(exercise_named("WRIST_FE"))
     running.append(frames[:half])
     by_itself = running.count()
@@ -664,26 +631,12 @@ def test_what_somebody_else_moved_neither_counts_nor_is_a_best() -> None:
 
 
 def test_frames_just_after_a_hand_came_back_give_no_best() -> None:
-    frame = any_frame()
-    count = 90
-    angle_deg = np.full(count, 20.0)
+    number = np.arange(90)
+    angle_deg = np.full(90, 20.0)
     angle_deg[60:62] = 60.0  # found again in a wrong pose for two pictures
     angle_deg[80] = 30.0
-    frames = [
-        replace(
-            with_moment(
-                frame,
-                angles_rad=np.radians([0.0, angle_deg[k], 0.0]),
-                angles_sd_rad=np.radians([0.5, 0.7, 1.2]),
-            ),
-            timestamp_s=3.0 + k / RATE_HZ,
-            status=TrackStatus.PREDICTED if 40 <= k < 60 else TrackStatus.TRACKED,
-        )
-        for k in range(count)
-    ]
-    running = RunningCount(exercise_named("WRIST_FE"))
-    running.append(frames)
-    assert abs(running.best_positive_deg - 30.0) < 1e-9
-    at_once = RunningCount(exercise_named("WRIST_FE"))
-    at_once.append(frames[:3])
-    assert abs(at_once.best_positive_deg - 20.0) < 1e-9, "the first frames of a recording count"
+    frames = bending(3.0 + number / RATE_HZ, angle_deg, (number < 40) | (number >= 60))
+    for shown, best_deg in ((frames, 30.0), (frames[:3], 20.0)):  # the first frames of a recording count
+        running = RunningCount(exercise_named("WRIST_FE"))
+        running.append(shown)
+        assert abs(running.best_positive_deg - best_deg) < 1e-9

@@ -16,11 +16,25 @@ from carpus.ui.background import Background
 from carpus.ui.keys import Keys
 from carpus.ui.language import speaking
 from carpus.ui.markers.clicking import Clicking
+from carpus.ui.markers.picture import MarkerPicture
 from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.ports import Judged, ProposedMarker
 from carpus.ui.theme import Theme
+from tests.ui.conftest import Show
 from tests.ui.fakes import FakeCalibrator
 from tests.ui.geometry import painted_texts
+
+
+def walk(qtbot: QtBot, picture: MarkerPicture, pixel: np.ndarray) -> None:
+    """Lead the cursor to a place by the arrow keys, by tens with Shift."""
+    assert picture.cursor_px is not None
+    arrows = ((Qt.Key.Key_Left, Qt.Key.Key_Right), (Qt.Key.Key_Up, Qt.Key.Key_Down))
+    for step, keys in zip(np.round(pixel - picture.cursor_px).astype(int), arrows, strict=True):
+        tens, ones = divmod(abs(int(step)), 10)
+        for _ in range(tens):
+            qtbot.keyClick(picture, keys[step > 0], Qt.KeyboardModifier.ShiftModifier)
+        for _ in range(ones):
+            qtbot.keyClick(picture, keys[step > 0])
 
 
 class Marking:
@@ -89,12 +103,8 @@ class Marking:
 
 
 @pytest.fixture
-def screen(qtbot: QtBot, theme: Theme) -> MarkersScreen:
-    screen = MarkersScreen(theme, Keys(), Background())
-    qtbot.addWidget(screen)
-    screen.resize(1280, 720)
-    screen.show()
-    return screen
+def screen(theme: Theme, show: Show[MarkersScreen]) -> MarkersScreen:
+    return show(MarkersScreen(theme, Keys(), Background()))
 
 
 @pytest.fixture
@@ -121,29 +131,39 @@ def test_the_whole_way_by_keyboard_alone(qtbot: QtBot, marking: Marking) -> None
     marking.press(Qt.Key.Key_Left)
     for pixel in calibrator.disc_px:
         cursor = picture.cursor_px
-        steps = np.round(pixel - cursor).astype(int)
-        for step, (less, more) in zip(
-            steps, ((Qt.Key.Key_Left, Qt.Key.Key_Right), (Qt.Key.Key_Up, Qt.Key.Key_Down)), strict=True
-        ):
-            tens, ones = divmod(abs(int(step)), 10)
-            key = more if step > 0 else less
-            for _ in range(tens):
-                qtbot.keyClick(picture, key, Qt.KeyboardModifier.ShiftModifier)
-            for _ in range(ones):
-                marking.press(key)
-        np.testing.assert_allclose(picture.cursor_px, cursor + steps)
+        assert cursor is not None
+        walk(qtbot, picture, pixel)
+        np.testing.assert_allclose(picture.cursor_px, cursor + np.round(pixel - cursor))
         marking.press(Qt.Key.Key_Space)
     np.testing.assert_allclose(marking.judge().pixel, calibrator.disc_px)
     marking.enter()
     assert marking.started
 
 
-def test_a_disc_that_has_a_name_is_refused_at_once(marking: Marking) -> None:
-    marking.click(marking.begin().disc_px[0])
+def test_names_are_placed_taken_back_chosen_refused_and_dragged(marking: Marking) -> None:
+    discs_px = marking.begin().disc_px
+    marking.click(*discs_px[:3])
+    assert marking.clicking.current == WRIST6.markers[3]
+    marking.press(Qt.Key.Key_Backspace)
+    assert (marking.clicking.current, set(marking.clicking.pixel)) == (WRIST6.markers[2], set(WRIST6.markers[:2]))
+    assert "index knuckle" in marking.screen.guidance.title.text(), "it is asked for again"
+    for _ in range(2):
+        marking.press(Qt.Key.Key_Backspace)
+    assert marking.clicking.current == "WRIST"
+    marking.press(Qt.Key.Key_Tab)
+    marking.click(discs_px[1])
+    assert list(marking.clicking.pixel) == ["CMC1"], "Tab chooses which is clicked next"
+    assert marking.clicking.missing[0] == "WRIST"
+    marking.press(Qt.Key.Key_Backspace)
+    marking.clicking.current = "WRIST"
+    marking.click(discs_px[1])
+    np.testing.assert_allclose(marking.clicking.pixel["WRIST"], discs_px[1])
+    marking.drag(discs_px[1], discs_px[0])
+    np.testing.assert_allclose(marking.clicking.pixel["WRIST"], discs_px[0])
+    marking.screen.picture.set_cursor(discs_px[0])
     for _ in range(3):
         marking.press(Qt.Key.Key_Space)
-        assert set(marking.clicking.pixel) == {"WRIST"}
-        assert marking.clicking.current == "CMC1"
+        assert (set(marking.clicking.pixel), marking.clicking.current) == ({"WRIST"}, "CMC1")
         assert marking.screen.picture.no_marker_words == "Already the wrist"
 
 
@@ -204,31 +224,6 @@ def test_a_click_beside_every_disc_sets_nothing_and_says_so(qtbot: QtBot, markin
     told = [one for one in painted if one.text in screen.picture.no_marker_words]
     assert " ".join(one.text for one in told) == screen.picture.no_marker_words
     assert all(loupe.translated(shift).contains(one.box) for one in told), "within the loupe"
-
-
-def test_backspace_takes_back_one_marker_and_asks_for_it_again(marking: Marking) -> None:
-    marking.click(*marking.begin().disc_px[:3])
-    assert marking.clicking.current == WRIST6.markers[3]
-    marking.press(Qt.Key.Key_Backspace)
-    assert marking.clicking.current == WRIST6.markers[2]
-    assert set(marking.clicking.pixel) == set(WRIST6.markers[:2])
-    assert "index knuckle" in marking.screen.guidance.title.text()
-
-
-def test_tab_chooses_which_marker_is_clicked_next(marking: Marking) -> None:
-    calibrator = marking.begin()
-    marking.press(Qt.Key.Key_Tab)
-    marking.click(calibrator.disc_px[1])
-    assert list(marking.clicking.pixel) == ["CMC1"]
-    assert marking.clicking.missing[0] == "WRIST"
-
-
-def test_a_marker_can_be_dragged_to_another_disc(marking: Marking) -> None:
-    calibrator = marking.begin()
-    marking.click(calibrator.disc_px[1])
-    np.testing.assert_allclose(marking.clicking.pixel["WRIST"], calibrator.disc_px[1])
-    marking.drag(calibrator.disc_px[1], calibrator.disc_px[0])
-    np.testing.assert_allclose(marking.clicking.pixel["WRIST"], calibrator.disc_px[0])
 
 
 def test_swapped_markers_are_exchanged_by_enter_and_judged_again(marking: Marking) -> None:
@@ -361,9 +356,8 @@ def test_six_discs_are_proposed_as_twenty_one_are_and_one_enter_takes_them(marki
 
 
 @pytest.mark.parametrize("scale", [1.0, 1.5])
-@pytest.mark.parametrize("named", [0, 1, 3, 6])
 def test_no_name_covers_a_disc_that_is_to_be_clicked(
-    qtbot: QtBot, screen: MarkersScreen, theme: Theme, named: int, scale: float
+    qtbot: QtBot, screen: MarkersScreen, theme: Theme, scale: float
 ) -> None:
     theme.choose(text_scale=scale)
     calibrator = FakeCalibrator()
@@ -371,15 +365,16 @@ def test_no_name_covers_a_disc_that_is_to_be_clicked(
     picture = screen.picture
     qtbot.waitUntil(lambda: picture.width() > 400)
     discs = [picture.to_screen(*map(float, pixel)) for pixel in calibrator.disc_px]
-    rings = []
-    for name, pixel, at in zip(calibrator.protocol.markers[:named], calibrator.disc_px, discs, strict=False):
-        screen.clicking.pixel[name], screen.clicking.widths_px[name] = pixel, 10.0
-        rings.append((name, at, 13.0))
-    plates = picture.name_plates(rings, "")
-    assert [one.name for one in plates] == list(calibrator.protocol.markers[:named]), "every name has its place"
-    for one in plates:
-        assert not any(one.plate.adjusted(-8, -8, 8, 8).contains(at) for at in discs), one.name
-        assert not any(one.plate.intersects(other.plate) for other in plates if other is not one)
+    for named in (0, 1, 3, 6):
+        rings = []
+        for name, pixel, at in zip(calibrator.protocol.markers[:named], calibrator.disc_px, discs, strict=False):
+            screen.clicking.pixel[name], screen.clicking.widths_px[name] = pixel, 10.0
+            rings.append((name, at, 13.0))
+        plates = picture.name_plates(rings, "")
+        assert [one.name for one in plates] == list(calibrator.protocol.markers[:named]), "every name has its place"
+        for one in plates:
+            assert not any(one.plate.adjusted(-8, -8, 8, 8).contains(at) for at in discs), one.name
+            assert not any(one.plate.intersects(other.plate) for other in plates if other is not one)
 
 
 def test_where_the_names_are_long_a_knuckle_has_its_fingers_name(

@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 from carpus.core.names import MOST_CHARACTERS
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import PatientEntry
+from carpus.ui.controls.text import Text
 from carpus.ui.language import LANGUAGES, speaking
 from carpus.ui.numbers import clock, clock_tenths, days_ago, degrees, ordinal, room_left, spread, with_spread
 from carpus.ui.patients.entry import PatientForm
@@ -116,66 +117,48 @@ def test_a_taken_name_is_refused_in_the_form_itself(qtbot: QtBot, screen: Patien
     assert (store.added[0].pseudonym, store.added[0].name) == ("Heron 18", "R. M.")
 
 
-def test_escape_leaves_the_form_and_gives_the_keyboard_back(qtbot: QtBot, screen: PatientsScreen) -> None:
-    screen.new_patient()
-    qtbot.keyClick(screen.form.name, Qt.Key.Key_Escape)
-    assert not screen.form.isVisible()
-    assert screen.search.hasFocus()
-
-
-def test_tab_stays_inside_the_form(qtbot: QtBot, screen: PatientsScreen) -> None:
-    screen.new_patient()
-    for _ in range(25):
-        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Tab)
-        assert screen.form.isAncestorOf(screen.focusWidget())
-
-
-def test_the_form_opens_at_its_first_field(screen: PatientsScreen) -> None:
+def test_the_form_opens_at_its_first_field_keeps_the_keyboard_and_gives_it_back(
+    qtbot: QtBot, screen: PatientsScreen
+) -> None:
     bar = screen.form._scroll.verticalScrollBar()
     screen.new_patient()
     bar.setRange(0, 100)
     bar.setValue(80)
     screen.new_patient()
     assert bar.value() == 0
+    for _ in range(25):
+        qtbot.keyClick(screen.focusWidget(), Qt.Key.Key_Tab)
+        assert screen.form.isAncestorOf(screen.focusWidget())
+    qtbot.keyClick(screen.form.name, Qt.Key.Key_Escape)
+    assert not screen.form.isVisible()
+    assert screen.search.hasFocus()
 
 
-def test_editing_keeps_the_patient_and_changes_the_row(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
-    screen.refresh("linden")
-    qtbot.mouseClick(screen.card.edit_button, Qt.MouseButton.LeftButton)
-    screen.form.name.setText("Linden 43")
-    qtbot.keyClick(screen.form.name, Qt.Key.Key_Return)
-    assert [row.pseudonym for row in store.rows if row.patient_id == "linden"] == ["Linden 43"]
-
-
-def test_the_practice_patient_is_last_and_starts_a_practice(qtbot: QtBot, screen: PatientsScreen) -> None:
-    last = screen.list.rows.row(screen.list.rows.rowCount() - 1)
-    assert last.patient_id == PRACTICE_PATIENT
-    screen.refresh(PRACTICE_PATIENT)
-    assert screen.card.start_button.text() == "Start practice"
-    assert not screen.card.review_button.isEnabled()
-
-
-def test_without_a_camera_the_button_says_so(screen: PatientsScreen) -> None:
-    screen.set_camera_ready(False)
-    assert "no camera" in screen.card.start_button.text()
-
-
-def test_buttons_of_the_card_lead_on(qtbot: QtBot, screen: PatientsScreen) -> None:
+def test_what_the_card_leads_to(qtbot: QtBot, screen: PatientsScreen, store: FakeStore) -> None:
+    card = screen.card
     screen.refresh("linden")
     pairs = (
-        (screen.card.review_button, screen.review),
-        (screen.card.progress_button, screen.progress),
-        (screen.card.change_button, screen.set_up),
-    )
+        (card.review_button, screen.review), (card.progress_button, screen.progress),
+        (card.change_button, screen.set_up),
+    )  # fmt: skip
     for button, signal in pairs:
         with qtbot.waitSignal(signal) as sent:
             button.click()
         assert sent.args == ["linden"]
+    qtbot.mouseClick(card.edit_button, Qt.MouseButton.LeftButton)
+    screen.form.name.setText("Linden 43")
+    qtbot.keyClick(screen.form.name, Qt.Key.Key_Return)
+    assert [row.pseudonym for row in store.rows if row.patient_id == "linden"] == ["Linden 43"]
+    screen.set_camera_ready(False)
+    assert "no camera" in card.start_button.text()
+    last = screen.list.rows.row(screen.list.rows.rowCount() - 1)
+    assert last.patient_id == PRACTICE_PATIENT
+    screen.refresh(PRACTICE_PATIENT)
+    assert card.start_button.text() == "Start practice"
+    assert not card.review_button.isEnabled()
 
 
 def test_the_legal_sentence_stands_on_the_first_screen_word_for_word(screen: PatientsScreen) -> None:
-    from carpus.ui.controls.text import Text
-
     assert LEGAL_SENTENCE in [label.text() for label in screen.findChildren(Text)]
 
 

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 from PySide6.QtCore import QPoint, QRect, Qt, QThread
-from PySide6.QtGui import QKeySequence
+from PySide6.QtGui import QFontInfo, QFontMetricsF, QKeySequence
 from PySide6.QtWidgets import QApplication, QPushButton, QScrollArea, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -54,11 +54,7 @@ def settings(theme: Theme, show: Show[SettingsScreen]) -> Settings:
 
 
 def test_the_bundled_face_is_used_and_its_figures_are_tabular(qapp: QApplication) -> None:
-    families = load_fonts()
-    assert TEXT_FAMILY in families
-    assert DISPLAY_FAMILY in families
-    from PySide6.QtGui import QFontInfo, QFontMetricsF
-
+    assert {TEXT_FAMILY, DISPLAY_FAMILY} <= set(load_fonts())
     assert QFontInfo(font(14)).family().startswith("Carpus Inter")
     for size in (14, 44, 128):
         metrics = QFontMetricsF(font(size, 600))
@@ -67,39 +63,26 @@ def test_the_bundled_face_is_used_and_its_figures_are_tabular(qapp: QApplication
         assert metrics.horizontalAdvance("1111") == pytest.approx(metrics.horizontalAdvance("0408"), abs=0.01 * size)
 
 
-def test_only_steps_already_done_can_be_gone_back_to(qtbot: QtBot, shell: Shell) -> None:
-    shell.bar.show_steps(["Exercise", "Camera", "Markers", "Measure"], 2)
-    assert [button.isEnabled() for button in shell.bar.way()] == [True, True, False, False]
-    with qtbot.waitSignal(shell.bar.step) as step:
-        shell.bar.way()[1].click()
+def test_the_way_through_a_session_the_recording_and_the_keys_of_all_screens(qtbot: QtBot, shell: Shell) -> None:
+    bar = shell.bar
+    bar.show_steps(["Exercise", "Camera", "Markers", "Measure"], 2)
+    assert [button.isEnabled() for button in bar.way()] == [True, True, False, False], "only what is done"
+    with qtbot.waitSignal(bar.step) as step:
+        bar.way()[1].click()
     assert step.args == [1]
-
-
-def test_tabs_lead_on_and_the_current_one_says_so(qtbot: QtBot, shell: Shell) -> None:
-    shell.bar.show_tabs(["Session", "Review", "Progress", "Report"], 1)
-    assert shell.bar.way()[1].accessibleName() == "Review, you are here"
-    with qtbot.waitSignal(shell.bar.tab) as tab:
-        shell.bar.way()[3].click()
+    bar.show_tabs(["Session", "Review", "Progress", "Report"], 1)
+    assert bar.way()[1].accessibleName() == "Review, you are here"
+    with qtbot.waitSignal(bar.tab) as tab:
+        bar.way()[3].click()
     assert tab.args == [3]
-
-
-def test_recording_is_told_by_pill_and_line(shell: Shell) -> None:
-    shell.bar.pill.show_state("recording", 84.2)
-    assert shell.bar.pill.accessibleName() == "Recording 01:24"
-    shell.bar.pill.show_state("paused", 84.2)
-    assert shell.bar.pill.accessibleName() == "Paused at 01:24"
-    shell.bar.pill.show_state("off", 0.0)
-    assert not shell.bar.pill.isVisible()
-
-
-def test_shell_keys_are_signals_and_can_be_changed(qtbot: QtBot, shell: Shell) -> None:
-    shell.set_keys({"help": "F1"})
-    with qtbot.waitSignal(shell.key) as pressed:
-        qtbot.keyClick(shell, Qt.Key.Key_F1)
-    assert pressed.args == ["help"]
-    shell.set_keys({"help": "F12"})
-    with qtbot.waitSignal(shell.key):
-        qtbot.keyClick(shell, Qt.Key.Key_F12)
+    for state, said in (("recording", "Recording 01:24"), ("paused", "Paused at 01:24"), ("off", "")):
+        bar.pill.show_state(state, 84.2)
+        assert (bar.pill.accessibleName(), bar.pill.isVisible()) == (said, state != "off")
+    for key, pressed in (("F1", Qt.Key.Key_F1), ("F12", Qt.Key.Key_F12)):
+        shell.set_keys({"help": key})
+        with qtbot.waitSignal(shell.key) as told:
+            qtbot.keyClick(shell, pressed)
+        assert told.args == ["help"]
 
 
 def test_what_comes_while_settings_are_open_is_behind_them(shell: Shell) -> None:
@@ -145,8 +128,6 @@ def test_a_change_of_theme_and_scale_reaches_every_text(qtbot: QtBot, theme: The
 
 
 def test_a_title_has_room_for_the_dots_of_its_capitals(qtbot: QtBot, theme: Theme) -> None:
-    from PySide6.QtGui import QFontMetricsF
-
     label = heading(theme, "Which exercise?")
     qtbot.addWidget(label)
     plain_px = label.sizeHint().height()
@@ -318,25 +299,21 @@ def parts(qtbot: QtBot, theme: Theme) -> tuple[QWidget, QScrollArea, list[QPushB
     return window, area, buttons, ring
 
 
-def around(window: QWidget, button: QPushButton) -> QRect:
-    return QRect(button.mapTo(window, QPoint(0, 0)), button.size())
-
-
-def test_it_follows_what_is_scrolled(parts: tuple[QWidget, QScrollArea, list[QPushButton], FocusRing]) -> None:
-    window, area, buttons, ring = parts
-    before = ring.geometry()
-    assert before.contains(around(window, buttons[2]))
-    area.verticalScrollBar().setValue(15)
-    assert ring.geometry() == before.translated(0, -15)
-    assert ring.geometry().contains(around(window, buttons[2]))
-
-
-def test_it_goes_with_what_is_scrolled_away_and_comes_back(
+def test_the_ring_follows_what_is_scrolled_goes_with_it_and_comes_back(
     parts: tuple[QWidget, QScrollArea, list[QPushButton], FocusRing],
 ) -> None:
-    _, area, _, ring = parts
-    area.verticalScrollBar().setValue(area.verticalScrollBar().maximum())
+    window, area, buttons, ring = parts
+    bar, before = area.verticalScrollBar(), ring.geometry()
+
+    def around() -> QRect:
+        return QRect(buttons[2].mapTo(window, QPoint(0, 0)), buttons[2].size())
+
+    assert before.contains(around())
+    bar.setValue(15)
+    assert ring.geometry() == before.translated(0, -15)
+    assert ring.geometry().contains(around())
+    bar.setValue(bar.maximum())
     assert not ring.isVisible()
-    area.verticalScrollBar().setValue(0)
+    bar.setValue(0)
     assert ring.isVisible()
     assert ring.mask().isEmpty()
