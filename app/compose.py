@@ -385,10 +385,10 @@ def _connect_settings(screen: SettingsScreen, journey: Journey, theme: Theme) ->
     from carpus.ui.settings.camera_card import CameraCard
 
     way, camera = journey.way, journey.camera_state
-    screen.retest_wanted.connect(lambda: way.show("retest"))
+    screen.retest.clicked.connect(lambda: way.show("retest"))
     card = CameraCard(theme)
-    card.calibrate.connect(lambda: way.show("board"))
-    card.check.connect(lambda: way.show("card"))
+    card.calibrate_button.clicked.connect(lambda: way.show("board"))
+    card.check_button.clicked.connect(lambda: way.show("card"))
     camera.changed.connect(lambda: card.show_standing(*card_words(camera.standing)))
     card.show_standing(*card_words(camera.standing))
     screen.add_cards("camera", card)

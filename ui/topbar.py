@@ -24,15 +24,11 @@ RECORDING_LINE_PX = 3
 
 
 class TopBar(Surface):
-    """Signals: ``back``, ``tab`` (number), ``step`` (number of a step already done), ``help``, ``settings``,
-    ``again_wanted`` for what is tracked again or waits for a decision."""
+    """``tab`` and ``step`` carry the number of a tab, or of a step already done, that was chosen; ``again`` is for what
+    is tracked again or waits for a decision."""
 
-    back = Signal()
     tab = Signal(int)
     step = Signal(int)
-    help = Signal()
-    settings = Signal()
-    again_wanted = Signal()
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme)
@@ -40,18 +36,14 @@ class TopBar(Surface):
         self._bar_line = Line(theme, vertical=True)
         self._bar_line.setFixedHeight(24)
         self.back_button = icon_button(theme, "chevron-left", self.tr("Back (Esc)"))
-        self.back_button.clicked.connect(self.back)
         self.name = Text(theme, "", 14, SEMIBOLD)
         self.where = Text(theme, "", 14, REGULAR, "text2")
         self.camera = StateText(theme)
         self.disk = StateText(theme)
         self.pill = RecordingPill(theme)
         self.again = AgainButton(theme)
-        self.again.clicked.connect(self.again_wanted)
         self.help_button = icon_button(theme, "circle-help", self.tr("Help (F1)"))
         self.settings_button = icon_button(theme, "settings", self.tr("Settings (Ctrl+,)"))
-        self.help_button.clicked.connect(self.help)
-        self.settings_button.clicked.connect(self.settings)
         self._middle = in_line(gap=4)
         self._way: list[WayButton] = []
         self._left, self._right = QWidget(), QWidget()

@@ -59,13 +59,13 @@ class Tour(QObject):
         self._clock.timeout.connect(self.look)
         journey.way.when_made("report", lambda: journey.report.screen.saved.connect(self._report_saved))
         journey.way.arrived.connect(self._arrived)
-        journey.way.when_made("help", lambda: journey.help.screen.tour.connect(self._show_around))
+        journey.way.when_made("help", lambda: journey.help.screen.tour_button.clicked.connect(self._show_around))
         journey.takes_escape = self._take_escape
 
     def _take_view(self, place: str, view: Callable[[], BubbleView]) -> None:
         shown = self._views[place] = view()
-        shown.next.connect(self.next)
-        shown.leave.connect(self.leave)
+        shown.next_button.clicked.connect(self.next)
+        shown.leave_button.clicked.connect(self.leave)
 
     @property
     def is_on(self) -> bool:
@@ -190,11 +190,11 @@ class Welcome(QObject):
             return
         panel = self.panel = WelcomePanel(self._theme)
         panel.show_folder(str(self._folder), counts_later=False)
-        panel.tour.connect(self._lead)
-        panel.later.connect(self._decline)
-        panel.again.connect(self.look)
-        panel.folder.connect(lambda: self._keeper.screen.ask_folder())
-        panel.close_wanted.connect(self._journey.patients.screen.window().close)
+        panel.tour_button.clicked.connect(self._lead)
+        panel.later_button.clicked.connect(self._decline)
+        panel.again_button.clicked.connect(self.look)
+        panel.folder_button.clicked.connect(lambda: self._keeper.screen.ask_folder())
+        panel.close_button.clicked.connect(self._journey.patients.screen.window().close)
         self._journey.patients.screen.show_welcome(panel)
         self.look()
 

@@ -459,7 +459,7 @@ def test_keeping_the_old_one_is_refused_where_the_new_one_is_listed_already(
     flow = CorrectFlow(a_context(theme, shell, told, Background(), library=library, now=NowOpen(session_id=session_id)))
     flow.waiting = [Waiting(session_id, trial)]
     flow.open_sheet()
-    flow.sheet.keep_wanted.emit()
+    flow.sheet.keep.click()
     qtbot.waitUntil(lambda: bool(told.faults) and not trial.exists(), timeout=30_000)
     (new,) = library.history(patient)
     assert new.session_id != session_id
@@ -476,11 +476,11 @@ def test_what_is_decided_about_while_it_is_looked_for_waits_no_more(
     qtbot.addWidget(shell)
     now = NowOpen(session_id=session_id)
     flow = CorrectFlow(a_context(theme, shell, told, background, library=library, now=now))
-    for trial, decided in zip(trials, (flow.sheet.keep_wanted, flow.sheet.use_wanted), strict=True):
+    for trial, decided in zip(trials, (flow.sheet.keep, flow.sheet.use), strict=True):
         flow.waiting = [Waiting(session_id, trial)]
         flow.open_sheet()
         flow.look_for_waiting()
-        decided.emit()
+        decided.click()
         qtbot.waitUntil(lambda trial=trial: not trial.exists() and not flow._background.busy, timeout=30_000)
         assert trial not in [one.trial for one in flow.waiting]
     assert flow.waiting == []

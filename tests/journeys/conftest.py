@@ -18,11 +18,9 @@ from carpus.core.pipeline import looking_back
 from carpus.ui.live import recording as live_recording
 from carpus.ui.live import screen as live_screen
 from carpus.ui.markers import screen as markers_screen
-from tests.journeys.takes import SPEC, take_of
+from tests.journeys.takes import SPEC, SPEED, take_of
 from tests.rendered import Rendered
 
-SPEED = 1.5
-"""How much faster than recorded everything plays."""
 DRAWN_EVERY_MS = 200
 Open = Callable[..., Desktop]
 

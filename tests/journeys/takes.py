@@ -20,6 +20,8 @@ SPEC = RecordingSpec(
     seed=5, motion="flexion", seconds=4.9, fps=15.0, speed_hz=0.6, repetitions=2, range_share=0.6,
     hand_length_mm=188.0, skin_tone=1, light="bright", sleeve="grey", distance_m=0.64, click_error_px=1.0,
 )  # fmt: skip
+SPEED = 1.5
+"""How much faster than recorded everything plays."""
 RANGE_DEG = 0.6 * 50.0
 """Reached to both sides, less up to 6 % by which the patient stops short of each target."""
 

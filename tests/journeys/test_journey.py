@@ -34,10 +34,10 @@ from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
 from carpus.core.session.writer import SessionWriter
 from carpus.core.simulation.oni_writer import in_millimetres, write_oni
-from carpus.ui.messages.messages import NoticeStrip
+from carpus.ui.messages.messages import NoticeStrip, StopCard
 from carpus.ui.now_open import SourceChoice
-from tests.journeys.conftest import SPEED, Open
-from tests.journeys.takes import RANGE_DEG, SPEC, clicks_of
+from tests.journeys.conftest import Open
+from tests.journeys.takes import RANGE_DEG, SPEC, SPEED, clicks_of
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
 from tests.ui.printed import words_of
 from tests.ui.test_markers import walk
@@ -156,6 +156,10 @@ def test_the_whole_journey_by_mouse(
     assert any("imulated" in line for line in journey.bar.sign_lines())
     check_file(path, name)
     check_pictures(desktop, path)
+    before, counted = path.read_bytes(), journey.review.screen.figures.counted
+    journey.review.screen._leave_out(journey.review.screen.current + 1, "pain", and_after=False)
+    wait(qtbot, lambda: not journey.background.busy)
+    assert path.read_bytes() == before, "what was left out is stored beside the session"
     assert path.is_relative_to(desktop.library.store.sessions_folder)
     assert desktop.shell.bar.pill.state == "off"
     click(qtbot, desktop.shell.bar.way()[2])
@@ -183,10 +187,6 @@ def test_the_whole_journey_by_mouse(
     assert (row.pseudonym, row.session_count) == (name, 0), "a simulated hand counts nowhere"
     assert journey.patients.screen._store.card(row.patient_id).has_sessions
     assert [folder.stat().st_mode & 0o777 for folder in (desktop.library.folder, path.parent)] == [0o700, 0o700]
-    before, counted = path.read_bytes(), journey.review.screen.figures.counted
-    journey.review.screen._leave_out(journey.review.screen.current + 1, "pain", and_after=False)
-    wait(qtbot, lambda: not journey.background.busy)
-    assert path.read_bytes() == before, "what was left out is stored beside the session"
     desktop.close()
     again = open_desktop()
     (entry,) = again.library.sessions(row.patient_id)
@@ -347,13 +347,16 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
     qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop, journey = to_live(qtbot, open_desktop(), take)
-    shell, live, card = desktop.shell, journey.live.screen, journey.messages.card
+    shell, live = desktop.shell, journey.live.screen
     recording, feed = live.recording, journey.now.source.measuring.feed
 
+    def card() -> StopCard:
+        return journey.messages.card  # another one on another screen
+
     def goes_on(key: Qt.Key) -> None:
-        assert card.isVisible()
+        assert card().isVisible()
         qtbot.keyClick(shell.focusWidget(), key)
-        assert (card.isVisible(), recording.state) == (False, "recording")
+        assert (card().isVisible(), recording.state) == (False, "recording")
 
     def record() -> None:
         shell.activateWindow()
@@ -362,14 +365,14 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
 
     record()
     shell.close()
-    assert card.isVisible(), "it asks first"
+    assert card().isVisible(), "it asks first"
     whole = live.picture.shows_whole
     for key in (Qt.Key.Key_F7, Qt.Key.Key_F9, Qt.Key.Key_F5, Qt.Key.Key_F1):
         qtbot.keyClick(shell.focusWidget(), key)
-    assert (card.isVisible(), recording.state) == (True, "recording"), "a card takes every key"
+    assert (card().isVisible(), recording.state) == (True, "recording"), "a card takes every key"
     assert (live.picture.shows_whole, journey.place) == (whole, "live")
     live.setFocus()  # as a click beside the card would
-    assert card.isAncestorOf(shell.focusWidget())
+    assert card().isAncestorOf(shell.focusWidget())
     qtbot.mouseClick(live.controls.main, Qt.MouseButton.LeftButton)
     goes_on(Qt.Key.Key_Space)  # "Go on measuring"
     shell.close()
@@ -378,19 +381,19 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
     recording.toggle()
     goes_on(Qt.Key.Key_Return)
     feed.notice(CameraLost("Xtion", "unplugged"))
-    wait(qtbot, card.isVisible)
-    assert "sends no more pictures" in card.what.text()
-    assert "stored" in card.safe_detail.text()
+    wait(qtbot, lambda: card().isVisible())
+    assert "sends no more pictures" in card().what.text()
+    assert "stored" in card().safe_detail.text()
     feed.notice(CameraReturned("Xtion", "3 s"))
-    wait(qtbot, lambda: not card.isVisible())
+    wait(qtbot, lambda: not card().isVisible())
     recording.toggle()
-    click(qtbot, card.answers[0])  # "Stop and review"
+    click(qtbot, card().answers[0])  # "Stop and review"
     assert journey.place == "live"
     journey.messages.fault(DiskFull("x"))
     first = reviewed(qtbot, desktop)
-    assert card.isVisible(), "a message moves with the screen"
-    assert "disk" in card.what.text()
-    click(qtbot, card.answers[-1])
+    assert card().isVisible(), "a message moves with the screen"
+    assert "disk" in card().what.text()
+    click(qtbot, card().answers[-1])
     assert not journey.messages.busy
     with h5py.File(first) as file:
         assert {"camera_lost", "camera_back"} <= set(file["events/kind"].asstr()[:])
@@ -405,7 +408,7 @@ def test_what_is_asked_over_a_running_recording_loses_nothing_and_a_second_set_n
     at(qtbot, journey, "live")
     record()
     shell.close()
-    click(qtbot, card.answers[0])  # "Stop, save and close"
+    click(qtbot, card().answers[0])  # "Stop, save and close"
     assert not shell.isVisible()
     again = open_desktop()
     entries = again.library.sessions(PRACTICE_PATIENT)

@@ -15,7 +15,7 @@ from PySide6.QtCore import QPoint, QTimer
 from carpus.app import compose
 from carpus.app.desktop.sources import RECENT_FRAMES
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
-from tests.journeys.takes import clicks_of, take_of
+from tests.journeys.takes import SPEED, clicks_of, take_of
 
 LOOK_MS = 50
 
@@ -74,9 +74,10 @@ class Reporter:
 def main() -> int:
     """Open the window and stay until it is closed."""
     take, data = map(Path, sys.argv[1:3])
-    settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(data)))
+    recording = RecordingSettings(folder=str(data), keep_pictures=False)
+    settings = replace(Settings(), screen=ScreenSettings("light"), recording=recording)
     qt = compose.application(["carpus"])
-    desktop = compose.compose(qt, settings, take=take_of(take), settings_folder=data / "settings")
+    desktop = compose.compose(qt, settings, take=take_of(take), speed=SPEED, settings_folder=data / "settings")
     compose.end_on_signals(desktop)
     reporter = Reporter(desktop, take)
     desktop.show()

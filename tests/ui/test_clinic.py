@@ -32,7 +32,7 @@ def test_a_patient_is_opened_from_the_list_and_weeks_are_turned(
     patients, weeks, pages = [], [], []
     screen.patient.connect(patients.append)
     screen.week.connect(weeks.append)
-    screen.page.connect(lambda: pages.append(True))
+    screen.save.clicked.connect(lambda: pages.append(True))
     qtbot.mouseClick(screen.due.buttons[1], Qt.MouseButton.LeftButton)
     qtbot.keyClick(screen.due.buttons[0], Qt.Key.Key_Return)
     assert patients == [week.due[1].patient_id, week.due[0].patient_id]

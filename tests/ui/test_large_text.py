@@ -42,48 +42,54 @@ def is_whole(area: QScrollArea) -> bool:
 def test_curves_of_every_finger_are_wide_and_no_choice_is_cut(gallery: Gallery) -> None:
     gallery.progress_hand()
     gallery.settle()
-    screen = gallery.shell.stage.currentWidget()
-    assert isinstance(screen, ProgressScreen)
+    screen = gallery.shown(ProgressScreen)
     assert min(panel.box.width() for panel, _ in screen.chart.panels()) >= LEAST_PLOT_PX
     for box in (screen.exercise, screen.followed):
         assert box.width() >= box.sizeHint().width()
     assert is_whole(screen._side)
 
 
-def test_tables_are_read_whole(gallery: Gallery) -> None:
-    for state in (gallery.review_hand, gallery.beside_hand):
-        state()
-        screen = gallery.shell.stage.currentWidget()
-        assert isinstance(screen, ReviewScreen | BesideScreen)
-        tables = screen.card.tables if isinstance(screen, ReviewScreen) else screen.differences._scroll
+def test_tables_are_read_whole_and_no_finger_loses_the_end_of_its_name(gallery: Gallery) -> None:
+    def has_whole(tables: QScrollArea, screen: QWidget) -> None:
         assert is_whole(tables)
         (page,) = (area for area in screen.findChildren(ScrollArea) if area.parent() is screen)
         assert page.verticalScrollBar().maximum() > 0
 
+    gallery.beside_hand()
+    beside = gallery.shown(BesideScreen)
+    has_whole(beside.differences._scroll, beside)
+    gallery.review_hand()
+    review = gallery.shown(ReviewScreen)
+    has_whole(review.card.tables, review)
+    shown = [button for button in review.charts.finger.buttons() if button.isVisible()]
+    assert len(shown) == 6
+    assert [button.shown_text for button in shown] == [button.text() for button in shown]
+
 
 @pytest.mark.parametrize("state", ["review_hand", "review"])
-@pytest.mark.parametrize(("before", "size"), [((1280, 720), (1024, 700)), ((1280, 800), (1600, 1040))])
 def test_tables_are_as_high_on_a_window_of_another_size_before_as_on_one_that_was_so(
-    gallery: Gallery, state: str, before: tuple[int, int], size: tuple[int, int]
+    gallery: Gallery, state: str
 ) -> None:
-    heights_px = []
-    for way in ((before, size), (size,)):
+    def heights_px(*sizes: tuple[int, int]) -> list[int]:
         getattr(gallery, state)()
-        screen = gallery.shell.stage.currentWidget()
-        assert isinstance(screen, ReviewScreen)
-        for one in way:
-            gallery.shell.resize(*one)
+        screen = gallery.shown(ReviewScreen)
+        heights = []
+        for size in sizes:
+            gallery.shell.resize(*size)
             gallery.settle()
-        heights_px.append(screen.card.tables.height())
-    gallery.shell.resize(1280, 800)
-    assert heights_px[0] == heights_px[1]
+            heights.append(screen.card.tables.height())
+        gallery.shell.resize(1280, 800)
+        return heights
+
+    _, small_px, _, large_px = heights_px((1280, 720), (1024, 700), (1280, 800), (1600, 1040))
+    assert heights_px((1024, 700)) == [small_px]
+    assert heights_px((1600, 1040)) == [large_px]
 
 
 def test_what_must_be_recalled_of_a_patient_has_room_below_a_strip(gallery: Gallery) -> None:
     gallery.patients_recovered()
     gallery.settle()
-    screen = gallery.shell.stage.currentWidget()
-    assert isinstance(screen, PatientsScreen)
+    screen = gallery.shown(PatientsScreen)
     assert screen.card._recall.height() >= screen.card._why.geometry().bottom()
     assert screen.card.height() >= screen.card.minimumSizeHint().height()
 
@@ -91,22 +97,12 @@ def test_what_must_be_recalled_of_a_patient_has_room_below_a_strip(gallery: Gall
 @pytest.mark.parametrize(("state", "is_guided"), [("markers_ready", True), ("markers_swapped", False)])
 def test_checks_are_read_whole_and_the_guide_gives_way(gallery: Gallery, state: str, is_guided: bool) -> None:
     getattr(gallery, state)()
-    screen = gallery.shell.stage.currentWidget()
-    assert isinstance(screen, MarkersScreen)
+    screen = gallery.shown(MarkersScreen)
     screen.bubble.show_bubble("check")
     gallery.settle()
     assert screen.bubble.isVisible() is is_guided
     for _, *texts in screen.guidance.panel._lines:
         assert all(text.height() >= text.minimumSizeHint().height() for text in texts)
-
-
-def test_no_finger_loses_the_end_of_its_name(gallery: Gallery) -> None:
-    gallery.review_hand()
-    screen = gallery.shell.stage.currentWidget()
-    assert isinstance(screen, ReviewScreen)
-    shown = [button for button in screen.charts.finger.buttons() if button.isVisible()]
-    assert len(shown) == 6
-    assert [button.shown_text for button in shown] == [button.text() for button in shown]
 
 
 def test_the_lock_stands_below_its_bar(gallery: Gallery) -> None:

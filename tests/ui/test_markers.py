@@ -32,9 +32,9 @@ def walk(qtbot: QtBot, picture: MarkerPicture, pixel: np.ndarray) -> None:
     for step, keys in zip(np.round(pixel - picture.cursor_px).astype(int), arrows, strict=True):
         tens, ones = divmod(abs(int(step)), 10)
         for _ in range(tens):
-            qtbot.keyClick(picture, keys[step > 0], Qt.KeyboardModifier.ShiftModifier)
+            qtbot.keyClick(picture, keys[int(step > 0)], Qt.KeyboardModifier.ShiftModifier)
         for _ in range(ones):
-            qtbot.keyClick(picture, keys[step > 0])
+            qtbot.keyClick(picture, keys[int(step > 0)])
 
 
 class Marking:

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import ast
 import re
-import shutil
-import subprocess
-import sys
 import threading
 from datetime import date
 from functools import cache
@@ -63,20 +60,24 @@ def test_texts_are_literals_in_the_context_of_their_place_with_named_places_for_
     assert wrong == []
 
 
+@pytest.fixture(scope="module")
+def extracted(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """All texts of the sources, as ``make translations`` has Qt's tool find them, none of them translated."""
+    path = tmp_path_factory.mktemp("texts") / "xx.ts"
+    translations.update(path, "de_CH")
+    return path
+
+
 @SOURCES
 def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
-    qtbot: QtBot, theme: Theme, tmp_path: Path
+    qtbot: QtBot, theme: Theme, extracted: Path, tmp_path: Path
 ) -> None:
-    """All texts are extracted, given another language, compiled, installed, and read back from the program."""
-    tools = Path(sys.executable).parent
+    """All texts are given another language, compiled, installed, and read back from the program."""
     source, compiled = tmp_path / "xx.ts", tmp_path / "xx.qm"
-    for tool in ("pyside6-lupdate", "pyside6-lrelease"):
-        assert shutil.which(str(tools / tool)), f"{tool} is part of PySide6"
-    files = [str(path) for path in UI]
-    subprocess.run([str(tools / "pyside6-lupdate"), *files, "-ts", str(source)], check=True, capture_output=True)
-    text = source.read_text(encoding="utf-8")
-    count = sum(len(tr_calls(path)) for path in UI)
-    assert text.count("<source>") > 0.7 * count  # the same text twice in one context is one entry
+    text = extracted.read_text(encoding="utf-8")
+    assert text.count("<source>") > 0.7 * sum(
+        len(tr_calls(path)) for path in UI
+    )  # one text in one context is one entry
     text = re.sub(
         r"<source>(.*?)</source>\s*<translation type=\"unfinished\"></translation>",
         lambda found: f"<source>{found[1]}</source><translation>¡{found[1]}</translation>",
@@ -84,8 +85,7 @@ def test_a_translation_made_by_qt_s_tools_reaches_widgets_and_functions(
         flags=re.S,
     )
     source.write_text(text, encoding="utf-8")
-    command = [str(tools / "pyside6-lrelease"), str(source), "-qm", str(compiled)]
-    subprocess.run(command, check=True, capture_output=True)
+    translations.release(source, compiled)
     translator = QTranslator()
     assert translator.load(str(compiled))
     texts = language.texts_in(source.read_bytes())
@@ -144,14 +144,13 @@ def test_days_are_named_in_the_language_where_the_computer_has_them_in_another(m
 
 
 @pytest.mark.parametrize("code", [code for code in language.LANGUAGES if code != "en"])
-def test_every_text_is_translated_with_the_same_places_and_no_key_twice(code: str, tmp_path: Path) -> None:
-    """Looked up in a copy that Qt's tool has brought up to date with the sources, as ``make translations`` does."""
+def test_every_text_is_translated_with_the_same_places_and_no_key_twice(code: str, extracted: Path) -> None:
     kept = ROOT / "resources" / "translations" / f"carpus_{code}.ts"
-    copy = tmp_path / kept.name
-    shutil.copy(kept, copy)
-    translations.update(copy, translations.LANGUAGES[code])
-    assert translations.missing(copy) == []
-    texts = language.texts_in(copy.read_bytes())
+    texts = language.texts_in(kept.read_bytes())
+    unfinished = set(translations.missing(kept))
+    said_in_sources = translations.missing(extracted)
+    assert len(said_in_sources) > 1000
+    assert [key for key in said_in_sources if key not in texts or key in unfinished] == []
     places = re.compile(r"\{[^}]*\}")
     for (context, text), said in texts.items():
         assert sorted(places.findall(text)) == sorted(places.findall(said)), (context, text, said)

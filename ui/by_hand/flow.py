@@ -26,7 +26,7 @@ class ByHandFlow(Flow):
         super().__init__(context, ByHandScreen(context.theme, context.today))
         self._aside: dict[str, Sequence[HandValue]] = {}
         self.screen.save.connect(self._ask_to_save)
-        self.screen.done.connect(self.up)
+        self.screen.cancel.clicked.connect(self.up)
 
     def show(self) -> None:
         """The form of the patient who is open, for today; with what was written and not kept, if it was left so."""

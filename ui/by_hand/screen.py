@@ -40,10 +40,9 @@ class HandRecord:
 
 
 class ByHandScreen(Fitted):
-    """``save`` carries what is to be entered and words of what is unusual in it; ``done`` leaves."""
+    """``save`` carries what is to be entered and words of what is unusual in it."""
 
     save = Signal(object, object)
-    done = Signal()
 
     def __init__(self, theme: Theme, today_is: Callable[[], date]) -> None:
         super().__init__()
@@ -80,7 +79,6 @@ class ByHandScreen(Fitted):
         self.form.chosen.connect(self._show_course)
         self.more.activated.connect(self._add)
         self.save_button.clicked.connect(self._save)
-        self.cancel.clicked.connect(self.done)
         for keys in ("Ctrl+Return", "Ctrl+Enter"):
             QShortcut(QKeySequence(keys), self, self.save_button.click)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)

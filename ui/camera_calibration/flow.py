@@ -44,15 +44,15 @@ class BoardFlow(AtCameraFlow):
             screen.beginning.offer_simulated()
         camera = context.camera
         camera.when_looked(lambda: screen.beginning.set_camera_there(camera.there))
-        screen.beginning.begun.connect(self._choose)
-        screen.beginning.printed.connect(self._print_board)
+        screen.beginning.begin_button.clicked.connect(self._choose)
+        screen.beginning.print_button.clicked.connect(self._print_board)
         screen.showing.take.connect(lambda: self._gathering and self._gathering.take())
         screen.showing.undo.connect(lambda: self._gathering and self._gathering.undo())
-        screen.showing.work_out.connect(self._work_out)
-        screen.showing.leave.connect(self.back)
-        screen.result.use.connect(self._use)
-        screen.result.again.connect(self.begin)
-        screen.result.page.connect(self._write_page)
+        screen.showing.primary.clicked.connect(self._work_out)
+        screen.showing.leave_button.clicked.connect(self.back)
+        screen.result.use_button.clicked.connect(self._use)
+        screen.result.again_button.clicked.connect(self.begin)
+        screen.result.page_button.clicked.connect(self._write_page)
 
     # --- the way ------------------------------------------------------------------------------------------
     def title(self) -> str:
@@ -83,7 +83,8 @@ class BoardFlow(AtCameraFlow):
         self._gathering, self._working = None, False
 
     # --- printing -----------------------------------------------------------------------------------------
-    def _print_board(self, choice: BoardChoice) -> None:
+    def _print_board(self) -> None:
+        choice = self.screen.beginning.choice
         sheet = board_sheet(BoardChoice(choice.pattern, choice.paper).board, choice.paper)
         name, title = f"carpus-{choice.pattern}-{choice.paper}.pdf", self.tr("Save the board to print")
         self.save_page(name, title, lambda part: write_sheets(part, [sheet], "Carpus camera board"))
@@ -95,8 +96,8 @@ class BoardFlow(AtCameraFlow):
             self.save_page(name, title, lambda part: write_calibration_page(part, result, when))
 
     # --- showing ------------------------------------------------------------------------------------------
-    def _choose(self, choice: BoardChoice) -> None:
-        self._choice = choice
+    def _choose(self) -> None:
+        self._choice = self.screen.beginning.choice
         self.begin()
 
     def begin(self) -> None:

@@ -99,10 +99,7 @@ MOST_WIDE_PX = 900
 
 
 class BoardBeginning(QWidget):
-    """``begun`` and ``printed`` carry the :class:`BoardChoice`."""
-
-    begun = Signal(object)
-    printed = Signal(object)
+    """What is chosen before the board is shown."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -132,8 +129,6 @@ class BoardBeginning(QWidget):
         self.camera_words = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.begin_button = Button(theme, self.tr("Begin"), "primary", icon="camera", hint=ENTER)
         self._lay_out()
-        self.print_button.clicked.connect(lambda: self.printed.emit(self.choice))
-        self.begin_button.clicked.connect(lambda: self.begun.emit(self.choice))
         self.camera.chosen.connect(lambda _: self._show_camera())
         self._camera_there = False
         theme.changed.connect(self._fit)
@@ -225,11 +220,7 @@ class BoardBeginning(QWidget):
 
 
 class BoardResultView(Fitted):
-    """``use`` it, take the pictures ``again``, ``page`` asks for the one-page PDF."""
-
-    use = Signal()
-    again = Signal()
-    page = Signal()
+    """What was found, to be used, printed, or made again."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -244,9 +235,6 @@ class BoardResultView(Fitted):
         self._table, self._effect = Card(theme, 20), Card(theme, 20)
         self._next = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self._lay_out()
-        self.use_button.clicked.connect(self.use)
-        self.again_button.clicked.connect(self.again)
-        self.page_button.clicked.connect(self.page)
 
     def _lay_out(self) -> None:
         theme = self._theme

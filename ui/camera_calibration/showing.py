@@ -38,12 +38,10 @@ CHECKS = 5
 
 
 class BoardShowing(Fitted):
-    """``take`` a picture by hand, ``undo`` the last one, ``work_out`` the calibration, ``leave`` it."""
+    """``take`` a picture by hand, ``undo`` the last one."""
 
     take = Signal()
     undo = Signal()
-    work_out = Signal()
-    leave = Signal()
 
     def __init__(self, theme: Theme, keys: Keys) -> None:
         super().__init__()
@@ -68,9 +66,7 @@ class BoardShowing(Fitted):
         self.bar = ThinBar(theme, self.tr("How far it is"))
         self._keys = KeyCaps(theme, [(keys["accept"], self.tr("take this picture")), (keys["undo"], self.tr("undo"))])
         self._lay_out()
-        self.primary.clicked.connect(self.work_out)
         self.undo_button.clicked.connect(self.undo)
-        self.leave_button.clicked.connect(self.leave)
         bind(self.picture, keys, "accept", self.take.emit)
         bind(self, keys, "undo", self.undo.emit)
         theme.changed.connect(self._fit)

@@ -40,12 +40,12 @@ class CardFlow(AtCameraFlow):
         self.hand.lost.connect(screen.show_lost)
         context.camera.when_looked(lambda: screen.set_camera_there(context.camera.there))
         screen.camera.setHidden(context.is_demo)
-        screen.camera_chosen.connect(self._choose_camera)
-        screen.check.connect(self.begin)
-        screen.leave.connect(self.back)
-        screen.print_card.connect(self._print_card)
-        screen.page.connect(self._write_page)
-        screen.calibrate.connect(lambda: context.way.show("board"))
+        screen.camera.chosen.connect(self._choose_camera)
+        screen.check_button.clicked.connect(self.begin)
+        screen.leave_button.clicked.connect(self.back)
+        screen.print_button.clicked.connect(self._print_card)
+        screen.page_button.clicked.connect(self._write_page)
+        screen.calibrate_button.clicked.connect(lambda: context.way.show("board"))
 
     # --- the way ------------------------------------------------------------------------------------------
     def title(self) -> str:
@@ -151,7 +151,8 @@ class CardFlow(AtCameraFlow):
         self.run(keep, kept, self._failed)
 
     # --- paper --------------------------------------------------------------------------------------------
-    def _print_card(self, paper: str) -> None:
+    def _print_card(self) -> None:
+        paper = self.screen.paper.value()
         sheets = card_sheets(next(one for one in PAPER_MM if one == paper))
         name, title = f"carpus-check-card-{paper}.pdf", self.tr("Save the card to print")
         self.save_page(name, title, lambda part: write_sheets(part, sheets, "Carpus check card"))

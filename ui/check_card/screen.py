@@ -41,16 +41,8 @@ MOST_PX = 16777215
 
 
 class CardScreen(Fitted):
-    """``camera_chosen`` carries whether the simulated camera is meant; ``check`` begins, ``leave`` ends one;
-    ``print_card`` and ``page`` ask for PDFs, ``calibrate`` for the screen of the board.
-    ``turned`` when another camera's checks are shown."""
+    """``turned`` when another camera's checks are shown; what its buttons do is the flow's affair."""
 
-    camera_chosen = Signal(bool)
-    check = Signal()
-    leave = Signal()
-    print_card = Signal(str)
-    page = Signal()
-    calibrate = Signal()
     turned = Signal()
 
     def __init__(self, theme: Theme, keys: Keys) -> None:
@@ -84,12 +76,6 @@ class CardScreen(Fitted):
             self._parts.addWidget(part)
         in_column(self._parts, margins=(0, 0, 0, 0), within=self)
         self.name_sheet = CameraNameSheet(self, theme)
-        self.camera.chosen.connect(lambda practice: self.camera_chosen.emit(bool(practice)))
-        self.check_button.clicked.connect(self.check)
-        self.print_button.clicked.connect(lambda: self.print_card.emit(str(self.paper.value())))
-        self.page_button.clicked.connect(self.page)
-        self.calibrate_button.clicked.connect(self.calibrate)
-        self.leave_button.clicked.connect(self.leave)
         bind(self.overview, keys, "report", self.page_button.click)
         theme.changed.connect(self._fit)
         self.show_checks(self.checks)

@@ -24,7 +24,7 @@ class ClinicFlow(Flow):
         screen = self.screen
         screen.week.connect(lambda day: self._read(day, screen.show_week))
         screen.patient.connect(lambda patient_id: context.way.show("patients", patient_id))
-        screen.page.connect(self._save)
+        screen.save.clicked.connect(self._save)
 
     def title(self) -> str:
         return self.tr("Clinic")

@@ -25,11 +25,10 @@ from carpus.ui.translate import inside, tr
 
 
 class ClinicScreen(QWidget):
-    """``week`` asks for the week of another day, ``patient`` carries whom to open, ``page`` asks for the page."""
+    """``week`` asks for the week of another day, ``patient`` carries whom to open."""
 
     week = Signal(object)
     patient = Signal(str)
-    page = Signal()
 
     def __init__(self, theme: Theme, keys: Keys) -> None:
         super().__init__()
@@ -47,7 +46,6 @@ class ClinicScreen(QWidget):
         self._lay_out()
         self.before.clicked.connect(lambda: self._turn(-7))
         self.after.clicked.connect(lambda: self._turn(7))
-        self.save.clicked.connect(self.page)
         self.due.opened.connect(self.patient)
         bind(self, keys, "report", self.save.click)
 

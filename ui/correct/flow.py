@@ -55,9 +55,9 @@ class CorrectFlow(Flow):
         self.screen.wanted.connect(self.start)
         self.screen.told.connect(context.messages.fault)
         self.screen.done.connect(context.way.back)
-        self.sheet.stop_wanted.connect(self.stop)
-        self.sheet.keep_wanted.connect(self._keep)
-        self.sheet.use_wanted.connect(self._use)
+        self.sheet.stop.clicked.connect(self.stop)
+        self.sheet.keep.clicked.connect(self._keep)
+        self.sheet.use.clicked.connect(self._use)
 
     @property
     def is_at_work(self) -> bool:

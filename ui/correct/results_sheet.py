@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QWidget
 
 from carpus.core.results.figures import SessionFigures
@@ -40,15 +39,11 @@ class BothResults:
 
 
 class ResultsSheet(Sheet):
-    """``stop_wanted`` ends the tracking; ``keep_wanted`` and ``use_wanted`` decide about the new result that is shown.
+    """``stop`` ends the tracking; ``keep`` and ``use`` decide about the new result that is shown.
 
     It is opened by hand only. The keyboard lies on the button that changes nothing, so that Enter, Space and Esc
     decide nothing.
     """
-
-    stop_wanted = Signal()
-    keep_wanted = Signal()
-    use_wanted = Signal()
 
     def __init__(self, host: QWidget, theme: Theme) -> None:
         super().__init__(host, theme, 980)
@@ -59,7 +54,7 @@ class ResultsSheet(Sheet):
         self.words = Text(theme, "", 14, REGULAR, wrap=True)
         self.bar = ThinBar(theme, self.tr("How far the tracking is"))
         self.legend = _legend(theme)
-        fingers: list[tuple[object, str]] = [(finger, finger_name(str(finger))) for finger in FINGERS]
+        fingers = [(finger, finger_name(str(finger))) for finger in FINGERS]
         self.finger = Choices(theme, [*fingers, (WRIST, self.tr("Wrist"))])
         self.finger.chosen.connect(lambda _: self._draw())
         self.curves = CurveView(theme)
@@ -68,9 +63,6 @@ class ResultsSheet(Sheet):
         self.keep = Button(theme, self.tr("&Keep the old one"), "plain", height_px=44)
         self.use = Button(theme, self.tr("&Use the new result"), "plain", height_px=44)
         self.later = Button(theme, "", "plain", height_px=44)
-        self.stop.clicked.connect(self.stop_wanted)
-        self.keep.clicked.connect(self.keep_wanted)
-        self.use.clicked.connect(self.use_wanted)
         self.later.clicked.connect(self.close_sheet)
         self.set_default(self.later)
         body = self.card.body

@@ -14,7 +14,7 @@ class HelpFlow(Flow):
 
     def __init__(self, context: ScreenContext) -> None:
         super().__init__(context, HelpScreen(context.theme, context.keys))
-        self.screen.done.connect(context.way.back)
+        self.screen.back.clicked.connect(context.way.back)
         self.screen.told.connect(context.messages.fault)
 
     def show(self) -> None:

@@ -30,11 +30,8 @@ def actions_by_key(keys: Keys) -> dict[str, list[str]]:
 
 
 class HelpScreen(QWidget):
-    """``done`` leads back to where the person was; ``told`` carries a fault of saving the cards; ``tour`` asks to be
-    led through a session."""
+    """``told`` carries a fault of saving the cards."""
 
-    done = Signal()
-    tour = Signal()
     told = Signal(object)
 
     def __init__(self, theme: Theme, keys: Keys) -> None:
@@ -44,11 +41,9 @@ class HelpScreen(QWidget):
         self.start_folder = ""
         """Where saving begins."""
         self.back = Button(theme, self.tr("Back"), "primary", hint=self.tr("Esc"))
-        self.back.clicked.connect(self.done)
         self.cards_button = Button(theme, self.tr("Cards to print…"), icon="download")
         self.cards_button.clicked.connect(self._ask_cards)
         self.tour_button = Button(theme, self.tr("Show me around"), icon="arrow-right")
-        self.tour_button.clicked.connect(self.tour)
         self.text = _GuidePage(theme)
         self.text.wanted.connect(self.show_page)
         self.pages: dict[str, Button] = {}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from datetime import date
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
@@ -29,13 +29,6 @@ RECALL_BY_GUIDE_FROM_PX = 440
 
 class PatientCardView(Card):
     """Right column of the first screen."""
-
-    start = Signal()
-    change = Signal()
-    review = Signal()
-    progress = Signal()
-    sessions = Signal()
-    edit = Signal()
 
     def __init__(self, theme: Theme, today: Callable[[], date]) -> None:
         super().__init__(theme, 24)
@@ -61,12 +54,6 @@ class PatientCardView(Card):
         self.progress_button = Button(theme, self.tr("&Progress"))
         self.sessions_button = Button(theme, self.tr("All &sessions"))
         self._lay_out()
-        for button, signal in (
-            (self.start_button, self.start), (self.change_button, self.change),
-            (self.review_button, self.review), (self.progress_button, self.progress),
-            (self.sessions_button, self.sessions), (self.edit_button, self.edit),
-        ):  # fmt: skip
-            button.clicked.connect(signal)
         self.bubble.changed.connect(self._make_room)
 
     def _lay_out(self) -> None:

@@ -34,11 +34,10 @@ MONTH_FIRST = re.compile(r"(?:0?\d|1[0-2])\D+(?:1[3-9]|[2-9]\d)\D")
 
 
 class PatientForm(Sheet):
-    """Emits ``accepted`` with the entry; Enter in any line accepts, Esc closes. ``removal_wanted`` of a patient who is
-    in the list. The clinic's list of diagnoses is changed at once."""
+    """Emits ``accepted`` with the entry; Enter in any line accepts, Esc closes. The clinic's list of
+    diagnoses is changed at once."""
 
     accepted = Signal(PatientEntry)
-    removal_wanted = Signal()
 
     def __init__(self, host: QWidget, theme: Theme, store: StoredPatients, today: Callable[[], date]) -> None:
         super().__init__(host, theme, 740)
@@ -108,7 +107,6 @@ class PatientForm(Sheet):
 
     def _connect(self) -> None:
         self.remove.clicked.connect(self.close_sheet)
-        self.remove.clicked.connect(self.removal_wanted)
         self.save.clicked.connect(self._accept)
         for chips in (self.side, self.dominance, self.onset):
             chips.chosen.connect(lambda _: self._judge())

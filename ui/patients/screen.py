@@ -36,8 +36,7 @@ LIST_KEYS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageD
 
 class PatientsScreen(QWidget):
     """Signals carry the patient's identity; ``start`` keeps the last set-up, ``set_up`` asks for another;
-    ``erase_wanted`` a patient to be archived or erased. ``archive_wanted`` asks for those who are in the
-    archive, ``clinic_wanted`` for the clinic's page."""
+    ``erase_wanted`` a patient to be archived or erased."""
 
     start = Signal(str)
     set_up = Signal(str)
@@ -45,8 +44,6 @@ class PatientsScreen(QWidget):
     progress = Signal(str)
     sessions = Signal(str)
     erase_wanted = Signal(str)
-    archive_wanted = Signal()
-    clinic_wanted = Signal()
 
     def __init__(self, theme: Theme, store: StoredPatients, today: Callable[[], date]) -> None:
         """``today`` is asked each time: the program may stand open for days."""
@@ -116,19 +113,17 @@ class PatientsScreen(QWidget):
         self.list.installEventFilter(self)
         self.search.textChanged.connect(lambda: self._filter(self._chosen_id()))
         self.new_button.clicked.connect(self.new_patient)
-        self._nobody.create_wanted.connect(lambda: self.new_patient(self.search.text()))
+        self._nobody.button.clicked.connect(lambda: self.new_patient(self.search.text()))
         self.list.selectionModel().currentChanged.connect(self._show_chosen)
         self.list.doubleClicked.connect(lambda: self._start())
-        self.card.start.connect(self._start)
-        self.card.change.connect(lambda: self.set_up.emit(self._chosen_id()))
-        self.card.review.connect(lambda: self.review.emit(self._chosen_id()))
-        self.card.progress.connect(lambda: self.progress.emit(self._chosen_id()))
-        self.card.sessions.connect(lambda: self.sessions.emit(self._chosen_id()))
-        self.card.edit.connect(lambda: self.change_patient(self._chosen_id()))
+        self.card.start_button.clicked.connect(self._start)
+        self.card.change_button.clicked.connect(lambda: self.set_up.emit(self._chosen_id()))
+        self.card.review_button.clicked.connect(lambda: self.review.emit(self._chosen_id()))
+        self.card.progress_button.clicked.connect(lambda: self.progress.emit(self._chosen_id()))
+        self.card.sessions_button.clicked.connect(lambda: self.sessions.emit(self._chosen_id()))
+        self.card.edit_button.clicked.connect(lambda: self.change_patient(self._chosen_id()))
         self.form.accepted.connect(self._store_entry)
-        self.archive_button.clicked.connect(self.archive_wanted)
-        self.clinic_button.clicked.connect(self.clinic_wanted)
-        self.form.removal_wanted.connect(lambda: self.erase_wanted.emit(self._changing))
+        self.form.remove.clicked.connect(lambda: self.erase_wanted.emit(self._changing))
 
     def look_at_day(self) -> None:
         """After midnight another day stands here, and everything is a day longer ago."""
@@ -250,15 +245,12 @@ class PatientsScreen(QWidget):
 class _Nobody(QWidget):
     """What stands in place of an empty list."""
 
-    create_wanted = Signal()
-
     def __init__(self, theme: Theme) -> None:
         super().__init__()
         row = in_line(margins=(20, 24, 20, 24), within=self)
         self._words = Text(theme, "", 16, MEDIUM, wrap=True)
         self.button = Button(theme, "", icon="plus")
         fill(row, (self._words, 1), self.button)
-        self.button.clicked.connect(self.create_wanted)
 
     def show_for(self, search: str, register_empty: bool, rows_shown: bool) -> None:
         self.setVisible(register_empty or not rows_shown)

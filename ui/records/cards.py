@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from carpus.ui.controls.button import Button
@@ -35,13 +35,6 @@ class BackupFacts:
 class BackupCard(Card):
     """State first, then where and when."""
 
-    back_up = Signal()
-    restore = Signal()
-    place_wanted = Signal()
-    hour_chosen = Signal(int)
-    seal = Signal()
-    unseal = Signal()
-
     def __init__(self, theme: Theme, hour: int) -> None:
         super().__init__(theme, 24)
         self.body.addWidget(Text(theme, self.tr("Back-up"), 20, SEMIBOLD))
@@ -68,12 +61,6 @@ class BackupCard(Card):
             hour,
         )
         self._lay_out(theme)
-        for button, signal in (
-            (self.now_button, self.back_up), (self.restore_button, self.restore), (self.seal_button, self.seal),
-            (self.unseal_button, self.unseal), (self.place_button, self.place_wanted),
-        ):  # fmt: skip
-            button.clicked.connect(signal)
-        self.hours.chosen.connect(lambda hour: self.hour_chosen.emit(hour))
 
     def _lay_out(self, theme: Theme) -> None:
         texts = in_column(self.headline, self.detail, self.more, gap=2)
@@ -130,9 +117,6 @@ class BackupCard(Card):
 class LockCard(Card):
     """When it locks by itself, and the PIN."""
 
-    pin_wanted = Signal()
-    minutes_chosen = Signal(int)
-
     def __init__(self, theme: Theme, minutes: int, key: str) -> None:
         super().__init__(theme, 24)
         self.body.addWidget(Text(theme, self.tr("Lock"), 20, SEMIBOLD))
@@ -169,8 +153,6 @@ class LockCard(Card):
                 gap=20,
             )
         )
-        self.pin_button.clicked.connect(self.pin_wanted)
-        self.minutes.chosen.connect(lambda minutes: self.minutes_chosen.emit(minutes))
 
     def show_disk(self, state: State, words: str, remedy: str) -> None:
         """Whether the disk is encrypted, which is what protects the files."""
@@ -186,11 +168,6 @@ class LockCard(Card):
 class RecordsCard(Card):
     """How long records are kept, what is due, what is archived, and the log."""
 
-    years_chosen = Signal(int)
-    due_wanted = Signal()
-    archive_wanted = Signal()
-    log_wanted = Signal()
-
     def __init__(self, theme: Theme, years: int, choices: Sequence[int]) -> None:
         super().__init__(theme, 24)
         self.body.addWidget(Text(theme, self.tr("Records"), 20, SEMIBOLD))
@@ -204,10 +181,6 @@ class RecordsCard(Card):
         self.archive_button = Button(theme, self.tr("&Archive…"), icon="archive", height_px=40)
         self.log_button = Button(theme, self.tr("&Log…"), icon="file-text", height_px=40)
         fill(self.body, self.years, 4, in_line(self.due_button, self.archive_button, self.log_button, STRETCH, gap=12))
-        self.years.chosen.connect(lambda years: self.years_chosen.emit(years))
-        self.due_button.clicked.connect(self.due_wanted)
-        self.archive_button.clicked.connect(self.archive_wanted)
-        self.log_button.clicked.connect(self.log_wanted)
 
 
 def _row(theme: Theme, name: str, *widgets: QWidget) -> QHBoxLayout:

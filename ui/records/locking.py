@@ -54,8 +54,8 @@ class Locking(QObject):
         self.pin_sheet = PinSheet(shell.stage, theme)
         self.pin_sheet.chosen.connect(self._change_pin)
         self.card = LockCard(theme, minutes, key)
-        self.card.pin_wanted.connect(lambda: self.pin_sheet.begin(is_set=self.pin.is_set))
-        self.card.minutes_chosen.connect(self._take_minutes)
+        self.card.pin_button.clicked.connect(lambda: self.pin_sheet.begin(is_set=self.pin.is_set))
+        self.card.minutes.chosen.connect(self._take_minutes)
         self.card.show_pin(is_set=self.pin.is_set)
         self._background = Background()  # the system may take a second or two to answer
         folder = library.folder

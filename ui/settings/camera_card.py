@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal
-
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import STRETCH, fill, in_line
@@ -13,10 +11,7 @@ from carpus.ui.theme import Theme
 
 
 class CameraCard(Card):
-    """``calibrate`` leads to the board, ``check`` to the check card."""
-
-    calibrate = Signal()
-    check = Signal()
+    """How far the camera is to be trusted; its buttons lead to the check card and to the board."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 24)
@@ -37,8 +32,6 @@ class CameraCard(Card):
         self.calibrate_button = Button(theme, self.tr("Cali&brate the camera…"), height_px=40)
         fill(buttons, self.check_button, self.calibrate_button, STRETCH)
         self.body.addLayout(buttons)
-        self.check_button.clicked.connect(self.check)
-        self.calibrate_button.clicked.connect(self.calibrate)
 
     def show_standing(self, state: State, words: str) -> None:
         sign = Sign(self._theme, state)

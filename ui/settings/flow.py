@@ -26,7 +26,7 @@ class SettingsFlow(Flow):
     def __init__(self, context: ScreenContext, chosen: Preferences, measured: ErrorLimits, updates: str) -> None:
         super().__init__(context, SettingsScreen(context.theme, chosen, context.version, measured))
         self._updates, self._background = updates, Background()
-        self.screen.done.connect(context.way.back)
+        self.screen.back.clicked.connect(context.way.back)
         self.screen.licences.clicked.connect(lambda: LicencesWindow(self.screen, context.theme, licence_texts()).exec())
 
     def show(self, part: PartName | None = None) -> None:

@@ -40,12 +40,9 @@ PartName = Literal["camera", "measuring", "report", "safety", "looks", "keys", "
 
 
 class SettingsScreen(QWidget):
-    """``changed`` carries the whole :class:`Preferences`; ``done`` leads back; ``retest_wanted`` to the clinic's own
-    limits."""
+    """``changed`` carries the whole :class:`Preferences`."""
 
     changed = Signal(Preferences)
-    done = Signal()
-    retest_wanted = Signal()
 
     def __init__(
         self, theme: Theme, preferences: Preferences, version: str = "", measured: ErrorLimits = DEFAULT_LIMITS
@@ -307,8 +304,6 @@ class SettingsScreen(QWidget):
         self.agreement.editingFinished.connect(self._take_agreement)
         self.folder_button.clicked.connect(self.ask_folder)
         self.keys_card.changed.connect(lambda keys: self._change(replace(self.preferences, keys=keys)))
-        self.retest.clicked.connect(self.retest_wanted)
-        self.back.clicked.connect(self.done)
 
     def show_newest(self, folder: str, newest: str | None) -> None:
         """What lies in the folder of packages that the clinic named: a version, empty for none, None where it cannot be

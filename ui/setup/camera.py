@@ -7,7 +7,6 @@ from pathlib import Path
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFileDialog, QProgressBar, QWidget
 
-from carpus.core.hand.exercises import Exercise
 from carpus.core.records.set_up import SetUp
 from carpus.ui.controls.button import ENTER, Button
 from carpus.ui.controls.card import Card
@@ -99,7 +98,7 @@ class CameraScreen(QWidget):
         """Ask for the source of this set; a recording chosen for another patient is forgotten."""
         if set_up.patient_id != self._patient_id:
             self._patient_id, self._path = set_up.patient_id, ""
-        self._show_exercise(set_up.exercise)
+        self.position.setText(say(set_up.exercise.position))
         self.show_opening(False)
         self.sources.choose(kind)
         self._show()
@@ -139,9 +138,6 @@ class CameraScreen(QWidget):
         self.progress.setRange(0, total)
         self.progress.setValue(done)
 
-    def _show_exercise(self, exercise: Exercise) -> None:
-        self.position.setText(say(exercise.position))
-
     def _show(self, *_: object) -> None:
         there = self._camera_there
         if not self._is_demo:
@@ -178,16 +174,17 @@ class CameraScreen(QWidget):
 
     def _ask_file(self) -> None:
         kinds = self.tr("Recordings ({patterns});;All files (*)").format(patterns=PATTERNS)
-        start = str(Path(self._path).parent) if self._path else self.start_folder
-        path, _ = QFileDialog.getOpenFileName(self, self.tr("Choose a recording"), start, kinds)
-        if path:
-            self.picked.emit(path)
-            self.set_path(path)
-            self.first().setFocus(Qt.FocusReason.OtherFocusReason)
+        path, _ = QFileDialog.getOpenFileName(self, self.tr("Choose a recording"), self._start(), kinds)
+        self._take_path(path)
 
     def _ask_folder(self) -> None:
-        start = str(Path(self._path).parent) if self._path else self.start_folder
-        path = QFileDialog.getExistingDirectory(self, self.tr("Choose a folder of pictures"), start)
+        title = self.tr("Choose a folder of pictures")
+        self._take_path(QFileDialog.getExistingDirectory(self, title, self._start()))
+
+    def _start(self) -> str:
+        return str(Path(self._path).parent) if self._path else self.start_folder
+
+    def _take_path(self, path: str) -> None:
         if path:
             self.picked.emit(path)
             self.set_path(path)

@@ -35,8 +35,6 @@ class ExerciseScreen(QWidget):
     """``ready`` carries the :class:`SetUp`."""
 
     ready = Signal(object)
-    sets_wanted = Signal()
-    """A person makes or changes sets of exercises."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__()
@@ -45,14 +43,13 @@ class ExerciseScreen(QWidget):
         self._goals: Goals = {}
         self._history: tuple[SessionFigures, ...] = ()
         self._proposed: tuple[GoalProposal, ...] = ()
-        protocols: list[tuple[object, str]] = [(one.name, terms.protocol_name(one)) for one in PROTOCOLS]
-        self.protocol = Choices(theme, protocols)
+        self.protocol = Choices(theme, [(one.name, terms.protocol_name(one)) for one in PROTOCOLS])
         self._sets: tuple[ExerciseSet, ...] = ()
-        self.lists = {one.name: _exercises_of(theme, one, ()) for one in PROTOCOLS}
+        self.lists: dict[str, Options] = {}
         self._offered = QVBoxLayout()
+        self._offer()
         self.sets_button = Button(theme, self.tr("Sets of exercises…"), "plain", height_px=40)
-        sides: list[tuple[object, str]] = [("right", terms.side_name("right")), ("left", terms.side_name("left"))]
-        self.side = Choices(theme, sides)
+        self.side = Choices(theme, [(side, terms.side_name(side)) for side in ("right", "left")])
         self.repetitions = number_field(theme, MOST_REPETITIONS, nothing=self.tr("none"))
         self.targets = tuple(DegreesField(theme, MOST_TARGET_DEG, self.tr("no target")) for _ in range(2))
         self.problem = Text(theme, "", 14, token="bad", wrap=True)
@@ -60,21 +57,13 @@ class ExerciseScreen(QWidget):
         self.accept = Button(theme, self.tr("Use as targets"), "plain", height_px=36)
         self._target_fields = tuple(Labelled(theme, "", field) for field in self.targets)
         self._target_names = tuple(_caption(field) for field in self._target_fields)
-        ends: list[tuple[object, str]] = [
-            (False, self.tr("Inferred")),
-            (True, self.tr("Measured")),
-        ]
-        self.ends = Choices(theme, ends)
+        self.ends = Choices(theme, [(False, self.tr("Inferred")), (True, self.tr("Measured"))])
         self._ends_field = Labelled(theme, self.tr("End joints of the fingers"), self.ends)
         self.view = Text(theme, "", 14, token="text2", wrap=True)
-        audiences: list[tuple[object, str]] = [(False, self.tr("Adult")), (True, self.tr("Child"))]
-        self.audience = Choices(theme, audiences)
-        keep: list[tuple[object, str]] = [(False, self.tr("No")), (True, self.tr("Yes"))]
-        self.pictures = Choices(theme, keep)
+        self.audience = Choices(theme, [(False, self.tr("Adult")), (True, self.tr("Child"))])
+        self.pictures = Choices(theme, [(False, self.tr("No")), (True, self.tr("Yes"))])
         self.primary = Button(theme, self.tr("Next: the camera"), "primary", icon="arrow-right", hint=ENTER)
         self._lay_out()
-        self._listen()
-        self.sets_button.clicked.connect(self.sets_wanted)
         self.protocol.chosen.connect(self._show_protocol)
         self.primary.clicked.connect(self._go_on)
         self.side.chosen.connect(lambda _: self._show_side())
@@ -88,8 +77,6 @@ class ExerciseScreen(QWidget):
     def _lay_out(self) -> None:
         theme = self._theme
         left = in_column(heading(theme, self.tr("Which exercise?")), self.protocol, gap=16)
-        for options in self.lists.values():
-            self._offered.addWidget(options, 1)
         fill(left, (scrolled(self._offered), 1), (self.sets_button, 0, Qt.AlignmentFlag.AlignLeft))
         self._card = Card(theme, 24)
         self._card.body.setSpacing(12)
@@ -111,8 +98,15 @@ class ExerciseScreen(QWidget):
         )
         columns.addWidget(self._card)
 
-    def _listen(self) -> None:
+    def _offer(self) -> None:
+        """A list for each set of discs: its exercises, then the sets of them."""
+        for old in self.lists.values():
+            self._offered.removeWidget(old)
+            old.hide()
+            old.deleteLater()
+        self.lists = {one.name: Options(self._theme, _rows(one, self._sets)) for one in PROTOCOLS}
         for options in self.lists.values():
+            self._offered.addWidget(options, 1)
             options.chosen.connect(self._show_exercise)
             options.accepted.connect(self._go_on)
 
@@ -121,14 +115,7 @@ class ExerciseScreen(QWidget):
         chosen = _set_id(chosen_id) if chosen_id else self.exercises.value()
         count = self.repetitions.value()
         self._sets = tuple(sets)
-        for options in self.lists.values():
-            self._offered.removeWidget(options)
-            options.hide()
-            options.deleteLater()
-        self.lists = {one.name: _exercises_of(self._theme, one, self._sets) for one in PROTOCOLS}
-        for options in self.lists.values():
-            self._offered.addWidget(options, 1)
-        self._listen()
+        self._offer()
         known = [name for name, _, _ in _rows(protocol_named(str(self.protocol.value())), self._sets)]
         if chosen in known:
             self.exercises.choose(chosen)
@@ -237,15 +224,14 @@ class ExerciseScreen(QWidget):
         for number, (field, name) in enumerate(zip(self._target_fields, self._target_names, strict=True)):
             field.setVisible(exercise.angle is not None or (bool(exercise.joint) and number == 0))
             if exercise.joint and number == 0:
-                words = self.tr("Target, {movement}").format(movement=inside(figure_of(exercise.joint).long_name))
-                name.setText(words)
-                self.targets[number].setAccessibleName(words)
+                movement = figure_of(exercise.joint).long_name
             elif exercise.angle is not None:
-                words = self.tr("Target, {movement}").format(
-                    movement=inside(terms.movement_name(SIDES[exercise.angle][number]))
-                )
-                name.setText(words)
-                self.targets[number].setAccessibleName(words)
+                movement = terms.movement_name(SIDES[exercise.angle][number])
+            else:
+                continue
+            words = self.tr("Target, {movement}").format(movement=inside(movement))
+            name.setText(words)
+            self.targets[number].setAccessibleName(words)
         if exercise.counts:
             self.repetitions.setValue(exercise.repetitions)
         self._show_goals()
@@ -327,10 +313,6 @@ class ExerciseScreen(QWidget):
 
 def _caption(field: Labelled) -> Text:
     return next(child for child in field.findChildren(Text))
-
-
-def _exercises_of(theme: Theme, protocol: MarkerProtocol, sets: Sequence[ExerciseSet]) -> Options:
-    return Options(theme, _rows(protocol, sets))
 
 
 def _rows(protocol: MarkerProtocol, sets: Sequence[ExerciseSet]) -> list[tuple[str, str, str]]:

@@ -36,7 +36,7 @@ class ExerciseFlow(Flow):
         self.sheet = SetSheet(context.shell.stage, context.theme)
         self.sets: tuple[ExerciseSet, ...] = ()
         self.sheet.kept.connect(self._keep_sets)
-        self.screen.sets_wanted.connect(self._open_sets)
+        self.screen.sets_button.clicked.connect(self._open_sets)
         self.screen.ready.connect(self._go_on)
         self.look_for_sets()
 

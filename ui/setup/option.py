@@ -15,7 +15,9 @@ from carpus.ui.theme import Theme
 
 
 class Option(QPushButton):
-    """One of several; ``state`` puts a state icon with its word at the right."""
+    """One of several; ``accepted`` when Enter goes on with what is chosen."""
+
+    accepted = Signal()
 
     def __init__(self, theme: Theme, name: str, sentence: str) -> None:
         super().__init__()
@@ -50,6 +52,13 @@ class Option(QPushButton):
     def state_words(self) -> str:
         return self._state.text()
 
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Qt's group moves the choice with the arrows."""
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.accepted.emit()
+        else:
+            super().keyPressEvent(event)
+
     def heightForWidth(self, width: int) -> int:
         layout = self.layout()
         return layout.totalHeightForWidth(width) if layout is not None else -1
@@ -73,7 +82,7 @@ class Options(QWidget):
         self._group = QButtonGroup(self)
         self._values: list[object] = []
         for number, (value, name, sentence) in enumerate(options):
-            option = _Option(theme, name, sentence)
+            option = Option(theme, name, sentence)
             option.accepted.connect(self.accepted)
             self._group.addButton(option, number)
             self._values.append(value)
@@ -93,14 +102,3 @@ class Options(QWidget):
 
     def current(self) -> Option:
         return self._group.checkedButton()  # type: ignore[return-value]
-
-
-class _Option(Option):
-    accepted = Signal()
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Enter goes on with what is chosen; Qt's group moves the choice with the arrows."""
-        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-            self.accepted.emit()
-        else:
-            super().keyPressEvent(event)

@@ -21,7 +21,7 @@ TAIL_IN_PX = 96
 
 
 class BubbleView(QWidget):
-    """Hidden until there is something to say. ``next`` and ``leave`` are its two ways on.
+    """Hidden until there is something to say.
 
     ``wide``: all in one line, pointing at what lies below its right end; else a column that points at what lies below
     its middle. ``keys``: whether Tab stops here; not where the space bar must always reach the screen.
@@ -29,8 +29,6 @@ class BubbleView(QWidget):
 
     changed = Signal()
     """It came or went: what lies about it has other room."""
-    next = Signal()
-    leave = Signal()
 
     def __init__(self, theme: Theme, *, wide: bool = False, keys: bool = True) -> None:
         super().__init__()
@@ -43,8 +41,6 @@ class BubbleView(QWidget):
         self.leave_button = Button(theme, self.tr("Leave the guide"), "quiet", hint=self.tr("Esc"), height_px=36)
         for button in (self.next_button, self.leave_button):
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus if keys else Qt.FocusPolicy.NoFocus)
-        self.next_button.clicked.connect(self.next)
-        self.leave_button.clicked.connect(self.leave)
         foot = in_line(gap=4)
         whole = QHBoxLayout(self) if wide else QVBoxLayout(self)
         if wide:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from carpus.core.purpose import PURPOSE
@@ -38,14 +38,7 @@ def purpose_lines() -> str:
 
 
 class WelcomePanel(Card):
-    """``tour`` asks to be led through a first session, ``later`` for none of this any more, ``again`` for another look
-    at the computer, ``folder`` for another place of the data, ``close_wanted`` for the end of the program."""
-
-    tour = Signal()
-    later = Signal()
-    again = Signal()
-    folder = Signal()
-    close_wanted = Signal()
+    """What Carpus is, how this computer stands, and the offer to be led through a first session."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 0)
@@ -63,13 +56,11 @@ class WelcomePanel(Card):
         self.later_button = Button(theme, self.tr("Not now"), "quiet", hint=self.tr("Esc"))
         self._rows = in_column(gap=4)
         self._lay_out()
-        for button, signal in (
-            (self.tour_button, self.tour), (self.later_button, self.later), (self.again_button, self.again),
-            (self.folder_button, self.folder), (self.close_button, self.close_wanted),
+        for button in (
+            self.tour_button, self.later_button, self.again_button, self.folder_button, self.close_button,
+            self.details_button,
         ):  # fmt: skip
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves the keyboard with the search
-            button.clicked.connect(signal)
-        self.details_button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.details_button.toggled.connect(self._fold)
         self.show_looking()
         self.show_folder("", counts_later=False)
