@@ -22,6 +22,11 @@ REPEATED_FLEXION = RecordingSpec(seed=4, motion="flexion", seconds=2.5, speed_hz
 DEVIATION = RecordingSpec(seed=1, motion="deviation", seconds=1.0, speed_hz=1.2)
 LEFT_DEVIATION = RecordingSpec(seed=5, motion="deviation", seconds=1.3, speed_hz=0.9, hand="left", distance_m=0.68)
 
+WHOLE_HAND = RecordingSpec(
+    seed=5, protocol="hand21", motion="fist", seconds=5.0, fps=15.0, speed_hz=0.6, repetitions=2, range_share=0.5,
+    hand_length_mm=192.0, skin_tone=1, light="bright", sleeve="grey", distance_m=0.64, click_error_px=1.0,
+)  # fmt: skip
+
 
 def truth_in(spec: RecordingSpec, folder: Path) -> Truth:
     """The true values of a recording made earlier from the same spec."""

@@ -127,19 +127,19 @@ PAIRS = list(combinations(range(6), 2))
 
 
 @pytest.mark.parametrize(
-    ("pair", "side"), [*((pair, "right") for pair in PAIRS), *((pair, "left") for pair in PAIRS[::3])]
+    ("pair", "side"), [*((pair, "right") for pair in PAIRS[::4]), *((pair, "left") for pair in PAIRS[2::6])]
 )
 def test_two_swapped_clicks_are_named(pair: tuple[int, int], side: Side) -> None:
     scene = Scene(side)
     pixel = scene.discs_px.copy()
     pixel[list(pair)] = pixel[list(pair)][::-1]
-    verdict = outcome_of(scene, Clicks(side, WRIST6, pixel), still(scene, 5)).verdict
+    verdict = outcome_of(scene, Clicks(side, WRIST6, pixel), still(scene, 1)).verdict
     swaps = [finding for finding in verdict.findings if finding.kind == "swapped"]
     assert [set(finding.markers) for finding in swaps] == [{NAMES[pair[0]], NAMES[pair[1]]}]
     assert not any(finding.blocks for finding in verdict.findings), "it is told, and tracking may go on"
 
 
-@pytest.mark.parametrize("by", [1, -1, 2, 3])
+@pytest.mark.parametrize("by", [1, -2])
 @pytest.mark.parametrize("side", SIDES)
 def test_names_shifted_from_disc_to_disc_are_told_and_refused(side: Side, by: int) -> None:
     scene = Scene(side)

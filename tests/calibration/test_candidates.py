@@ -123,7 +123,7 @@ def test_a_dark_pullover_has_no_discs(seed: int, base: tuple[int, int, int]) -> 
     found = marker_candidates(cloth, camera, SETTINGS, OWN)
     assert len(found) <= 8  # it was all that is ever handed on, 48
     assert not (propose_names(found, camera, "right", HAND21, NamingSettings()).blob >= 0).any()
-    clicks = np.random.default_rng(seed).uniform((20, 20), (620, 460), (60, 2))
+    clicks = np.random.default_rng(seed).uniform((20, 20), (620, 460), (30, 2))
     assert sum(len(disc_at(cloth, click, camera, SETTINGS, OWN)) for click in clicks) <= 1
 
 

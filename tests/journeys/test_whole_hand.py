@@ -17,16 +17,11 @@ from carpus.core.pipeline.track import NOT_LOOKED_BACK, retrack_session
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import TRUTH_FILE
-from carpus.core.simulation.spec import RecordingSpec
 from tests.journeys.conftest import Open
 from tests.journeys.takes import clicks_of, take_of
 from tests.journeys.test_journey import at, click, reviewed, still_hand, wait
+from tests.rendered import WHOLE_HAND as SPEC
 from tests.rendered import Rendered
-
-SPEC = RecordingSpec(
-    seed=5, protocol="hand21", motion="fist", seconds=5.0, fps=15.0, speed_hz=0.6, repetitions=2, range_share=0.5,
-    hand_length_mm=192.0, skin_tone=1, light="bright", sleeve="grey", distance_m=0.64, click_error_px=1.0,
-)  # fmt: skip
 
 
 @pytest.fixture(scope="module")

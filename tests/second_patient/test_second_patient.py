@@ -20,13 +20,15 @@ from carpus.core.session.reader import read_session
 from tests.second_patient import recording
 from tests.second_patient.discs import NAMES, PALM, disc_points, full_bend
 from tests.second_patient.look import Look, color_of, depth_of, look_of
-from tests.second_patient.motions import ROWS, motion_of, row_named
+from tests.second_patient.motions import ROWS, Row, motion_of, row_named
 from tests.second_patient.patient import made_patient
 from tests.second_patient.recording import CLICKS_FILE, TRUTH_FILE, Take, kept_recording, recorded, take_of
 from tests.second_patient.sensor import COUNTS_PER_M, DISPARITY_PX_M, STEP_PX, exposed, read_depth, sensor_of
 from tests.second_patient.skeleton import Bone, placed_bones, rest_posture
 from tests.sources import ROOT, SOURCES, nodes
 
+pytestmark = pytest.mark.xdist_group("second patient")
+"""To grow a person costs more than all else that is done with one: each is grown once."""
 CUPPED = row_named("hand: power grip, cupped palm")
 
 
@@ -193,7 +195,7 @@ def test_grip_moves_metacarpals_4_and_5_and_never_the_fixed_unit(take: Take) -> 
     )
 
 
-@pytest.mark.parametrize("seed", [3, 4, 5])
+@pytest.mark.parametrize("seed", [3, 12, 13])
 def test_skin_glides_as_far_as_was_drawn_and_settles(seed: int) -> None:
     motion = motion_of("mixed", seed)
     patient = made_patient(seed, "right", motion.at(np.zeros(1)))
@@ -219,7 +221,7 @@ def test_skin_glides_as_far_as_was_drawn_and_settles(seed: int) -> None:
 
 
 def test_a_rigid_palm_is_rigid() -> None:
-    take = take_of(row_named("pro/supination, rigid palm"), 7)
+    take = take_of(row_named("pro/supination, rigid palm"), 12)
     disc = take.truth.disc_position_cam_m
     apart = np.linalg.norm(disc[:, :, None] - disc[:, None], axis=-1)
     assert np.ptp(apart, axis=0).max() < 5e-5
@@ -290,21 +292,22 @@ def test_colour_noise_grows_with_the_light() -> None:
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.name)
-def test_every_row_begins_still_and_stays_in_the_picture(row) -> None:  # type: ignore[no-untyped-def]
-    for seed in (40 + ROWS.index(row) % 2,):
-        truth = take_of(row, seed).truth
-        still = truth.timestamp_s - truth.timestamp_s[0] < 0.6
-        assert np.degrees(np.abs(truth.angles_rad[still])).max() < 0.6
-        assert np.linalg.norm(truth.position_m[still], axis=1).max() < 0.001
-        assert (truth.disc_pixel > 6.0).all()
-        assert (truth.disc_pixel < np.array([633.0, 473.0])).all()
-        assert np.isfinite(truth.joint_angles_rad).all()
-        assert 0.6 < truth.translation_w0_cam_m[2] < 0.85
+def test_every_row_begins_still_and_stays_in_the_picture(row: Row, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(recording, "FPS", 10.0)
+    truth = take_of(row, 12 + ROWS.index(row) % 2).truth
+    still = truth.timestamp_s - truth.timestamp_s[0] < 0.6
+    assert np.count_nonzero(still) >= 5
+    assert np.degrees(np.abs(truth.angles_rad[still])).max() < 0.6
+    assert np.linalg.norm(truth.position_m[still], axis=1).max() < 0.001
+    assert (truth.disc_pixel > 6.0).all()
+    assert (truth.disc_pixel < np.array([633.0, 473.0])).all()
+    assert np.isfinite(truth.joint_angles_rad).all()
+    assert 0.6 < truth.translation_w0_cam_m[2] < 0.85
 
 
 def test_a_recording_tracks_and_its_truth_compares(tmp_path: Path) -> None:
     folder = tmp_path / "take"
-    truth = recorded(take_of(row_named("rest, fingers open and close"), 8, seconds=1.2), folder)
+    truth = recorded(take_of(row_named("rest, fingers open and close"), 12, seconds=0.9), folder)
     assert json.loads((folder / CLICKS_FILE).read_text())["protocol"] == "wrist6"
     stored = read_session(folder / TRUTH_FILE)
     assert np.allclose(stored.motion.angles_rad, truth.angles_rad)
@@ -324,7 +327,7 @@ def test_what_is_kept_shows_the_hand_its_truth_describes(tmp_path: Path, monkeyp
     """A motion that is drawn of other data beside another checkout is no recording of this one."""
     monkeypatch.setattr("platformdirs.user_cache_dir", lambda *_, **__: str(tmp_path))
     row = next(row for row in ROWS if row.motion == "grasp")
-    folder, _ = kept_recording(row, 4, seconds=0.1)
-    assert kept_recording(row, 4, seconds=0.1)[0] == folder
+    folder, _ = kept_recording(row, 12, seconds=0.1)
+    assert kept_recording(row, 12, seconds=0.1)[0] == folder
     monkeypatch.setattr(recording, "motion_of", lambda name, seed: motion_of(name, seed + 1))
-    assert kept_recording(row, 4, seconds=0.1)[0] != folder
+    assert kept_recording(row, 12, seconds=0.1)[0] != folder

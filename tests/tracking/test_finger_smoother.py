@@ -20,8 +20,8 @@ from tests.accuracy.carpus import learnt_tracker
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 from tests.tracking.sequences import tracker_of
 
-RECORDED_S, PIECE_S, LAG_S = 2.0, 2.0, 1.5
-SPEC = RecordingSpec(seed=77, protocol="hand21", motion="fist", seconds=9.0, range_share=0.5, hand_length_mm=185.0)
+RECORDED_S, PIECE_S, LAG_S = 2.0, 1.5, 1.5
+SPEC = RecordingSpec(seed=77, protocol="hand21", motion="fist", seconds=7.0, range_share=0.5, hand_length_mm=185.0)
 
 
 @lru_cache(maxsize=1)

@@ -1,4 +1,4 @@
-"""What is said of the joints' errors is what they are, over several hands: neither too bold nor too timid."""
+"""Joints are right, and what is said of their errors is what they are: neither too bold nor too timid."""
 
 from __future__ import annotations
 
@@ -6,22 +6,36 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from tests.accuracy.hand21 import ROWS, HandRun, run_on_blobs
-from tests.accuracy.hand21_table import figures
+from tests.accuracy.hand21 import JOINT_GROUPS, ROWS, HandRun, HandScenario, run_on_blobs
+from tests.accuracy.hand21_table import MOST_RMSE_ALWAYS, MOST_RMSE_DEG, figures
 
 FIRST_SEED, HANDS = 6_000_000, 5
 FLEXION = ("MCP flexion", "PIP flexion", "DIP flexion")
 
 
+Tracked = tuple[HandScenario, list[HandRun]]
+
+
 @pytest.fixture(scope="module", params=["discs on the skin", "discs in the joints"])
-def runs(request: pytest.FixtureRequest) -> list[HandRun]:
+def tracked(request: pytest.FixtureRequest) -> Tracked:
+    """A kind of chain, and several hands of it, a motion each."""
     row = next(row for row in ROWS if row.name == request.param)
     with threadpool_limits(1):
-        return [run_on_blobs(row, row.spec(number, FIRST_SEED)) for number in range(HANDS)]
+        return row, [run_on_blobs(row, row.spec(number, FIRST_SEED)) for number in range(HANDS)]
 
 
-def test_joints_seen_err_by_what_is_said(runs: list[HandRun]) -> None:
+def test_joints_that_are_seen_are_right(tracked: Tracked) -> None:
+    row, runs = tracked
+    assert row.limits is not None
+    for group, limit_deg in (MOST_RMSE_DEG[row.limits] | MOST_RMSE_ALWAYS).items():
+        assert figures(runs, group).rmse < limit_deg, group
+    assert sum(run.wrong for run in runs) < 0.005 * sum(run.taken for run in runs)
+    assert sum(run.missed for run in runs) < 0.01 * sum(run.shown for run in runs)
+
+
+def test_joints_seen_err_by_what_is_said(tracked: Tracked) -> None:
     """Errors that stay with a disc are part of the heights, in both kinds of chain, and are counted once."""
+    _, runs = tracked
     for group in FLEXION:
         found = figures(runs, group)
         # These hands have skin that stays, and flesh as thick as the tables say: the filter cannot know it, and allows
@@ -30,9 +44,12 @@ def test_joints_seen_err_by_what_is_said(runs: list[HandRun]) -> None:
         assert found.inside > 0.90, group
         assert found.back_inside > 0.88, group
         assert found.back < found.rmse, group
+    for group in JOINT_GROUPS:
+        assert figures(runs, group).all_inside > 0.85, group
 
 
-def test_joints_hidden_say_so(runs: list[HandRun]) -> None:
+def test_joints_hidden_say_so(tracked: Tracked) -> None:
+    _, runs = tracked
     for group in FLEXION:
         found = figures(runs, group)
         assert found.hidden_inside > 0.95, group
@@ -45,7 +62,7 @@ def test_a_hand_found_again_is_where_it_says() -> None:
     """Expected anywhere in their range, fingers come back to postures far from where the line was drawn, and blobs that
     are no discs lie where discs might. Fingers come into the picture first: four of their discs are no palm."""
     row = next(row for row in ROWS if row.name == "leaves and returns")
-    for number, first in ((0, FIRST_SEED), (1, FIRST_SEED), (0, 13_500_000)):
+    for number, first in ((0, FIRST_SEED), (0, 13_500_000)):
         with threadpool_limits(1):
             run = run_on_blobs(row, row.spec(number, first))
         off = run.seen & (np.abs(run.joint_deg) > 12.0)
