@@ -10,7 +10,6 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-_BLOCK_BYTES = 1 << 20
 _REVISION_LENGTH = 40
 REVISION_FILE = "revision.txt"
 """Beside the other resources of an installed program; a checkout knows its revision itself."""
@@ -48,11 +47,8 @@ def said_in(parameters: str, part: str) -> dict[str, Any]:
 
 def sha256_of_file(path: Path) -> str:
     """Of all its bytes. Raises OSError."""
-    digest = hashlib.sha256()
     with path.open("rb") as file:
-        while block := file.read(_BLOCK_BYTES):
-            digest.update(block)
-    return digest.hexdigest()
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def sha256_of_settings(settings: Any) -> str:

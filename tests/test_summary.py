@@ -15,11 +15,10 @@ from carpus.core.results.session_lines import duration_text, range_lines, record
 from carpus.core.session.reader import read_session
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import motion_of
-from carpus.core.session.writer import SessionWriter
 from carpus.core.types import TrackStatus
 from tests.capture.test_tum import write_recording
 from tests.moments import with_moment
-from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
+from tests.session.samples import begun, make_frame, make_header, time_of
 from tests.ui import fakes
 
 
@@ -31,7 +30,7 @@ def write(path: Path, close: bool = True) -> Path:
     """Six frames: 3 tracked with known angles, 2 predicted and 1 lost with larger ones that must not count."""
     angles_deg = [(0, 10, -5), (0, -20, 5), (1, 42, 0), (9, 90, 90), (-9, -90, -90), (0, 0, 0)]
     status = [TrackStatus.TRACKED] * 3 + [TrackStatus.PREDICTED] * 2 + [TrackStatus.LOST]
-    session = SessionWriter.create(path, make_header(), CAMERA, make_calibration())
+    session = begun(path)
     for row in range(6):
         frame = dataclasses.replace(
             with_moment(make_frame(row), angles_rad=np.radians(angles_deg[row])),
@@ -113,7 +112,7 @@ def test_a_session_cut_short_says_so_before_and_after_recovery(tmp_path: Path) -
 @pytest.mark.parametrize("frames", [0, 1])
 def test_next_to_nothing_is_told_without_numbers_that_do_not_exist(tmp_path: Path, frames: int) -> None:
     path = tmp_path / "s.h5"
-    with SessionWriter.create(path, make_header(HAND21), CAMERA, make_calibration(HAND21)) as session:
+    with begun(path, make_header(HAND21)) as session:
         for row in range(frames):
             session.append(dataclasses.replace(make_frame(row, HAND21), status=TrackStatus.LOST))
     lines = session_summary(read_session(path))
@@ -126,7 +125,7 @@ def test_next_to_nothing_is_told_without_numbers_that_do_not_exist(tmp_path: Pat
 def test_every_joint_of_a_hand_has_the_range_in_which_it_was_seen(tmp_path: Path) -> None:
     path = tmp_path / "s.h5"
     hidden = HAND21.markers.index("DIP4")
-    with SessionWriter.create(path, make_header(HAND21), CAMERA, make_calibration(HAND21)) as session:
+    with begun(path, make_header(HAND21)) as session:
         for row in range(8):
             measured = np.full((21, 2), 100.0)
             measured[hidden] = np.nan

@@ -39,7 +39,7 @@ from carpus.core.records.session_list import COPY_SUFFIX
 from carpus.core.records.staging import Staged, hold, remove_left_behind
 from carpus.core.records.store import SESSIONS_FOLDER, look_for_store
 from carpus.core.session import recovery
-from carpus.core.session.disk import is_being_written
+from carpus.core.session.disk import free_name, is_being_written
 
 FORMAT, FORMAT_VERSION = "carpus-backup", 1
 OBJECTS, BACKUPS = "objects", "backups"
@@ -161,7 +161,7 @@ def _back_up(sources: BackupSources, place: Path, software_version: str, now: da
         done += one.size
         progress(min(done, total), total)
     when = now.replace(microsecond=0)
-    name = _free_name(place, f"{when:%Y-%m-%dT%H%M%S}")
+    name = free_name(place / BACKUPS / f"{when:%Y-%m-%dT%H%M%S}.json").stem  # two of one second are two all the same
     made = backup_of(name, when, files, sources.running, len(lacking), software_version)
     replace_text(place / BACKUPS / f"{made.name}.json", json.dumps(told(made), indent=1))
     if lacking:
@@ -572,12 +572,3 @@ def _count(value: object) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= _MOST:
         raise ValueError("no count")
     return value
-
-
-def _free_name(place: Path, name: str) -> str:
-    """Two back-ups of one second are two all the same."""
-    candidate, number = name, 1
-    while (place / BACKUPS / f"{candidate}.json").exists():
-        number += 1
-        candidate = f"{name}-{number}"
-    return candidate

@@ -10,6 +10,7 @@ from carpus.core.agreement.limits_file import store_limits
 from carpus.core.agreement.retest import Restated, RetestPlan, StudyFigures, as_if_complete, plan_of, restated
 from carpus.core.errors import CarpusFault
 from carpus.core.records.library import Library
+from carpus.core.results.figures import SessionFigures
 
 
 class RetestPeople:
@@ -39,16 +40,12 @@ class RetestPeople:
 
     def plan(self, exercise: str, today: date) -> RetestPlan:
         """The study of one exercise as it stands."""
-        library, people = self._library, []
         chosen = set(self.chosen())
-        for patient_id, pseudonym, _ in self.candidates():
-            if patient_id in chosen:
-                figures = []
-                for entry in library.sessions(patient_id):
-                    if entry.exercise == exercise:
-                        with suppress(CarpusFault):  # a damaged file takes no part; opening it alone tells
-                            figures.append(library.figures(entry))
-                people.append((patient_id, pseudonym, figures))
+        people = [
+            (patient_id, pseudonym, self._figures(patient_id, exercise))
+            for patient_id, pseudonym, _ in self.candidates()
+            if patient_id in chosen
+        ]
         return plan_of(people, exercise, self._raters(), today)
 
     def patients(self, study: StudyFigures) -> Sequence[tuple[str, str]]:
@@ -64,12 +61,16 @@ class RetestPeople:
 
     def restated(self, patient_id: str, pseudonym: str, study: StudyFigures) -> Sequence[Restated]:
         """What is said of a patient today and would be by the limits of a study; reads the sessions."""
+        figures = self._figures(patient_id, study.exercise)
+        return restated(pseudonym, figures, as_if_complete(study.study(date.min.isoformat())))
+
+    def _figures(self, patient_id: str, exercise: str) -> list[SessionFigures]:
         figures = []
         for entry in self._library.sessions(patient_id):
-            if entry.exercise == study.exercise and not entry.simulated:
-                with suppress(CarpusFault):  # a damaged file says nothing; opening it alone tells
+            if entry.exercise == exercise:
+                with suppress(CarpusFault):  # a damaged file takes no part; opening it alone tells
                     figures.append(self._library.figures(entry))
-        return restated(pseudonym, figures, as_if_complete(study.study(date.min.isoformat())))
+        return figures
 
     def _raters(self) -> dict[str, str]:
         """Initials of who recorded each session."""

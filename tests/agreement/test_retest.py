@@ -28,7 +28,6 @@ from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.progress import compare
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import new_header
-from carpus.core.session.writer import SessionWriter
 from carpus.core.types import TrackStatus
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.text import Text
@@ -36,7 +35,7 @@ from carpus.ui.settings.screen import SettingsScreen
 from tests.commands import Command
 from tests.moments import with_moment
 from tests.records.samples import kept
-from tests.session.samples import CAMERA, make_calibration, make_frame
+from tests.session.samples import begun, make_calibration, make_frame
 
 FIRST = datetime(2026, 11, 2, 9, 0, tzinfo=UTC)
 
@@ -107,9 +106,9 @@ def written(folder: Path, person: int, time: int, when: datetime, reach_deg: flo
     set_up = make_calibration()
     seen_from_above = np.diag([1.0, -1.0, -1.0])
     set_up = replace(set_up, verdict=replace(set_up.verdict, findings=()), rotation_w0_cam=seen_from_above)
-    with SessionWriter.create(path, header, CAMERA, set_up) as writer:
-        for row in range(360):
-            angle = math.radians(reach_deg) * math.sin(2.0 * math.pi * row / 90.0)
+    with begun(path, header, calibration=set_up) as writer:
+        for row in range(240):
+            angle = math.radians(reach_deg) * math.sin(2.0 * math.pi * row / 60.0)
             turn = so3.exp(np.array([0.0, angle, 0.0]))
             moved = with_moment(
                 make_frame(row), rotation_w2_w0=turn, position_m=np.zeros(3), w0_turn_rad=np.zeros(3),

@@ -14,11 +14,10 @@ from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import repetitions_of
 from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session
-from carpus.core.session.writer import SessionWriter
-from carpus.core.types import TrackStatus
+from carpus.core.types import FloatArray, TrackStatus
 from tests.measures.ways import way
 from tests.moments import with_moment
-from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
+from tests.session.samples import begun, make_calibration, make_frame, make_header, time_of, written_once
 
 FRAMES = 23
 
@@ -30,45 +29,50 @@ def stored(
 
     ``moving``: all of it tracked, the wrist to and fro.
     """
-    path = folder / f"{name}.h5"
-    header = replace(make_header(protocol), exercise="WRIST_FE" if protocol == WRIST6 else "FIST_COMPOSITE")
-    header = replace(
-        header, parameters='{"source": {"name": "clinic-cam-7", "serial": "A00365"}, "settings": {"a": 1}}'
-    )
-    calibration = make_calibration(protocol)
-    facing = calibration.rotation_w0_cam.T @ np.diag([1.0, -1.0, -1.0])
-    with SessionWriter.create(path, header, CAMERA, calibration) as writer:
+    return _session(folder / f"{name}.h5", protocol, frames, moving)
+
+
+@written_once
+def _session(path: Path, protocol: MarkerProtocol, frames: int, moving: bool) -> Path:
+    exercise = "WRIST_FE" if protocol == WRIST6 else "FIST_COMPOSITE"
+    parameters = '{"source": {"name": "clinic-cam-7", "serial": "A00365"}, "settings": {"a": 1}}'
+    with begun(path, replace(make_header(protocol), exercise=exercise, parameters=parameters)) as writer:
         for row in range(frames):
             frame = make_frame(row, protocol)
             place = np.abs(frame.marker_position_cam_m) * 0.1 + (0.0, 0.0, 0.6)
             if moving:
                 angles = np.array([0.05, 0.6, 0.1]) * np.sin(row / 9.0)
                 # Facing the camera all the time: a hand that leaves its view has no range of motion.
-                frame = replace(
-                    with_moment(frame, angles_rad=angles, rotation_w2_w0=facing), status=TrackStatus.TRACKED
-                )
+                turned = with_moment(frame, angles_rad=angles, rotation_w2_w0=facing_camera(protocol))
+                frame = replace(turned, status=TrackStatus.TRACKED)
             writer.append(replace(frame, marker_position_cam_m=place, dropped_before=0))
         writer.add_event(time_of(3), "repetition", "1")
         writer.add_event(time_of(7), "note", "Mrs Miller, pain")
     return path
 
 
+def facing_camera(protocol: MarkerProtocol) -> FloatArray:
+    return np.asarray(make_calibration(protocol).rotation_w0_cam.T @ np.diag([1.0, -1.0, -1.0]))
+
+
 def stopping(folder: Path) -> Path:
     """Three repetitions of a wrist that stops for 0.6 s on its way up, 25 + 25 degrees, and comes back at once."""
     folder.mkdir(parents=True, exist_ok=True)
-    path, calibration = folder / "stopping.h5", make_calibration(WRIST6)
+    return _stopping(folder / "stopping.h5")
+
+
+@written_once
+def _stopping(path: Path) -> Path:
     up, hold = way([(25.0, 0.8), (0.0, 0.6), (25.0, 0.8)]), np.ones(30)
     one = np.concatenate((0.0 * hold, up, 50.0 * hold, 50.0 - way([(50.0, 1.0)])))
     angle = np.radians(np.concatenate((np.tile(one, 3), 0.0 * hold)))
-    header = replace(make_header(WRIST6), exercise="WRIST_FE")
-    facing = calibration.rotation_w0_cam.T @ np.diag([1.0, -1.0, -1.0])
-    with SessionWriter.create(path, header, CAMERA, calibration) as writer:
+    with begun(path, replace(make_header(WRIST6), exercise="WRIST_FE")) as writer:
         for row, flexion in enumerate(angle.tolist()):
             frame = with_moment(
                 make_frame(row, WRIST6),
                 angles_rad=np.array([0.05, flexion, 0.1]),
                 angles_sd_rad=np.radians([0.3, 0.2, 0.4]),
-                rotation_w2_w0=facing,
+                rotation_w2_w0=facing_camera(WRIST6),
             )
             place = np.abs(frame.marker_position_cam_m) * 0.1 + (0.0, 0.0, 0.6)
             measured = (

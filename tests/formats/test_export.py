@@ -20,7 +20,7 @@ from carpus.core.session.disk import part_path
 from carpus.core.session.reader import read_detections, read_session
 from carpus.core.session.writer import SessionWriter
 from tests.formats.takes import stored
-from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+from tests.session.samples import begun, make_header
 
 export_sessions = partial(formats.export_sessions, software_version="0.1.0")
 
@@ -47,7 +47,7 @@ def test_what_a_killed_export_left_of_a_copy_does_not_stop_the_next_but_one_that
     path, out = stored(tmp_path), tmp_path / "out"
     out.mkdir()
     header = read_session(path).header
-    writer = SessionWriter.create(out / path.name, header, CAMERA, make_calibration())
+    writer = begun(out / path.name, header)
     assert export_sessions([Wanted.stored(path)], out, ["h5"]).refused
     writer.abandon()
     part_path(out / path.name, header.session_id).with_suffix(".part.alive").write_text("{}")
@@ -90,8 +90,7 @@ def test_one_patient_stays_one_and_days_count_from_the_first(tmp_path: Path) -> 
         header = make_header(session_id=uuid.uuid4())
         header = replace(header, recorded=f"2026-11-{day}T09:00:00+01:00", recording_id=str(uuid.uuid4()))
         paths.append(tmp_path / f"day{day}.h5")
-        with SessionWriter.create(paths[-1], header, CAMERA, make_calibration()) as writer:
-            writer.append(make_frame(0))
+        begun(paths[-1], header, 1).close()
     export_sessions([Wanted.stored(path) for path in paths], tmp_path / "out", ["h5"], deidentified=True)
     found = [read_session(path).header for path in sorted((tmp_path / "out").glob("*.h5"))]
     assert len({header.subject_id for header in found}) == 1

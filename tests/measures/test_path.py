@@ -72,7 +72,7 @@ def test_a_dip_that_noise_makes_parts_no_unit_in_two(parts: int) -> None:
 
 @pytest.mark.parametrize("smoothed", [True, False], ids=["looked back", "live"])
 @pytest.mark.parametrize(
-    ("seed", "speed_hz", "share", "seconds"), [(4, 0.06, 1.0, 20.0), (5, 0.05, 0.25, 40.0)], ids=["slow", "slow, short"]
+    ("seed", "speed_hz", "share", "seconds"), [(4, 0.06, 1.0, 20.0), (5, 0.05, 0.25, 24.0)], ids=["slow", "slow, short"]
 )
 def test_slow_reaches_have_the_figures_of_the_movement(
     seed: int, speed_hz: float, share: float, seconds: float, smoothed: bool

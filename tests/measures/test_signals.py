@@ -149,8 +149,11 @@ def test_stretches() -> None:
 
 @pytest.mark.parametrize(
     ("status", "discs", "tilt_deg", "counts"),
-    [(0, 4, 69.0, True), (0, 3, 0.0, False), (0, 6, 71.0, False), (1, 6, 0.0, False), (3, 6, 0.0, False)],
-)
+    [
+        (0, 4, 69.0, True), (0, 3, 0.0, False), (0, 6, 71.0, False), (0, 6, math.nan, False),
+        (1, 6, 0.0, False), (2, 6, 0.0, False), (3, 6, 0.0, False),
+    ],
+)  # fmt: skip
 def test_a_frame_counts_that_is_tracked_by_four_discs_no_more_than_70_degrees_aslant(
     status: int, discs: int, tilt_deg: float, counts: bool
 ) -> None:
@@ -175,3 +178,4 @@ def test_what_lies_beside_a_gap_that_is_not_filled_does_not_count(gone_s: float,
     first_gone_s, last_gone_s = time_s[gone][[0, -1]]
     assert kept[kept < first_gone_s].max() == pytest.approx(first_gone_s - 0.01 - taken_s, abs=0.011)
     assert kept[kept > last_gone_s].min() == pytest.approx(last_gone_s + 0.01 + taken_s, abs=0.011)
+    assert settled(np.empty(0, dtype=bool), np.empty(0)).shape == (0,)

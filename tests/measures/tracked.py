@@ -33,7 +33,6 @@ class Tracked:
     status: FloatArray
 
 
-@lru_cache(maxsize=32)
 def tracked(
     motion: str,
     seconds: float,
@@ -53,6 +52,11 @@ def tracked(
         pain_limited=stops,
         protocol=discs,  # type: ignore[arg-type]
     )
+    return _tracked(spec)
+
+
+@lru_cache(maxsize=32)
+def _tracked(spec: RecordingSpec) -> Tracked:
     sequence = measurement_sequence(spec)
     hand, neutral_ends_s = measured_hand(sequence, CalibrationSettings())
     assert hand.calibration is not None

@@ -5,21 +5,20 @@ from __future__ import annotations
 import uuid
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
-from sqlalchemy import select
 
-from carpus.core.records.changes import PRACTICE
 from carpus.core.records.database import STORE_FILE
-from carpus.core.records.schema import COPIED, DEED
 from tests.records.postgres import Cluster
-from tests.records.samples import House, opened, settled
+from tests.records.samples import opened, settled, shared
 
 
 @pytest.fixture(scope="session")
-def cluster() -> Iterator[Cluster]:
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+    """``model`` is a database with the tables of a store and nothing in them, to be copied."""
     made = Cluster()
+    with opened(tmp_path_factory.mktemp("model"), made.new_database("model")) as house:
+        settled(house)
     yield made
     made.end()
 
@@ -31,24 +30,12 @@ def url(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
     if request.param == "sqlite":
         yield ""
         return
-    there: str = request.getfixturevalue("cluster").new_database(f"c{uuid.uuid4().hex[:12]}")
+    there: str = request.getfixturevalue("cluster").new_database(f"c{uuid.uuid4().hex[:12]}", "model")
     yield there
     assert (tmp_path / STORE_FILE).is_file()
     with opened(tmp_path, there) as house:
         settled(house)
-        wanted = _shared(house)
+        wanted = shared(house)
     with opened(tmp_path / "another computer", there) as house:
         settled(house)
-        assert _shared(house) == wanted
-
-
-def _shared(house: House) -> dict[str, list[dict[str, Any]]]:
-    """All rows that are of every computer."""
-    found = {}
-    for table in (*COPIED, DEED):
-        columns = [column for column in table.c if column.name != "step"]
-        rows = house.store.rows_there(select(*columns).order_by(table.c.id))
-        found[table.name] = [
-            dict(row._mapping) for row in rows if PRACTICE not in (row.id, row._mapping.get("patient_id"))
-        ]
-    return found
+        assert shared(house) == wanted

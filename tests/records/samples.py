@@ -3,29 +3,38 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
-from datetime import UTC, date, datetime
+from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
+from typing import Any
 
 from sqlalchemy import select
 
 from carpus.core.errors import CarpusFault
+from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.protocols import WRIST6
+from carpus.core.measures.by_hand import HandValue
+from carpus.core.records import of_clinic, of_sessions, patients
+from carpus.core.records.changes import PRACTICE
+from carpus.core.records.kept_sets import keep_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.log import Log
 from carpus.core.records.patients import Patients
-from carpus.core.records.schema import OUTBOX
+from carpus.core.records.schema import COPIED, DEED, OUTBOX
 from carpus.core.records.session_list import FilesOfSessions, ListedSessions
+from carpus.core.records.set_up import SetUp
 from carpus.core.records.store import Store
-from carpus.core.records.values import PatientEntry
+from carpus.core.records.values import HomePlan, PatientEntry
+from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import new_header
-from carpus.core.session.writer import SessionWriter
 from carpus.core.types import SIMULATED
-from tests.session.samples import CAMERA, make_calibration, make_frame
+from tests.session.samples import begun
 
 LONG_S = 120.0
 T0 = datetime(2026, 10, 9, 9, 51, tzinfo=UTC)
@@ -34,6 +43,9 @@ LINDEN = PatientEntry(
     date(2026, 8, 21),
 )  # fmt: skip
 HERON = PatientEntry("Heron 17", "left", name="Otto Normal")
+_RECORDED: dict[tuple[Any, ...], list[bytes]] = {}
+"""Contents of session files by their kind, and how many of a kind a test has asked for."""
+_ASKED = Counter[tuple[str, tuple[Any, ...]]]()
 
 
 @dataclass(frozen=True)
@@ -82,8 +94,17 @@ def record(
     path: Path, subject: str, when: datetime, hand: str = "right", frames: int = 4, recording_id: str = "",
     simulated: bool = False,
 ) -> Path:  # fmt: skip
-    """A session file."""
+    """A session file. Of those alike that one test asks for each has an identity of its own; another test gets the same
+    ones, which are written once."""
+    kind = (subject, when.isoformat(), hand, frames, recording_id, simulated)
+    asked = (os.environ.get("PYTEST_CURRENT_TEST", "").split(" ")[0], kind)
+    number, written = _ASKED[asked], _RECORDED.setdefault(kind, [])
+    _ASKED[asked] += 1
     path.parent.mkdir(parents=True, exist_ok=True)
+    if number < len(written):
+        path.touch(0o600, exist_ok=False)
+        path.write_bytes(written[number])
+        return path
     header = new_header(
         hand="right" if hand == "right" else "left",
         protocol=WRIST6,
@@ -95,9 +116,8 @@ def record(
         recording_id=recording_id,
         parameters=json.dumps({"source": {SIMULATED: "yes"}}) if simulated else "{}",
     )
-    with SessionWriter.create(path, header, CAMERA, make_calibration()) as writer:
-        for row in range(frames):
-            writer.append(make_frame(row))
+    begun(path, header, frames).close()
+    written.append(path.read_bytes())
     return path
 
 
@@ -109,6 +129,27 @@ def measure(house: House, patient_id: str, when: datetime, recording_id: str = "
     path.with_suffix(".carpusraw").write_bytes(b"pictures of " + pseudonym.encode())
     path.with_suffix(".markers.jpg").write_bytes(b"photo")
     return house.index.enter(path, patient_id, "AB").session_id
+
+
+def fill(house: House, patient_id: str) -> list[str]:
+    """Everything that can be written about a patient; the identities of the sessions."""
+    sessions = [measure(house, patient_id, T0 + timedelta(days=day)) for day in range(3)]
+    entry = house.patients.one(patient_id).entry
+    for session_id in sessions:
+        of_sessions.add_comment(house.store, session_id, f"{entry.pseudonym} is well", "AB")
+        of_sessions.keep_choices(house.store, session_id, RepetitionChoices({0: entry.pseudonym}), 0)
+        of_sessions.remember_made(house.store, [house.index.one(session_id).path], "export", [session_id])
+    value = HandValue("WRIST_ROUND", "", "right", date(2026, 10, 9), (17.0,), entry.pseudonym)
+    patients.enter_by_hand(house.store, patient_id, [value])
+    keep_set_up(house.store, SetUp(patient_id, entry.pseudonym, "right", exercise_named("WRIST_FE"), 8, 25.0, -20.0))
+    plan = HomePlan(("WRIST_FE",), 10, 3, T0.date(), date(2026, 10, 16), "11:30", f"{entry.pseudonym} brings it", "it")
+    patients.keep_home_plan(house.store, patient_id, plan)
+    house.patients.let_take_part([*house.patients.taking_part(), patient_id])
+    of_clinic.keep_place(house.store, entry.pseudonym[:2], f"/papers/{entry.name}")
+    of_clinic.remember_recipient(house.store, f"{entry.name}\nOak Street 1")
+    of_clinic.list_diagnosis(house.store, f"as {entry.name}", listed=True)
+    house.log.note("opened", "patient", patient_id)
+    return sessions
 
 
 def traces(folder: Path, *words: str) -> list[str]:
@@ -131,3 +172,15 @@ def kept(folder: Path, patient: PatientEntry, *sessions: tuple[Path, datetime, s
             shutil.copyfile(stored, path)
             library.index.enter(path, patient_id, by)
     return patient_id
+
+
+def shared(house: House) -> dict[str, list[dict[str, Any]]]:
+    """All rows that are of every computer."""
+    found = {}
+    for table in (*COPIED, DEED):
+        columns = [column for column in table.c if column.name != "step"]
+        rows = house.store.rows_there(select(*columns).order_by(table.c.id))
+        found[table.name] = [
+            dict(row._mapping) for row in rows if PRACTICE not in (row.id, row._mapping.get("patient_id"))
+        ]
+    return found

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import shutil
 import sqlite3
 import uuid
 from datetime import UTC, datetime, timedelta
@@ -43,16 +44,15 @@ from carpus.core.records.database import STORE_FILE, copied
 from carpus.core.records.patients import Patients
 from carpus.core.records.staging import remove_left_behind
 from carpus.core.records.store import Store
-from carpus.core.session.writer import SessionWriter
 from tests.records.samples import LINDEN, T0, measure, opened
-from tests.session.samples import CAMERA, make_calibration, make_frame, make_header
+from tests.session.samples import begun
 
 NOW = datetime(2026, 11, 20, 18, 0, tzinfo=UTC)
 
 
-@pytest.fixture
-def data(tmp_path: Path) -> Path:
-    folder = tmp_path / "data"
+@pytest.fixture(scope="module")
+def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("kept")
     with opened(folder) as house:
         linden = house.patients.add(LINDEN)
         measure(house, linden, T0)
@@ -60,6 +60,21 @@ def data(tmp_path: Path) -> Path:
         house.log.note("opened", "patient", linden)
     (folder / "set_ups.json").write_text("{}")
     return folder
+
+
+@pytest.fixture
+def data(kept: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copytree(kept, tmp_path / "data"))
+
+
+@pytest.fixture
+def place(tmp_path: Path) -> Path:
+    """For back-ups."""
+    return tmp_path / "disk"
+
+
+def backed_up(data: Path, place: Path, now: datetime = NOW, **options: Any) -> Backup:
+    return back_up(data, place, software_version="1", now=now, **options)
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -104,7 +119,7 @@ def test_of_a_folder_that_can_only_be_read_there_is_a_backup_unless_somebody_wri
     monkeypatch.setattr(Path, "read_bytes", read)
     if trouble:
         with pytest.raises(RegisterUnreadable) as told:
-            back_up(data, tmp_path / "place", software_version="1")
+            backed_up(data, tmp_path / "place")
         assert type(told.value) is {
             "a journal": RegisterJournalLeft, "a journal while it is read": RegisterJournalLeft,
             "another computer writes": RegisterBusy, "damaged": RegisterUnreadable,
@@ -112,7 +127,7 @@ def test_of_a_folder_that_can_only_be_read_there_is_a_backup_unless_somebody_wri
         return
     with Store(data, copy=copied(store)) as kept:
         assert [record.entry for record in Patients(kept).listed()] == [LINDEN]
-    made = back_up(data, tmp_path / "place", software_version="1")
+    made = backed_up(data, tmp_path / "place")
     monkeypatch.undo()
     restored(tmp_path / "place", made, tmp_path / "again")
     with opened(tmp_path / "again") as house:
@@ -124,23 +139,23 @@ def kept_on(data: Path, place: Path, *days: int) -> list[Backup]:
     made = []
     for day in days:
         (data / "set_ups.json").write_text(json.dumps({"day": day}))
-        made.append(back_up(data, place, software_version="1", now=NOW - timedelta(days=day)))
+        made.append(backed_up(data, place, NOW - timedelta(days=day)))
     return made
 
 
-def test_everything_is_restored_on_another_computer(data: Path, tmp_path: Path) -> None:
+def test_everything_is_restored_on_another_computer(data: Path, place: Path, tmp_path: Path) -> None:
     settings = tmp_path / "settings"
     settings.mkdir()
     for name in ("preferences", "lab"):
         (settings / f"{name}.toml").write_text("x = 1")
     with opened(data) as house:  # it runs
-        made = back_up(data, tmp_path / "disk", software_version="1", settings_folder=settings, now=NOW)
+        made = backed_up(data, place, settings_folder=settings)
         first = [entry.session_id for entry in house.index.of_patient(house.patients.listed()[0].patient_id)]
     assert (made.sessions, made.running) == (2, 0)
     new, new_settings = tmp_path / "new" / "carpus", tmp_path / "new settings"
     new_settings.mkdir()
     (new_settings / "lab.toml").write_text("x = 2")
-    restored(tmp_path / "disk", made, new, new_settings)
+    restored(place, made, new, new_settings)
     assert contents(new) == contents(data)
     assert (new_settings / "preferences.toml").read_text() == "x = 1"
     assert (new_settings / "lab.toml").read_text() == "x = 2", "settings that are there stay"
@@ -151,15 +166,15 @@ def test_everything_is_restored_on_another_computer(data: Path, tmp_path: Path) 
         assert [entry.session_id for entry in house.index.of_patient(patient.patient_id)] == first
         assert house.files.take_in().sessions == 0
     with pytest.raises(OutputExists):
-        restored(tmp_path / "disk", made, new)
+        restored(place, made, new)
 
 
-def test_a_restore_that_fails_leaves_no_settings(data: Path, tmp_path: Path) -> None:
-    settings, place = tmp_path / "settings", tmp_path / "disk"
+def test_a_restore_that_fails_leaves_no_settings(data: Path, place: Path, tmp_path: Path) -> None:
+    settings = tmp_path / "settings"
     settings.mkdir()
     for name in ("a", "b"):
         (settings / f"{name}.toml").write_text(f"{name} = 1")
-    made = back_up(data, place, software_version="1", settings_folder=settings, now=NOW)
+    made = backed_up(data, place, settings_folder=settings)
     last = next(one for one in made.files if one.path.endswith("b.toml")).sha256
     (place / OBJECTS / last[:2] / last).write_text("b = 2")
     with pytest.raises(BackupUnequal):
@@ -167,83 +182,81 @@ def test_a_restore_that_fails_leaves_no_settings(data: Path, tmp_path: Path) -> 
     assert list((tmp_path / "new settings").iterdir()) == []
 
 
-def test_a_running_recording_is_left_out_and_said(data: Path, tmp_path: Path) -> None:
+def test_a_running_recording_is_left_out_and_said(data: Path, place: Path) -> None:
     path = data / "sessions" / "running.h5"
-    with SessionWriter.create(path, make_header(), CAMERA, make_calibration()) as writer:
-        writer.append(make_frame(0))
+    with begun(path, rows=1):
         (path.with_suffix(".carpusraw")).write_bytes(b"growing")
-        made = back_up(data, tmp_path / "disk", software_version="1", now=NOW)
+        made = backed_up(data, place)
         assert made.running == 1
         assert not [one.path for one in made.files if "running" in one.path]
 
 
-def test_the_same_content_is_stored_once(data: Path, tmp_path: Path) -> None:
-    place = tmp_path / "disk"
-    first = back_up(data, place, software_version="1", now=NOW)
+def test_the_same_content_is_stored_once(data: Path, place: Path) -> None:
+    first = backed_up(data, place)
     objects = {path: path.stat().st_mtime_ns for path in (place / OBJECTS).glob("*/*")}
-    second = back_up(data, place, software_version="1", now=NOW + timedelta(days=1))
+    second = backed_up(data, place, NOW + timedelta(days=1))
     assert [one.name for one in backups(place)] == [second.name, first.name]
     after = {path: path.stat().st_mtime_ns for path in (place / OBJECTS).glob("*/*")}
     kept = [path for path in objects if objects[path] == after.get(path)]
     assert len(after) <= len(objects) + 1
     assert len(kept) >= len(objects) - 1, "only the store is copied anew"
-    back_up(data, place, software_version="1", now=NOW)
+    backed_up(data, place)
     assert len(backups(place)) == 3, "two of one second are two"
 
 
-@pytest.mark.parametrize("place", [0, -1])
-def test_a_flipped_bit_is_noticed(data: Path, tmp_path: Path, place: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    disk = tmp_path / "disk"
-    made = back_up(data, disk, software_version="1", now=NOW)
-    compare(disk, made)
+@pytest.mark.parametrize("at", [0, -1])
+def test_a_flipped_bit_is_noticed(
+    data: Path, place: Path, tmp_path: Path, at: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = backed_up(data, place)
+    compare(place, made)
     one = next(file for file in made.files if file.path.endswith(".h5"))
-    content = disk / OBJECTS / one.sha256[:2] / one.sha256
+    content = place / OBJECTS / one.sha256[:2] / one.sha256
     damaged = bytearray(content.read_bytes())
-    damaged[place] ^= 1
+    damaged[at] ^= 1
     content.write_bytes(bytes(damaged))
     with pytest.raises(BackupUnequal):
-        compare(disk, made)
+        compare(place, made)
     with pytest.raises(BackupUnequal):
-        restored(disk, made, tmp_path / "new")
+        restored(place, made, tmp_path / "new")
     assert not list(tmp_path.glob("*new*")), "nothing is left"
-    back_up(data, disk, software_version="1", now=NOW + timedelta(days=1))
-    for later in backups(disk):
-        compare(disk, later)  # written anew, for the earlier one too
+    backed_up(data, place, NOW + timedelta(days=1))
+    for later in backups(place):
+        compare(place, later)  # written anew, for the earlier one too
     monkeypatch.setattr(module, "_hash", lambda *_, **__: "")
     with pytest.raises(BackupUnequal):
-        back_up(data, disk, software_version="1", now=NOW + timedelta(days=2))
-    assert len(backups(disk)) == 2, "what could not be compared is no back-up"
+        backed_up(data, place, NOW + timedelta(days=2))
+    assert len(backups(place)) == 2, "what could not be compared is no back-up"
 
 
-def test_a_back_up_that_was_cut_short_is_none(data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_back_up_that_was_cut_short_is_none(data: Path, place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def cut(*_: object) -> None:
         raise KeyboardInterrupt
 
     with monkeypatch.context() as broken:
         broken.setattr(module, "_compare", cut)
         with pytest.raises(KeyboardInterrupt):
-            back_up(data, tmp_path / "disk", software_version="1", now=NOW)
-    assert backups(tmp_path / "disk") == []
-    assert back_up(data, tmp_path / "disk", software_version="1", now=NOW).sessions == 2
+            backed_up(data, place)
+    assert backups(place) == []
+    assert backed_up(data, place).sessions == 2
 
 
 @pytest.mark.parametrize("where", [".", "sessions/backup", ".."])
 def test_a_place_in_or_around_the_data_is_refused(data: Path, where: str) -> None:
     with pytest.raises(BackupPlaceUnsuited):
-        back_up(data, data / where, software_version="1")
+        backed_up(data, data / where)
 
 
-def test_a_folder_that_holds_nothing_of_the_program_is_no_data_folder(tmp_path: Path) -> None:
+def test_a_folder_that_holds_nothing_of_the_program_is_no_data_folder(place: Path, tmp_path: Path) -> None:
     (tmp_path / "pictures").mkdir()
     (tmp_path / "pictures" / "holiday.txt").write_text("x")
     with pytest.raises(NoDataFolder):
-        back_up(tmp_path / "pictures", tmp_path / "disk", software_version="1")
-    assert not (tmp_path / "disk").exists()
+        back_up(tmp_path / "pictures", place, software_version="1")
+    assert not place.exists()
 
 
-def test_what_a_restore_changes_is_known_before_and_the_old_folder_is_kept(data: Path, tmp_path: Path) -> None:
-    place = tmp_path / "disk"
-    made = back_up(data, place, software_version="1", now=NOW)
+def test_what_a_restore_changes_is_known_before_and_the_old_folder_is_kept(data: Path, place: Path) -> None:
+    made = backed_up(data, place)
     gone, changed = sorted((data / "sessions").rglob("*.h5"))
     gone.unlink()
     changed.write_bytes(b"changed")
@@ -259,8 +272,7 @@ def test_what_a_restore_changes_is_known_before_and_the_old_folder_is_kept(data:
     assert plan_restore(made, data).replaced == ()
 
 
-def test_the_newest_and_one_of_each_month_are_kept(data: Path, tmp_path: Path) -> None:
-    place = tmp_path / "disk"
+def test_the_newest_and_one_of_each_month_are_kept(data: Path, place: Path) -> None:
     kept_on(data, place, 0, 1, 2, 40, 41, 70, 900)
     assert thin_out(place, 2, 24, NOW) == 3
     left = [(NOW - one.made).days for one in backups(place)]
@@ -271,8 +283,7 @@ def test_the_newest_and_one_of_each_month_are_kept(data: Path, tmp_path: Path) -
     assert {path.name for path in (place / OBJECTS).glob("*/*")} == needed
 
 
-def test_a_clock_that_ran_ahead_costs_no_back_up(data: Path, tmp_path: Path) -> None:
-    place = tmp_path / "disk"
+def test_a_clock_that_ran_ahead_costs_no_back_up(data: Path, place: Path) -> None:
     kept_on(data, place, 0, 1, 2, 3, -3, -2)
     assert thin_out(place, 2, 0, NOW) == 2
     assert [(NOW - one.made).days for one in backups(place)] == [-3, -2, 0, 1]
@@ -280,8 +291,7 @@ def test_a_clock_that_ran_ahead_costs_no_back_up(data: Path, tmp_path: Path) -> 
     assert [(NOW - one.made).days for one in backups(place)] == [-3, -2, 0]
 
 
-def test_what_a_back_up_of_a_newer_program_needs_is_not_thinned_out(data: Path, tmp_path: Path) -> None:
-    place = tmp_path / "disk"
+def test_what_a_back_up_of_a_newer_program_needs_is_not_thinned_out(data: Path, place: Path) -> None:
     _, newer, _ = kept_on(data, place, 900, 800, 0)
     path = place / BACKUPS / f"{newer.name}.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {"format_version": 99}))
@@ -291,9 +301,9 @@ def test_what_a_back_up_of_a_newer_program_needs_is_not_thinned_out(data: Path, 
 
 @pytest.mark.parametrize("at_reading", [1, 2, 3, 4])
 def test_a_back_up_that_cannot_be_read_for_a_moment_loses_nothing(
-    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, at_reading: int
+    data: Path, place: Path, monkeypatch: pytest.MonkeyPatch, at_reading: int
 ) -> None:
-    place, real, read = tmp_path / "disk", Path.read_text, list[Path]()
+    real, read = Path.read_text, list[Path]()
     made = kept_on(data, place, 1, 0)[0]
 
     def faulty(path: Path, *told: Any, **named: Any) -> str:
@@ -309,10 +319,9 @@ def test_a_back_up_that_cannot_be_read_for_a_moment_loses_nothing(
 
 
 def test_where_no_back_up_is_found_or_none_can_be_listed_nothing_goes(
-    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    data: Path, place: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    place = tmp_path / "disk"
-    made = back_up(data, place, software_version="1", now=NOW)
+    made = backed_up(data, place)
     (place / BACKUPS).rename(place / "away")
     (place / BACKUPS).mkdir()
     assert thin_out(place, 9, 24, NOW) == 0
@@ -327,8 +336,7 @@ def test_where_no_back_up_is_found_or_none_can_be_listed_nothing_goes(
     compare(place, made)
 
 
-def test_a_newer_or_foreign_list_is_refused(data: Path, tmp_path: Path) -> None:
-    place = tmp_path / "disk"
+def test_a_newer_or_foreign_list_is_refused(data: Path, place: Path) -> None:
     path = place / BACKUPS / f"{back_up(data, place, software_version='1', now=NOW).name}.json"
     told = json.loads(path.read_text())
     for change in (
@@ -359,61 +367,60 @@ def test_when_a_person_is_reminded() -> None:
 
 
 @pytest.mark.parametrize("text", ['{"running": 1e999}', "[", "[1]", '"x"', "null", "\udcff", "[" * 5000])
-def test_one_damaged_entry_harms_no_other(data: Path, tmp_path: Path, text: str) -> None:
-    place = tmp_path / "disk"
-    first = back_up(data, place, software_version="1", now=NOW)
+def test_one_damaged_entry_harms_no_other(data: Path, place: Path, tmp_path: Path, text: str) -> None:
+    first = backed_up(data, place)
     path = place / BACKUPS / f"{first.name}.json"
     said = json.dumps(json.loads(path.read_text()) | {"running": 0}).replace('"running": 0', '"running": 1e999')
     bad = said if "running" in text else text
     (place / BACKUPS / "2026-11-20T180001.json").write_bytes(bad.encode("utf-8", "surrogateescape"))
     assert backups(place) == [first]
-    second = back_up(data, place, software_version="1", now=NOW + timedelta(days=1))
+    second = backed_up(data, place, NOW + timedelta(days=1))
     restored(place, second, tmp_path / "new")
     assert contents(tmp_path / "new") == contents(data)
 
 
-def test_linked_folders_and_files_are_followed(data: Path, tmp_path: Path) -> None:
+def test_linked_folders_and_files_are_followed(data: Path, place: Path, tmp_path: Path) -> None:
     elsewhere = tmp_path / "large disk" / "sessions"
     elsewhere.parent.mkdir()
     (data / "sessions").rename(elsewhere)
     (data / "sessions").symlink_to(elsewhere)
     (data / "sessions" / "around").symlink_to(data)  # in a circle
     (data / "limits.json").symlink_to(data / "set_ups.json")
-    made = back_up(data, tmp_path / "disk", software_version="1", now=NOW)
+    made = backed_up(data, place)
     assert made.sessions == 2
-    restored(tmp_path / "disk", made, tmp_path / "new")
+    restored(place, made, tmp_path / "new")
     assert len([path for path in (tmp_path / "new" / "sessions").rglob("*.h5") if not path.is_symlink()]) == 2
     assert (tmp_path / "new" / "limits.json").read_text() == "{}"
     with pytest.raises(BackupPlaceUnsuited):
-        back_up(data, elsewhere / "backup", software_version="1")
+        backed_up(data, elsewhere / "backup")
 
 
-def test_the_sessions_of_a_share_are_in_it(data: Path, tmp_path: Path) -> None:
+def test_the_sessions_of_a_share_are_in_it(data: Path, place: Path, tmp_path: Path) -> None:
     share = tmp_path / "share"
     (data / "sessions").rename(share)
-    made = back_up(data, tmp_path / "disk", software_version="1", sessions=share, now=NOW)
+    made = backed_up(data, place, sessions=share)
     assert (made.sessions, made.lacking) == (2, 0)
-    restored(tmp_path / "disk", made, tmp_path / "new")
+    restored(place, made, tmp_path / "new")
     assert contents(tmp_path / "new" / "sessions") == contents(share)
     with pytest.raises(BackupPlaceUnsuited):
         back_up(data, share / "backup", software_version="1", sessions=share)
     share.rename(tmp_path / "away")
     with pytest.raises(BackupIncomplete):
-        back_up(data, tmp_path / "disk", software_version="1", sessions=share, now=NOW)
+        backed_up(data, place, sessions=share)
 
 
-def test_two_into_one_place_take_nothing_from_each_other(data: Path, tmp_path: Path) -> None:
+def test_two_into_one_place_take_nothing_from_each_other(data: Path, place: Path) -> None:
     """What only an old back-up had goes with that one, unless a back-up that runs has just found it there."""
-    place, met = tmp_path / "disk", []
-    back_up(data, place, software_version="1", now=NOW - timedelta(days=40))
+    met = []
+    backed_up(data, place, NOW - timedelta(days=40))
 
     def other(done: int, _: int) -> None:
         assert thin_out(place, 0, 0, NOW) == 0
         with pytest.raises(OutputBusy):
-            back_up(data, place, software_version="1", now=NOW)
+            backed_up(data, place)
         met.append(done)
 
-    made = back_up(data, place, software_version="1", now=NOW, progress=other)
+    made = backed_up(data, place, progress=other)
     assert met
     compare(place, made)
     assert thin_out(place, 1, 0, NOW) == 1
@@ -421,7 +428,7 @@ def test_two_into_one_place_take_nothing_from_each_other(data: Path, tmp_path: P
 
 
 @pytest.mark.parametrize("lost", ["file", "folder", "link"])
-def test_fewer_files_than_the_store_knows_is_no_success(data: Path, tmp_path: Path, lost: str) -> None:
+def test_fewer_files_than_the_store_knows_is_no_success(data: Path, place: Path, tmp_path: Path, lost: str) -> None:
     sessions = data / "sessions"
     if lost == "file":
         next(iter(sessions.rglob("*.h5"))).unlink()
@@ -430,28 +437,28 @@ def test_fewer_files_than_the_store_knows_is_no_success(data: Path, tmp_path: Pa
     if lost == "link":
         sessions.symlink_to(tmp_path / "nowhere")
     with pytest.raises(BackupIncomplete) as told:
-        back_up(data, tmp_path / "disk", software_version="1", now=NOW)
+        backed_up(data, place)
     assert int(told.value.detail) == {"file": 1, "folder": 2, "link": 3}[lost]
-    (made,) = backups(tmp_path / "disk")
+    (made,) = backups(place)
     assert made.lacking == int(told.value.detail)
     assert "set_ups.json" in {one.path for one in made.files}, "all else is in it"
 
 
 def test_what_a_killed_back_up_left_goes_with_the_next(data: Path, tmp_path: Path) -> None:
     place = tmp_path / "place"
-    made = back_up(data, place, software_version="1", now=NOW)
+    made = backed_up(data, place)
     left = [place / OBJECTS / f".{uuid.uuid4().hex}", place / BACKUPS / f".{made.name}-2.json.part"]
     for path in left:
         path.write_bytes(b"half")
-    again = back_up(data, place, software_version="1", now=NOW + timedelta(hours=1))
+    again = backed_up(data, place, NOW + timedelta(hours=1))
     assert thin_out(place, 9, 9, NOW) == 0
     assert not any(path.exists() for path in left)
     for one in (made, again):
         compare(place, one)
 
 
-def test_thinning_out_touches_nothing_that_a_link_leads_to(data: Path, tmp_path: Path) -> None:
-    place, mine = tmp_path / "disk", tmp_path / "mine"
+def test_thinning_out_touches_nothing_that_a_link_leads_to(data: Path, place: Path, tmp_path: Path) -> None:
+    mine = tmp_path / "mine"
     kept_on(data, place, 0, 40)
     mine.mkdir()
     for name in ("thesis.txt", "0" * 64):
@@ -465,7 +472,7 @@ def test_thinning_out_touches_nothing_that_a_link_leads_to(data: Path, tmp_path:
 
 
 def test_a_file_that_cannot_be_read_is_told_and_the_rest_is_in_it(
-    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    data: Path, place: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     real = Path.open
 
@@ -476,13 +483,13 @@ def test_a_file_that_cannot_be_read_is_told_and_the_rest_is_in_it(
 
     monkeypatch.setattr(Path, "open", refused)
     with pytest.raises(BackupIncomplete, match=r"set_ups\.json"):
-        back_up(data, tmp_path / "disk", software_version="1", now=NOW)
-    assert backups(tmp_path / "disk")[0].sessions == 2
+        backed_up(data, place)
+    assert backups(place)[0].sessions == 2
 
 
-def test_what_a_killed_restore_left_goes_and_one_that_runs_is_left_alone(data: Path, tmp_path: Path) -> None:
-    place, target = tmp_path / "disk", tmp_path / "new"
-    made = back_up(data, place, software_version="1", now=NOW)
+def test_what_a_killed_restore_left_goes_and_one_that_runs_stays(data: Path, place: Path, tmp_path: Path) -> None:
+    target = tmp_path / "new"
+    made = backed_up(data, place)
     running = restore(made, content_of(place), target)
     remove_left_behind(target)
     assert running.folder.is_dir(), "its program lives"

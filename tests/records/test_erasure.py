@@ -24,20 +24,15 @@ from carpus.core.errors import (
     OutputNotWritable,
     SessionChanged,
 )
-from carpus.core.hand.exercises import exercise_named
-from carpus.core.measures.by_hand import HandValue
-from carpus.core.records import database, erasure, of_clinic, of_sessions, patients
+from carpus.core.records import database, erasure, of_clinic, of_sessions
 from carpus.core.records.changes import new
 from carpus.core.records.keeping import due, kept_until
-from carpus.core.records.kept_sets import keep_set_up
 from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import PATIENT, SESSION
-from carpus.core.records.set_up import SetUp
 from carpus.core.records.values import PatientEntry
-from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import read_outline, read_session, verify, write_anew
-from tests.records.samples import HERON, LINDEN, T0, House, measure, opened, record, traces
+from tests.records.samples import HERON, LINDEN, T0, House, fill, measure, opened, record, traces
 
 NAMES = ("Linden", "Erika Mustermann", "flexor tendon")
 
@@ -133,25 +128,6 @@ def test_earlier_results_and_copies_of_a_recording_go_too(folder: Path, house: H
     erasure.erase(house.store, plan, house.log)
     assert house.files.take_in().sessions == 0
     assert house.index.of_patient(linden) == []
-
-
-def fill(house: House, patient_id: str) -> list[str]:
-    """Everything that can be written about a patient; the identities of the sessions."""
-    sessions = [measure(house, patient_id, T0 + timedelta(days=day)) for day in range(3)]
-    entry = house.patients.one(patient_id).entry
-    for session_id in sessions:
-        of_sessions.add_comment(house.store, session_id, f"{entry.pseudonym} is well", "AB")
-        of_sessions.keep_choices(house.store, session_id, RepetitionChoices({0: entry.pseudonym}), 0)
-        of_sessions.remember_made(house.store, [house.index.one(session_id).path], "export", [session_id])
-    value = HandValue("WRIST_ROUND", "", "right", date(2026, 10, 9), (17.0,), entry.pseudonym)
-    patients.enter_by_hand(house.store, patient_id, [value])
-    keep_set_up(house.store, SetUp(patient_id, entry.pseudonym, "right", exercise_named("WRIST_FE"), 8, 25.0, -20.0))
-    house.patients.let_take_part([*house.patients.taking_part(), patient_id])
-    of_clinic.keep_place(house.store, entry.pseudonym[:2], f"/papers/{entry.name}")
-    of_clinic.remember_recipient(house.store, f"{entry.name}\nOak Street 1")
-    of_clinic.list_diagnosis(house.store, f"as {entry.name}", listed=True)
-    house.log.note("opened", "patient", patient_id)
-    return sessions
 
 
 def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) -> None:
@@ -337,18 +313,17 @@ def test_damaged_files_that_name_the_patient_go_and_no_others(folder: Path, hous
     assert traces(folder, "Linden-42_", "Linden 42\0") == []
 
 
-@pytest.mark.parametrize("pseudonym", ["right", "WRIST_FE", "Linden", "deg", "0"])
-def test_a_damaged_file_in_which_a_pseudonym_is_only_a_word_stays_and_is_named(
-    folder: Path, house: House, pseudonym: str
-) -> None:
-    erased, renamed = house.patients.add(PatientEntry(pseudonym, "left")), folder / "sessions" / "x.h5"
+def test_a_damaged_file_in_which_a_pseudonym_is_only_a_word_stays_and_is_named(folder: Path, house: House) -> None:
+    renamed, words = folder / "sessions" / "x.h5", ("right", "WRIST_FE", "Linden", "deg", "0")
     renamed.write_bytes(half_a_session(folder, "Linden 42"))  # who is in no list here
-    plan = erasure.plan_patient(house.store, erased)
-    assert (plan.files, plan.unsure) == ((), (renamed,))
-    erasure.erase(house.store, plan, house.log)
-    assert renamed.exists()
-    again, _ = house.patients.add(PatientEntry(pseudonym, "left")), house.patients.add(LINDEN)
-    assert erasure.plan_patient(house.store, again).unsure == (), "it says that it is Linden 42's"
+    for word in words:
+        plan = erasure.plan_patient(house.store, house.patients.add(PatientEntry(word, "left")))
+        assert (plan.files, plan.unsure) == ((), (renamed,)), word
+        erasure.erase(house.store, plan, house.log)
+        assert renamed.exists(), word
+    house.patients.add(LINDEN)
+    again = [erasure.plan_patient(house.store, house.patients.add(PatientEntry(one, "left"))) for one in words]
+    assert [plan.unsure for plan in again] == [()] * len(words), "it says that it is Linden 42's"
 
 
 @pytest.mark.parametrize("pseudonym", ["Heron 17", "Heron 171"])
@@ -364,11 +339,10 @@ def test_what_is_left_of_a_session_that_was_given_to_another_says_whose_it_is(
     assert [(plan.files, plan.unsure) for plan in plans] == [((), ()), ((renamed,), ())]
 
 
-@pytest.mark.parametrize("pseudonym", ["Linden", "42", "10", "right", "MCP2", "***"])
 def test_a_pseudonym_that_is_a_word_in_names_of_another_patients_files_takes_none_of_them(
-    folder: Path, house: House, pseudonym: str
+    folder: Path, house: House
 ) -> None:
-    linden, other = house.patients.add(LINDEN), house.patients.add(PatientEntry(pseudonym, "left"))
+    linden, words = house.patients.add(LINDEN), ("Linden", "42", "10", "right", "MCP2", "***")
     path = house.index.one(measure(house, linden, T0)).path
     trials = folder / "corrections"
     trials.mkdir()
@@ -376,7 +350,7 @@ def test_a_pseudonym_that_is_a_word_in_names_of_another_patients_files_takes_non
     write_anew(path, waits, session_id=str(uuid4()), origin=read_outline(path).header.session_id)
     damaged, unfinished = trials / f"{path.stem}-2.h5", trials / f"{path.stem}-3.h5.12345678.part"
     damaged.write_bytes(waits.read_bytes()[:2000])
-    unfinished.write_bytes(f"\0Linden 42\0{pseudonym}\0".encode())
+    unfinished.write_bytes("\0".join(("", "Linden 42", *words, "")).encode())
     interrupted = path.with_name(f"{path.stem}-2.h5.12345678.part")
     shutil.copyfile(unfinished, interrupted)
     called = folder / "sessions" / "Linden 42.h5.12345678.part"
@@ -384,9 +358,11 @@ def test_a_pseudonym_that_is_a_word_in_names_of_another_patients_files_takes_non
     hidden = folder / "sessions" / ".x.h5"
     hidden.write_bytes(b"-")
     theirs = {waits, damaged, unfinished, interrupted, called, hidden}
-    assert not theirs & set(erasure.plan_patient(house.store, other).files)
-    erase_patient(house, other)
-    assert {one for one in theirs if not one.exists()} == set()
+    for word in words:
+        other = house.patients.add(PatientEntry(word, "left"))
+        assert not theirs & set(erasure.plan_patient(house.store, other).files), word
+        erase_patient(house, other)
+        assert {one for one in theirs if not one.exists()} == set(), word
     erase_patient(house, linden)
     assert {one for one in theirs if one.exists()} == {hidden}
 
@@ -562,16 +538,12 @@ def test_the_clinics_list_keeps_words_in_which_a_short_name_stands_by_chance(fol
         assert of_clinic.diagnoses(house.store) == ["Ligament repair", "Zweizeitige Naht"]
 
 
-@pytest.mark.parametrize("pseudonym", ["1", "10", "2", "Linden", "Oliv"])
-def test_the_clinics_lists_keep_numbers_and_addresses_in_which_a_name_stands_by_chance(
-    folder: Path, pseudonym: str
-) -> None:
+def test_the_clinics_lists_keep_numbers_and_addresses_in_which_a_name_stands_by_chance(house: House) -> None:
     kept = ("Dr. Linde\nLindenstraße 10\n10115 Berlin", "Dr. Oliver\nElm Street 2")
-    with opened(folder) as house:
-        gone = house.patients.add(PatientEntry(pseudonym, "right", name="Li"))
+    of_clinic.list_diagnosis(house.store, "Flexor tendon, zone 2", listed=True)
+    for pseudonym in ("1", "10", "2", "Linden", "Oliv"):
         for address in (*kept, "Family Li\nAsh Street 3"):
             of_clinic.remember_recipient(house.store, address)
-        of_clinic.list_diagnosis(house.store, "Flexor tendon, zone 2", listed=True)
-        erase_patient(house, gone)
-        assert set(of_clinic.recipients(house.store)) == set(kept)
+        erase_patient(house, house.patients.add(PatientEntry(pseudonym, "right", name="Li")))
+        assert set(of_clinic.recipients(house.store)) == set(kept), pseudonym
         assert of_clinic.diagnoses(house.store) == ["Flexor tendon, zone 2"]

@@ -5,8 +5,6 @@ from __future__ import annotations
 import contextlib
 import csv
 import sqlite3
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -21,15 +19,14 @@ from carpus.core.records.new_sessions import recover
 from carpus.core.records.schema import DEED
 from carpus.core.records.store import Store
 from tests.commands import Command
-from tests.records.samples import LINDEN, T0, measure, opened, settled, traces
+from tests.records.samples import LINDEN, T0, measure, opened, traces
 
 
-def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path, url: str) -> None:
-    with opened(tmp_path, url) as house:
+def test_a_line_is_neither_changed_nor_taken_out(tmp_path: Path) -> None:
+    with opened(tmp_path) as house:
         house.log.who = lambda: "AB"
         house.log.note("opened", "session", "0" * 32)
         house.log.note("erased", "patient", "1" * 32, files=3)
-        settled(house)
         before = read_log(house.store)
         mine = {"id": house.store.rows(select(DEED.c.id))[0].id, "at": "", "at_ns": 0, "facts": "{}"}
         again = insert(DEED).prefix_with("OR REPLACE").values(mine)
@@ -59,20 +56,6 @@ def test_a_trigger_that_was_taken_away_is_told_and_there_again(tmp_path: Path) -
                 house.store.own(delete(DEED))
 
 
-def test_programs_write_at_the_same_time(tmp_path: Path) -> None:
-    Store(tmp_path).close()
-    code = (
-        "import sys; from pathlib import Path; from carpus.core.records.log import Log\n"
-        "from carpus.core.records.store import Store\n"
-        "with Store(Path(sys.argv[1])) as store:\n"
-        "    for number in range(20): Log(store, 'command').note('opened', 'session', str(number))"
-    )
-    running = [subprocess.Popen([sys.executable, "-c", code, str(tmp_path)]) for _ in range(3)]
-    assert [one.wait(60) for one in running] == [0, 0, 0]
-    with Store(tmp_path) as store:
-        assert len(read_log(store)) == 60
-
-
 @pytest.mark.parametrize("facts", [{"path": "/data/sessions/Linden-42/s.h5"}, {"name": "Ada"}, {"name": "x" * 65}])
 def test_a_name_is_refused(tmp_path: Path, facts: dict[str, str]) -> None:
     with opened(tmp_path) as house:
@@ -81,22 +64,13 @@ def test_a_name_is_refused(tmp_path: Path, facts: dict[str, str]) -> None:
         assert read_log(house.store) == ()
 
 
-def test_no_identity_stands_in_it_whatever_a_damaged_file_says_it_is(tmp_path: Path, url: str) -> None:
+def test_no_identity_stands_in_it_whatever_a_damaged_file_says_it_is(tmp_path: Path) -> None:
     said = (" ", "Linden 42", "wr\udc80st", "x" * 65)
-    with opened(tmp_path, url) as house:
+    with opened(tmp_path) as house:
         for identity in said:
             house.log.note("recovered", "session", identity)
-        settled(house)
         assert len({one.subject for one in read_log(house.store)}) == len(said)
         assert traces(tmp_path, "Linden") == []
-
-
-def test_a_log_that_cannot_be_written_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    with opened(tmp_path) as house:
-        house.store.own()
-        monkeypatch.setattr(house.store, "do", lambda _: (_ for _ in ()).throw(OutputNotWritable(tmp_path)))
-        with pytest.raises(OutputNotWritable):
-            house.log.note("locked", "program")
 
 
 def test_the_command_says_it_and_writes_a_table(tmp_path: Path, command: Command) -> None:

@@ -27,20 +27,39 @@ from carpus.core.errors import (
 )
 from carpus.core.records import changes, erasure, of_clinic, of_sessions, server
 from carpus.core.records.changes import PRACTICE, Change, RowChange, dropped, new
+from carpus.core.records.kept_sets import keep_sets
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import COMMENT, DEED, OUTBOX, OWN, PATIENT, SESSION
 from carpus.core.records.server import Server
+from carpus.core.records.set_up import USUAL_SETS
 from carpus.core.records.values import PatientEntry, Rebuilt
 from carpus.core.results.repetition_rows import RepetitionChoices
+from carpus.core.results.report_form import Letterhead, ReportForm
 from tests.records.postgres import Cluster, binaries
-from tests.records.samples import HERON, LINDEN, LONG_S, T0, measure, opened, record, settled, traces, until, waiting
+from tests.records.samples import (
+    HERON,
+    LINDEN,
+    LONG_S,
+    T0,
+    fill,
+    measure,
+    opened,
+    record,
+    settled,
+    shared,
+    traces,
+    until,
+    waiting,
+)
 from tests.torture.wire import Wire
 
 
 @pytest.fixture
-def there(cluster: Cluster) -> str:
-    """The url of an empty database."""
-    return cluster.new_database(f"c{uuid.uuid4().hex[:12]}")
+def there(cluster: Cluster, monkeypatch: pytest.MonkeyPatch) -> str:
+    """The url of a database with empty tables, at which computers look often."""
+    monkeypatch.setattr(server, "LOOK_S", 0.4)
+    monkeypatch.setattr(server, "RETRY_S", 0.4)
+    return cluster.new_database(f"c{uuid.uuid4().hex[:12]}", "model")
 
 
 def engine_of(url: str) -> Engine:
@@ -52,8 +71,8 @@ def count(url: str, table: str) -> int:
         return int(connection.execute(text(f"SELECT count(*) FROM {table}")).scalar() or 0)
 
 
-def test_what_one_computer_enters_the_other_has(tmp_path: Path, there: str) -> None:
-    sessions = tmp_path / "share"
+def test_what_one_computer_enters_the_other_has(tmp_path: Path, cluster: Cluster) -> None:
+    there, sessions = cluster.new_database("empty"), tmp_path / "share"
     sessions.mkdir()
     with opened(tmp_path / "a", there, sessions=sessions) as a, opened(tmp_path / "b", there, sessions=sessions) as b:
         linden = a.patients.add(LINDEN)
@@ -73,6 +92,20 @@ def test_what_one_computer_enters_the_other_has(tmp_path: Path, there: str) -> N
         assert b.names() == []
         assert count(there, "patient") == count(there, "session") == count(there, "comment") == 0
     assert traces(tmp_path / "a", "Linden", linden, session_id) == []
+
+
+def test_all_that_people_write_is_on_every_computer(tmp_path: Path, there: str) -> None:
+    with opened(tmp_path / "a", there) as a:
+        fill(a, a.patients.add(LINDEN))
+        keep_sets(a.store, USUAL_SETS, ())
+        of_clinic.keep_form(a.store, ReportForm(Letterhead("Hand clinic"), "letter"), ReportForm())
+        of_clinic.note_backup(a.store, T0, "/backups", 3, 1000)
+        settled(a)
+        wanted = shared(a)
+    assert [name for name, rows in wanted.items() if not rows] == []
+    with opened(tmp_path / "b", there) as b:
+        settled(b)
+        assert shared(b) == wanted
 
 
 def test_the_practice_patient_s_sessions_are_of_no_server_wherever_they_lie(tmp_path: Path, there: str) -> None:

@@ -9,12 +9,11 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from carpus.core.hand.clinical_angles import isb_from_rotation, rotation_from_angles
-from carpus.core.results.figures import session_figures
 from carpus.core.results.motion_curves import motion_columns
 from carpus.core.results.progress import compare
 from carpus.core.results.ranges import in_order, isb_sd_rad
 from carpus.ui.report.words import method
-from tests.ui.fakes import NOW, session
+from tests.ui.fakes import NOW, figures_once, session
 
 
 def test_the_same_turns_are_read_in_the_order_of_the_isb() -> None:
@@ -51,8 +50,8 @@ def test_what_is_not_known_stays_so() -> None:
 
 
 def test_the_report_says_the_order_and_orders_are_never_compared() -> None:
-    plain = session_figures(session(session_id="before"))
-    other = session_figures(in_order(session(when=NOW), "isb"))
+    plain = figures_once(session(session_id="before"))
+    other = figures_once(in_order(session(when=NOW), "isb"))
     assert "ISB" in method(other, 6, compared=False)
     assert "ISB" not in method(plain, 6, compared=False)
     assert {item.verdict for item in compare(plain, other)} == {"not_judged"}

@@ -12,18 +12,18 @@ import pytest
 
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.hand.exercises import Movement, exercise_named
-from carpus.core.results.figures import SessionFigures, data_digest, session_figures
+from carpus.core.results.figures import SessionFigures, data_digest
 from carpus.core.results.norms import total_norm, wrist_norm
 from carpus.core.results.progress import compare, other_hand_of, previous_of, progress, unfair_reasons
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event
 from tests.results.days import days_ago
-from tests.ui.fakes import NOW, session
+from tests.ui.fakes import NOW, figures_once, session
 
 
 @pytest.fixture(scope="module")
 def figures() -> SessionFigures:
-    return session_figures(session())
+    return figures_once(session())
 
 
 def test_means_are_those_of_the_extremes_of_each_repetition(figures: SessionFigures) -> None:
@@ -43,11 +43,11 @@ def test_means_are_those_of_the_extremes_of_each_repetition(figures: SessionFigu
 
 def test_a_repetition_left_out_leaves_the_mean(figures: SessionFigures) -> None:
     arc = figures.row("arc", 1)
-    without = session_figures(session(), RepetitionChoices({6: "pain"}))
+    without = figures_once(session(), RepetitionChoices({6: "pain"}))
     assert without.counted == 8
     assert without.repetitions[6].reason == "pain"
     assert without.row("arc", 1).mean_deg == pytest.approx((sum(arc.values_deg) - arc.values_deg[6]) / 8)
-    nothing = session_figures(session(), RepetitionChoices(dict.fromkeys(range(9), "trial")))
+    nothing = figures_once(session(), RepetitionChoices(dict.fromkeys(range(9), "trial")))
     assert nothing.rows == ()
     assert nothing.speed.peak_speed.count == 0
 
@@ -55,7 +55,7 @@ def test_a_repetition_left_out_leaves_the_mean(figures: SessionFigures) -> None:
 def test_an_edge_moved_by_a_person_changes_that_repetition_only(figures: SessionFigures) -> None:
     rep = figures.repetitions[3]
     middle = 0.5 * (rep.start_s + rep.end_s)
-    moved = session_figures(session(), RepetitionChoices({}, {3: (rep.start_s, middle - 1.5)}))
+    moved = figures_once(session(), RepetitionChoices({}, {3: (rep.start_s, middle - 1.5)}))
     before, after = figures.row("arc", 1), moved.row("arc", 1)
     assert after.values_deg[3] < before.values_deg[3] - 10
     assert after.values_deg[:3] == pytest.approx(before.values_deg[:3])
@@ -65,14 +65,14 @@ def test_hidden_stretches_do_not_count(figures: SessionFigures) -> None:
     names = ("CMC1", "MCP2", "MCP3", "MCP4")
     rep = figures.repetitions[2]
     covered = session(hidden=[(rep.start_s, rep.end_s, name) for name in names])
-    seen = session_figures(covered)
+    seen = figures_once(covered)
     assert any(r.unmeasured == "hidden" for r in seen.repetitions) or len(seen.repetitions) < len(figures.repetitions)
     assert seen.quality.measured_share < 0.95
     assert seen.quality.hidden_share == pytest.approx(4 / 6 * (1 - seen.quality.measured_share), abs=0.01)
 
 
 def test_free_movement_reports_every_angle_and_is_never_judged() -> None:
-    free = session_figures(session(exercise="FREE", motion="mixed"))
+    free = figures_once(session(exercise="FREE", motion="mixed"))
     assert [row.angle for row in free.rows if row.movement == "arc"] == [1, 0, 2]
     assert {item.verdict for item in compare(free, replace(free, when=NOW + timedelta(days=1)))} == {"not_judged"}
 
@@ -88,7 +88,7 @@ def test_a_change_is_one_only_beyond_its_limit(figures: SessionFigures, differen
 
 
 def test_two_repetitions_are_never_compared(figures: SessionFigures) -> None:
-    few = session_figures(session(), RepetitionChoices(dict.fromkeys(range(2, 9), "trial")))
+    few = figures_once(session(), RepetitionChoices(dict.fromkeys(range(2, 9), "trial")))
     assert {item.verdict for item in compare(figures, few)} == {"not_judged"}
     assert "few_repetitions_after" in unfair_reasons(figures, few)
 
@@ -158,7 +158,7 @@ def test_source_targets_and_the_calibrations_findings_stay_with_the_figures() ->
 
     def with_parameters(content: dict[str, object]) -> SessionFigures:
         header = replace(stored.header, parameters=json.dumps(content))
-        return session_figures(replace(stored, header=header))
+        return figures_once(replace(stored, header=header))
 
     assert with_parameters({"source": {"simulated": "yes"}}).simulated
     assert not with_parameters({"source": {"format": "tum"}}).simulated
@@ -169,7 +169,7 @@ def test_source_targets_and_the_calibrations_findings_stay_with_the_figures() ->
     doubted = CalibrationFinding("tilt", (), 22.0, 15.0, "deg")
     verdict = replace(stored.calibration.verdict, findings=(doubted,))
     stored = replace(stored, calibration=replace(stored.calibration, verdict=verdict))
-    assert session_figures(stored).findings == (doubted,)
+    assert figures_once(stored).findings == (doubted,)
 
 
 def test_previous_and_other_hand_are_the_last_of_their_kind_that_count(figures: SessionFigures) -> None:
@@ -184,7 +184,7 @@ def test_pain_and_notes_come_from_the_events() -> None:
     stored = session(
         events=(Event(start + 1, "pain", "2"), Event(start + 5, "note", "rest"), Event(start + 9, "pain", "4"))
     )
-    figures = session_figures(stored)
+    figures = figures_once(stored)
     assert figures.pain == (2, 4)
     assert figures.pain_s == pytest.approx((1.0, 9.0))
     assert figures.notes == ((pytest.approx(5.0), "rest"),)
@@ -220,7 +220,7 @@ def test_shown_differences_agree_with_the_shown_means(figures: SessionFigures) -
 
 
 def test_the_best_is_the_quickest_and_the_smoothest() -> None:
-    figures = session_figures(session())
+    figures = figures_once(session())
     speed = figures.speed
     assert speed.movement_time.count >= 3
     assert speed.movement_time.best < speed.movement_time.mean
@@ -231,8 +231,8 @@ def test_the_best_is_the_quickest_and_the_smoothest() -> None:
 
 
 def test_of_the_other_hand_too_a_recording_counts_by_its_newest_result() -> None:
-    mine = session_figures(session())
-    first = session_figures(session(NOW - timedelta(days=7), side="left", session_id="one"))
+    mine = figures_once(session())
+    first = figures_once(session(NOW - timedelta(days=7), side="left", session_id="one"))
     again = replace(first, session_id="two", created=NOW)
     assert first.recording_id == again.recording_id
     for history in ([first, again], [again, first]):

@@ -8,14 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.figures import SessionFigures
 from carpus.core.results.further_measures import FurtherMeasure, _distance_sd_m, session_reaches
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.norms import graded_totals
 from carpus.ui.report.further_rows import further_rows, main_words, measure_name, short_words
 from carpus.ui.report.tables import table_rows
 from carpus.ui.report.words import method
-from tests.ui.fakes import session
+from tests.ui.fakes import figures_once, session
 from tests.ui.hand_fakes import hand_session
 
 
@@ -30,7 +30,7 @@ def without_words(figures: SessionFigures) -> set[str]:
 
 def test_reach_and_grasp_has_its_time_speed_path_and_aperture_and_speaks_of_no_fist() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
-    figures = session_figures(made)
+    figures = figures_once(made)
     assert without_words(figures) == set()
     reaches = named(figures, "movement time", "reach")
     assert len(reaches.values) >= 3
@@ -47,7 +47,7 @@ def test_reach_and_grasp_has_its_time_speed_path_and_aperture_and_speaks_of_no_f
 
 def test_thumb_opposition_counts_touches_and_measures_the_thumb_s_own_way() -> None:
     made = hand_session(exercise="THUMB_OPP", motion="opposition")
-    figures = session_figures(made)
+    figures = figures_once(made)
     assert without_words(figures) == set()
     distances = [named(figures, "least distance", f"TIP1-TIP{k}").mean for k in (2, 3, 4, 5)]
     assert all(0.0 < value < 15.0 for value in distances)
@@ -60,7 +60,7 @@ def test_thumb_opposition_counts_touches_and_measures_the_thumb_s_own_way() -> N
     # The whole hand goes along the table meanwhile: the thumb's way in the hand stays the same.
     carried = made.motion.position_m + np.linspace(0.0, 0.3, len(made))[:, None] * [1.0, 0.0, 0.0]
     tips = made.motion.joint_position_m + (carried - made.motion.position_m)[:, None]
-    moved = session_figures(replace(made, motion=replace(made.motion, position_m=carried, joint_position_m=tips)))
+    moved = figures_once(replace(made, motion=replace(made.motion, position_m=carried, joint_position_m=tips)))
     assert np.allclose(named(moved, "path length", "thumb across").values, across.values, atol=1e-6)
 
 
@@ -71,39 +71,39 @@ def test_tips_touch_that_come_nearer_than_fifteen_millimetres(least_mm: float, t
     away = tips[:, 4] - tips[:, 8]
     distance = np.linalg.norm(away, axis=1, keepdims=True)
     tips[:, 4] += away / distance * (1e-3 * least_mm - np.nanmin(distance))
-    figures = session_figures(replace(made, motion=replace(made.motion, joint_position_m=tips)))
+    figures = figures_once(replace(made, motion=replace(made.motion, joint_position_m=tips)))
     assert named(figures, "least distance", "TIP1-TIP2").mean == pytest.approx(least_mm, abs=0.1)
     assert named(figures, "touches", "TIP1-TIP2").mean == touches
 
 
 def test_a_thumb_that_is_never_touched_to_a_finger_touches_none() -> None:
-    figures = session_figures(hand_session(exercise="THUMB_OPP", motion="abduction"))
+    figures = figures_once(hand_session(exercise="THUMB_OPP", motion="abduction"))
     assert [named(figures, "touches", f"TIP1-TIP{k}").mean for k in (2, 3, 4, 5)] == [0.0] * 4
 
 
 def test_a_hidden_thumb_is_coherent_until_its_pose_falls_apart() -> None:
     hidden = [(8.0, 9.5, name) for name in ("IP1", "TIP1")]
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp", hidden=hidden)
-    figures = session_figures(made)
+    figures = figures_once(made)
     assert named(figures, "thumb hidden", "thumb").mean == pytest.approx(1.5 / 40.0, rel=0.05)
     # Known to 15 degrees for the first second: its sd grows by 12 degrees times the root of the time.
     assert named(figures, "coherent though hidden", "thumb").mean == 1.0
     assert 0.6 < named(figures, "known though hidden", "thumb").mean < 0.8
     joints = made.motion.joint_angles_rad.copy()
     joints[:, made.header.joint_names.index("IP1_flexion")] = np.radians(-80.0)
-    broken = session_figures(replace(made, motion=replace(made.motion, joint_angles_rad=joints)))
+    broken = figures_once(replace(made, motion=replace(made.motion, joint_angles_rad=joints)))
     assert named(broken, "coherent though hidden", "thumb").mean == 0.0
 
 
 def test_a_fist_has_graded_totals_and_fingers_that_move_together() -> None:
-    figures = session_figures(hand_session(exercise="FIST_COMPOSITE", motion="fist"))
+    figures = figures_once(hand_session(exercise="FIST_COMPOSITE", motion="fist"))
     assert without_words(figures) == set()
     assert {grade.finger for grade in figures.grades} <= {1, 2, 3, 4, 5}
     for grade in figures.grades:
         row = figures.row("arc", -1, f"TAM{grade.finger}")
         assert grade.share == row.mean_deg / (140.0 if grade.finger == 1 else 260.0)
         assert (grade.grade is None) == row.limited
-    other = session_figures(hand_session(exercise="FIST_COMPOSITE", motion="fist", share=0.6, hides_beyond_deg=999.0))
+    other = figures_once(hand_session(exercise="FIST_COMPOSITE", motion="fist", share=0.6, hides_beyond_deg=999.0))
     beside = graded_totals(figures.joint_rows, figures.exercise, other.joint_rows)
     assert all(grade.of_other_hand for grade in beside)
     assert all(grade.share > 1.0 for grade in beside if grade.finger > 1), "of a hand that bends less"
@@ -118,7 +118,7 @@ def test_a_wrist_that_does_not_come_back_has_its_deficit_in_a_row_of_its_own() -
     flexion = angles[:, 1]
     low, high = np.nanpercentile(flexion, (2, 98))
     angles[:, 1] = np.radians(20.0) + (flexion - low) / (high - low) * np.radians(40.0)
-    figures = session_figures(replace(made, motion=replace(motion, angles_rad=angles)))
+    figures = figures_once(replace(made, motion=replace(motion, angles_rad=angles)))
     row = figures.row("extension", 1)
     assert -24.0 < row.mean_deg < -12.0
     shown = {line.movement: line.today for line in table_rows(figures, None, None)}
@@ -130,7 +130,7 @@ def test_a_wrist_that_does_not_come_back_has_its_deficit_in_a_row_of_its_own() -
 def test_a_speed_that_noise_hides_is_said_to_be_too_slow_and_counts_no_value() -> None:
     lost = FurtherMeasure("smoothness", "reach", "SPARC", (math.nan, math.nan), "too_slow")
     gone = FurtherMeasure("smoothness", "return", "SPARC", (math.nan,))
-    figures = session_figures(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
+    figures = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
     figures = replace(figures, further=(lost, gone))
     assert [(row.name, row.today) for row in further_rows(figures)] == [
         ("Smoothness (SPARC), out", "too slow to judge")
@@ -141,9 +141,9 @@ def test_a_speed_that_noise_hides_is_said_to_be_too_slow_and_counts_no_value() -
 
 
 def test_touches_that_the_camera_does_not_see_are_not_counted() -> None:
-    plain = session_figures(hand_session(exercise="THUMB_OPP", motion="opposition"))
+    plain = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
     hidden = [(0.5, 60.0, name) for name in ("IP1", "TIP1")]
-    figures = session_figures(hand_session(exercise="THUMB_OPP", motion="opposition", hidden=hidden))
+    figures = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition", hidden=hidden))
     for k in (2, 3, 4, 5):
         for name in ("touches", "least distance"):
             unseen = named(figures, name, f"TIP1-TIP{k}")
@@ -166,17 +166,17 @@ def test_hidden_tips_may_have_touched_within_two_standard_deviations(sds: float,
     apart = replace(made.motion, joint_position_m=tips)
     scale = (0.030 - 0.015) / sds / _distance_sd_m(replace(made, motion=apart), 1)
     unsure = replace(apart, joint_angles_sd_rad=apart.joint_angles_sd_rad * scale[:, None])
-    found = named(session_figures(replace(made, motion=unsure)), "touches", "TIP1-TIP2")
+    found = named(figures_once(replace(made, motion=unsure)), "touches", "TIP1-TIP2")
     assert found.mean == pytest.approx(touches, nan_ok=True)
 
 
 def test_a_reach_that_goes_out_of_sight_half_way_has_no_time() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
-    plain = session_figures(made)
+    plain = figures_once(made)
     times = session_reaches(made, np.ones(len(made), dtype=bool))
     middle = 0.5 * (times[0].start_s + times[0].end_s)
     gone = hand_session(exercise="REACH_GRASP", motion="reach_grasp", lost=[(middle, middle + 0.5)])
-    figures = session_figures(gone)
+    figures = figures_once(gone)
     for name in ("movement time", "path length", "peak speed"):
         values = named(figures, name, "reach").values
         assert math.isnan(values[0]), "it ended where it was no longer seen, not where the hand stopped"
@@ -186,11 +186,11 @@ def test_a_reach_that_goes_out_of_sight_half_way_has_no_time() -> None:
 
 def test_an_aperture_of_hidden_tips_is_told_only_where_it_is_known_well() -> None:
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp", hidden=[(5.0, 60.0, "TIP1")])
-    first, *_, last = named(session_figures(made), "largest aperture", "TIP1-TIP2").values
+    first, *_, last = named(figures_once(made), "largest aperture", "TIP1-TIP2").values
     assert first > 50.0
     assert math.isnan(last), "half a minute after the tip was last seen"
     sure = made.motion.joint_angles_sd_rad * 0.01
-    known = session_figures(replace(made, motion=replace(made.motion, joint_angles_sd_rad=sure)))
+    known = figures_once(replace(made, motion=replace(made.motion, joint_angles_sd_rad=sure)))
     assert min(named(known, "largest aperture", "TIP1-TIP2").values) > 50.0
 
 
@@ -206,5 +206,5 @@ def test_spans_are_those_of_tips_that_were_seen() -> None:
     )
     for of in ("TIP1-TIP5", "TIP4-TIP5"):
         name = "hand span" if of == "TIP1-TIP5" else "tip span"
-        span = named(session_figures(made), name, of).mean
-        assert named(session_figures(guessed), name, of).mean == pytest.approx(span, abs=2.0)
+        span = named(figures_once(made), name, of).mean
+        assert named(figures_once(guessed), name, of).mean == pytest.approx(span, abs=2.0)

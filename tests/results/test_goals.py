@@ -11,16 +11,16 @@ import pytest
 
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
-from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import proposals
-from tests.ui.fakes import NOW, session
+from tests.ui.fakes import NOW, figures_once, session
 
 FLEXION = exercise_named("WRIST_FE")
 
 
 @cache
 def base() -> SessionFigures:
-    return session_figures(session(seconds=26.0))
+    return figures_once(session(seconds=26.0))
 
 
 def of_day(day: int, mean_deg: float, **changes: object) -> SessionFigures:

@@ -13,13 +13,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carpus.core.measures.signals import LONGEST_GAP_S
-from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.figures import SessionFigures
 from carpus.core.results.motion_curves import mean_repetition, seen_angles
 from carpus.core.results.ranges import finger_keys
 from carpus.core.results.repetition_rows import RepetitionChoices, ShownRepetition
 from carpus.core.results.side_by_side import Step, in_step, ordered, pair_reasons, partner_of, side_by_side
 from tests.results.days import days_ago
-from tests.ui.fakes import NOW, session
+from tests.ui.fakes import NOW, figures_once, session
 from tests.ui.hand_fakes import hand_session
 
 RATE_HZ = 30.0
@@ -161,12 +161,12 @@ def test_two_repetitions_have_no_spread_and_none_no_mean() -> None:
 # --- what is said ---------------------------------------------------------------------------------------------
 @pytest.fixture(scope="module")
 def figures() -> SessionFigures:
-    return session_figures(session())
+    return figures_once(session())
 
 
 @pytest.fixture(scope="module")
 def left() -> SessionFigures:
-    return session_figures(session(NOW, 1.25, session_id="left", side="left"))
+    return figures_once(session(NOW, 1.25, session_id="left", side="left"))
 
 
 def test_a_session_beside_itself_shows_no_difference(figures: SessionFigures) -> None:
@@ -181,7 +181,7 @@ def test_a_session_beside_itself_shows_no_difference(figures: SessionFigures) ->
 
 def test_a_mirrored_hand_equals_the_other() -> None:
     right, left = session(), session(session_id="left", side="left")
-    both = side_by_side(session_figures(right), session_figures(left))
+    both = side_by_side(figures_once(right), figures_once(left))
     assert both.relation == "hands"
     assert both.fair
     for one in both.ranges:
@@ -189,7 +189,7 @@ def test_a_mirrored_hand_equals_the_other() -> None:
     means = []
     for stored in (right, left):
         seen = seen_angles(stored)
-        means.append(mean_repetition(seen.time_s, seen.of(("", 1)), session_figures(stored).repetitions))
+        means.append(mean_repetition(seen.time_s, seen.of(("", 1)), figures_once(stored).repetitions))
     assert means[0].mean_deg == pytest.approx(means[1].mean_deg, abs=2.0)
 
 
@@ -212,12 +212,12 @@ def test_an_unfair_pair_is_not_judged_and_says_why(figures: SessionFigures, left
     both = side_by_side(figures, far)
     assert both.reasons == ("distance",)
     assert {one.comparison.verdict for one in both.ranges} == {"not_judged"}
-    other = session_figures(session(exercise="WRIST_RU", motion="deviation", session_id="other"))
+    other = figures_once(session(exercise="WRIST_RU", motion="deviation", session_id="other"))
     assert "exercise" in side_by_side(figures, other).reasons
     apart = side_by_side(figures, other)
     assert apart.main is None, "they have no movement in common"
     assert len(apart.alone) == len(figures.rows) + len(other.rows), "what each has is shown all the same"
-    few = session_figures(session(session_id="few"), RepetitionChoices(dict.fromkeys(range(7), "pain")))
+    few = figures_once(session(session_id="few"), RepetitionChoices(dict.fromkeys(range(7), "pain")))
     assert pair_reasons(figures, few) == pair_reasons(few, figures) == ("few_repetitions_after",)
     assert "angle_order" in pair_reasons(figures, replace(left, angle_order="isb"))
 
@@ -249,7 +249,7 @@ def test_of_the_whole_hand_the_fingers_compare() -> None:
         hand_session(hides_beyond_deg=200.0),
         hand_session(share=0.6, session_id="left", side="left", hides_beyond_deg=200.0),
     )
-    first, second = session_figures(other), session_figures(stored)
+    first, second = figures_once(other), figures_once(stored)
     both = side_by_side(first, second, finger_keys(0))
     assert [one.first.joint for one in both.ranges] == [f"TAM{k}" for k in (1, 2, 3, 4, 5)]
     assert both.main.beyond
@@ -264,8 +264,8 @@ def test_of_the_whole_hand_the_fingers_compare() -> None:
 
 def test_a_hidden_end_of_either_hand_is_judged_only_where_it_is_sure() -> None:
     """A lower bound beyond error above a figure fully seen is a difference, whichever hand has it."""
-    hidden = session_figures(hand_session(hides_beyond_deg=62.0))
-    small = session_figures(hand_session(share=0.3, session_id="left", side="left", hides_beyond_deg=200.0))
+    hidden = figures_once(hand_session(hides_beyond_deg=62.0))
+    small = figures_once(hand_session(share=0.3, session_id="left", side="left", hides_beyond_deg=200.0))
     for pair in ((hidden, small), (small, hidden)):
         both = side_by_side(*pair, finger_keys(3))
         middle = next(one for one in both.ranges if one.first.joint == "PIP3_flexion")

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import uuid
+from collections.abc import Callable
 from datetime import UTC, datetime
-from functools import lru_cache
+from functools import lru_cache, wraps
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from carpus.core.calibration.result import Calibration, CalibrationFinding, Clicks, Verdict
 from carpus.core.camera import Camera
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
-from carpus.core.session.values import SessionHeader, new_header
+from carpus.core.session.values import RawPictures, SessionHeader, new_header
+from carpus.core.session.writer import SessionWriter
 from carpus.core.types import Detections, Moment, TrackedFrame, TrackStatus
 
 CAMERA = Camera(570.25, 571.5, 314.0, 235.5, 640, 480, (0.04, -0.12, 0.001, -0.0003, 0.07), origin="file")
@@ -108,3 +112,38 @@ def make_frame(row: int, protocol: MarkerProtocol = WRIST6, joints: int | None =
 
 def time_of(row: int) -> float:
     return 1305031102.175304 + row / 30.0
+
+
+def written_once(write: Callable[..., Path]) -> Callable[..., Path]:
+    """What writes a file, and for the same arguments gives a copy of it from then on."""
+    contents: dict[Any, bytes] = {}
+
+    @wraps(write)
+    def copied(path: Path, *arguments: Any, **named: Any) -> Path:
+        kind = (arguments, *named.items())
+        if kind in contents:
+            path.write_bytes(contents[kind])
+        else:
+            contents[kind] = write(path, *arguments, **named).read_bytes()
+        return path
+
+    return copied
+
+
+def begun(
+    path: Path,
+    header: SessionHeader | None = None,
+    rows: int = 0,
+    camera: Camera = CAMERA,
+    pictures: Callable[[int], RawPictures] | None = None,
+    calibration: Calibration | None = None,
+    **options: Any,
+) -> SessionWriter:
+    """A session in the making with so many rows, each with its ``pictures`` where these are kept; its clock stands
+    still unless the ``options`` of :meth:`SessionWriter.create` say otherwise."""
+    header = header or make_header()
+    options = {"clock": lambda: 0.0, "raw_depth_unit_m": None if pictures is None else 1e-3} | options
+    session = SessionWriter.create(path, header, camera, calibration or make_calibration(header.protocol), **options)
+    for row in range(rows):
+        session.append(make_frame(row, header.protocol), None if pictures is None else pictures(row))
+    return session

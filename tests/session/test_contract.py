@@ -14,8 +14,7 @@ import pytest
 
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session.values import motion_of
-from carpus.core.session.writer import SessionWriter
-from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
+from tests.session.samples import CAMERA, begun, make_calibration, make_frame, make_header, time_of, written_once
 
 N = 40
 WRIST_MARKERS = ["WRIST", "CMC1", "MCP2", "MCP3", "MCP4", "MCP5"]
@@ -92,11 +91,10 @@ def contract(m: int, j: int, d: int, e: int) -> dict[str, Row]:
     return table
 
 
+@written_once
 def write(path: Path, protocol: MarkerProtocol) -> Path:
     frames = [make_frame(row, protocol) for row in range(N)]
-    with SessionWriter.create(path, make_header(protocol), CAMERA, make_calibration(protocol)) as writer:
-        for frame in frames:
-            writer.append(frame)
+    with begun(path, make_header(protocol), N) as writer:
         writer.add_event(time_of(3), "note", "Schmerz am Daumen: 3°")
         writer.add_event(time_of(9), "repetition")
         writer.write_smoothed(motion_of(list(reversed(frames))))
@@ -189,8 +187,7 @@ def test_every_number_is_where_it_belongs(tmp_path: Path) -> None:
 
 def test_free_end_joints_have_their_own_angles(tmp_path: Path) -> None:
     path = tmp_path / "s.h5"
-    header = make_header(HAND21, dip_free=True)
-    with SessionWriter.create(path, header, CAMERA, make_calibration(HAND21)) as writer:
+    with begun(path, make_header(HAND21, dip_free=True)) as writer:
         writer.append(make_frame(0, HAND21, joints=21))
     with h5py.File(path, "r") as file:
         assert file["/joints/angles"].shape == (1, 21)

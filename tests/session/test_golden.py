@@ -12,7 +12,6 @@ import h5py
 import numpy as np
 import pytest
 
-from carpus.core.errors import SessionUnreadable
 from carpus.core.hand.protocols import HAND21, WRIST6, MarkerProtocol
 from carpus.core.session import schema
 from carpus.core.session.reader import read_detections, read_raw, read_session, verify
@@ -81,14 +80,6 @@ def test_an_old_session_is_read_value_by_value(tmp_path: Path, version: int, pro
     assert pictures == [RawPictures(bytes([row]) * 20, b"d" * row) for row in range(ROWS)]
     assert verify(path).sealed == (version > 1)
     assert path.read_bytes() == before
-
-
-def test_a_newer_session_is_refused_with_a_sentence(tmp_path: Path) -> None:
-    path = unpacked(f"v{schema.FORMAT_VERSION}-wrist6.h5", tmp_path)
-    with h5py.File(path, "r+") as file:
-        file.attrs["format_version"] = schema.NEWEST_VERSION + 1
-    with pytest.raises(SessionUnreadable, match=f"format version {schema.NEWEST_VERSION + 1}, this Carpus reads up to"):
-        read_session(path)
 
 
 def test_readings_on_the_back_of_the_hand_are_read_value_by_value(tmp_path: Path) -> None:

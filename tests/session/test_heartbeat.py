@@ -9,7 +9,6 @@ import signal
 import subprocess
 import sys
 import time
-import uuid
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -25,17 +24,9 @@ from carpus.core.session.recovery import alive_path, recover_folder, still_beati
 from carpus.core.session.schema import TableLayout
 from carpus.core.session.values import RawPictures, motion_of
 from carpus.core.session.writer import Fallback, SessionWriter
-from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
+from tests.session.samples import begun, make_frame, time_of
 
 ROOT = Path(__file__).parents[2]
-
-
-def begun(path: Path, fallback: Fallback | None = None, *, raw: bool = False) -> SessionWriter:
-    unit = 1e-3 if raw else None
-    header = make_header(session_id=uuid.uuid4())
-    return SessionWriter.create(
-        path, header, CAMERA, make_calibration(), raw_depth_unit_m=unit, clock=lambda: 0.0, fallback=fallback
-    )
 
 
 def pictures(row: int) -> RawPictures:
@@ -51,8 +42,7 @@ def without_locks(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("without_locks")
 def test_a_running_session_is_not_finished_by_another(tmp_path: Path) -> None:
-    session = begun(tmp_path / "s.h5")
-    session.append(make_frame(0))
+    session = begun(tmp_path / "s.h5", rows=1)
     session.flush()
     assert alive_path(session.part_path).stat().st_mode & 0o777 == 0o600
     found = recover_folder(tmp_path)
@@ -67,8 +57,8 @@ def test_a_running_session_is_not_finished_by_another(tmp_path: Path) -> None:
 def test_a_killed_recorder_is_no_running_one(tmp_path: Path) -> None:
     code = (
         "import sys, time\nfrom pathlib import Path\n"
-        "from tests.session.test_heartbeat import begun, make_frame\n"
-        "session = begun(Path(sys.argv[1]))\nsession.append(make_frame(0))\nsession.flush()\n"
+        "from tests.session.samples import begun\n"
+        "session = begun(Path(sys.argv[1]), rows=1)\nsession.flush()\n"
         "print('begun', flush=True)\ntime.sleep(60)\n"
     )
     command = [sys.executable, "-c", code, str(tmp_path / "s.h5")]
@@ -146,9 +136,8 @@ class Away:
 
     def begun(self, *, raw: bool = False, rows: int = 20) -> SessionWriter:
         """So many rows of it on disk."""
-        session = begun(self.home / "s.h5", Fallback(lambda: self.other, self.told.append), raw=raw)
-        for row in range(rows):
-            session.append(make_frame(row), pictures(row) if raw else None)
+        fallback = Fallback(lambda: self.other, self.told.append)
+        session = begun(self.home / "s.h5", rows=rows, pictures=pictures if raw else None, fallback=fallback)
         session.flush()
         return session
 
@@ -249,40 +238,34 @@ def test_what_cannot_be_read_any_more_stays_behind_and_is_named(away: Away, monk
     assert read_session(target).header.session_id != result.header.session_id
 
 
-def test_a_disk_that_cannot_be_written_any_more(away: Away, monkeypatch: pytest.MonkeyPatch) -> None:
-    session, real = away.begun(), part_file.reserve
-
-    def read_only(descriptor: int, path: Path, begin: int, length: int) -> None:
-        if path.parent == away.home:
-            raise OutputNotWritable(path, "Read-only file system")
-        real(descriptor, path, begin, length)
-
-    monkeypatch.setattr(part_file, "reserve", read_only)
-    session.append(make_frame(20))
-    session.close()
-    assert len(away.told) == 1
-    assert len(read_session(away.other / "s.h5")) == 21
-    assert verify(away.other / "s.h5").sealed
-
-
 def test_without_another_place_it_is_told(away: Away) -> None:
-    session = begun(away.home / "s.h5")
-    session.append(make_frame(0))
+    session = begun(away.home / "s.h5", rows=1)
     shutil.rmtree(away.home)
     with pytest.raises(FolderGone):
         session.close()
     session.abandon()
 
 
-def test_a_full_disk_is_no_reason_to_move(away: Away, monkeypatch: pytest.MonkeyPatch) -> None:
-    session = away.begun(rows=1)
+@pytest.mark.parametrize("kind", [OutputNotWritable, DiskFull])
+def test_a_disk_that_cannot_be_written_is_left_but_for_a_full_one(
+    away: Away, monkeypatch: pytest.MonkeyPatch, kind: type[CarpusFault]
+) -> None:
+    session, real = away.begun(), part_file.reserve
 
-    def full(_: int, path: Path, *__: object) -> None:
-        raise DiskFull(path)
+    def refused(descriptor: int, path: Path, begin: int, length: int) -> None:
+        if path.parent == away.home:
+            raise kind(path)
+        real(descriptor, path, begin, length)
 
-    monkeypatch.setattr(part_file, "reserve", full)
-    session.append(make_frame(1))
-    with pytest.raises(DiskFull):
-        session.flush()
-    session.abandon()
-    assert away.told == []
+    monkeypatch.setattr(part_file, "reserve", refused)
+    session.append(make_frame(20))
+    if kind is DiskFull:
+        with pytest.raises(DiskFull):
+            session.flush()
+        session.abandon()
+        assert away.told == []
+    else:
+        session.close()
+        assert len(away.told) == 1
+        assert len(read_session(away.other / "s.h5")) == 21
+        assert verify(away.other / "s.h5").sealed

@@ -14,9 +14,8 @@ from carpus.core.hand.protocols import WRIST6
 from carpus.core.records.values import PatientEntry, newest_results
 from carpus.core.session.reader import read_outline, read_session
 from carpus.core.session.values import new_header
-from carpus.core.session.writer import SessionWriter
 from tests.records.samples import opened
-from tests.session.samples import CAMERA, make_calibration, make_frame, time_of
+from tests.session.samples import begun, time_of
 
 MOVED = datetime(2023, 4, 5, 14, 30, tzinfo=UTC)
 TRACKED = datetime(2026, 11, 22, 9, 0, tzinfo=UTC)
@@ -34,9 +33,7 @@ def write(path: Path, tracked: datetime = TRACKED, recorded: datetime = MOVED, r
         recording_id=recording,
     )
     path.parent.mkdir(parents=True, exist_ok=True)
-    with SessionWriter.create(path, header, CAMERA, make_calibration()) as session:
-        for row in range(4):
-            session.append(make_frame(row))
+    begun(path, header, 4).close()
     return path
 
 

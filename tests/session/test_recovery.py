@@ -19,8 +19,7 @@ from carpus.core.session.disk import part_path, target_of_part
 from carpus.core.session.reader import read_detections, read_raw, read_session
 from carpus.core.session.recovery import Recovery, interrupted_sessions, recover_folder
 from carpus.core.session.values import RawPictures, motion_of
-from carpus.core.session.writer import SessionWriter
-from tests.session.samples import CAMERA, make_calibration, make_frame, make_header, time_of
+from tests.session.samples import begun, make_frame, make_header, time_of
 
 ROOT = Path(__file__).parents[2]
 N = 10
@@ -29,9 +28,7 @@ NOW = datetime(2026, 11, 14, 8, 0, tzinfo=UTC)
 
 def interrupt(target: Path, rows: int = N, smoothed: int = 0) -> Path:
     """A part file as a kill leaves it."""
-    session = SessionWriter.create(target, make_header(session_id=uuid.uuid4()), CAMERA, make_calibration())
-    for row in range(rows):
-        session.append(make_frame(row))
+    session = begun(target, make_header(session_id=uuid.uuid4()), rows)
     if rows:
         session.add_event(time_of(1), "note", "x")
     if smoothed:
@@ -98,9 +95,7 @@ def test_a_frame_whose_blobs_are_missing_or_that_was_only_announced_is_cut_too(
 
 
 def test_pictures_are_cut_with_their_frames(tmp_path: Path) -> None:
-    session = SessionWriter.create(tmp_path / "s.h5", make_header(), CAMERA, make_calibration(), raw_depth_unit_m=0.001)
-    for row in range(N):
-        session.append(make_frame(row), RawPictures(b"c" * (row + 1), b"d"))
+    session = begun(tmp_path / "s.h5", rows=N, pictures=lambda row: RawPictures(b"c" * (row + 1), b"d"))
     session.abandon()
     with h5py.File(session.part_path, "r+") as file:
         file["/raw/color"].resize(sum(range(1, 8)), axis=0)
@@ -136,8 +131,7 @@ def test_an_end_of_file_written_too_early_is_mended(tmp_path: Path) -> None:
 
 
 def test_a_running_session_is_left_alone(tmp_path: Path) -> None:
-    session = SessionWriter.create(tmp_path / "s.h5", make_header(), CAMERA, make_calibration())
-    session.append(make_frame(0))
+    session = begun(tmp_path / "s.h5", rows=1)
     recovery = recover_folder(tmp_path)
     assert (recovery.recovered, recovery.busy, recovery.faults) == ((), (session.part_path,), ())
     program = """if True:
@@ -180,8 +174,8 @@ def test_a_taken_name_is_not_overwritten(tmp_path: Path) -> None:
 def test_a_session_ended_between_the_last_two_steps(tmp_path: Path, linked: bool) -> None:
     """Complete, but still under its part name, with or without the final one."""
     target = tmp_path / "s.h5"
-    with SessionWriter.create(target, make_header(), CAMERA, make_calibration()) as session:
-        session.append(make_frame(0))
+    session = begun(target, rows=1)
+    session.close()
     if linked:
         os.link(target, session.part_path)
     else:
