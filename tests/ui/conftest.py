@@ -19,9 +19,10 @@ from carpus.ui.controls.sheet import Sheet
 from carpus.ui.fonts import load_fonts
 from carpus.ui.keys import Keys
 from carpus.ui.live.screen import LiveScreen
+from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.style import apply_style
 from carpus.ui.theme import Theme
-from tests.ui.fakes import FakeFeed, figures_once, set_up
+from tests.ui.fakes import FakeFeed, FakeSessions, figures_once, set_up
 from tests.ui.live_tried import TriedLive
 
 WidgetT = TypeVar("WidgetT", bound=QWidget)
@@ -29,6 +30,8 @@ Show = Callable[..., WidgetT]
 """What :func:`show` gives: a widget, and whether it is ``active``."""
 Live = Callable[..., TriedLive]
 """What :func:`live` gives: a feed, and seconds of it."""
+Reviewing = Callable[[FakeSessions, str], ReviewScreen]
+"""What :func:`review` gives: a store, and a session of it."""
 
 
 @pytest.fixture(autouse=True)
@@ -99,3 +102,19 @@ def live(qtbot: QtBot, theme: Theme, show: Show[LiveScreen]) -> Live:
         return tried
 
     return one
+
+
+@pytest.fixture
+def review(qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], background: Background) -> Iterator[Reviewing]:
+    """The review of a session with its first picture, stopped at the end."""
+    screens: list[ReviewScreen] = []
+
+    def one(store: FakeSessions, session_id: str) -> ReviewScreen:
+        screens.append(screen := show(ReviewScreen(theme, Keys(), background, store), active=True))
+        screen.begin("linden", session_id)
+        qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
+        return screen
+
+    yield one
+    for screen in screens:
+        screen.playing.stop()

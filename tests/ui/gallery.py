@@ -30,7 +30,7 @@ from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.results.report_form import Letterhead, ReportForm
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.values import Session
-from carpus.core.types import Side
+from carpus.core.types import ByteImage, Side
 from carpus.core.words import Words
 from carpus.ui.agreement.reference_sheet import ColumnsSheet, ReferenceSheet
 from carpus.ui.agreement.screen import AgreementScreen
@@ -128,6 +128,19 @@ ERASED_SESSION = ErasureFacts(
     "Linden 42", datetime(2026, 10, 9, 9, 51), "WRIST_FE", "right", 1, 4, 38.2, ("/home/clinic/Reports/L.pdf",), 8,
     datetime(2026, 11, 15, 18, 4), date(2036, 10, 9), 10, TODAY,
 )  # fmt: skip
+ERASED_PATIENT = replace(
+    ERASED_SESSION, when=None, sessions=9, files=31, size_mb=412.0, others=0,
+    made=("/home/clinic/Reports/L.pdf", "/home/clinic/Reports/L.csv"), last_backup=None, kept_until=date(2026, 10, 9),
+)  # fmt: skip
+KEPT = "9 sessions, the last on 3 Nov 2015; had to be kept until 3 Nov 2025"
+DEEDS = [
+    DeedLine(number, datetime(2026, 11, 20, 9, number), "AB", what, "Linden 42, 2026-11-20 09:01", detail)
+    for number, (what, detail) in enumerate(
+        (("recorded", ""), ("opened", ""), ("exported", "files 7 · by command"), ("erased", "files 4, made 3")), 1
+    )
+]
+CORRECTED = "Linden 42 · 20 Nov 2026, 11:37 · Wrist flexion–extension, right hand"
+DOCTOR = "Dr Anna Doctor\nVienna"
 OLD_BACKUP = BackupFacts(
     "warn", "The last back-up is 5 days old. 7 session files are not in it.",
     "15 Nov 2026, 18:04 · 49 session files, 2.04 GB · read back and compared: all equal", "Reminder after 3 days.",
@@ -195,7 +208,10 @@ class GalleryWindow:
         bar.again.show_words("", "")
         self.shell.sign.show_lines([])
 
-    def show(self, screen: ScreenT, first: QWidget | None = None) -> ScreenT:
+    def show(self, screen: ScreenT, first: QWidget | None = None, **place: Any) -> ScreenT:
+        """One screen alone, in a :meth:`place` where one is told."""
+        if place:
+            self.place(**place)
         while self.over:
             sheet = self.over.pop()
             sheet.close_sheet()
@@ -227,7 +243,25 @@ class GalleryWindow:
         self.settle()
 
 
-def _guided(state: str, bubble: Bubble) -> Callable[[GalleryWindow], None]:
+State = Callable[[GalleryWindow], object]
+
+
+def _then(state: str, act: Callable[[Any], object]) -> State:
+    """A state in which something was done with its screen."""
+    return lambda gallery: act(getattr(gallery, state)())
+
+
+def _under(state: str, kind: type[Sheet], *given: object, **named: object) -> State:
+    """A state with a sheet over it, which begins with what it is given."""
+
+    def show(gallery: GalleryWindow) -> None:
+        getattr(gallery, state)()
+        gallery.sheet(kind).begin(*given, **named)  # type: ignore[attr-defined]
+
+    return show
+
+
+def _guided(state: str, bubble: Bubble) -> State:
     """A state with a bubble of the guide beside what it speaks of."""
 
     def show(gallery: GalleryWindow) -> None:
@@ -237,9 +271,7 @@ def _guided(state: str, bubble: Bubble) -> Callable[[GalleryWindow], None]:
     return show
 
 
-def _patient_view(
-    exercise: str, scene: GuideScene, side: Side = "right", *, for_child: bool = False
-) -> Callable[[GalleryWindow], None]:
+def _patient_view(exercise: str, scene: GuideScene, side: Side = "right", *, for_child: bool = False) -> State:
     def show(gallery: GalleryWindow) -> None:
         gallery.shell.bar.hide()
         view = gallery.show(PatientView(gallery.theme))
@@ -252,56 +284,53 @@ def _patient_view(
 class Gallery(GalleryWindow):
     """Each method shows one state; their order is that of the journey."""
 
+    def _patients(self, store: FakeStore, chosen: str = "", *, camera: bool = False) -> PatientsScreen:
+        screen = PatientsScreen(self.theme, store, lambda: TODAY)
+        screen.set_camera_ready(camera)
+        screen.refresh(chosen)
+        return self.show(screen, screen.search, where="")
+
     def patients(self) -> PatientsScreen:
-        self.place(where="")
-        screen = PatientsScreen(self.theme, FakeStore(), lambda: TODAY)
-        screen.set_camera_ready(True)
-        screen.refresh("linden")
-        return self.show(screen, screen.search)
+        return self._patients(FakeStore(), "linden", camera=True)
 
     def patients_empty(self) -> None:
-        self.place(where="")
-        screen = PatientsScreen(self.theme, FakeStore([]), lambda: TODAY)
-        screen.refresh()
-        self.show(screen, screen.search)
+        self._patients(FakeStore([]))
 
-    def patients_not_found(self) -> None:
-        self.patients().search.setText("Fir 12")
+    patients_not_found = _then("patients", lambda screen: screen.search.setText("Fir 12"))
 
     def patients_recovered(self) -> None:
         self.patients().notice_place.addWidget(NoticeStrip(self.theme, RECOVERED, "Re&view it"))
 
-    def patient_form(self) -> None:
-        self.patients().new_patient()
+    patient_form = _then("patients", PatientsScreen.new_patient)
 
     def exercise(self) -> ExerciseScreen:
-        self.place(steps=0)
         screen = ExerciseScreen(self.theme)
         screen.show_sets(USUAL_SETS)
         screen.begin(FakeStore().rows[5], set_up(), "right", True, 110.0, 720.0)
-        return self.show(screen, screen.first())
+        return self.show(screen, screen.first(), steps=0)
 
     def exercise_hand(self) -> None:
-        self.place(steps=0)
         screen = ExerciseScreen(self.theme)
         screen.begin(FakeStore().rows[5], set_up("FIST_COMPOSITE", 90.0), "left", False)
-        self.show(screen, screen.first())
+        self.show(screen, screen.first(), steps=0)
 
     def camera(self) -> None:
-        self.place(steps=1)
         screen = CameraScreen(self.theme)
         screen.set_camera_ready(True)
         screen.begin(set_up(), "camera")
-        self.show(screen, screen.first())
+        self.show(screen, screen.first(), steps=1)
+
+    def _begin_markers(self, calibrator: FakeCalibrator, shown: ByteImage | None, since: str) -> MarkersScreen:
+        screen = MarkersScreen(self.theme, self.keys, self.background)
+        self.show(screen, screen.picture, steps=2)
+        screen.begin(calibrator, shown, since)
+        self.settle()
+        return screen
 
     def _markers(self, clicks: int, *findings: CalibrationFinding) -> tuple[MarkersScreen, FakeCalibrator]:
-        self.place(steps=2)
-        screen = MarkersScreen(self.theme, self.keys, self.background)
         calibrator = FakeCalibrator()
         calibrator.findings = findings
-        self.show(screen, screen.picture)
-        screen.begin(calibrator, picture(), "13 Nov")
-        self.settle()
+        screen = self._begin_markers(calibrator, picture(), "13 Nov")
         for pixel in calibrator.disc_px[:clicks]:
             screen.picture.clicked.emit(pixel + 1.0)
         self.settle()
@@ -320,14 +349,9 @@ class Gallery(GalleryWindow):
         screen.angle_sheet.begin(np.radians([0.0, 10.0, 0.0]))
 
     def _proposed(self, doubtful: tuple[str, ...] = (), not_found: tuple[str, ...] = ()) -> MarkersScreen:
-        self.place(steps=2)
-        screen = MarkersScreen(self.theme, self.keys, self.background)
         calibrator = FakeCalibrator("fist", protocol="hand21")
         calibrator.doubtful, calibrator.not_found = doubtful, not_found
-        self.show(screen, screen.picture)
-        screen.begin(calibrator, None, "")
-        self.settle()
-        return screen
+        return self._begin_markers(calibrator, None, "")
 
     markers_proposed = partialmethod(_proposed)
     markers_proposed_doubtful = partialmethod(_proposed, doubtful=("DIP4", "TIP4"))
@@ -346,22 +370,11 @@ class Gallery(GalleryWindow):
     def sessions_list(self) -> None:
         sessions = FakeStoredSessions()
         sessions.set_aside("s2", "discs lost")
-        self.place(tab=0)
-        self.show(SessionsScreen(self.theme, self.background, sessions)).begin("linden", "Linden 42", "s1")
+        self.show(SessionsScreen(self.theme, self.background, sessions), tab=0).begin("linden", "Linden 42", "s1")
         self.settle()
 
-    def sessions_erase(self) -> None:
-        self.sessions_list()
-        self.sheet(EraseSheet).begin(ERASED_SESSION)
-
-    def patient_erase(self) -> None:
-        self.patients()
-        patient = replace(
-            ERASED_SESSION, when=None, sessions=9, files=31, size_mb=412.0, others=0,
-            made=("/home/clinic/Reports/L.pdf", "/home/clinic/Reports/L.csv"),
-            last_backup=None, kept_until=date(2026, 10, 9),
-        )  # fmt: skip
-        self.sheet(EraseSheet).begin(patient)
+    sessions_erase = _under("sessions_list", EraseSheet, ERASED_SESSION)
+    patient_erase = _under("patients", EraseSheet, ERASED_PATIENT)
 
     def _live(
         self, feed: FakeFeed | None = None, seconds: float = 25.0, *, hidden: Sequence[tuple[float, float, str]] = (),
@@ -400,9 +413,7 @@ class Gallery(GalleryWindow):
         return screen
 
     live = partialmethod(_live, hidden=[(16.0, 16.9, "CMC1")])
-
-    def live_large(self) -> None:
-        self._live().toggle_large()
+    live_large = _then("_live", LiveScreen.toggle_large)
 
     def live_catching_up(self) -> None:
         """Stopped on a busy computer: the newest picture by itself, and how long it takes until all is tracked."""
@@ -414,9 +425,7 @@ class Gallery(GalleryWindow):
         screen.tick()
         screen._show_values()
 
-    def live_speeds(self) -> None:
-        self._live().toggle_speeds()
-
+    live_speeds = _then("_live", LiveScreen.toggle_speeds)
     live_marker_hidden = partialmethod(_live, hidden=[(23.0, 30.0, "CMC1")])
 
     def live_which_spot(self) -> None:
@@ -426,7 +435,6 @@ class Gallery(GalleryWindow):
         self._live(feed, whole_hand=True).on_picture.toggle_side()  # back to the usual view
 
     live_hand_lost = partialmethod(_live, lost=[(23.5, 30.0)])
-
     live_hand = partialmethod(_live, whole_hand=True)
     live_hand_thumb_hidden = partialmethod(
         _live, hidden=[(22.5, 30.0, name) for name in ("MCP1", "IP1", "TIP1")], whole_hand=True
@@ -456,11 +464,8 @@ class Gallery(GalleryWindow):
         words = fault_words(DiskFull("session.h5", "no space left"))
         StopCard(screen.stage, self.theme).show_words(words, answers, icon="hard-drive")
 
-    def live_note(self) -> None:
-        self._live().note_sheet.begin()
-
-    def live_pain(self) -> None:
-        self._live().pain_sheet.begin()
+    live_note = _then("_live", lambda screen: screen.note_sheet.begin())
+    live_pain = _then("_live", lambda screen: screen.pain_sheet.begin())
 
     def live_camera_lost(self) -> None:
         screen = self._live()
@@ -484,10 +489,7 @@ class Gallery(GalleryWindow):
     patient_view_child = _patient_view("WRIST_RU", GuideScene("out", 1, 14.0, 20.0, done=5, asked=10), for_child=True)
     patient_view_lost = _patient_view("FOREARM_PS", GuideScene("lost", 1, goal_deg=70.0, done=5, asked=10))
     patient_view_rest = _patient_view("WRIST_RU", GuideScene("rest", done=1, asked=3, rest_share=0.5, rest_s=30))
-
-    def exercise_sets(self) -> None:
-        self.exercise()
-        self.sheet(SetSheet).begin(USUAL_SETS, "wrist6")
+    exercise_sets = _under("exercise", SetSheet, USUAL_SETS, "wrist6")
 
     def exercise_goals(self) -> None:
         self.exercise().show_history("linden", self.sessions.history("linden"))
@@ -496,9 +498,8 @@ class Gallery(GalleryWindow):
         self, store: FakeSessions | None = None, session_id: str = "session-7", *, view: str = "", finger: int = -1,
         at_s: float = 20.6,
     ) -> ReviewScreen:  # fmt: skip
-        self.place(tab=1, camera=SAVED)
-        screen = self.show(ReviewScreen(self.theme, self.keys, self.background, store or self.sessions))
-        screen.begin("linden", session_id, may_repeat=True)
+        screen = ReviewScreen(self.theme, self.keys, self.background, store or self.sessions)
+        self.show(screen, tab=1, camera=SAVED).begin("linden", session_id, may_repeat=True)
         self.settle()
         if finger >= 0:
             screen.charts.finger.buttons()[finger].click()
@@ -509,30 +510,26 @@ class Gallery(GalleryWindow):
         screen.playing.stop()
         return screen
 
-    review = partialmethod(_review)
+    def _review_hand(self, finger: int = 0) -> None:
+        self._review(FakeHandSessions(), "hand-7", finger=finger, at_s=12.0)
 
-    def review_hand(self) -> None:
-        self._review(FakeHandSessions(), "hand-7", finger=0, at_s=12.0)
+    review = partialmethod(_review)
+    review_hand = partialmethod(_review_hand)
+
+    def _review_passive(self, store: FakeSessions, session_id: str, passive: Sequence[int], at_s: float) -> None:
+        """Some repetitions were passive, and the goniometer was at hand."""
+        store.kept = {session_id: RepetitionChoices(dict.fromkeys(passive, PASSIVE))}
+        store.hand_values = hand_values_today()
+        self._review(store, session_id, at_s=at_s)
 
     def review_passive(self) -> None:
-        """Three of nine repetitions were passive, and the goniometer was at hand."""
-        store = FakeSessions()
-        store.kept = {"session-7": RepetitionChoices({6: PASSIVE, 7: PASSIVE, 8: PASSIVE})}
-        store.hand_values = hand_values_today()
-        self._review(store)
+        self._review_passive(FakeSessions(), "session-7", (6, 7, 8), 20.6)
 
     def review_passive_hand(self) -> None:
-        store = FakeHandSessions()
-        store.kept = {"hand-7": RepetitionChoices(dict.fromkeys((3, 4, 5), PASSIVE))}
-        store.hand_values = hand_values_today()
-        self._review(store, "hand-7", at_s=0.0)
+        self._review_passive(FakeHandSessions(), "hand-7", (3, 4, 5), 0.0)
 
-    def review_reason(self) -> None:
-        self.review().reason.begin(4)
-
-    def review_angle(self) -> None:
-        """The angle drawn on the picture."""
-        self.review().picture.angle_button.click()
+    review_reason = _then("review", lambda screen: screen.reason.begin(4))
+    review_angle = _then("review", lambda screen: screen.picture.angle_button.click())
 
     def review_film(self) -> None:
         screen = self.review()
@@ -542,9 +539,7 @@ class Gallery(GalleryWindow):
     review_path = partialmethod(_review, view="path")
     review_speeds = partialmethod(_review, view="place")
     review_zyz = partialmethod(_review, view="zyz")
-
-    def review_hand_finger(self) -> None:
-        self._review(FakeHandSessions(), "hand-7", finger=4, at_s=12.0)
+    review_hand_finger = partialmethod(_review_hand, 4)
 
     def _review_exercise(self, exercise: str, motion: str, finger: int) -> None:
         store = FakeHandSessions()
@@ -563,9 +558,8 @@ class Gallery(GalleryWindow):
 
     def _correct(self, *, pictures: bool = True, wrong_px: tuple[float, float] | None = None) -> CorrectScreen:
         """With ``wrong_px``, where the middle knuckle was taken to be."""
-        self.place(tab=1, camera=SAVED)
         store = FakeCorrections(self.sessions, pictures=pictures)
-        screen = self.show(CorrectScreen(self.theme, self.keys, self.background, store))
+        screen = self.show(CorrectScreen(self.theme, self.keys, self.background, store), tab=1, camera=SAVED)
         session = self.sessions.session("session-7")
         if wrong_px is not None:
             measured = session.markers.measured_px.copy()
@@ -581,10 +575,7 @@ class Gallery(GalleryWindow):
         self._correct(wrong_px=(right_px[0] - 10.0, right_px[1] + 36.0)).put("MCP3", right_px)
 
     correct_spots = partialmethod(_correct, pictures=False)
-
-    def correct_exchanged(self) -> None:
-        screen = self._correct()
-        screen.put("MCP3", screen.places.before(620)[4])
+    correct_exchanged = _then("_correct", lambda screen: screen.put("MCP3", screen.places.before(620)[4]))
 
     def _results(self, old: Session, new: Session) -> None:
         self.place(tab=1, camera=SAVED)
@@ -594,7 +585,7 @@ class Gallery(GalleryWindow):
             session_figures(new), session_curves(old), session_curves(new), joint_curves(old), joint_curves(new)
         )
         words = difference_words(Difference(1240, 212, 0.3, 39.2, 3, "flexion", ("MCP3",), live=True), ("MCP3",))
-        sheet.show_both("Linden 42 · 20 Nov 2026, 11:37 · Wrist flexion–extension, right hand", words, both)
+        sheet.show_both(CORRECTED, words, both)
         sheet.begin()
         sheet.curves.set_time(12.0)
 
@@ -612,7 +603,7 @@ class Gallery(GalleryWindow):
         self.show_state("correct")
         self.shell.bar.again.show_words("Tracking again 63 %", "63 %")
         sheet = self.sheet(ResultsSheet)
-        sheet.show_running("Linden 42 · 20 Nov 2026, 11:37 · Wrist flexion–extension, right hand", 63)
+        sheet.show_running(CORRECTED, 63)
         sheet.begin()
 
     def agreement(self, *, readings: bool = False, hand: bool = False, limit_deg: float = 5.0) -> AgreementScreen:
@@ -623,8 +614,7 @@ class Gallery(GalleryWindow):
         return screen
 
     def _agreement(self) -> AgreementScreen:
-        self.place(tab=1, camera="")
-        return self.show(AgreementScreen(self.theme, self.keys))
+        return self.show(AgreementScreen(self.theme, self.keys), tab=1, camera="")
 
     def agreement_curves(self) -> None:
         self.agreement(limit_deg=0.0).next_view()
@@ -637,19 +627,17 @@ class Gallery(GalleryWindow):
         screen.running("Linden42_20Nov.c3d")
         screen.bar.show_progress(40, 100)
 
-    def agreement_reference(self) -> None:
-        self._agreement()
-        self.sheet(ReferenceSheet).begin([("s2", "20 Nov 2026, 11:36 · Wrist flexion–extension · same recording")])
-
-    def agreement_columns(self) -> None:
-        self._agreement()
-        outline = ReferenceOutline(Path("optical.csv"), "angles", ("Zeit", "FlexExt", "RadUln"), {})
-        choice = ReferenceChoice("optical.csv", "optical.csv")
-        self.sheet(ColumnsSheet).begin(outline, ("time", *WRIST_ANGLES), choice)
+    agreement_reference = _under(
+        "_agreement", ReferenceSheet, [("s2", "20 Nov 2026, 11:36 · Wrist flexion–extension · same recording")]
+    )
+    agreement_columns = _under(
+        "_agreement", ColumnsSheet,
+        ReferenceOutline(Path("optical.csv"), "angles", ("Zeit", "FlexExt", "RadUln"), {}), ("time", *WRIST_ANGLES),
+        ReferenceChoice("optical.csv", "optical.csv"),
+    )  # fmt: skip
 
     def _beside(self, store: FakeSessions, one: str, other: str) -> BesideScreen:
-        self.place(tab=1, camera="")
-        screen = self.show(BesideScreen(self.theme, self.keys, self.background, store))
+        screen = self.show(BesideScreen(self.theme, self.keys, self.background, store), tab=1, camera="")
         screen.begin((one, other), "right")
         self.settle()
         starts = screen.together.step.starts_s
@@ -678,55 +666,45 @@ class Gallery(GalleryWindow):
         self._beside(store, "hand-3", "hand-left")
 
     def beside_reading(self) -> None:
-        self.place(tab=1, camera="")
         screen = BesideScreen(self.theme, self.keys, Background(), self.sessions)
         screen.reader._background.run = lambda *_: None  # type: ignore[method-assign]
-        self.show(screen).begin(("session-1", "session-7"))
+        self.show(screen, tab=1, camera="").begin(("session-1", "session-7"))
 
     def report_beside(self) -> None:
         now = self.beside().shown
         self._report(BesideReport(now, now.main_quantity, "Linden 42", "MK", "1.0.0"))
 
     def retest(self) -> None:
-        self.place(where="")
-        screen = self.show(RetestScreen(self.theme, self.keys))
+        screen = self.retest_empty()
         screen.show_exercises(["WRIST_FE", "WRIST_RU"], "WRIST_FE")
         screen.show_plan(retest_plan(), DEFAULT_LIMITS)
         screen.show_restated(restated_statements(), 3, 3)
         self.settle()
 
-    def retest_empty(self) -> None:
-        self.place(where="")
-        self.show(RetestScreen(self.theme, self.keys))
+    def retest_empty(self) -> RetestScreen:
+        return self.show(RetestScreen(self.theme, self.keys), where="")
 
-    def retest_people(self) -> None:
-        self.retest()
-        self.sheet(PeopleSheet).begin([(f"p{k}", f"P{k:02d}", k % 4) for k in range(1, 15)], ["p1", "p3"])
+    retest_people = _under("retest", PeopleSheet, [(f"p{k}", f"P{k:02d}", k % 4) for k in range(1, 15)], ["p1", "p3"])
 
-    def _progress(self, store: FakeSessions, session_id: str = "session-7") -> None:
-        self.place(tab=2, camera="")
-        self.show(ProgressScreen(self.theme, self.keys, self.background, store)).begin("linden", session_id)
-
-    def progress(self) -> None:
-        self._progress(self.sessions)
+    def progress(self, store: FakeSessions | None = None, session_id: str = "session-7") -> None:
+        screen = ProgressScreen(self.theme, self.keys, self.background, store or self.sessions)
+        self.show(screen, tab=2, camera="").begin("linden", session_id)
 
     def progress_by_hand(self) -> None:
         store = FakeSessions()
         store.hand_values = hand_values()
-        self._progress(store)
+        self.progress(store)
 
     def progress_hand(self) -> None:
-        self._progress(FakeHandSessions(), "hand-7")
+        self.progress(FakeHandSessions(), "hand-7")
 
     def by_hand(self) -> None:
-        self.place(tab=2, camera="")
-        screen = self.show(ByHandScreen(self.theme, lambda: TODAY))
+        screen = self.show(ByHandScreen(self.theme, lambda: TODAY), tab=2, camera="")
         figures = sorted(self.sessions.history("linden"), key=lambda one: one.when)
         screen.show_record(HandRecord("Linden 42", "right", tuple(hand_values()), tuple(figures), "MK"))
 
     def _report(self, made: Report) -> None:
-        self.place(tab=3, camera="")
-        self.show(ReportScreen(self.theme, self.keys, self.background)).begin(made, "")
+        self.show(ReportScreen(self.theme, self.keys, self.background), tab=3, camera="").begin(made, "")
         self.settle()
 
     def _session_report(self, **look: Any) -> SessionReport:
@@ -749,12 +727,12 @@ class Gallery(GalleryWindow):
         self._report(self._session_report(form=form, comment="Splint at night.\nCome back."))
 
     def report_letter(self) -> None:
-        self._report(LetterReport(self._session_report(), "Dr Anna Doctor\nVienna", TODAY, "Maria Muster"))
+        self._report(LetterReport(self._session_report(), DOCTOR, TODAY, "Maria Muster"))
 
     def letter_sheet(self) -> None:
         self.report_own()
         sheet = self.sheet(LetterSheet)
-        sheet.begin(["Dr Anna Doctor\nVienna"], has_name=True)
+        sheet.begin([DOCTOR], has_name=True)
         sheet.names.setChecked(True)
 
     def report_home(self) -> None:
@@ -765,15 +743,13 @@ class Gallery(GalleryWindow):
         self.sheet(HomeSheet).begin(session_report(self.sessions.session("session-7")), TODAY)
 
     def clinic(self) -> None:
-        self.place(where="")
-        self.show(ClinicScreen(self.theme, self.keys)).show_week(clinic())
+        self.show(ClinicScreen(self.theme, self.keys), where="").show_week(clinic())
 
     def settings(self) -> SettingsScreen:
-        self.place(where="")
         chosen = Preferences(
             theme=self.theme.name, text_scale=self.theme.text_scale, data_folder="~/.local/share/carpus"
         )
-        return self.show(SettingsScreen(self.theme, chosen, "1.0.0"))
+        return self.show(SettingsScreen(self.theme, chosen, "1.0.0"), where="")
 
     def settings_safe(self) -> None:
         screen = self.settings()
@@ -795,45 +771,29 @@ class Gallery(GalleryWindow):
         sheet.line.setText("4821")
         sheet.refuse(4, 0)
 
-    def pin_change(self) -> None:
-        self.patients()
-        self.sheet(PinSheet).begin(is_set=True)
-
-    def records_due(self) -> None:
-        self.patients()
-        words = "Their last session is more than 10 years ago. Nothing goes by itself."
-        said = "9 sessions, the last on 3 Nov 2015; had to be kept until 3 Nov 2025"
-        due = [ListedRecord(name, name, said, name[0] < "G") for name in ("Linden 42", "Heron 17", "Fir 12")]
-        self.sheet(RecordsSheet).begin("What is due", words, due)
-
-    def records_log(self) -> None:
-        self.patients()
-        done = (("recorded", ""), ("opened", ""), ("exported", "files 7 · by command"), ("erased", "files 4, made 3"))
-        deeds = [
-            DeedLine(number, datetime(2026, 11, 20, 9, number), "AB", what, "Linden 42, 2026-11-20 09:01", detail)
-            for number, (what, detail) in enumerate(done, 1)
-        ]
-        self.sheet(LogSheet).begin(deeds)
+    pin_change = _under("patients", PinSheet, is_set=True)
+    records_due = _under(
+        "patients", RecordsSheet, "What is due",
+        "Their last session is more than 10 years ago. Nothing goes by itself.",
+        [ListedRecord(name, name, KEPT, name[0] < "G") for name in ("Linden 42", "Heron 17", "Fir 12")],
+    )  # fmt: skip
+    records_log = _under("patients", LogSheet, DEEDS)
 
     def help(self) -> None:
-        self.place(where="")
-        self.show(HelpScreen(self.theme, self.keys))
+        self.show(HelpScreen(self.theme, self.keys), where="")
 
     def _welcome(self, checks: Sequence[Check], *, counts_later: bool = False) -> None:
-        self.place(where="", camera="")
         screen = PatientsScreen(self.theme, FakeStore([]), lambda: TODAY)
         panel = WelcomePanel(self.theme)
         panel.show_folder("/home/clinic/.local/share/carpus", counts_later=counts_later)
         panel.show_checks(checks)
         screen.show_welcome(panel)
-        self.show(screen, screen.search)
+        self.show(screen, screen.search, where="", camera="")
 
-    def patients_welcome(self) -> None:
-        self._welcome(CHECKS)
-
-    def patients_welcome_good(self) -> None:
-        self._welcome([replace(check, state="good", remedy="") for check in CHECKS], counts_later=True)
-
+    patients_welcome = partialmethod(_welcome, CHECKS)
+    patients_welcome_good = partialmethod(
+        _welcome, [replace(check, state="good", remedy="") for check in CHECKS], counts_later=True
+    )
     patients_guided = _guided("patients", "patient")
     camera_guided = _guided("camera", "camera")
     markers_guided = _guided("markers_clicking", "click")
@@ -863,11 +823,8 @@ class Gallery(GalleryWindow):
         screen.showing.show_progress(progress)
         screen.showing.show_frame(frame)
 
-    def board_result(self) -> None:
-        self._board().show_result(board_result())
-
-    def board_poor(self) -> None:
-        self._board().show_result(board_result(poor=True))
+    board_result = _then("_board", lambda screen: screen.show_result(board_result()))
+    board_poor = _then("_board", lambda screen: screen.show_result(board_result(poor=True)))
 
     def _card(self, checks: CameraChecks) -> CardScreen:
         self.place(where="")
@@ -878,12 +835,8 @@ class Gallery(GalleryWindow):
         self.settle()
         return screen
 
-    def card(self) -> None:
-        self._card(camera_checks())
-
-    def card_out(self) -> None:
-        self._card(camera_checks(out=True))
-
+    card = partialmethod(_card, camera_checks())
+    card_out = partialmethod(_card, camera_checks(out=True))
     card_none = partialmethod(_card, CameraChecks("", ""))
 
     def card_measuring(self) -> None:

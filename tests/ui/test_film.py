@@ -24,12 +24,10 @@ from carpus.core.results.repetition_rows import PASSIVE
 from carpus.core.session.values import Session
 from carpus.core.types import SIMULATED, ByteImage, TrackStatus
 from carpus.ui.background import Background
-from carpus.ui.keys import Keys
 from carpus.ui.review.film import STILL, FilmWanted, film_pictures
 from carpus.ui.review.flow import ReviewFlow
-from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
-from tests.ui.conftest import Show
+from tests.ui.conftest import Reviewing
 from tests.ui.contexts import Told, a_context
 from tests.ui.fakes import FakeSessions, session
 
@@ -102,27 +100,18 @@ def test_the_film_is_opened_by_another_reader(qapp: QApplication, side: Session,
     assert not list(within.iterdir())
 
 
-def test_without_agreement_or_pictures_there_is_no_film(
-    qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], background: Background
-) -> None:
-    def shown(*, pictures: bool) -> ReviewScreen:
-        screen = show(ReviewScreen(theme, Keys(), background, FakeSessions(pictures)))
-        screen.begin("linden", "session-7")
-        qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
-        return screen
-
+def test_without_agreement_or_pictures_there_is_no_film(qtbot: QtBot, review: Reviewing) -> None:
     def take() -> FilmWanted:
         """With agreement; what is wanted then."""
         qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
         qtbot.keyClick(sheet, Qt.Key.Key_Return)
         return wanted[-1]
 
-    screen = shown(pictures=False)
+    screen = review(FakeSessions(pictures=False), "session-7")
     assert screen.picture.film_button.isHidden()
     screen.ask_film()
     assert not screen.film_sheet.isVisible()
-    screen.playing.stop()
-    screen = shown(pictures=True)
+    screen = review(FakeSessions(), "session-7")
     wanted: list[FilmWanted] = []
     screen.film.connect(wanted.append)
     screen.go_to_repetition(3)
@@ -162,7 +151,6 @@ def test_without_agreement_or_pictures_there_is_no_film(
     assert not sheet.agreed.isEnabled()
     sheet.close_sheet()
     screen.picture.angle_button.click()
-    screen.playing.stop()
     qtbot.waitUntil(lambda: not screen.picture.reader.busy)
 
 

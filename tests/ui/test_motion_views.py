@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
 from datetime import timedelta
 from pathlib import Path
 
 import numpy as np
-import pytest
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter
-from pytestqt.qtbot import QtBot
 
 from carpus.core.results.motion_curves import motion_curves
 from carpus.core.results.seen import session_curves
-from carpus.ui.background import Background
 from carpus.ui.controls.text import Text
-from carpus.ui.keys import Keys
 from carpus.ui.patients.card import PatientCardView
 from carpus.ui.plot.motion import MotionPlot
 from carpus.ui.plot.style import screen_style
@@ -28,14 +23,12 @@ from carpus.ui.report.hand_rows import column_heads, finger_rows
 from carpus.ui.report.main_figure import main_figure
 from carpus.ui.report.pdf import write_session_report
 from carpus.ui.review.charts import WRIST
-from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
-from tests.ui.conftest import Show
+from tests.ui.conftest import Reviewing
 from tests.ui.fakes import NOW, FakeSessions, FakeStore, figures_once, session
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 from tests.ui.printed import words_of
 
-Shown = Callable[[FakeSessions, str], ReviewScreen]
 BOX = QRectF(0.0, 0.0, 720.0, 300.0)
 
 
@@ -120,24 +113,8 @@ def test_speeds_and_zyz_are_read_at_the_cursor() -> None:
 
 
 # --- review -----------------------------------------------------------------------------------------------
-@pytest.fixture
-def shown(qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], background: Background) -> Iterator[Shown]:
-    """The review of a session, stopped at the end."""
-    screens: list[ReviewScreen] = []
-
-    def one(store: FakeSessions, session_id: str) -> ReviewScreen:
-        screens.append(screen := show(ReviewScreen(theme, Keys(), background, store)))
-        screen.begin("linden", session_id)
-        qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
-        return screen
-
-    yield one
-    for screen in screens:
-        screen.playing.stop()
-
-
-def test_the_review_shows_path_speeds_and_zyz_in_turn(shown: Shown) -> None:
-    screen = shown(FakeSessions(), "session-7")
+def test_the_review_shows_path_speeds_and_zyz_in_turn(review: Reviewing) -> None:
+    screen = review(FakeSessions(), "session-7")
     assert screen.charts.curves.isVisible()
     screen.player.next_view()
     assert screen.charts.ways.isVisible()
@@ -153,11 +130,11 @@ def test_the_review_shows_path_speeds_and_zyz_in_turn(shown: Shown) -> None:
     assert not isinstance(screen.charts.curves._plot, MotionPlot)
 
 
-def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(shown: Shown) -> None:
+def test_the_review_of_a_reach_has_its_figures_and_the_ways_of_joints(review: Reviewing) -> None:
     store = FakeHandSessions(pictures=False)
     made = hand_session(exercise="REACH_GRASP", motion="reach_grasp")
     store.sessions = {"hand-7": made}
-    screen = shown(store, "hand-7")
+    screen = review(store, "hand-7")
     names = {row.name for row in screen.card.tables.further.rows}
     for name in ("Movement time, out", "Peak speed, back", "Way / straight line, out", "Widest opening, thumb–index"):
         assert name in names
@@ -185,19 +162,14 @@ def test_ways_out_stand_beside_those_back_with_last_time() -> None:
     assert main_words(figures_once(hand_session())) == ""
 
 
-def test_the_list_of_sessions_says_of_a_reach_what_it_is_about() -> None:
+def test_list_and_card_say_of_a_reach_what_it_is_about(theme: Theme) -> None:
     reach = figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
     assert main_figure(reach).startswith("Out in 1.")
     touched = figures_once(hand_session(exercise="THUMB_OPP", motion="opposition"))
     assert main_figure(touched) == "Touched 4 of 4"
     assert "°" in main_figure(figures_once(hand_session()))
-
-
-def test_the_card_says_of_a_reach_what_it_is_about(theme: Theme) -> None:
-    card = PatientCardView(theme, NOW.date)
-    row = FakeStore().rows[0]
-    said = main_words(figures_once(hand_session(exercise="REACH_GRASP", motion="reach_grasp")))
-    card.show_card(PatientCard(row, about=said), camera_ready=True)
+    card, said = PatientCardView(theme, NOW.date), main_words(reach)
+    card.show_card(PatientCard(FakeStore().rows[0], about=said), camera_ready=True)
     assert said in [text.text() for text in card.findChildren(Text) if text.isVisibleTo(card)]
 
 

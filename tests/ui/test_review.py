@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
 
@@ -27,7 +26,7 @@ from carpus.ui.review.card import ResultChoice
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
 from carpus.ui.words.progress import headline
-from tests.ui.conftest import Show
+from tests.ui.conftest import Reviewing, Show
 from tests.ui.fakes import FakeSessions
 from tests.ui.test_plots import drag
 
@@ -38,24 +37,36 @@ def store() -> FakeSessions:
 
 
 @pytest.fixture
-def screen(
-    qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], store: FakeSessions, background: Background
-) -> Iterator[ReviewScreen]:
-    screen = show(ReviewScreen(theme, Keys(), background, store), active=True)
-    screen.begin("linden", "session-7")
-    qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
-    yield screen
-    screen.playing.stop()
+def screen(review: Reviewing, store: FakeSessions) -> ReviewScreen:
+    return review(store, "session-7")
 
 
-def test_arrows_step_by_one_picture_and_the_picture_follows(qtbot: QtBot, screen: ReviewScreen) -> None:
-    screen.playing.seek(10.0)
-    before = screen.playing.time_s
+def test_keys_and_mouse_go_to_pictures_and_repetitions(qtbot: QtBot, screen: ReviewScreen) -> None:
+    playing = screen.playing
+    playing.seek(10.0)
+    before = playing.time_s
     qtbot.keyClick(screen, Qt.Key.Key_Right)
-    assert screen.playing.time_s - before == pytest.approx(1 / 30, abs=0.02)
+    assert playing.time_s - before == pytest.approx(1 / 30, abs=0.02)
     qtbot.keyClick(screen, Qt.Key.Key_Left)
-    assert screen.playing.time_s == pytest.approx(before, abs=0.02)
+    assert playing.time_s == pytest.approx(before, abs=0.02)
+    playing.seek(5.0)
+    qtbot.keyClick(screen, Qt.Key.Key_Space)
+    qtbot.waitUntil(lambda: playing.time_s > 5.1)
+    qtbot.keyClick(screen, Qt.Key.Key_Space)
+    stopped = playing.time_s
     qtbot.waitUntil(lambda: not screen.picture.reader.busy)
+    assert playing.time_s == stopped
+    panel = screen.charts.curves.panels()[1][0]
+    spot = QPoint(round(float(panel.x(40.0))), round(panel.box.center().y()))
+    qtbot.mouseClick(screen.charts.curves.face, Qt.MouseButton.LeftButton, pos=spot)
+    assert playing.time_s == pytest.approx(40.0, abs=0.2)
+    screen.go_to_repetition(0)
+    for _ in range(2):
+        qtbot.keyClick(screen, Qt.Key.Key_BracketRight)
+    assert screen.current == 2
+    assert playing.time_s == pytest.approx(screen.figures.repetitions[2].start_s)
+    qtbot.keyClick(screen, Qt.Key.Key_BracketLeft)
+    assert screen.current == 1
 
 
 def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
@@ -72,48 +83,33 @@ def test_a_session_can_be_set_aside_and_taken_back(qtbot: QtBot, screen: ReviewS
     assert screen.figures.repetitions[screen.current].reason == "pain"
 
 
-def test_notes_and_pain_of_the_session_are_read_in_the_review(screen: ReviewScreen) -> None:
-    assert screen.figures.notes
-    assert screen.figures.pain
-    assert f"Pain (0–10): {', '.join(map(str, screen.figures.pain))}" in screen.card.tables.notes.text()
-    for _, text in screen.figures.notes:
-        assert text in screen.card.tables.notes.text()
-    assert screen.card.tables.notes.isVisible()
+def test_the_card_has_figures_beside_others_notes_pain_and_when_it_was_stored(screen: ReviewScreen) -> None:
+    first = screen.card.tables.range.rows[0]
+    assert first.movement == "Whole arc"
+    assert first.last.endswith("°")
+    assert first.other_hand.endswith("°")
+    assert "within measurement error (14°)" in first.change
+    figures, notes = screen.figures, screen.card.tables.notes
+    assert figures.notes
+    assert figures.pain
+    assert f"Pain (0–10): {', '.join(map(str, figures.pain))}" in notes.text()
+    assert all(text in notes.text() for _, text in figures.notes)
+    assert notes.isVisible()
+    assert (screen.reviewed.saved_at - figures.when).total_seconds() == pytest.approx(figures.duration_s)
 
 
 def test_a_session_that_cannot_be_read_is_said_to_be_so_and_another_one_can_be(
     qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
 ) -> None:
-    said = []
-    screen.told.connect(said.append)
     gone = store.sessions.pop("session-6")
-    screen.begin("linden", "session-6")
-    qtbot.waitUntil(lambda: bool(said))
+    with qtbot.waitSignal(screen.told) as told:
+        screen.begin("linden", "session-6")
+    assert isinstance(told.args[0], KeyError)
     assert screen.picture.empty_words == "This session cannot be read. Go back, or choose another one."
     assert not screen.shown
     store.sessions["session-6"] = gone
     screen.begin("linden", "session-6")
     qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
-
-
-def test_space_plays_and_stops(qtbot: QtBot, screen: ReviewScreen) -> None:
-    screen.playing.seek(5.0)
-    qtbot.keyClick(screen, Qt.Key.Key_Space)
-    qtbot.waitUntil(lambda: screen.playing.time_s > 5.1)
-    qtbot.keyClick(screen, Qt.Key.Key_Space)
-    stopped = screen.playing.time_s
-    qtbot.waitUntil(lambda: not screen.picture.reader.busy)
-    assert screen.playing.time_s == stopped
-
-
-def test_brackets_walk_through_the_repetitions(qtbot: QtBot, screen: ReviewScreen) -> None:
-    assert screen.current == 0
-    for _ in range(2):
-        qtbot.keyClick(screen, Qt.Key.Key_BracketRight)
-    assert screen.current == 2
-    assert screen.playing.time_s == pytest.approx(screen.figures.repetitions[2].start_s)
-    qtbot.keyClick(screen, Qt.Key.Key_BracketLeft)
-    assert screen.current == 1
 
 
 def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
@@ -131,16 +127,11 @@ def test_a_repetition_is_left_out_with_a_reason_stored_and_taken_back(
     qtbot.keyClick(screen, Qt.Key.Key_X)
     qtbot.waitUntil(lambda: not store.kept["session-7"].left_out)
     assert "mean of 9 repetitions" in screen.card.count.text()
-
-
-def test_a_repetition_and_all_after_it_are_passive_by_mouse(
-    qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
-) -> None:
     screen.go_to_repetition(7)
     qtbot.mouseClick(screen.player.repetition, Qt.MouseButton.LeftButton)
     assert screen.reason.isVisible()
     qtbot.mouseClick(screen.reason.passive_on, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: "session-7" in store.kept)
+    qtbot.waitUntil(lambda: bool(store.kept["session-7"].left_out))
     assert set(store.kept["session-7"].left_out.items()) >= {(7, "passive"), (8, "passive")}
     assert screen.card.count.text().startswith("mean of 7 repetitions; 2 passive beside it")
     assert screen.card.tables.ways.isVisible()
@@ -151,56 +142,25 @@ def test_a_repetition_and_all_after_it_are_passive_by_mouse(
     assert screen.figures.repetitions[7].counts
 
 
-def test_comma_and_full_stop_move_the_nearer_edge(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
+def test_the_edges_of_a_repetition_are_moved_by_keys_and_dragged_by_mouse(
+    qtbot: QtBot, screen: ReviewScreen, store: FakeSessions
+) -> None:
     screen.go_to_repetition(2)
     before = screen.figures.repetitions[2]
-    qtbot.keyClick(screen, Qt.Key.Key_Period)
+    qtbot.keyClick(screen, Qt.Key.Key_Period)  # the nearer edge
     after = screen.figures.repetitions[2]
     assert after.start_s == pytest.approx(before.start_s + 0.1)
     assert after.end_s == before.end_s
     qtbot.waitUntil(lambda: "session-7" in store.kept)
-
-
-def test_an_edge_is_dragged_by_the_mouse(qtbot: QtBot, screen: ReviewScreen) -> None:
-    screen.go_to_repetition(2)
-    before = screen.figures.repetitions[2]
     panel = screen.charts.curves.panels()[0][0]
-    start = QPoint(round(float(panel.x(before.end_s))), round(panel.box.center().y()))
+    start = QPoint(round(float(panel.x(after.end_s))), round(panel.box.center().y()))
     drag(qtbot, screen.charts.curves.face, QPointF(start), -12)
-    assert screen.figures.repetitions[2].end_s < before.end_s - 0.5
-    assert screen.figures.repetitions[2].start_s == before.start_s
+    assert screen.figures.repetitions[2].end_s < after.end_s - 0.5
+    assert screen.figures.repetitions[2].start_s == after.start_s
 
 
-def test_a_click_in_the_curves_moves_the_cursor_there(qtbot: QtBot, screen: ReviewScreen) -> None:
-    panel = screen.charts.curves.panels()[1][0]
-    spot = QPoint(round(float(panel.x(40.0))), round(panel.box.center().y()))
-    qtbot.mouseClick(screen.charts.curves.face, Qt.MouseButton.LeftButton, pos=spot)
-    assert screen.playing.time_s == pytest.approx(40.0, abs=0.2)
-
-
-def test_the_table_compares_with_the_last_session_and_the_other_hand(screen: ReviewScreen) -> None:
-    first = screen.card.tables.range.rows[0]
-    assert first.movement == "Whole arc"
-    assert first.last.endswith("°")
-    assert first.other_hand.endswith("°")
-    assert "within measurement error (14°)" in first.change
-
-
-def test_without_pictures_the_marks_are_still_shown(
-    qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], background: Background
-) -> None:
-    screen = show(ReviewScreen(theme, Keys(), background, FakeSessions(pictures=False)))
-    screen.begin("linden", "session-7")
-    qtbot.waitUntil(lambda: screen.shown and screen.picture.image is not None)
-    assert not screen.grab().isNull()
-
-
-def test_a_session_that_cannot_be_read_is_told(qtbot: QtBot, theme: Theme, background: Background) -> None:
-    screen = ReviewScreen(theme, Keys(), background, FakeSessions())
-    qtbot.addWidget(screen)
-    with qtbot.waitSignal(screen.told) as told:
-        screen.begin("linden", "not there")
-    assert isinstance(told.args[0], KeyError)
+def test_without_pictures_the_marks_are_still_shown(review: Reviewing) -> None:
+    assert not review(FakeSessions(pictures=False), "session-7").grab().isNull()
 
 
 def test_thinning_keeps_extremes_gaps_and_ends() -> None:
@@ -241,11 +201,6 @@ def test_progress_of_nobody_says_so() -> None:
     assert headline(Progress((), (), None)) == ("No sessions of this exercise yet.", "")
 
 
-def test_a_session_on_the_screen_says_when_it_was_stored(screen: ReviewScreen) -> None:
-    reviewed = screen.reviewed
-    assert (reviewed.saved_at - reviewed.figures.when).total_seconds() == pytest.approx(reviewed.figures.duration_s)
-
-
 def test_of_the_session_before_nothing_is_seen_while_another_is_read(qtbot: QtBot, screen: ReviewScreen) -> None:
     """It may be another patient's."""
     card, places = screen.card, (screen.card.tables.geometry(), screen.card.report_button.geometry())
@@ -278,18 +233,13 @@ def test_what_is_asked_about_is_what_is_left_out_however_far_it_plays(qtbot: QtB
     assert [one.reason for one in screen.figures.repetitions[:5]] == ["", "pain", "", "", ""]
 
 
-def test_sessions_of_one_day_are_told_apart_by_their_time() -> None:
-    first, second = datetime(2026, 11, 21, 9, 5), datetime(2026, 11, 21, 15, 29)
+def test_sessions_of_one_day_are_told_apart_by_their_time_and_of_one_minute_by_their_second() -> None:
+    first, second, third = (datetime(2026, 11, 21, *at) for at in ((9, 5, 7), (15, 29), (9, 5, 41)))
     assert day_beside(first, second) == f"{day_month(first)}, 09:05"
-    assert day_beside(first, first) == day_month(first)
-    assert day_beside(first, datetime(2026, 11, 20, 9, 5)) == day_month(first)
-
-
-def test_sessions_of_one_minute_are_told_apart_by_their_second() -> None:
-    first, second = datetime(2026, 11, 21, 9, 5, 7), datetime(2026, 11, 21, 9, 5, 41)
-    assert day_beside(first, second) == f"{day_month(first)}, 09:05:07"
-    assert since(first, second) == "09:05:07"
-    assert report_date(second, first) == f"{report_date(second)}:41"
+    assert day_beside(first, first) == day_beside(first, datetime(2026, 11, 20, 9, 5)) == day_month(first)
+    assert day_beside(first, third) == f"{day_month(first)}, 09:05:07"
+    assert since(first, third) == "09:05:07"
+    assert report_date(third, first) == f"{report_date(third)}:41"
     assert time_beside(first, first, datetime(2025, 11, 21, 9, 5, 41)) == "09:05"
 
 
@@ -305,12 +255,16 @@ def test_only_the_session_that_is_told_from_the_others_is_put_in_words() -> None
     assert time_beside(first, *others) == "09:05:07"
 
 
-def test_an_older_result_says_that_it_does_not_count(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
-    made = datetime(2026, 11, 21, 9, 5)
-    store.results = [
-        SessionEntry(name, Path(name), made, made, "r", "WRIST_FE", "right", 10, 1.0, complete=True)
-        for name in ("session-7", "session-6")
+def results(*made: datetime) -> list[SessionEntry]:
+    """Results of one recording, the last of which counts."""
+    return [
+        SessionEntry(name, Path(name), made[0], when, "r", "WRIST_FE", "right", 10, 1.0, complete=True)
+        for name, when in zip(("session-7", "session-6"), made, strict=True)
     ]
+
+
+def test_an_older_result_says_that_it_does_not_count(qtbot: QtBot, screen: ReviewScreen, store: FakeSessions) -> None:
+    store.results = results(*[datetime(2026, 11, 21, 9, 5)] * 2)
     for session_id, owners, is_older in (
         ("session-7", {}, True),
         ("session-6", {}, False),
@@ -325,18 +279,13 @@ def test_an_older_result_says_that_it_does_not_count(qtbot: QtBot, screen: Revie
 def test_an_older_result_is_told_by_its_time_and_can_count_again(
     qtbot: QtBot, theme: Theme, show: Show[ResultChoice]
 ) -> None:
-    made = [datetime(2026, 11, 21, 9, 5), datetime(2026, 11, 21, 15, 29)]
-    results = [
-        SessionEntry(name, Path(name), made[0], when, "r", "WRIST_FE", "right", 10, 1.0, complete=True)
-        for name, when in zip("ab", made, strict=True)
-    ]
-    choice = show(ResultChoice(theme))
-    choice.show_results(results, "b")
+    choice, both = show(ResultChoice(theme)), results(datetime(2026, 11, 21, 9, 5), datetime(2026, 11, 21, 15, 29))
+    choice.show_results(both, "session-6")
     assert [button.text() for button in choice.buttons] == ["1 · 21 Nov, 09:05", "2 · 21 Nov, 15:29, counts"]
     assert len(choice.findChildren(Button)) == 2, "what counts needs no button to count"
-    choice.show_results(results, "a")
+    choice.show_results(both, "session-7")
     again = next(one for one in choice.findChildren(Button) if one.text() == "Let this one count")
     with qtbot.waitSignal(choice.wanted) as asked:
         again.click()
-    assert asked.args == ["a"]
+    assert asked.args == ["session-7"]
     assert not again.isEnabled(), "a second click would make a second one"

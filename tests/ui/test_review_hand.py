@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Iterator
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import cast
@@ -31,7 +30,7 @@ from carpus.ui.plot.style import screen_style
 from carpus.ui.report.hand_rows import COLUMNS, limits_words
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.theme import Theme
-from tests.ui.conftest import Show
+from tests.ui.conftest import Reviewing, Show
 from tests.ui.hand_fakes import FakeHandSessions, hand_session
 from tests.ui.test_plots import wheel
 
@@ -42,14 +41,8 @@ def store() -> FakeHandSessions:
 
 
 @pytest.fixture
-def screen(
-    qtbot: QtBot, theme: Theme, show: Show[ReviewScreen], store: FakeHandSessions, background: Background
-) -> Iterator[ReviewScreen]:
-    screen = show(ReviewScreen(theme, Keys(), background, store))
-    screen.begin("linden", "hand-7")
-    qtbot.waitUntil(lambda: screen.shown and not background.busy)
-    yield screen
-    screen.playing.stop()
+def screen(review: Reviewing, store: FakeHandSessions) -> ReviewScreen:
+    return review(store, "hand-7")
 
 
 def plot_of(screen: ReviewScreen) -> HandPlot:
@@ -58,46 +51,36 @@ def plot_of(screen: ReviewScreen) -> HandPlot:
     return plot
 
 
-def test_every_finger_has_a_panel_and_a_chosen_one_has_bending_and_spreading(screen: ReviewScreen) -> None:
-    assert len(screen.charts.curves.panels()) == 5
-    screen.charts.finger.buttons()[4].click()
-    panels = screen.charts.curves.panels()
-    assert len(panels) == 2
+def test_every_finger_has_a_panel_and_a_chosen_one_two_and_the_wrist_three(screen: ReviewScreen) -> None:
+    curves, buttons = screen.charts.curves, screen.charts.finger.buttons()
+    assert len(curves.panels()) == 5
+    buttons[4].click()
+    bending, spreading = curves.panels()
     assert {figure.joint for figure in plot_of(screen).figures(1)} == {"MCP4_abduction"}
-    assert panels[0][0].box.height() == pytest.approx(2 * panels[1][0].box.height(), abs=1.0)
+    assert bending[0].box.height() == pytest.approx(2 * spreading[0].box.height(), abs=1.0)
+    buttons[-1].click()
+    assert not isinstance(curves._plot, HandPlot)
+    assert [column for _, column in curves.panels()] == [1, 0, 2]
+    buttons[0].click()
+    assert len(curves.panels()) == 5
 
 
-def test_the_wrist_of_a_whole_hand_has_its_three_angles(screen: ReviewScreen) -> None:
-    screen.charts.finger.buttons()[-1].click()
-    assert not isinstance(screen.charts.curves._plot, HandPlot)
-    assert [column for _, column in screen.charts.curves.panels()] == [1, 0, 2]
-    screen.charts.finger.buttons()[0].click()
-    assert len(screen.charts.curves.panels()) == 5
-
-
-def test_a_curve_is_dashed_exactly_where_a_disc_of_the_joint_was_hidden(
+def test_a_curve_is_dashed_where_its_discs_were_hidden_and_open_where_the_hand_was_lost(
     screen: ReviewScreen, store: FakeHandSessions
 ) -> None:
-    session = store.session("hand-7")
-    series = plot_of(screen).joint_series(Figure(3, "middle"))
+    session, plot = store.session("hand-7"), plot_of(screen)
+    series = plot.joint_series(Figure(3, "middle"))
     at = SITES.index("PIP3")
     known = np.isfinite(session.markers.measured_px[:, [at, at + 1], 0]).all(axis=1)
     value = np.isfinite(series.value)
     assert (~known & value).any()
     assert np.array_equal(series.predicted[value], ~known[value])
-
-
-def test_a_lost_stretch_is_a_gap_and_no_number(screen: ReviewScreen) -> None:
-    series = plot_of(screen).joint_series(Figure(2, "knuckle"))
+    series = plot.joint_series(Figure(2, "knuckle"))
     assert any(start < 31.5 < end for start, end in series.gaps_s())
-    assert math.isnan(joint_at(plot_of(screen), Figure(2, "knuckle"), 31.5)[0])
-
-
-def test_an_end_joint_without_measurement_of_its_own_is_never_seen(screen: ReviewScreen) -> None:
-    value, _, hidden = joint_at(plot_of(screen), Figure(3, "end"), 1.0)
-    middle, _, _ = joint_at(plot_of(screen), Figure(3, "middle"), 1.0)
-    assert hidden
-    assert value == pytest.approx(2.0 / 3.0 * middle)
+    assert math.isnan(joint_at(plot, Figure(2, "knuckle"), 31.5)[0])
+    value_deg, _, hidden = joint_at(plot, Figure(3, "end"), 1.0)
+    assert hidden, "an end joint without measurement of its own is never seen"
+    assert value_deg == pytest.approx(2.0 / 3.0 * joint_at(plot, Figure(3, "middle"), 1.0)[0])
 
 
 def test_the_table_says_what_is_at_least_and_why(screen: ReviewScreen) -> None:
@@ -116,25 +99,19 @@ def test_the_table_says_what_is_at_least_and_why(screen: ReviewScreen) -> None:
     assert tops == sorted(tops), "what explains the table stands right under it"
 
 
-def test_space_plays_with_a_finger_chosen_and_the_curves_keep_step(qtbot: QtBot, screen: ReviewScreen) -> None:
-    screen.activateWindow()
-    qtbot.waitUntil(screen.isActiveWindow)
+def test_space_plays_with_a_finger_chosen_and_curves_and_number_keep_step(qtbot: QtBot, screen: ReviewScreen) -> None:
     qtbot.mouseClick(screen.charts.finger.buttons()[2], Qt.MouseButton.LeftButton)
     screen.playing.seek(4.0)
     qtbot.keyClick(screen, Qt.Key.Key_Space)
     qtbot.waitUntil(lambda: screen.playing.time_s > 4.1)
     assert screen.charts.curves._time_s == screen.playing.time_s
     qtbot.keyClick(screen, Qt.Key.Key_Space)
-
-
-def test_a_time_in_no_repetition_has_no_number(screen: ReviewScreen) -> None:
-    first, *_, last = screen.reviewed.figures.repetitions
-    screen.playing.seek(first.start_s + 0.5)
-    count = len(screen.reviewed.figures.repetitions)
-    assert count >= 7, "of the eight that were made, one may end with the recording"
-    assert screen.picture._clock_words(screen.reviewed).startswith(f"Repetition 1 of {count} · ")
-    screen.playing.seek(last.end_s + 0.3)
-    assert "Repetition" not in screen.picture._clock_words(screen.reviewed)
+    first, *_, last = repetitions = screen.reviewed.figures.repetitions
+    assert len(repetitions) >= 7, "of the eight that were made, one may end with the recording"
+    for time_s, words in ((first.start_s + 0.5, f"Repetition 1 of {len(repetitions)} · "), (last.end_s + 0.3, "")):
+        screen.playing.seek(time_s)
+        said = screen.picture._clock_words(screen.reviewed)
+        assert said.startswith(words) if words else "Repetition" not in said
 
 
 def test_the_skeleton_goes_from_the_wrist_to_each_tip(store: FakeHandSessions) -> None:
