@@ -64,7 +64,7 @@ SESSION_ID = "3f9c1e7a-0000-4000-8000-000000000007"
 SD_DEG = np.array([0.5, 1.6, 2.6])
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=32)
 def simulated(
     motion: str = "flexion",
     seconds: float = 20.0,

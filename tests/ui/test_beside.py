@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from carpus.core.results.figures import SessionFigures, session_figures
+from carpus.core.results.figures import SessionFigures
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.results.side_by_side import side_by_side
 from carpus.ui.background import Background
@@ -19,18 +19,24 @@ from carpus.ui.report.beside_words import facts_words, headline, table_rows, unf
 from carpus.ui.report.hand_rows import followed_keys
 from carpus.ui.theme import Theme
 from tests.ui.conftest import Show
-from tests.ui.fakes import NOW, FakeSessions, session
+from tests.ui.fakes import NOW, FakeSessions, figures_once, session
 from tests.ui.hand_fakes import hand_session
 
 
 @pytest.fixture(scope="module")
 def right() -> SessionFigures:
-    return session_figures(session(), RepetitionChoices({6: "pain"}))
+    return figures_once(session(), RepetitionChoices({6: "pain"}))
 
 
 @pytest.fixture(scope="module")
 def left() -> SessionFigures:
-    return session_figures(session(NOW, 1.25, session_id="left", side="left"))
+    return figures_once(session(NOW, 1.25, session_id="left", side="left"))
+
+
+def hands(**look: str) -> list[Watched]:
+    """A right and a left one that do the same."""
+    both = [hand_session(session_id=side, side=side, **look) for side in ("right", "left")]
+    return [Watched.of(hand, figures_once(hand)) for hand in both]
 
 
 def test_the_sentence_names_the_hand_that_moves_less(right: SessionFigures, left: SessionFigures) -> None:
@@ -52,8 +58,8 @@ def test_the_sentence_names_the_hand_that_moves_less(right: SessionFigures, left
 
 
 def test_fingers_are_counted_and_a_lower_bound_is_said_to_be_one() -> None:
-    few = session_figures(hand_session(share=0.55, session_id="hand-right"))
-    hidden = session_figures(hand_session(session_id="hand-left", side="left"))
+    few = figures_once(hand_session(share=0.55, session_id="hand-right"))
+    hidden = figures_once(hand_session(session_id="hand-left", side="left"))
     both = side_by_side(few, hidden, followed_keys("tam"))
     assert headline(both)[0] == "TAM is less on the right than on the left in 4 of 5 fingers."
     rows = {row.movement: row for row in table_rows(both, whole_hand=True)}
@@ -64,8 +70,7 @@ def test_fingers_are_counted_and_a_lower_bound_is_said_to_be_one() -> None:
 
 
 def test_of_a_hook_all_middle_joints_come_first_and_what_nobody_measures_has_no_curve() -> None:
-    hooks = [hand_session(exercise="FIST_HOOK", motion="hook", session_id=key, side=key) for key in ("right", "left")]
-    first, second = (Watched.of(hook, session_figures(hook)) for hook in hooks)
+    first, second = hands(exercise="FIST_HOOK", motion="hook")
     offered = [value for value, _ in kinds(first, second)]
     assert offered[:2] == ["middle", "1"]
     now = shown(first, second, offered[0])
@@ -76,8 +81,7 @@ def test_of_a_hook_all_middle_joints_come_first_and_what_nobody_measures_has_no_
 
 
 def test_the_curve_is_of_the_finger_that_was_looked_at() -> None:
-    hands = [hand_session(session_id=key, side=key) for key in ("right", "left")]
-    now = shown(*(Watched.of(hand, session_figures(hand)) for hand in hands), "tam")
+    now = shown(*hands(), "tam")
     assert now.quantity_of(4) == ("TAM4", -1)
     assert now.quantity_of(0) == now.main_quantity
     assert replace(now, both=replace(now.both, ranges=())).main_quantity == ("TAM3", -1), "as the exercise says"

@@ -6,7 +6,7 @@ import ast
 import json
 import math
 from dataclasses import replace
-from datetime import datetime, timedelta
+from datetime import timedelta
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +31,6 @@ from carpus.core.results.measures_table import measure_rows
 from carpus.core.results.progress import progress
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.types import TrackedFrame
-from carpus.ui import numbers
 from carpus.ui.background import Background
 from carpus.ui.controls.text import StateText, Text
 from carpus.ui.figures import figure_of, spread_labels
@@ -44,8 +43,7 @@ from carpus.ui.plot.session import HandPlot
 from carpus.ui.plot.style import screen_style
 from carpus.ui.ports import PatientCard, Preferences, ResultLine
 from carpus.ui.progress.screen import ProgressScreen
-from carpus.ui.report.hand_rows import column_heads, compared_figures, limits_words
-from carpus.ui.report.main_figure import main_figure
+from carpus.ui.report.hand_rows import column_heads, compared_figures, limits_words, main_figure
 from carpus.ui.report.pdf import session_report
 from carpus.ui.report.screen import suggested_name
 from carpus.ui.report.tables import repetition_words, table_rows
@@ -290,14 +288,10 @@ def test_why_no_repetition_was_counted_is_said(uncounted: Uncounted, words: str)
     assert repetition_words(free) == "one range over the whole recording; no repetitions"
 
 
-def test_what_was_not_seen_is_said_beside_the_count() -> None:
-    made = replace(figures_once(session()), unseen_s=6.2)
-    assert repetition_words(made).endswith("6 s not seen and not counted")
-    assert "not seen" not in repetition_words(replace(made, unseen_s=0.0))
-
-
-def test_a_speed_lost_in_noise_is_too_slow_to_judge() -> None:
+def test_what_was_not_seen_is_said_beside_the_count_and_a_speed_lost_in_noise_is_too_slow_to_judge() -> None:
     made = figures_once(session())
+    assert repetition_words(replace(made, unseen_s=6.2)).endswith("6 s not seen and not counted")
+    assert "not seen" not in repetition_words(replace(made, unseen_s=0.0))
     unknown = StrokeSpread(math.nan, math.nan, math.nan, 0)
     slow = replace(made, speed=replace(made.speed, peak_speed=unknown, too_slow=made.speed.count))
     assert next(row for row in table_rows(slow, None, None) if row.movement == "Peak speed").today == (
@@ -345,12 +339,6 @@ def test_two_sessions_of_one_day_have_names_of_their_own() -> None:
     assert len({suggested_name(one) for one in (fist, wrist, later)}) == 3
 
 
-def test_the_head_of_a_column_is_short_on_one_day_too() -> None:
-    now = datetime(2026, 11, 20, 15, 29)
-    assert numbers.since(now.replace(hour=9), now) == "09:29"
-    assert numbers.since(now.replace(day=13), now) == "13 Nov"
-
-
 # --- the clinic's own error limits -----------------------------------------------------------------------
 ARC = MeasuredLimit("flexion", "arc", 12, 2.4, (1.7, 3.9), 6.6, (4.7, 10.8))
 STUDY = RetestStudy("wrist6", "WRIST_FE", "zyx", "2026-11-27", 12, 24, 2, (ARC, replace(ARC, movement="extension")))
@@ -375,18 +363,16 @@ def test_they_are_named_with_their_date_and_people(theme: Theme) -> None:
     assert "Measured by this clinic" not in said(SettingsScreen(theme, Preferences()))
 
 
-def test_the_window_reads_them_from_the_data_folder(tmp_path: Path) -> None:
-    store_limits(tmp_path, [STUDY])
+@pytest.mark.parametrize("text", ["", "{}", None])
+def test_the_window_reads_them_from_the_data_folder_and_tells_a_damaged_file(tmp_path: Path, text: str | None) -> None:
+    if text is None:
+        store_limits(tmp_path, [STUDY])
+    else:
+        (tmp_path / LIMITS_FILE).write_text(text, encoding="utf-8")
     library = Library(tmp_path)
-    assert library.error_limits.study("wrist6", "WRIST_FE", "zyx") == STUDY
-    library.close()
-
-
-@pytest.mark.parametrize("text", ["", "{}"])
-def test_a_damaged_file_is_told_and_the_default_limits_hold(tmp_path: Path, text: str) -> None:
-    (tmp_path / LIMITS_FILE).write_text(text, encoding="utf-8")
-    library = Library(tmp_path)
-    assert library.error_limits == ErrorLimits()
-    _, faults = recover(library)
-    assert [type(fault) for fault in faults] == [SettingsInvalid]
+    if text is None:
+        assert library.error_limits.study("wrist6", "WRIST_FE", "zyx") == STUDY
+    else:
+        assert library.error_limits == ErrorLimits(), "the default limits hold"
+        assert [type(fault) for fault in recover(library)[1]] == [SettingsInvalid]
     library.close()

@@ -7,6 +7,7 @@ from datetime import timedelta
 from pathlib import Path
 
 import numpy as np
+import pytest
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QFontMetricsF, QImage, QPainter
 
@@ -14,13 +15,13 @@ from carpus.core.results.motion_curves import motion_curves
 from carpus.core.results.seen import session_curves
 from carpus.ui.controls.text import Text
 from carpus.ui.patients.card import PatientCardView
+from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.motion import MotionPlot
 from carpus.ui.plot.style import screen_style
 from carpus.ui.plot.ways import LEAST_SPAN_MM, finger_ways, is_titled, plane_marks, side_by_side, wrist_way
 from carpus.ui.ports import PatientCard
 from carpus.ui.report.further_rows import further_rows, main_words
-from carpus.ui.report.hand_rows import column_heads, finger_rows
-from carpus.ui.report.main_figure import main_figure
+from carpus.ui.report.hand_rows import column_heads, finger_rows, main_figure
 from carpus.ui.report.pdf import write_session_report
 from carpus.ui.review.charts import WRIST
 from carpus.ui.theme import Theme
@@ -33,21 +34,23 @@ BOX = QRectF(0.0, 0.0, 720.0, 300.0)
 
 
 # --- ways -------------------------------------------------------------------------------------------------
-def test_every_way_is_inside_its_panel_on_one_scale_in_all_planes(theme: Theme) -> None:
+@pytest.fixture
+def panels(theme: Theme) -> list[Panel]:
+    return side_by_side(screen_style(theme), BOX, 12.0)
+
+
+def test_every_way_is_inside_its_panel_on_one_scale_in_all_planes(panels: list[Panel]) -> None:
     curves = motion_curves(hand_session(exercise="REACH_GRASP", motion="reach_grasp"))
-    panels = side_by_side(screen_style(theme), BOX, 12.0)
     for plot in (wrist_way(curves), finger_ways(curves, 0), finger_ways(curves, 1), finger_ways(curves, 3)):
-        (marks,) = zip(*plane_marks(plot), strict=True)
         scales = set()
-        for panel, mark in zip(panels, marks, strict=True):
+        for panel, (mark,) in zip(panels, plane_marks(plot), strict=True):
+            room = panel.box.adjusted(-1, -1, 1, 1)
             for way in plot.ways:
                 x, y = mark._places(panel, way.place_mm)
-                assert panel.box.adjusted(-1, -1, 1, 1).contains(float(np.nanmin(x)), float(np.nanmin(y)))
-                assert panel.box.adjusted(-1, -1, 1, 1).contains(float(np.nanmax(x)), float(np.nanmax(y)))
+                assert all(room.contains(float(end(x)), float(end(y))) for end in (np.nanmin, np.nanmax))
             scales.add(round(plot.per_mm(panel.box), 9))
         assert len(scales) == 1
-        bar_mm = plot.bar_mm(panels[0].box)
-        assert bar_mm * scales.pop() <= 0.31 * panels[0].box.width()
+        assert plot.bar_mm(panels[0].box) * scales.pop() <= 0.31 * panels[0].box.width()
 
 
 def test_a_square_has_words_under_it_only_where_there_is_room(theme: Theme) -> None:
@@ -62,31 +65,25 @@ def test_a_square_has_words_under_it_only_where_there_is_room(theme: Theme) -> N
     assert seen == {True, False}
 
 
-def test_a_still_hand_is_not_blown_up(theme: Theme) -> None:
-    curves = motion_curves(hand_session(exercise="THUMB_OPP", motion="opposition"))
-    plot = wrist_way(curves)
+def test_a_still_hand_is_not_blown_up(panels: list[Panel]) -> None:
+    plot = wrist_way(motion_curves(hand_session(exercise="THUMB_OPP", motion="opposition")))
     assert float((plot.high_mm - plot.low_mm).max()) < LEAST_SPAN_MM
-    panel = side_by_side(screen_style(theme), BOX, 12.0)[0]
-    assert plot.per_mm(panel.box) * LEAST_SPAN_MM <= panel.box.width() + 1e-9
+    assert plot.per_mm(panels[0].box) * LEAST_SPAN_MM <= panels[0].box.width() + 1e-9
 
 
-def test_the_thumb_side_is_on_its_side_of_the_panel_for_both_hands(theme: Theme) -> None:
-    panel = side_by_side(screen_style(theme), BOX, 12.0)[0]
+def test_the_thumb_side_is_on_its_side_of_the_panel_for_both_hands(panels: list[Panel]) -> None:
     for side, thumb_left in (("right", True), ("left", False)):
-        curves = motion_curves(hand_session(exercise="FINGER_ABAD", motion="abduction", side=side))
-        plot = finger_ways(curves, 0)
-        x = [float(np.nanmean(plane_marks(plot)[0][0]._places(panel, way.place_mm)[0])) for way in plot.ways]  # type: ignore[attr-defined]
+        plot = finger_ways(motion_curves(hand_session(exercise="FINGER_ABAD", motion="abduction", side=side)), 0)
+        ((mark,), *_) = plane_marks(plot)
+        x = [float(np.nanmean(mark._places(panels[0], way.place_mm)[0])) for way in plot.ways]  # type: ignore[attr-defined]
         assert (x[0] < x[4]) is thumb_left
 
 
-def test_a_way_and_the_hand_s_axes_are_really_drawn(theme: Theme) -> None:
-    plot = wrist_way(motion_curves(session()))
-    panel = side_by_side(screen_style(theme), BOX, 12.0)[0]
+def test_a_way_and_the_hand_s_axes_are_really_drawn(theme: Theme, panels: list[Panel]) -> None:
     picture = QImage(720, 300, QImage.Format.Format_RGB32)
     picture.fill(QColor("#FFFFFF"))
-    painter = QPainter(picture)
-    plane_marks(plot, 20.0)[0][0].paint(painter, screen_style(theme), panel)
-    painter.end()
+    with QPainter(picture) as painter:
+        plane_marks(wrist_way(motion_curves(session())), 20.0)[0][0].paint(painter, screen_style(theme), panels[0])
     seen = {picture.pixelColor(x, y).name() for x in range(0, 240) for y in range(0, 300)}
     tokens = theme.tokens
     assert {QColor(token).name() for token in (tokens.accent, tokens.curve_a)} <= seen

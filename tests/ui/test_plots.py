@@ -36,7 +36,7 @@ from carpus.ui.plot.session_view import CurveView
 from carpus.ui.plot.style import screen_style
 from carpus.ui.theme import Theme
 from tests.moments import with_moment
-from tests.ui.fakes import FakeFeed, session
+from tests.ui.fakes import FakeFeed, figures_once, session
 from tests.ui.hand_fakes import hand_session
 
 MINUTES_20_S = 1200.0
@@ -45,7 +45,7 @@ MINUTES_20_S = 1200.0
 @pytest.fixture
 def view(qtbot: QtBot, theme: Theme) -> Iterator[CurveView]:
     stored = session()
-    figures = session_figures(stored)
+    figures = figures_once(stored)
     view = CurveView(theme)
     qtbot.addWidget(view)
     view.resize(900, 420)
@@ -113,17 +113,14 @@ def test_the_cursor_is_dragged_where_it_stands_and_where_nothing_can_move(qtbot:
     assert view.shown_part == (5.0, 15.0)
 
 
-def test_shift_and_wheel_go_along(view: CurveView) -> None:
-    view.show_window((20.0, 30.0))
-    wheel(view.face, center(view), -120, Qt.KeyboardModifier.ShiftModifier)
-    assert view.shown_part == pytest.approx((21.0, 31.0))
-
-
-def test_the_wheel_alone_is_the_page_s_and_with_ctrl_zooms(view: CurveView) -> None:
+def test_the_wheel_alone_is_the_page_s_with_shift_goes_along_and_with_ctrl_zooms(view: CurveView) -> None:
     assert not wheel(view.face, center(view), 120), "the page that it lies on scrolls"
     assert view.shown_part is None
     assert wheel(view.face, center(view), 120, Qt.KeyboardModifier.ControlModifier)
     assert view.shown_part is not None
+    view.show_window((20.0, 30.0))
+    wheel(view.face, center(view), -120, Qt.KeyboardModifier.ShiftModifier)
+    assert view.shown_part == pytest.approx((21.0, 31.0))
 
 
 def test_keys_zoom_about_the_cursor_and_show_all(view: CurveView) -> None:
@@ -164,7 +161,9 @@ def test_the_menu_speaks_our_words_and_has_no_other(view: CurveView) -> None:
     assert all(box.menu is None for box in view.canvas.boxes)
 
 
-def test_a_picture_is_of_print_size_and_a_drawing_of_lines(view: CurveView, tmp_path: Path) -> None:
+def test_a_picture_is_of_print_size_a_drawing_of_lines_and_a_folder_that_is_not_there_is_told(
+    qtbot: QtBot, view: CurveView, tmp_path: Path
+) -> None:
     view.menu.save(tmp_path / "curves.png")
     image = QImage(str(tmp_path / "curves.png"))
     assert image.width() == round(170.0 / 25.4 * 300.0)
@@ -178,6 +177,9 @@ def test_a_picture_is_of_print_size_and_a_drawing_of_lines(view: CurveView, tmp_
     assert "image" not in kinds
     view.menu.copy_picture()
     assert QGuiApplication.clipboard().image().size() == image.size()
+    with qtbot.waitSignal(view.menu.told) as told:
+        view.menu.save(tmp_path / "none" / "curves.csv")
+    assert isinstance(told.args[0], OutputNotWritable)
 
 
 def test_the_table_has_what_is_shown_with_gaps_empty(view: CurveView, tmp_path: Path) -> None:
@@ -196,12 +198,6 @@ def test_the_table_has_what_is_shown_with_gaps_empty(view: CurveView, tmp_path: 
     assert len(empty) == 3
     first = int(np.searchsorted(curves.time_s, float(rows[0][0]) - 1e-3))
     assert float(rows[0][1]) == pytest.approx(angles[first, 1], abs=0.05)
-
-
-def test_a_folder_that_is_not_there_is_told(qtbot: QtBot, view: CurveView, tmp_path: Path) -> None:
-    with qtbot.waitSignal(view.menu.told) as told:
-        view.menu.save(tmp_path / "none" / "curves.csv")
-    assert isinstance(told.args[0], OutputNotWritable)
 
 
 def pixels(image: QImage) -> ByteImage:
@@ -365,27 +361,19 @@ def test_a_long_session_has_no_gaps_but_its_own(seconds: float) -> None:
     assert gaps[0] == pytest.approx((50.0, 62.6), abs=1.0)
 
 
-def drawn(theme: Theme, many: list[Series]) -> list[QRectF]:
-    picture = QImage(600, 120, QImage.Format.Format_RGB32)
+def test_numbers_of_values_beyond_the_scale_never_cover_each_other_and_a_hidden_stretch_has_none(
+    qapp: QApplication, theme: Theme
+) -> None:
     panel = Panel(QRectF(0, 0, 600, 120), Scale(-15.0, 115.0, (90.0, 0.0), ()), 0.0, 20.0)
-    painter = QPainter(picture)
-    numbers = paint_curves(painter, screen_style(theme), panel, [Curve(series, "curve_a") for series in many])
-    painter.end()
-    return numbers
-
-
-def test_numbers_of_values_beyond_the_scale_never_cover_each_other(qapp: QApplication, theme: Theme) -> None:
     time_s = np.arange(0.0, 20.0, 1 / 30)
     value = 60.0 + 62.0 * np.sin(6.0 * time_s)
-    sure = np.zeros(len(time_s), dtype=bool)
-    numbered = drawn(theme, [Series(time_s, value + off, None, sure) for off in (0.0, 3.0, 1.0)])
+    sure, picture = np.zeros(len(time_s), dtype=bool), QImage(600, 120, QImage.Format.Format_RGB32)
+    with QPainter(picture) as painter:
+        curves = [Curve(Series(time_s, value + off, None, sure), "curve_a") for off in (0.0, 3.0, 1.0)]
+        numbered = paint_curves(painter, screen_style(theme), panel, curves)
+        hidden = Curve(Series(time_s, value, None, value > 80.0), "curve_a")
+        assert paint_curves(painter, screen_style(theme), panel, [hidden]) == []
     assert len(numbered) > 2
     for i, one in enumerate(numbered):
         assert one.right() <= 600.0
         assert not any(one.intersects(other) for other in numbered[i + 1 :])
-
-
-def test_a_hidden_stretch_beyond_the_scale_has_no_number(qapp: QApplication, theme: Theme) -> None:
-    time_s = np.arange(0.0, 20.0, 1 / 30)
-    value = 60.0 + 62.0 * np.sin(time_s)
-    assert drawn(theme, [Series(time_s, value, None, value > 80.0)]) == []

@@ -12,6 +12,7 @@ import pytest
 from PySide6.QtGui import QPainter, QPicture
 from PySide6.QtWidgets import QApplication
 
+from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import compare_rows, progress
 from carpus.core.results.ranges import finger_keys
 from carpus.ui import numbers
@@ -126,23 +127,30 @@ def test_a_hand_that_was_seen_all_the_time_is_judged_joint_by_joint() -> None:
     first, last = (figures_once(without_hidden(hand_session(share=share))) for share in (0.6, 1.0))
     compared = compare_rows(first, last, [row for row in last.joint_rows if row.joint == "MCP3_flexion"])
     arc = next(item for item in compared if item.movement == "arc")
-    assert arc.verdict == "improved"
-    assert not arc.at_least
+    assert (arc.verdict, arc.at_least) == ("improved", False)
     assert arc.limit_deg == pytest.approx(12.0 * 2**0.5)
 
 
-def test_progress_follows_totals_first_and_one_finger_on_request(store: FakeHandSessions) -> None:
+def shown_of(figures: SessionFigures, kind: str = "") -> list[str]:
+    """The panels of the course of one session, of what is followed or else comes first."""
+    kind = kind or followed_kinds(figures)[0][0]
+    return [key[0] for key in panels_of(progress([figures], None, followed_keys(kind)))]
+
+
+def test_progress_follows_totals_first_and_one_finger_on_request_and_of_the_thumb_lift_and_spread(
+    store: FakeHandSessions,
+) -> None:
     history = store.history("x")
-    kinds = [value for value, _ in followed_kinds(history[-1])]
-    assert kinds == ["tam", "spread", "1", "2", "3", "4", "5", ""]
-    course = progress(history, None, followed_keys("tam"))
-    assert [key[0] for key in panels_of(course)] == ["TAM1", "TAM2", "TAM3", "TAM4", "TAM5"]
-    assert "TAM" in headline(course)[0]
-    finger = progress(history, None, followed_keys("4"))
-    assert [key[0] for key in panels_of(finger)] == ["TAM4", "MCP4_flexion", "PIP4_flexion"]
-    assert all(row.mean_deg <= axis_top_deg("arc", -1, row.joint) for row in history[-1].joint_rows if row.count)
+    last = history[-1]
+    assert [value for value, _ in followed_kinds(last)] == ["tam", "spread", "1", "2", "3", "4", "5", ""]
+    assert shown_of(last) == ["TAM1", "TAM2", "TAM3", "TAM4", "TAM5"]
+    assert "TAM" in headline(progress(history, None, followed_keys("tam")))[0]
+    assert shown_of(last, "4") == ["TAM4", "MCP4_flexion", "PIP4_flexion"]
+    assert all(row.mean_deg <= axis_top_deg("arc", -1, row.joint) for row in last.joint_rows if row.count)
     wrist = progress(history, None, followed_keys(""))
     assert all(not key[0] for key in panels_of(wrist))
+    thumb = figures_once(hand_session(exercise="THUMB_OPP", motion="thumb"))
+    assert shown_of(thumb) == ["CMC1_abduction", "CMC1_extension", "MCP1_flexion", "IP1_flexion"]
 
 
 def test_the_progress_report_of_a_hand_names_the_finger(store: FakeHandSessions, tmp_path: Path) -> None:
@@ -192,11 +200,13 @@ def test_what_was_hidden_is_measured_within_the_repetitions() -> None:
     assert figures.quality.hidden_share != pytest.approx(hidden.mean(), rel=1e-3)
 
 
-def test_a_lower_bound_has_no_spread_and_the_headline_says_what_was_not_seen() -> None:
+def test_a_lower_bound_has_no_spread_and_headline_and_table_say_what_was_not_seen() -> None:
     figures = figures_once(hand_session())
-    for row in finger_rows(figures, None):
-        for cell in row.cells:
-            assert not (cell.main.startswith("≥") and "±" in cell.main)
+    rows = finger_rows(figures, None)
+    assert not any(cell.main.startswith("≥") and "±" in cell.main for row in rows for cell in row.cells)
+    thumb, *fingers = rows
+    assert [cell.shown.split()[0] for cell in thumb.cells[:3]] == ["MCP", "Lift", "IP"], "no finger's joint"
+    assert all(not cell.joint for row in fingers for cell in row.cells)
     assert "the camera did not see" in hand_summary(figures, None, None)
     assert "did not see" not in hand_summary(figures_once(hand_session(hides_beyond_deg=999.0)), None, None)
 
@@ -207,12 +217,6 @@ def test_total_active_motion_is_explained_once_and_only_after_a_fist() -> None:
     assert "TAM" not in limits_words(hook)
     unseen = figures_once(hand_session(hidden=[(0.0, 99.0, f"PIP{k}") for k in (2, 3, 4, 5)]))
     assert "never all seen at once" in limits_words(unseen)
-
-
-def test_no_figure_of_the_thumb_can_be_read_as_a_fingers_joint() -> None:
-    thumb, *fingers = finger_rows(figures_once(hand_session()), None)
-    assert [cell.shown.split()[0] for cell in thumb.cells[:3]] == ["MCP", "Lift", "IP"]
-    assert all(not cell.joint for row in fingers for cell in row.cells)
 
 
 def test_an_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
@@ -226,13 +230,6 @@ def test_an_angle_beyond_straight_has_its_sign_and_spreading_its_side() -> None:
     assert re.fullmatch(r"\d+°( in| out)? to \d+°( in| out)?", spread)
     assert with_side(-2.0) == "2° in"
     assert with_side(0.4) == "0°"
-
-
-def test_progress_of_the_thumbs_exercise_draws_lift_and_spread_first() -> None:
-    figures = figures_once(hand_session(exercise="THUMB_OPP", motion="thumb"))
-    kind = followed_kinds(figures)[0][0]
-    shown = [key[0] for key in panels_of(progress([figures], None, followed_keys(kind)))]
-    assert shown == ["CMC1_abduction", "CMC1_extension", "MCP1_flexion", "IP1_flexion"]
 
 
 def test_the_thumbs_exercise_is_told_of_the_thumb(tmp_path: Path) -> None:

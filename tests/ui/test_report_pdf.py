@@ -157,9 +157,11 @@ def test_long_names_and_reasons_and_many_warnings_make_the_page_smaller_and_noth
     assert foot < 841.9 - 28.3, "a centimetre of margin"
 
 
-@pytest.mark.parametrize("exercise", ["WRIST_RU", "FOREARM_PS", "FREE", "something old"])
-def test_every_other_exercise_fits_the_page(tmp_path: Path, exercise: str) -> None:
-    motion = {"WRIST_RU": "deviation", "FOREARM_PS": "pronosupination", "FREE": "mixed"}.get(exercise, "flexion")
+@pytest.mark.parametrize(
+    ("exercise", "motion"),
+    [("WRIST_RU", "deviation"), ("FOREARM_PS", "pronosupination"), ("something old, taken for free", "mixed")],
+)
+def test_every_other_exercise_fits_the_page(tmp_path: Path, exercise: str, motion: str) -> None:
     path = write_session_report(session(exercise=exercise, motion=motion, lost=[(20.0, 22.0)]), tmp_path / "x.pdf")
     assert pages_of(path) == 2
     assert LEGAL_SENTENCE in words_of(path)

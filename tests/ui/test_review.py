@@ -239,6 +239,7 @@ def test_sessions_of_one_day_are_told_apart_by_their_time_and_of_one_minute_by_t
     assert day_beside(first, first) == day_beside(first, datetime(2026, 11, 20, 9, 5)) == day_month(first)
     assert day_beside(first, third) == f"{day_month(first)}, 09:05:07"
     assert since(first, third) == "09:05:07"
+    assert (since(first, second), since(first, datetime(2026, 11, 22))) == ("09:05", "21 Nov")
     assert report_date(third, first) == f"{report_date(third)}:41"
     assert time_beside(first, first, datetime(2025, 11, 21, 9, 5, 41)) == "09:05"
 

@@ -18,7 +18,7 @@ from carpus.core.types import FloatArray
 from carpus.ui.plot.axes import Panel, Scale, hatch, time_labels
 from carpus.ui.plot.marks import Curves, Level, Mark, Remark, Scales, Times
 from carpus.ui.plot.series import Curve, Series
-from carpus.ui.plot.style import PlotStyle
+from carpus.ui.plot.style import PlotStyle, write
 from carpus.ui.translate import tr
 from carpus.ui.words.agreement import angle_token, ends, interval, signed
 
@@ -152,11 +152,10 @@ class AgreementPlot:
         token, left = angle_token(self.pairs.name), panel.box.right() + 12 * unit
         if self.view == "curves":
             other = "curve_c" if token != "curve_c" and self.over_time else "border"
-            painter.setFont(style.end_label)
             top = panel.box.top() + metrics.ascent()
             for number, ((words,), color) in enumerate(zip(_line_words(self), (token, other), strict=True)):
-                painter.setPen(style.color("text2" if color == "border" else color))
-                painter.drawText(QPointF(left, top + number * 1.4 * metrics.height()), words)
+                place = QPointF(left, top + number * 1.4 * metrics.height())
+                write(painter, place, words, style.end_label, style.color("text2" if color == "border" else color))
             return
         figures = self.pairs.figures_deg
         at = [*figures.limits, figures.bias]
@@ -170,12 +169,9 @@ class AgreementPlot:
             top = min(max(float(panel.y(value)) - height / 2, taken), max(room, panel.box.top()))
             room += height + 2 * unit
             taken = top + height + 2 * unit
-            painter.setFont(style.end_label)
-            painter.setPen(style.color(token if is_mean else "text"))
-            painter.drawText(QPointF(left, top + metrics.ascent()), first)
-            painter.setFont(style.label)
-            painter.setPen(style.color("text2"))
-            painter.drawText(QPointF(left, top + metrics.height() + metrics.ascent()), second)
+            place = QPointF(left, top + metrics.ascent())
+            write(painter, place, first, style.end_label, style.color(token if is_mean else "text"))
+            write(painter, place + QPointF(0.0, metrics.height()), second, style.label, style.color("text2"))
 
     def paint(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
         panel = self.panel(style, box)
@@ -248,10 +244,9 @@ class _Limit:
         hatch(painter, style, QRectF(panel.box.left(), top, panel.box.width(), bottom - top), "accent", 90)
         metrics = QFontMetricsF(style.label)
         words = _hatched()
-        painter.setFont(style.label)
-        painter.setPen(style.color("accent"))
         left = panel.box.right() - metrics.horizontalAdvance(words) - 6 * style.unit
-        painter.drawText(QPointF(left, float(panel.y(min(panel.scale.ticks))) - 6 * style.unit), words)
+        at = QPointF(left, float(panel.y(min(panel.scale.ticks))) - 6 * style.unit)
+        write(painter, at, words, style.label, style.color("accent"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -263,12 +258,11 @@ class _Along:
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         labels = self.plot.along_labels(panel.start_s, panel.end_s)
         Times(labels).paint(painter, style, panel)
-        painter.setFont(style.label)
-        painter.setPen(style.color("text2"))
         height = QFontMetricsF(style.label).height()
         top = panel.box.bottom() + height + 8 * style.unit
         room = QRectF(panel.box.left() - 60 * style.unit, top, panel.box.width() + 120 * style.unit, height)
-        painter.drawText(room, int(Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop), _foot(self.plot))
+        side = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
+        write(painter, room, _foot(self.plot), style.label, style.color("text2"), side)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import QLineF, QRectF, Qt
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QPainter, QPen
 
 from carpus.core.types import FloatArray
@@ -56,6 +56,10 @@ class Panel:
     def y(self, value: FloatArray | float) -> FloatArray:
         """Painter y of values, kept inside the panel."""
         return y_px(np.asarray(value, dtype=np.float64), *self.down())
+
+    def at(self, time_s: float, value: float) -> QPointF:
+        """Where one value is."""
+        return QPointF(float(self.x(time_s)), float(self.y(value)))
 
     def across(self) -> tuple[float, float, float, float]:
         """What :func:`x_px` takes."""

@@ -15,10 +15,10 @@ from carpus.core.types import FloatArray
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of, with_side
 from carpus.ui.plot.axes import Panel, Scale, angle_scale, hatch
-from carpus.ui.plot.marks import EndLabels, Scales, Times
+from carpus.ui.plot.marks import EndLabels, Scales, Times, paint_dot
 from carpus.ui.plot.polygon import runs
 from carpus.ui.plot.series import Curve, Series, paint_curves
-from carpus.ui.plot.style import PlotStyle
+from carpus.ui.plot.style import PlotStyle, write
 from carpus.ui.translate import tr
 
 STEPS_DEG = (5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 90.0)
@@ -77,9 +77,8 @@ class BesidePlot:
         start, half, end = _ends()
         Times(((0.0, start), (0.5, half), (1.0, end))).paint(painter, style, panel)
         if not (self.first.known or self.second.known):
-            painter.setFont(style.label)
-            painter.setPen(style.color("text2"))
-            painter.drawText(panel.box, int(Qt.AlignmentFlag.AlignCenter), _nothing())
+            middle = Qt.AlignmentFlag.AlignCenter
+            write(painter, panel.box, _nothing(), style.label, style.color("text2"), middle)
             return
         painter.save()
         painter.setClipRect(panel.box.adjusted(-1, -2, 1, 2), Qt.ClipOperation.IntersectClip)
@@ -125,10 +124,7 @@ class BesidePlot:
         for mean, share, token in zip((self.second, self.first), self.shares[::-1], TOKENS[::-1], strict=True):
             value = self.sign * float(_value_at(mean, share))
             if math.isfinite(value):
-                painter.setPen(QPen(style.color("surface"), 1.5 * style.unit))
-                painter.setBrush(style.color(token))
-                at = QPointF(float(panel.x(share)), float(panel.y(value)))
-                painter.drawEllipse(at, 5.5 * style.unit, 5.5 * style.unit)
+                paint_dot(painter, style, panel.at(share, value), token, 5.5)
 
     def rows(self) -> list[tuple[float, float, float, int, float, float, int]]:
         """Share of the repetition, then mean, sd and how many were seen of each session, as in every file."""

@@ -16,7 +16,7 @@ from carpus.ui import numbers
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.marks import EndLabels, Scales, Times
-from carpus.ui.plot.style import PlotStyle
+from carpus.ui.plot.style import PlotStyle, write
 from carpus.ui.translate import tr
 from carpus.ui.words.by_hand import measure_name, value_words
 
@@ -45,9 +45,7 @@ class Squares:
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         times = [day_s(one.day, self.sessions) for one in self.values]
-        places = [
-            QPointF(float(panel.x(at)), float(panel.y(one.value))) for at, one in zip(times, self.values, strict=True)
-        ]
+        places = [panel.at(at, one.value) for at, one in zip(times, self.values, strict=True)]
         shown = [at for at in places if panel.box.left() - 1 <= at.x() <= panel.box.right() + 1]
         painter.setPen(QPen(style.color("text"), 1.6 * style.unit))
         if self.joined and len(shown) > 1:
@@ -107,7 +105,6 @@ class Key:
 
     def paint(self, painter: QPainter, style: PlotStyle, box: QRectF) -> None:
         unit, metrics = style.unit, QFontMetricsF(style.end_label)
-        painter.setFont(style.end_label)
         for number, entries in enumerate(reversed(self.lines(style, box))):
             baseline = box.bottom() - 6 * unit - number * metrics.height()
             for left, sign, words, token in entries:
@@ -120,8 +117,7 @@ class Key:
                     paint_square(painter, at, unit, turned=sign == "diamond")
                 else:
                     painter.drawEllipse(at, HALF_PX * unit, HALF_PX * unit)
-                painter.setPen(style.color("text2"))
-                painter.drawText(QPointF(left + 17 * unit, baseline), words)
+                write(painter, QPointF(left + 17 * unit, baseline), words, style.end_label, style.color("text2"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +127,7 @@ class OurDots:
     points: Sequence[tuple[datetime, float]]
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        places = [QPointF(float(panel.x(when.timestamp())), float(panel.y(value))) for when, value in self.points]
+        places = [panel.at(when.timestamp(), value) for when, value in self.points]
         painter.setPen(QPen(style.color("curve_a"), style.line_width))
         painter.drawPolyline(QPolygonF(places))
         painter.setBrush(style.color("curve_a"))
@@ -160,18 +156,16 @@ def paint_course(
 ) -> None:
     """Title, axis, squares, dots and what they mean."""
     unit, metrics = style.unit, QFontMetricsF(style.end_label)
-    painter.setFont(font(style.end_label.pixelSize() * 1.25, SEMIBOLD, display=False))
-    painter.setPen(style.color("text"))
-    title = QFontMetricsF(painter.font()).height()
-    painter.drawText(QPointF(box.left(), box.top() + 0.8 * title), measure_name(measure))
+    face = font(style.end_label.pixelSize() * 1.25, SEMIBOLD, display=False)
+    title = QFontMetricsF(face).height()
+    write(painter, QPointF(box.left(), box.top() + 0.8 * title), measure_name(measure), face, style.color("text"))
     active = [one for one in values if one.way != "passive"]
     passive = [one for one in values if one.way == "passive"]
     when = [one for one, _ in ours]
     times = [day_s(one.day, when) for one in values] + [one.timestamp() for one in when]
     if not times:
-        painter.setFont(style.end_label)
-        painter.setPen(style.color("text2"))
-        painter.drawText(QPointF(box.left(), box.top() + 2.2 * title), tr("Nothing measured by hand yet."))
+        at = QPointF(box.left(), box.top() + 2.2 * title)
+        write(painter, at, tr("Nothing measured by hand yet."), style.end_label, style.color("text2"))
         return
     key = Key(
         [("square", tr("by hand, active") if len(measure.ways) > 1 else tr("by hand"), "text")]

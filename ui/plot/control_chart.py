@@ -15,8 +15,8 @@ from carpus.core.calibration.card.chart import CardCheck, Verdict, usual_of, ver
 from carpus.ui import numbers
 from carpus.ui.icons import octagon
 from carpus.ui.plot.axes import Panel, Scale
-from carpus.ui.plot.marks import EndLabels, Level, Times
-from carpus.ui.plot.style import PlotStyle
+from carpus.ui.plot.marks import EndLabels, Level, Times, paint_dot
+from carpus.ui.plot.style import PlotStyle, dashed, write
 from carpus.ui.translate import tr
 
 MOST_SHOWN = 24
@@ -112,12 +112,10 @@ def paint_control_ground(painter: QPainter, style: PlotStyle, plot: ControlPlot,
     )
     for k in np.flatnonzero(plot.cut).tolist():
         x = float(panel.x(k - 0.5))
-        pen = QPen(style.color("text2"), style.grid_width)
-        pen.setDashPattern([3, 3])
-        painter.setPen(pen)
+        painter.setPen(dashed(style.color("text2"), style.grid_width, (3, 3)))
         painter.drawLine(QPointF(x, box.top()), QPointF(x, box.bottom()))
-        painter.setFont(style.label)
-        painter.drawText(QPointF(x + 4 * unit, box.top() + QFontMetricsF(style.label).ascent()), tr("calibrated"))
+        at = QPointF(x + 4 * unit, box.top() + QFontMetricsF(style.label).ascent())
+        write(painter, at, tr("calibrated"), style.label, style.color("text2"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +126,7 @@ class ControlMarks:
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         plot = self.plot
-        at = [QPointF(float(panel.x(k)), float(panel.y(value))) for k, value in enumerate(plot.value.tolist())]
+        at = [panel.at(k, value) for k, value in enumerate(plot.value.tolist())]
         painter.setPen(QPen(style.color("text"), style.line_width))
         for k in range(1, len(at)):
             if not plot.cut[k]:
@@ -136,8 +134,7 @@ class ControlMarks:
         for place, verdict in zip(at, plot.verdict, strict=True):
             painter.setPen(QPen(style.color("surface"), 1.5 * style.unit))
             if verdict == "right":
-                painter.setBrush(style.color("text"))
-                painter.drawEllipse(place, 4.5 * style.unit, 4.5 * style.unit)
+                paint_dot(painter, style, place, "text", 4.5)
             elif verdict == "unusual":
                 painter.setBrush(style.color("warn"))
                 size = 7.0 * style.unit

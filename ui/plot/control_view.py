@@ -14,7 +14,7 @@ from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.control_chart import ControlMarks, ControlPlot, control_plots, paint_control_ground
 from carpus.ui.plot.marks import Scales
-from carpus.ui.plot.style import screen_style
+from carpus.ui.plot.style import screen_style, write
 from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:
@@ -68,8 +68,7 @@ class ControlCharts(PlotCard):
             painter.drawText(QRectF(self.rect()).adjusted(40, 40, -40, -40), flags, self.empty_words)
             return
         for plot, panel in zip(self._plots, self.panels(), strict=True):
-            painter.setFont(font(16 * scale, SEMIBOLD))
-            painter.setPen(self._theme.color("text"))
-            painter.drawText(QPointF(panel.box.left(), panel.box.top() - 12 * scale), plot.title)
+            at = QPointF(panel.box.left(), panel.box.top() - 12 * scale)
+            write(painter, at, plot.title, font(16 * scale, SEMIBOLD), style.color("text"))
             Scales().paint(painter, style, panel)
             paint_control_ground(painter, style, plot, panel)

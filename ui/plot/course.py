@@ -23,7 +23,7 @@ from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.by_hand import Key, Squares, day_s, paint_at_least
 from carpus.ui.plot.marks import Across, EndLabels, Level, Mark, Scales, Times
 from carpus.ui.plot.polygon import polygon
-from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle
+from carpus.ui.plot.style import CURVE_TOKENS, PlotStyle, dashed, write
 from carpus.ui.terms import end_words
 from carpus.ui.translate import tr
 
@@ -197,9 +197,7 @@ class Goals:
         return self.goal_deg(len(self.progress.points) - 1)
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        pen = QPen(style.color("accent"), 2 * style.unit)
-        pen.setDashPattern([5, 3])
-        painter.setPen(pen)
+        painter.setPen(dashed(style.color("accent"), 2 * style.unit, (5, 3)))
         starts = [float(panel.x(point.figures.when.timestamp())) for point in self.progress.points]
         ends = [*starts[1:], panel.box.right()]
         painter.save()
@@ -226,8 +224,7 @@ class Points:
         for number, point in enumerate(self.progress.points):
             row = row_of(self.progress, number, self.key)
             if row is not None:
-                x = float(panel.x(point.figures.when.timestamp()))
-                out.append((number, QPointF(x, float(panel.y(row.mean_deg)))))
+                out.append((number, panel.at(point.figures.when.timestamp(), row.mean_deg)))
         return out
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
@@ -283,9 +280,8 @@ class Points:
         """The figure of the first and of the last session that compare."""
         joint, movement, angle = self.key
         unit = style.unit
-        painter.setFont(font(style.end_label.pixelSize() * 1.17, SEMIBOLD, display=False))
-        painter.setPen(style.color("text"))
-        metrics = QFontMetricsF(painter.font())
+        face = font(style.end_label.pixelSize() * 1.17, SEMIBOLD, display=False)
+        metrics = QFontMetricsF(face)
         text = numbers.degrees(row.mean_deg) if joint else end_words(row.mean_deg)
         sd = row.sd_deg if math.isfinite(row.sd_deg) else 0.0
         baseline = float(panel.y(row.mean_deg + sd)) - 8 * unit
@@ -300,19 +296,18 @@ class Points:
                 baseline = float(panel.y(row.mean_deg - sd)) + 8 * unit + metrics.ascent()
         width = metrics.horizontalAdvance(text)
         left = min(x - width / 2, panel.box.right() + 4 * unit - width)  # beside it stands what the bands are
-        painter.drawText(QPointF(left, baseline), text)
+        write(painter, QPointF(left, baseline), text, face, style.color("text"))
 
 
 def paint_behind(
     painter: QPainter, style: PlotStyle, box: QRectF, progress: Progress, panels: Sequence[tuple[Panel, RowKey]]
 ) -> None:
     """Everything but the points: titles, bands, grid, dates, and what the signs mean."""
-    unit = style.unit
     when = [point.figures.when for point in progress.points]
+    face = font(style.end_label.pixelSize() * 1.25, SEMIBOLD, display=False)
     for panel, key in panels:
-        painter.setFont(font(style.end_label.pixelSize() * 1.25, SEMIBOLD, display=False))
-        painter.setPen(style.color("text"))
-        painter.drawText(QPointF(panel.box.left(), panel.box.top() - 9 * unit), name_of(progress, key))
+        at = QPointF(panel.box.left(), panel.box.top() - 9 * style.unit)
+        write(painter, at, name_of(progress, key), face, style.color("text"))
         for mark in (*still(progress, key), Squares(by_hand_of(progress, key), sessions=when)):
             mark.paint(painter, style, panel)
     one_day = len({day.date() for day in when}) == 1

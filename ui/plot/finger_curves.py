@@ -20,7 +20,7 @@ from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.history import SHOWN_S, History
 from carpus.ui.plot.marks import DrawnCurves, Scales, Target
 from carpus.ui.plot.series import Curve, Drawing
-from carpus.ui.plot.style import screen_style
+from carpus.ui.plot.style import screen_style, write
 from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
 
@@ -185,11 +185,9 @@ class FingerCurves(PlotCard):
         middle = cell.center().y()
         if is_known:
             self._paint_line(painter, figure, cell, predicted=predicted)
-        painter.setFont(number.font)
-        painter.setPen(theme.color("text2" if predicted else "text"))
         left, baseline = cell.left() + 18, middle + number.metrics.capHeight() / 2
         text = numbers.degrees(value if is_known else math.nan)
-        painter.drawText(QPointF(left, baseline), text)
+        write(painter, QPointF(left, baseline), text, number.font, theme.color("text2" if predicted else "text"))
         if not is_known:
             return
         left += number.metrics.horizontalAdvance(text) + 4
@@ -203,9 +201,7 @@ class FingerCurves(PlotCard):
             both = f"{beside} {name}"
             # What an angle is goes before how sure it is.
             beside = both if wide_px(both) < cell.right() - left - 18 else name
-        painter.setFont(words.font)
-        painter.setPen(theme.color("text2"))
-        painter.drawText(QPointF(left, baseline), beside)
+        write(painter, QPointF(left, baseline), beside, words.font, theme.color("text2"))
         left += wide_px(beside) + 5
         if not inferred and sd >= WEAK_SD_DEG and left + 13 < cell.right():
             box = QRectF(left, middle - 6.5, 13, 13)  # a triangle: the half disc is that of a marker seen now and then
@@ -270,9 +266,8 @@ class FingerCurves(PlotCard):
         """Smaller where a language has a long word for it, down to what can be read."""
         wide_px = QFontMetricsF(font(size * self._theme.text_scale, weight)).horizontalAdvance(text)
         shown = max(LEAST_TEXT_PX, size * min(1.0, room_px / max(wide_px, 1.0)))
-        painter.setFont(font(shown * self._theme.text_scale, weight))
-        painter.setPen(self._theme.color(token))
-        painter.drawText(QPointF(left, top + QFontMetricsF(painter.font()).ascent()), text)
+        face = font(shown * self._theme.text_scale, weight)
+        write(painter, QPointF(left, top + QFontMetricsF(face).ascent()), text, face, self._theme.color(token))
 
 
 @dataclass(frozen=True, slots=True)

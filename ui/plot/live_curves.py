@@ -26,7 +26,7 @@ from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.history import SHOWN_S, History
 from carpus.ui.plot.marks import Curves, Dot, Hatch, Mark, Remark, Scales, StayWithin, Target, Times, fitted
 from carpus.ui.plot.series import Curve
-from carpus.ui.plot.style import CURVE_TOKENS, screen_style
+from carpus.ui.plot.style import CURVE_TOKENS, screen_style, write
 from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:
@@ -214,17 +214,12 @@ class LiveCurves(PlotCard):
         theme, scale = self._theme, self._theme.text_scale
         left = panel.box.right() + 14 * scale
         middle = panel.box.center().y()
-        painter.setFont(font(14 * scale, REGULAR))
-        painter.setPen(theme.color("text2"))
-        painter.setFont(fitted(painter.font(), name, self.width() - left - 4))
-        painter.drawText(QPointF(left, middle - 5 * scale), name)
-        painter.setFont(font(20 * scale, SEMIBOLD))
-        painter.setPen(theme.color("text"))
-        painter.drawText(QPointF(left, middle + 18 * scale), value)
-        advance = QFontMetricsF(painter.font()).horizontalAdvance(value)
-        painter.setFont(font(14 * scale, MEDIUM))
-        painter.setPen(theme.color("text2"))
-        painter.drawText(QPointF(left + advance + 5 * scale, middle + 18 * scale), spread)
+        face = fitted(font(14 * scale, REGULAR), name, self.width() - left - 4)
+        write(painter, QPointF(left, middle - 5 * scale), name, face, theme.color("text2"))
+        at, face = QPointF(left, middle + 18 * scale), font(20 * scale, SEMIBOLD)
+        write(painter, at, value, face, theme.color("text"))
+        at += QPointF(QFontMetricsF(face).horizontalAdvance(value) + 5 * scale, 0.0)
+        write(painter, at, spread, font(14 * scale, MEDIUM), theme.color("text2"))
 
 
 def _mm_s(value: float) -> str:

@@ -18,7 +18,7 @@ from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.series import Curve, Drawing
-from carpus.ui.plot.style import PlotStyle
+from carpus.ui.plot.style import PlotStyle, dashed, write
 from carpus.ui.translate import tr
 
 NUMBERS_ABOVE = 10.0
@@ -135,8 +135,7 @@ class Target:
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         y = float(panel.y(self.value))
-        pen = QPen(style.color("accent"), 1.5 * style.grid_width)
-        pen.setDashPattern([6, 4])
+        pen = dashed(style.color("accent"), 1.5 * style.grid_width, (6, 4))
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         painter.setPen(pen)
         painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
@@ -158,9 +157,8 @@ class Remark:
     words: str
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        painter.setFont(style.label)
-        painter.setPen(style.color("text2"))
-        painter.drawText(QPointF(panel.box.left() + 6 * style.unit, float(panel.y(self.value)) - 5), self.words)
+        at = QPointF(panel.box.left() + 6 * style.unit, float(panel.y(self.value)) - 5)
+        write(painter, at, self.words, style.label, style.color("text2"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,6 +199,13 @@ class DrawnCurves:
         painter.restore()
 
 
+def paint_dot(painter: QPainter, style: PlotStyle, at: QPointF, token: str, radius: float) -> None:
+    """A disc with a seam, ``radius`` design pixels."""
+    painter.setPen(QPen(style.color("surface"), 1.5 * style.unit))
+    painter.setBrush(style.color(token))
+    painter.drawEllipse(at, radius * style.unit, radius * style.unit)
+
+
 @dataclass(frozen=True, slots=True)
 class Dot:
     """One value, such as the newest or the one under the cursor."""
@@ -211,10 +216,7 @@ class Dot:
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         if math.isfinite(self.value):
-            painter.setPen(QPen(style.color("surface"), 1.5 * style.unit))
-            painter.setBrush(style.color(self.token))
-            at = QPointF(float(panel.x(self.time_s)), float(panel.y(self.value)))
-            painter.drawEllipse(at, 5 * style.unit, 5 * style.unit)
+            paint_dot(painter, style, panel.at(self.time_s, self.value), self.token, 5.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,13 +227,11 @@ class Name:
     above: bool = False
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        painter.setFont(style.end_label)
-        painter.setPen(style.color("text"))
         scale = style.end_label.pixelSize() / 12.0
         left = panel.box.left() - 102 * scale
         middle = panel.box.top() + 6 * scale if self.above else panel.box.center().y()
         box = QRectF(left, middle - 12 * scale, 70 * scale, 24 * scale)
-        painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignLeft), self.words)
+        write(painter, box, self.words, style.end_label, style.color("text"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -255,7 +255,6 @@ class RepetitionMarks:
     def paint_numbers(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         """The numbers over the first panel; where they would touch, some are left out, never the current one."""
         metrics = QFontMetricsF(style.end_label)
-        painter.setFont(style.end_label)
         baseline = panel.box.top() - NUMBERS_ABOVE * style.unit
         taken: list[tuple[float, float]] = []
         for number, repetition in sorted(enumerate(self.shown), key=lambda one: one[0] != self.current):
@@ -269,8 +268,7 @@ class RepetitionMarks:
                 continue
             taken.append((left, right))
             token = "text" if number == self.current else "warn" if not repetition.counts else "text2"
-            painter.setPen(style.color(token))
-            painter.drawText(QPointF(left, baseline), text)
+            write(painter, QPointF(left, baseline), text, style.end_label, style.color(token))
 
 
 @dataclass(frozen=True, slots=True)
@@ -327,11 +325,9 @@ class MouseReadout:
         painter.setPen(QPen(style.color("border"), style.grid_width))
         painter.setBrush(style.color("surface"))
         painter.drawRoundedRect(QRectF(left, top, width, height), 6 * style.unit, 6 * style.unit)
-        painter.setFont(style.end_label)
-        painter.setPen(style.color("text"))
         for number, line in enumerate(self.lines):
-            baseline = top + pad / 2 + metrics.ascent() + number * metrics.height()
-            painter.drawText(QPointF(left + pad, baseline), line)
+            at = QPointF(left + pad, top + pad / 2 + metrics.ascent() + number * metrics.height())
+            write(painter, at, line, style.end_label, style.color("text"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -363,10 +359,7 @@ class Level:
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
         if not math.isfinite(self.value):
             return
-        pen = QPen(style.color(self.token), 1.5 * style.unit)
-        if self.dash:
-            pen.setDashPattern(self.dash)
-        painter.setPen(pen)
+        painter.setPen(dashed(style.color(self.token), 1.5 * style.unit, self.dash))
         y = float(panel.y(self.value))
         painter.drawLine(QPointF(panel.box.left(), y), QPointF(panel.box.right(), y))
 
@@ -379,15 +372,13 @@ class EndLabels:
     labels: Sequence[tuple[float, str, str]]
 
     def paint(self, painter: QPainter, style: PlotStyle, panel: Panel) -> None:
-        painter.setFont(style.end_label)
         height = QFontMetricsF(style.end_label).height()
         taken, lowest = -math.inf, panel.box.bottom() + height / 2 - len(self.labels) * height
         for middle, text, token in sorted((float(panel.y(value)), text, token) for value, text, token in self.labels):
             top, lowest = max(min(middle - height / 2, lowest), taken), lowest + height
             taken = top + height
-            painter.setPen(style.color(token))
             box = QRectF(panel.box.right() + 12 * style.unit, top, 400 * style.unit, height)
-            painter.drawText(box, int(Qt.AlignmentFlag.AlignVCenter), text)
+            write(painter, box, text, style.end_label, style.color(token))
 
 
 def _note(
@@ -398,9 +389,7 @@ def _note(
     at = QPointF(panel.box.left() + 6 * style.unit, bottom - metrics.descent() - 1 * style.unit)
     if ground:
         painter.fillRect(metrics.boundingRect(text).translated(at), style.color(ground))
-    painter.setFont(style.end_label)
-    painter.setPen(style.color(token))
-    painter.drawText(at, text)
+    write(painter, at, text, style.end_label, style.color(token))
 
 
 def _is_widget(device: QPaintDevice) -> bool:

@@ -19,9 +19,9 @@ from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.history import History
-from carpus.ui.plot.marks import Mark
+from carpus.ui.plot.marks import Mark, paint_dot
 from carpus.ui.plot.polygon import polygon, runs
-from carpus.ui.plot.style import PlotStyle, screen_style
+from carpus.ui.plot.style import RIGHT_MIDDLE, PlotStyle, dashed, screen_style, write
 from carpus.ui.plot.ways import ACROSS, ACROSS_SIGN, AXIS_LETTERS, AXIS_TOKENS, UP
 from carpus.ui.theme import Theme
 
@@ -87,12 +87,9 @@ class Path:
             )
             if length >= LEAST_LETTER_PX * scale and free and inside and not among_words:
                 letters.append(center)
-                painter.setFont(font(12 * scale, SEMIBOLD))
-                box = QRectF(center.x() - 12, center.y() - 12, 24, 24)
-                painter.drawText(box, int(Qt.AlignmentFlag.AlignCenter), AXIS_LETTERS[axis])
-        painter.setPen(QPen(style.color("surface"), 1.5 * style.unit))
-        painter.setBrush(style.color("accent"))
-        painter.drawEllipse(point, 4.5 * style.unit, 4.5 * style.unit)
+                box, face = QRectF(center.x() - 12, center.y() - 12, 24, 24), font(12 * scale, SEMIBOLD)
+                write(painter, box, AXIS_LETTERS[axis], face, color, Qt.AlignmentFlag.AlignCenter)
+        paint_dot(painter, style, point, "accent", 4.5)
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,9 +111,7 @@ class Ball:
         painter.save()
         painter.setClipRect(panel.box, Qt.ClipOperation.IntersectClip)
         home, now, radius = place(self.home_mm), place(self.now_mm), STILL_RADIUS_MM * scale
-        ring = QPen(style.color("border"), style.unit, Qt.PenStyle.CustomDashLine)
-        ring.setDashPattern([4, 3])
-        painter.setPen(ring)
+        painter.setPen(dashed(style.color("border"), style.unit, (4, 3)))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawEllipse(home, radius, radius)
         painter.setPen(QPen(style.color("text"), 1.5 * style.unit))
@@ -124,9 +119,8 @@ class Ball:
             arm = QPointF(dx * style.unit, dy * style.unit)
             painter.drawLine(now - arm, now + arm)
         if self.words:
-            painter.setFont(style.label)
-            painter.setPen(style.color("text2"))
-            painter.drawText(QPointF(home.x() + 6, home.y() - radius - 4), self.words)
+            at = QPointF(home.x() + 6, home.y() - radius - 4)
+            write(painter, at, self.words, style.label, style.color("text2"))
         painter.restore()
 
 
@@ -200,18 +194,16 @@ class PathView(PlotCard):
 
     def paint_ground(self, painter: QPainter) -> None:
         theme, scale = self._theme, self._theme.text_scale
-        painter.setFont(font(14 * scale, SEMIBOLD))
-        painter.setPen(theme.color("text"))
-        painter.drawText(self._head(), int(Qt.AlignmentFlag.AlignVCenter), self.tr("Path of the wrist, last 10 s"))
+        head = self.tr("Path of the wrist, last 10 s")
+        write(painter, self._head(), head, font(14 * scale, SEMIBOLD), theme.color("text"))
         panels = self.panels()
         for plane, panel in enumerate(panels):
             self._paint_plane(painter, panel, plane)
-        painter.setFont(font(12 * scale, REGULAR))
-        painter.setPen(theme.color("text2"))
         words = self.tr("{span} × {span} mm, fixed").format(span=f"{self._span_mm():.0f}")
         if self._pure:
             words += self.tr(" · cross: where the wrist turns; it must stay in the ring")
-        painter.drawText(QPointF(20, panels[0].box.bottom() + 38 * scale), words)
+        at = QPointF(20, panels[0].box.bottom() + 38 * scale)
+        write(painter, at, words, font(12 * scale, REGULAR), theme.color("text2"))
 
     def _paint_plane(self, painter: QPainter, panel: Panel, plane: int) -> None:
         theme, style, scale, box = self._theme, screen_style(self._theme), self._theme.text_scale, panel.box
@@ -221,20 +213,16 @@ class PathView(PlotCard):
         painter.drawRoundedRect(box, 4, 4)
         painter.drawLine(QPointF(box.center().x(), box.top()), QPointF(box.center().x(), box.bottom()))
         painter.drawLine(QPointF(box.left(), box.center().y()), QPointF(box.right(), box.center().y()))
-        painter.setFont(style.label)
-        painter.setPen(theme.color("text2"))
-        painter.drawText(QPointF(box.left() + 8, box.top() + 16 * scale), up)
+        weak = theme.color("text2")
+        write(painter, QPointF(box.left() + 8, box.top() + 16 * scale), up, style.label, weak)
         beside = box.adjusted(0, 4 * scale, -8, -4 * scale)
         metrics = QFontMetricsF(style.label)
         fits = metrics.horizontalAdvance(up) + metrics.horizontalAdvance(across) + 24 <= box.width()
         edge = Qt.AlignmentFlag.AlignTop if fits else Qt.AlignmentFlag.AlignBottom  # below, the ring may lie
-        painter.drawText(beside, int(edge | Qt.AlignmentFlag.AlignRight), across)
+        write(painter, beside, across, style.label, weak, edge | Qt.AlignmentFlag.AlignRight)
         under = QRectF(box.left(), box.bottom() + 4, box.width(), 20 * scale)
-        painter.setFont(style.end_label)
-        painter.setPen(theme.color("text"))
-        painter.drawText(under, int(Qt.AlignmentFlag.AlignVCenter), title)
-        painter.setPen(theme.color("text2"))
-        painter.drawText(under, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), letters)
+        write(painter, under, title, style.end_label, theme.color("text"))
+        write(painter, under, letters, style.end_label, weak, RIGHT_MIDDLE)
 
     def _paint_forearm(self, painter: QPainter) -> None:
         head, distance = self._head(), self._history.from_home_mm()
@@ -244,10 +232,9 @@ class PathView(PlotCard):
         pattern = self.tr("arm moved ({distance})") if moved else self.tr("forearm still ({distance})")
         words = pattern.format(distance=numbers.millimetres(distance))
         scale = self._theme.text_scale
-        painter.setFont(font(12 * scale, MEDIUM))
-        painter.setPen(self._theme.color("warn" if moved else "text2"))
-        painter.drawText(head, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), words)
+        face = font(12 * scale, MEDIUM)
+        write(painter, head, words, face, self._theme.color("warn" if moved else "text2"), RIGHT_MIDDLE)
         size = 16 * scale
-        left = head.right() - QFontMetricsF(painter.font()).horizontalAdvance(words) - size - 6
+        left = head.right() - QFontMetricsF(face).horizontalAdvance(words) - size - 6
         box = QRectF(left, head.center().y() - size / 2, size, size)
         paint_status(painter, self._theme, "warn" if moved else "good", box)

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QPointF, QRectF, Qt, Signal
-from PySide6.QtGui import QFontMetricsF, QPainter, QPen
+from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen
 
 from carpus.ui import numbers
 from carpus.ui.figures import with_side
@@ -17,7 +17,7 @@ from carpus.ui.plot import axes
 from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.marks import NUMBERS_ABOVE, Cursor, Curves, Dot, Edges, MouseReadout, Target, fitted, room_at
 from carpus.ui.plot.session import HandPlot, SessionPlot, Value, paint_behind, paint_session, session_table, with_edge
-from carpus.ui.plot.style import PlotStyle, screen_style
+from carpus.ui.plot.style import PlotStyle, screen_style, write
 from carpus.ui.plot.zoom_card import ZoomCard
 from carpus.ui.theme import Theme
 
@@ -300,20 +300,14 @@ def _paint_named(painter: QPainter, style: PlotStyle, panel: Panel, value: Value
     """The movement's name over its angle."""
     scale = _scale(style)
     left, middle = panel.box.right() + 14 * scale, panel.box.center().y()
-    painter.setFont(font(14 * scale, REGULAR))
-    painter.setPen(style.color("text2"))
-    painter.setFont(fitted(painter.font(), value.name, room_at(painter, left)))
-    painter.drawText(QPointF(left, middle - 4 * scale), value.name)
+    face = fitted(font(14 * scale, REGULAR), value.name, room_at(painter, left))
+    write(painter, QPointF(left, middle - 4 * scale), value.name, face, style.color("text2"))
     if not math.isfinite(value.value_deg):
         return
-    angle = numbers.degrees(value.value_deg)
-    painter.setFont(font(20 * scale, SEMIBOLD))
-    painter.setPen(style.color("text"))
-    painter.drawText(QPointF(left, middle + 19 * scale), angle)
-    across = left + QFontMetricsF(painter.font()).horizontalAdvance(angle) + 5
-    painter.setFont(font(14 * scale, MEDIUM))
-    painter.setPen(style.color("text2"))
-    painter.drawText(QPointF(across, middle + 19 * scale), numbers.spread(value.sd_deg))
+    angle, at, face = numbers.degrees(value.value_deg), QPointF(left, middle + 19 * scale), font(20 * scale, SEMIBOLD)
+    write(painter, at, angle, face, style.color("text"))
+    at += QPointF(QFontMetricsF(face).horizontalAdvance(angle) + 5, 0.0)
+    write(painter, at, numbers.spread(value.sd_deg), font(14 * scale, MEDIUM), style.color("text2"))
 
 
 def _paint_in_rows(
@@ -325,16 +319,15 @@ def _paint_in_rows(
     for value in values:
         painter.setPen(_stroke(style, value, 2.5))
         painter.drawLine(QPointF(left, line), QPointF(left + 12 * scale, line))
-        painter.setFont(font(14 * scale, MEDIUM if value.hidden else SEMIBOLD))
-        painter.setPen(style.color("text2" if value.hidden else "text"))
+        face, color = (
+            font(14 * scale, MEDIUM if value.hidden else SEMIBOLD),
+            style.color("text2" if value.hidden else "text"),
+        )
         at = QPointF(left + 18 * scale, line + 5 * scale)
-        if spreads:  # with its side, and so with no room beside it
-            painter.drawText(at, with_side(value.value_deg, spreads))
-            painter.setFont(font(12 * scale, MEDIUM))
-            words = numbers.spread(value.sd_deg) if math.isfinite(value.value_deg) else ""
-            painter.drawText(at + QPointF(0.0, 16 * scale), words)
-        else:
-            painter.drawText(at, value.words)
+        write(painter, at, with_side(value.value_deg, spreads) if spreads else value.words, face, color)
+        if spreads and math.isfinite(value.value_deg):  # with its side, and so with no room beside it
+            below = at + QPointF(0.0, 16 * scale)
+            write(painter, below, numbers.spread(value.sd_deg), font(12 * scale, MEDIUM), color)
         line += step
 
 
@@ -343,12 +336,20 @@ def _paint_in_one_line(painter: QPainter, style: PlotStyle, panel: Panel, values
     scale = _scale(style)
     left, middle = panel.box.right() + 12 * scale, panel.box.center().y()
     for value in values:
-        painter.setFont(font(12 * scale, MEDIUM if value.hidden else SEMIBOLD))
-        painter.setPen(style.color("text2" if value.hidden else "text"))
-        painter.drawText(QPointF(left, middle + 3 * scale), numbers.degrees(value.value_deg))
+        face, color = (
+            font(12 * scale, MEDIUM if value.hidden else SEMIBOLD),
+            style.color("text2" if value.hidden else "text"),
+        )
+        write(painter, QPointF(left, middle + 3 * scale), numbers.degrees(value.value_deg), face, color)
         painter.setPen(_stroke(style, value, 2.0))
         painter.drawLine(QPointF(left, middle + 8 * scale), QPointF(left + 22 * scale, middle + 8 * scale))
         left += 32.0 * scale
+
+
+def _look(style: PlotStyle, value: Value, size: int) -> tuple[QFont, QColor]:
+    """Face and colour of a number: one that was hidden is weaker."""
+    weight, token = (MEDIUM, "text2") if value.hidden else (SEMIBOLD, "text")
+    return font(size * _scale(style), weight), style.color(token)
 
 
 def _stroke(style: PlotStyle, value: Value, width: float) -> QPen:

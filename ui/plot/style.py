@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
-from PySide6.QtGui import QColor, QFont
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QPainter, QPen
 
 from carpus.ui.fonts import MEDIUM, REGULAR, font
 from carpus.ui.theme import LIGHT, Theme, Tokens
@@ -28,6 +30,30 @@ class PlotStyle:
         value = QColor(getattr(self.tokens, token))
         value.setAlpha(alpha)
         return value
+
+
+RIGHT_MIDDLE = Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight
+
+
+def write(
+    painter: QPainter, at: QPointF | QRectF, words: str, face: QFont, color: QColor,
+    side: Qt.AlignmentFlag = Qt.AlignmentFlag.AlignVCenter,
+) -> None:  # fmt: skip
+    """Words from the left end of their baseline on, or in a box: there in its middle and at its left, unless told."""
+    painter.setFont(face)
+    painter.setPen(color)
+    if isinstance(at, QPointF):
+        painter.drawText(at, words)
+    else:
+        painter.drawText(at, int(side), words)
+
+
+def dashed(color: QColor, width: float, dash: Sequence[float]) -> QPen:
+    """A pen for a line of dashes and gaps, in widths of the line; solid without any."""
+    pen = QPen(color, width)
+    if dash:
+        pen.setDashPattern(dash)
+    return pen
 
 
 CURVE_TOKENS = ("curve_b", "curve_a", "curve_c")

@@ -17,9 +17,9 @@ from carpus.ui.figures import FINGERS
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.marker_words import finger_name
 from carpus.ui.plot.axes import Panel, Scale, crisp
-from carpus.ui.plot.marks import Mark
+from carpus.ui.plot.marks import Mark, paint_dot
 from carpus.ui.plot.polygon import polygon, runs
-from carpus.ui.plot.style import PlotStyle
+from carpus.ui.plot.style import RIGHT_MIDDLE, PlotStyle, write
 from carpus.ui.translate import tr
 
 BARS_MM = (5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0)
@@ -188,9 +188,7 @@ class PlaneMark:
                 painter.drawPolyline(polygon(x[recent + first : recent + last], y[recent + first : recent + last]))
 
     def _paint_now(self, painter: QPainter, style: PlotStyle, way: WayLine, at: QPointF) -> None:
-        painter.setPen(QPen(style.color("surface"), 1.5 * style.unit))
-        painter.setBrush(style.color(way.token))
-        painter.drawEllipse(at, 4.5 * style.unit, 4.5 * style.unit)
+        paint_dot(painter, style, at, way.token, 4.5)
 
     def _paint_name(
         self, painter: QPainter, style: PlotStyle, panel: Panel, way: WayLine,
@@ -211,9 +209,8 @@ class PlaneMark:
                 if inside and not any(box.intersects(other) for other in taken):
                     taken.append(box)
                     painter.fillRect(box.adjusted(-1, 2, 1, -2), style.color("surface", 200))
-                    painter.setFont(style.end_label)
-                    painter.setPen(style.color(way.token))
-                    painter.drawText(box, int(Qt.AlignmentFlag.AlignCenter), way.name)
+                    color = style.color(way.token)
+                    write(painter, box, way.name, style.end_label, color, Qt.AlignmentFlag.AlignCenter)
                     return
 
     def _paint_axes_along(self, painter: QPainter, style: PlotStyle, panel: Panel, axes: FloatArray) -> None:
@@ -249,9 +246,9 @@ class PlaneMark:
             inside = not painter.hasClipping() or shown.contains(center)
             if lettered and reach >= size and free and inside:
                 letters.append(center)
-                painter.setFont(font(size, SEMIBOLD, display=False))
                 box = QRectF(center.x() - size, center.y() - size, 2 * size, 2 * size)
-                painter.drawText(box, int(Qt.AlignmentFlag.AlignCenter), AXIS_LETTERS[axis])
+                face, middle = font(size, SEMIBOLD, display=False), Qt.AlignmentFlag.AlignCenter
+                write(painter, box, AXIS_LETTERS[axis], face, color, middle)
 
 
 def plane_marks(plot: WayPlot, until_s: float = math.nan) -> list[list[Mark]]:
@@ -270,14 +267,10 @@ def paint_planes(painter: QPainter, style: PlotStyle, plot: WayPlot, panels: Seq
         painter.drawLine(QPointF(box.center().x(), box.top()), QPointF(box.center().x(), box.bottom()))
         painter.drawLine(QPointF(box.left(), box.center().y()), QPointF(box.right(), box.center().y()))
         over = QRectF(box.left(), box.top() - line, box.width(), line)
-        painter.setFont(style.label)
-        painter.setPen(style.color("text2"))
-        painter.drawText(over, int(Qt.AlignmentFlag.AlignVCenter), f"{letters} · {up}")
-        painter.drawText(over, int(Qt.AlignmentFlag.AlignVCenter | Qt.AlignmentFlag.AlignRight), across)
+        write(painter, over, f"{letters} · {up}", style.label, style.color("text2"))
+        write(painter, over, across, style.label, style.color("text2"), RIGHT_MIDDLE)
         if is_titled(style, panel):
-            painter.setFont(style.end_label)
-            painter.setPen(style.color("text"))
-            painter.drawText(over.translated(0.0, box.height() + line), int(Qt.AlignmentFlag.AlignVCenter), title)
+            write(painter, over.translated(0.0, box.height() + line), title, style.end_label, style.color("text"))
         _paint_bar(painter, style, plot, box)
 
 
@@ -301,9 +294,8 @@ def _paint_bar(painter: QPainter, style: PlotStyle, plot: WayPlot, box: QRectF) 
     left, y = box.left() + 8 * style.unit, box.bottom() - 8 * style.unit
     painter.setPen(QPen(style.color("border"), 1.5 * style.unit))
     painter.drawLine(QPointF(left, y), QPointF(left + length * plot.per_mm(box), y))
-    painter.setFont(style.label)
-    painter.setPen(style.color("text2"))
-    painter.drawText(QPointF(left, y - 4 * style.unit), f"{length:.0f}{numbers.NARROW_GAP}mm")
+    words = f"{length:.0f}{numbers.NARROW_GAP}mm"
+    write(painter, QPointF(left, y - 4 * style.unit), words, style.label, style.color("text2"))
 
 
 UP = (0, 2, 2)

@@ -11,7 +11,7 @@ from PySide6.QtGui import QPainter
 from carpus.ui.fonts import SEMIBOLD, font
 from carpus.ui.plot.axes import Panel
 from carpus.ui.plot.card import PlotCard
-from carpus.ui.plot.style import screen_style
+from carpus.ui.plot.style import screen_style, write
 from carpus.ui.plot.ways import WayPlot, paint_planes, plane_marks, side_by_side
 from carpus.ui.theme import Theme
 
@@ -57,7 +57,6 @@ class WaysView(PlotCard):
         if self._plot is None:
             return
         scale, style = self._theme.text_scale, screen_style(self._theme)
-        painter.setFont(font(14 * scale, SEMIBOLD))
-        painter.setPen(self._theme.color("text"))
-        painter.drawText(QPointF(EDGE_PX, 24 * scale), self._title)
+        at, face = QPointF(EDGE_PX, 24 * scale), font(14 * scale, SEMIBOLD)
+        write(painter, at, self._title, face, style.color("text"))
         paint_planes(painter, style, self._plot, self.panels())

@@ -6,9 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
-from PySide6.QtCore import QPointF
-from PySide6.QtGui import QColor, QPen
-
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.ui.figures import TOKENS, row_name
@@ -18,7 +15,6 @@ from carpus.ui.report.hand_rows import FingerRow, column_heads, finger_rows, lim
 from carpus.ui.report.page import Page
 from carpus.ui.report.tables import mean_words, repetition_words
 from carpus.ui.terms import arc_name
-from carpus.ui.theme import LIGHT
 from carpus.ui.translate import tr
 
 ROW_PT, CURVES_PT, LEAST_CURVES_PT, BETWEEN_PT = 21.5, 176.0, 110.0, 6.0
@@ -152,7 +148,5 @@ def _paint_key(page: Page, least_left: float, right: float, baseline: float) -> 
         name = names[row]
         left = right - page.width_of(name, size)
         page.text(name, left, baseline, size, REGULAR, "text2")
-        page.painter.setPen(QPen(QColor(getattr(LIGHT, TOKENS[row])), 1.6 * page.point))
-        y = (baseline - 3.0) * page.point
-        page.painter.drawLine(QPointF((left - 14) * page.point, y), QPointF((left - 4) * page.point, y))
+        page.line((left - 14, baseline - 3.0), (left - 4, baseline - 3.0), TOKENS[row], 1.6)
         right = left - 22

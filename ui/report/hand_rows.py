@@ -10,10 +10,11 @@ from carpus.core.results.figures import SessionFigures
 from carpus.core.results.norms import Grade, GradedTotal, graded_totals, total_norm
 from carpus.core.results.progress import compare_rows
 from carpus.core.results.ranges import RangeRow, RowKey, finger_keys, spread_keys, thumb_keys
-from carpus.ui import numbers
+from carpus.ui import numbers, terms
 from carpus.ui.figures import FINGERS, Figure, Row, figure_of, with_side
 from carpus.ui.marker_words import finger_name
-from carpus.ui.report.further_rows import main_words
+from carpus.ui.report.further_rows import main_words, short_words
+from carpus.ui.report.tables import mean_words
 from carpus.ui.report.words import since_sessions
 from carpus.ui.translate import inside, say, tr
 from carpus.ui.verdicts import change_short, reason_words
@@ -340,3 +341,19 @@ def followed_keys(what: str) -> tuple[RowKey, ...]:
 def _whole_name(finger: int) -> str:
     name = finger_name(str(finger))
     return name if finger == 1 else tr("{finger} finger").format(finger=name)
+
+
+def main_figure(figures: SessionFigures) -> str:
+    """The figure that a therapist looks for first: the best of the trained movement, or the first joint."""
+    about = short_words(figures)
+    if about:
+        return about
+    if figures.joint_rows:
+        trained = figure_of(figures.exercise.joint).finger
+        for figure in sorted(compared_figures(figures), key=lambda one: one.finger != trained):
+            row = figures.row("arc", -1, figure.joint)
+            if row is not None and row.count:
+                return f"{figure.long_name} {range_words(row)}"
+        return ""
+    rows = [row for row in figures.rows if row.movement != "arc" and row.count] or [*figures.rows]
+    return f"{terms.movement_name(rows[0].movement)} {mean_words(rows[0])}" if rows else ""

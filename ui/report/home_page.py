@@ -127,10 +127,9 @@ def paint_home_page(page: Page, home: HomeReport) -> None:
 def _paint_task(page: Page, home: HomeReport, task: HomeTask, number: int, box: QRectF) -> None:
     _paint_exercise(page, task.exercise, home.side, box)
     left, right = box.right() + GAP_PT, page.right
-    middle = QPointF((left + 9) * page.point, (box.top() + 10) * page.point)
     page.painter.setPen(Qt.PenStyle.NoPen)
     page.painter.setBrush(QColor(LIGHT.accent))
-    page.painter.drawEllipse(middle, 9 * page.point, 9 * page.point)
+    page.painter.drawEllipse(page.at(left + 9, box.top() + 10), 9 * page.point, 9 * page.point)
     words = str(number)
     page.text(words, left + 9 - page.width_of(words, 10, SEMIBOLD) / 2, box.top() + 13.5, 10, SEMIBOLD, "on_accent")
     page.text(task_words(task.exercise.id), left + 25, box.top() + 15, 13.0, SEMIBOLD)
@@ -184,11 +183,8 @@ def _paint_exercise(page: Page, exercise: Exercise, side: Side, box: QRectF) -> 
     if exercise.angle == 0 or exercise.joint.endswith("abduction"):
         ends = tuple(0.5 * end for end in ends)  # type: ignore[assignment]
     page.painter.save()
-    page.painter.setPen(Qt.PenStyle.NoPen)
-    page.painter.setBrush(QColor(LIGHT.sunken))
-    frame = page.box(box.x(), box.y(), box.width(), box.height())
-    page.painter.drawRoundedRect(frame, 6 * page.point, 6 * page.point)
-    page.painter.setClipRect(frame)
+    page.fill(box.x(), box.y(), box.width(), box.height(), "sunken")
+    page.painter.setClipRect(page.box(box.x(), box.y(), box.width(), box.height()))
     arc = arc_of(exercise)
     way = arc.path(0.75 * ends[0], 0.75 * ends[1])
     part = _shown_part(exercise, ends).united(way.boundingRect().adjusted(-20, -20, 20, 20))
@@ -280,9 +276,7 @@ def _paint_curve(page: Page, way: OwnWay, box: QRectF) -> None:
 def _paint_foot(page: Page, home: HomeReport, top: float) -> None:
     """When to come again, room for questions, what to do when it hurts."""
     top = max(top, A4_PT[1] - MARGIN_PT - 150)
-    page.painter.setPen(Qt.PenStyle.NoPen)
-    page.painter.setBrush(QColor(LIGHT.soft))
-    page.painter.drawRoundedRect(page.box(page.left, top, LEFT_PT, 74), 6 * page.point, 6 * page.point)
+    page.fill(page.left, top, LEFT_PT, 74, "soft")
     page.text(tr("See you again"), page.left + 12, top + 18, 9.5, MEDIUM)
     if home.again is None:
         page.rule(top + 48, page.left + 12, page.left + LEFT_PT - 12)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetricsF, QPainter, QPen, QPicture
@@ -20,6 +21,8 @@ LEAST_PT, LINE_PT = 5.0, 9.5
 """Of the words of a table: the smallest, and a line's height where they have several."""
 
 
+T = TypeVar("T")
+Place = tuple[float, float]
 Cell = str | tuple[str, int, str]
 """Words of a table, with a weight and a colour of their own or without."""
 
@@ -70,6 +73,10 @@ class Page:
         """A rectangle in painter units."""
         return QRectF(left * self.point, top * self.point, width * self.point, height * self.point)
 
+    def at(self, x: float, y: float) -> QPointF:
+        """A place in painter units."""
+        return QPointF(x * self.point, y * self.point)
+
     def face(self, size_pt: float, weight: int = REGULAR) -> QFont:
         """A font of a size in points."""
         return font(size_pt * self.point, weight, display=size_pt >= DISPLAY_FROM_PT)
@@ -84,7 +91,7 @@ class Page:
         """One line; returns its right end."""
         self.painter.setFont(self.face(size_pt, weight))
         self.painter.setPen(QColor(getattr(LIGHT, token)))
-        self.painter.drawText(QPointF(left * self.point, baseline * self.point), text)
+        self.painter.drawText(self.at(left, baseline), text)
         return left + self.width_of(text, size_pt, weight)
 
     def text_right(
@@ -110,7 +117,7 @@ class Page:
         leading = 1.45 * size_pt
         top_pt = top
         for line in self._lines(text, metrics, width * self.point):
-            self.painter.drawText(QPointF(left * self.point, (top_pt + size_pt) * self.point), line)
+            self.painter.drawText(self.at(left, top_pt + size_pt), line)
             top_pt += leading
         return top_pt
 
@@ -188,10 +195,17 @@ class Page:
         return last
 
     def rule(self, y: float, left: float | None = None, right: float | None = None) -> None:
-        self.painter.setPen(QPen(QColor(LIGHT.line), 0.6 * self.point))
-        start = (self.left if left is None else left) * self.point
-        end = (self.right if right is None else right) * self.point
-        self.painter.drawLine(QPointF(start, y * self.point), QPointF(end, y * self.point))
+        self.line((self.left if left is None else left, y), (self.right if right is None else right, y))
+
+    def line(self, start: Place, end: Place, token: str = "line", width: float = 0.6) -> None:
+        self.painter.setPen(QPen(QColor(getattr(LIGHT, token)), width * self.point))
+        self.painter.drawLine(self.at(*start), self.at(*end))
+
+    def fill(self, left: float, top: float, width: float, height: float, token: str, radius: float = 6.0) -> None:
+        """A rectangle of one colour with round corners."""
+        self.painter.setPen(Qt.PenStyle.NoPen)
+        self.painter.setBrush(QColor(getattr(LIGHT, token)))
+        self.painter.drawRoundedRect(self.box(left, top, width, height), radius * self.point, radius * self.point)
 
     def card(self, left: float, top: float, width: float, height: float) -> None:
         self.painter.setPen(QPen(QColor(LIGHT.line), 0.8 * self.point))
@@ -216,14 +230,16 @@ class Page:
         return self.said(aside, baseline + 3.0, 8.5, REGULAR, "text2") - baseline - 3.0
 
 
+def on_nothing(point: float, paint: Callable[[Page], T]) -> T:
+    """What painting gives where nobody sees it."""
+    nowhere = QPicture()
+    with QPainter(nowhere) as painter:
+        return paint(Page(painter, point, is_trial=True))
+
+
 def painted_on_nothing(page: Page, paint: Callable[[Page], float]) -> float:
     """The lower edge that painting would have, in points."""
-    nowhere = QPicture()
-    painter = QPainter(nowhere)
-    try:
-        return paint(Page(painter, page.point, is_trial=True))
-    finally:
-        painter.end()
+    return on_nothing(page.point, paint)
 
 
 def paint_to_fit(page: Page, lowest_pt: float, paint: Callable[[Page], float]) -> None:

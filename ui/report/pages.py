@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 
-from PySide6.QtGui import QPainter, QPicture
-
 from carpus.ui.fonts import SEMIBOLD
 from carpus.ui.language import speaking
 from carpus.ui.report.beside_page import BesideReport, paint_beside_page
@@ -14,7 +12,7 @@ from carpus.ui.report.framed import paint_framed
 from carpus.ui.report.home_page import HomeReport, paint_home_page
 from carpus.ui.report.letter_page import LetterReport, paint_letter_page
 from carpus.ui.report.motion_page import paint_motion_page
-from carpus.ui.report.page import Page
+from carpus.ui.report.page import Page, on_nothing
 from carpus.ui.report.progress_page import ProgressReport, paint_progress_page
 from carpus.ui.report.session_page import (
     COMMENT_LEADING_PT,
@@ -77,13 +75,7 @@ def comment_pages(report: SessionReport) -> list[list[str]]:
     """The lines of each page; none where the comment has room on the first page of the report."""
     if not report.comment.strip():
         return []
-    nowhere = QPicture()
-    painter = QPainter(nowhere)
-    try:
-        page = Page(painter, 1.0)
-        lines = [] if is_short(page, report.comment) else comment_lines(page, report.comment)
-    finally:
-        painter.end()
+    lines = on_nothing(1.0, lambda page: [] if is_short(page, report.comment) else comment_lines(page, report.comment))
     return [lines[start : start + LINES_ON_A_PAGE] for start in range(0, len(lines), LINES_ON_A_PAGE)]
 
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date
 
-from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPen
+from PySide6.QtCore import QRectF
+from PySide6.QtGui import QColor
 
 from carpus.core.hand.exercises import AXIS_TICK_DEG, SIDES
 from carpus.core.measures.by_hand import HandValue
@@ -142,7 +142,7 @@ def paint_watermark(page: Page) -> None:
     """SIMULATED across the page, behind everything: no copy of it passes for a patient's."""
     painter = page.painter
     painter.save()
-    painter.translate(_point(page, A4_PT[0] / 2, A4_PT[1] / 2))
+    painter.translate(page.at(A4_PT[0] / 2, A4_PT[1] / 2))
     painter.rotate(-55.0)
     words = tr("SIMULATED")
     page.text(words, -page.width_of(words, 96.0, SEMIBOLD) / 2, 34.0, 96.0, SEMIBOLD, "norm")
@@ -311,8 +311,7 @@ def _paint_bars(page: Page, report: SessionReport, top: float) -> float:
     step = tick / 4
     for k in range(-4, 5):
         value = k * step
-        page.painter.setPen(QPen(QColor(LIGHT.border if k == 0 else LIGHT.line), 0.6 * page.point))
-        page.painter.drawLine(_point(page, x(value), area_top), _point(page, x(value), area_top + height))
+        page.line((x(value), area_top), (x(value), area_top + height), "border" if k == 0 else "line")
         label = f"{abs(value):.0f}°"
         page.text(label, x(value) - page.width_of(label, 8.5) / 2, area_top + height + 11, 8.5, REGULAR, "text2")
     for place, (name, shown, angle, thick, token) in enumerate(bars):
@@ -334,22 +333,15 @@ def _paint_bar(page: Page, figures: SessionFigures, angle: int, middle: float, t
     top_row, bottom_row = figures.row(upper, angle), figures.row(lower, angle)
     high = top_row.mean_deg if top_row else 0.0
     low = -bottom_row.mean_deg if bottom_row else 0.0
-    page.painter.setPen(Qt.PenStyle.NoPen)
-    page.painter.setBrush(QColor(getattr(LIGHT, token)))
-    page.painter.drawRoundedRect(page.box(x(low), middle - thick / 2, x(high) - x(low), thick), page.point, page.point)
+    page.fill(x(low), middle - thick / 2, x(high) - x(low), thick, token, 1.0)
     if thick < 7:
         return
-    page.painter.setPen(QPen(QColor(LIGHT.text), 0.9 * page.point))
     for value, row in ((high, top_row), (low, bottom_row)):
         if row is not None and math.isfinite(row.sd_deg):
             ends = x(value - row.sd_deg), x(value + row.sd_deg)
-            page.painter.drawLine(_point(page, ends[0], middle), _point(page, ends[1], middle))
+            page.line((ends[0], middle), (ends[1], middle), "text", 0.9)
             for end in ends:
-                page.painter.drawLine(_point(page, end, middle - 3), _point(page, end, middle + 3))
-
-
-def _point(page: Page, x: float, y: float) -> QPointF:
-    return QPointF(x * page.point, y * page.point)
+                page.line((end, middle - 3), (end, middle + 3), "text", 0.9)
 
 
 def paint_boxes(page: Page, report: SessionReport, top: float) -> float:

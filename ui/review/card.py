@@ -19,8 +19,7 @@ from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, ElidedText, Text,
 from carpus.ui.controls.words_table import WordsTable
 from carpus.ui.report.active_passive import active_passive
 from carpus.ui.report.further_rows import further_rows, further_title
-from carpus.ui.report.hand_rows import column_heads, finger_rows, limits_words
-from carpus.ui.report.main_figure import main_figure
+from carpus.ui.report.hand_rows import column_heads, finger_rows, limits_words, main_figure
 from carpus.ui.report.tables import column_names, repetition_words, table_rows
 from carpus.ui.review.reviewed import Reviewed
 from carpus.ui.review.tables import FurtherTable, HandTable, RangeTable

@@ -14,7 +14,7 @@ from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.values import SessionEntry
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.messages import put_off_last
-from carpus.ui.report.main_figure import main_figure
+from carpus.ui.report.hand_rows import main_figure
 from carpus.ui.report.tables import repetition_words
 from carpus.ui.report.words import warnings
 from carpus.ui.sessions.listing import SessionLine
