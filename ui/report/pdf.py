@@ -67,12 +67,8 @@ def session_report(
     say of it besides; ``language`` of the page, empty for the window's."""
     figures = session_figures(session, choices, limits_of(history))
     known = next((other for other in history if other.session_id == figures.session_id), figures)
-    figures = replace(
-        figures,
-        earlier_results=known.earlier_results,
-        older=all(one is not figures for one in newest_results((*history, figures))),
-        camera=camera or figures.camera,
-    )
+    older = all(one is not figures for one in newest_results((*history, figures)))
+    figures = replace(figures, earlier_results=known.earlier_results, older=older, camera=camera or figures.camera)
     earlier = [other for other in history if other.when < figures.when]
     alike = [other for other in earlier if (other.exercise.id, other.side) == (figures.exercise.id, figures.side)]
     fair = [point.figures for point in progress(alike).points if point.fair]
