@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import lru_cache
 from pathlib import Path
 
 from carpus.core.calibration.clicks import read_clicks
@@ -12,7 +13,7 @@ from carpus.core.records.set_up import SetUp
 from carpus.core.simulation.motions import STILL_S
 from carpus.core.simulation.recording import CLICKS_FILE
 from carpus.core.simulation.spec import RecordingSpec
-from carpus.core.types import FloatArray
+from carpus.core.types import FloatArray, Frame
 
 Take = Callable[[SetUp, Callable[[int, int], None]], tuple[FrameSource, float]]
 
@@ -26,9 +27,28 @@ RANGE_DEG = 0.6 * 50.0
 """Reached to both sides, less up to 6 % by which the patient stops short of each target."""
 
 
+class Unpacked:
+    """A take whose pictures have been unpacked before: it is played through again and again."""
+
+    def __init__(self, folder: Path) -> None:
+        source = TumFolder(folder)
+        self.info = source.info
+        self._frames = list(source.frames())
+        source.close()
+
+    def frames(self) -> Iterator[Frame]:
+        return iter(self._frames)
+
+    def close(self) -> None:
+        """It stays in memory for the next journey."""
+
+
+unpacked = lru_cache(maxsize=1)(Unpacked)
+
+
 def take_of(folder: Path, fps: float = SPEC.fps) -> Take:
     """What :func:`app.compose.compose` takes instead of the practice patient's half minute."""
-    return lambda _set_up, _progress: (TumFolder(folder, read_ahead=4), STILL_S - 1.0 / fps)
+    return lambda _set_up, _progress: (unpacked(folder), STILL_S - 1.0 / fps)
 
 
 def clicks_of(folder: Path) -> FloatArray:
