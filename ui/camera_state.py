@@ -65,10 +65,11 @@ class CameraState(QObject):
     changed = Signal()
 
     def __init__(
-        self, cameras: Cameras, background: Background, now: Callable[[], datetime], *, is_demo: bool = False
-    ) -> None:
+        self, cameras: Cameras, background: Background, now: Callable[[], datetime], parent: QObject, *,
+        is_demo: bool = False,
+    ) -> None:  # fmt: skip
         """In a demo the simulated camera is the camera: nobody looks whether another is plugged in, or says so."""
-        super().__init__()
+        super().__init__(parent)
         self._cameras, self._background, self._now, self._is_demo = cameras, background, now, is_demo
         self.there, self.name = False, ""
         self.standing = Standing("")

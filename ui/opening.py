@@ -31,8 +31,11 @@ class Opener(QObject):
     progressed = Signal(int, int)
     closing = Signal()
 
-    def __init__(self, open_it: OpenIt, now: NowOpen, background: Background, not_closed: Callable[[Exception], None]):
-        super().__init__()
+    def __init__(
+        self, open_it: OpenIt, now: NowOpen, background: Background, not_closed: Callable[[Exception], None],
+        parent: QObject,
+    ) -> None:  # fmt: skip
+        super().__init__(parent)
         self._open_it, self._now, self._others, self._not_closed = open_it, now, background, not_closed
         self._background = Background()  # whatever else is to be done waits for no camera
         self._ending = threading.Event()

@@ -253,9 +253,9 @@ class Journey(QObject):
         self.now = NowOpen(choice=SourceChoice("practice" if parts.is_demo else "camera"))
         self.background = Background()
         self.messages = messages = Messages(shell.stage, theme)
-        self.opener = Opener(parts.open_source, self.now, self.background, messages.fault)
+        self.opener = Opener(parts.open_source, self.now, self.background, messages.fault, self)
         self.camera_state = CameraState(
-            parts.cameras, self.background, lambda: datetime.now().astimezone(), is_demo=parts.is_demo
+            parts.cameras, self.background, lambda: datetime.now().astimezone(), self, is_demo=parts.is_demo
         )
         self.way = Navigator(shell, lambda: messages.busy, lambda: "live" in self.way.flows and self.live.is_recording)
         self.context = ScreenContext(
