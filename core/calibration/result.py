@@ -142,10 +142,7 @@ FINDINGS: dict[str, tuple[Phrase, Phrase]] = {
         phrase("The clicks for the {markers} are on one marker."),
         phrase("Click each of the two on its own marker."),
     ),
-    "swapped": (
-        phrase("{markers} look swapped."),
-        phrase("Swap the two names, or click both markers again."),
-    ),
+    "swapped": (phrase("{markers} look swapped."), phrase("Swap the two names, or click both markers again.")),
     "misnamed": (
         phrase("The {markers} does not lie on the line of its finger."),
         phrase("Look at the lines on the picture, and give the marker its right name."),

@@ -97,11 +97,7 @@ def _totals(color: NDArray[np.float32], outline: Outline, stencil: Stencil) -> N
 
 
 def _fill_in(
-    total: NDArray[np.float32],
-    few: NDArray[np.bool_],
-    color: NDArray[np.float32],
-    outline: Outline,
-    stencil: Stencil,
+    total: NDArray[np.float32], few: NDArray[np.bool_], color: NDArray[np.float32], outline: Outline, stencil: Stencil
 ) -> None:
     """Take the whole rim for a direction in which there is almost none of it, the whole blob for such a core."""
     channels = color.transpose(0, 2, 1)

@@ -91,13 +91,7 @@ class Detector:
         return np.array(radius)
 
     def _measure(
-        self,
-        frame: Frame,
-        region: Region,
-        color: ByteImage,
-        hsv: ByteImage,
-        blobs: Components,
-        fits: NDArray[np.int64],
+        self, frame: Frame, region: Region, color: ByteImage, hsv: ByteImage, blobs: Components, fits: NDArray[np.int64]
     ) -> Detections:
         settings, labels = self._settings, blobs.labels
         own, rough_px = blobs.label[fits], blobs.centre_px[fits]

@@ -42,11 +42,7 @@ def wrist_axes_sensitivity(palm_m: FloatArray, towards: FloatArray) -> tuple[Flo
     axes = wrist_axes(moved.reshape(19, 6, 3), towards)
     turned = axes[0].T @ axes[1:]
     vee = 0.5 * np.stack(
-        (
-            turned[:, 2, 1] - turned[:, 1, 2],
-            turned[:, 0, 2] - turned[:, 2, 0],
-            turned[:, 1, 0] - turned[:, 0, 1],
-        )
+        (turned[:, 2, 1] - turned[:, 1, 2], turned[:, 0, 2] - turned[:, 2, 0], turned[:, 1, 0] - turned[:, 0, 1])
     )
     return axes[0], vee / step_m
 

@@ -246,13 +246,7 @@ class PaperTracker:
         """Never: no search is narrowed."""
         return False
 
-    def step(
-        self,
-        index: int,
-        timestamp_s: float,
-        detections: Detections,
-        dropped_before: int = 0,
-    ) -> TrackedFrame:
+    def step(self, index: int, timestamp_s: float, detections: Detections, dropped_before: int = 0) -> TrackedFrame:
         """Predict, name the blobs, correct; the frame's result."""
         row = self._weighed(index, timestamp_s, detections, dropped_before)
         if row is not None:

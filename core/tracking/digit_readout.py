@@ -10,12 +10,7 @@ from carpus.core import so3
 from carpus.core.calibration.result import Clicks
 from carpus.core.camera import Camera
 from carpus.core.kernels.choice import in_c
-from carpus.core.tracking.digit_filter import (
-    RATES,
-    SEEN,
-    DigitsLinearisation,
-    DigitView,
-)
+from carpus.core.tracking.digit_filter import RATES, SEEN, DigitsLinearisation, DigitView
 from carpus.core.tracking.finger_depth import FLEXION
 from carpus.core.tracking.hand_geometry import (
     CHAINS,

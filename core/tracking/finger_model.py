@@ -31,15 +31,7 @@ from carpus.core.tracking.digit_filter import (
 )
 from carpus.core.tracking.digit_readout import DigitReadout, Seat
 from carpus.core.tracking.finger_settings import FingerSettings
-from carpus.core.tracking.hand_geometry import (
-    CHAINS,
-    CONSTANTS,
-    DISCS,
-    SLOTS,
-    PalmInBody,
-    is_crowded,
-    palm_of,
-)
+from carpus.core.tracking.hand_geometry import CHAINS, CONSTANTS, DISCS, SLOTS, PalmInBody, is_crowded, palm_of
 from carpus.core.tracking.joint_limits import MID_RANGE_RAD, RANGE_SD_RAD, constrained, settled
 from carpus.core.tracking.kernel import ModeMixture, like, switching
 from carpus.core.tracking.motion import REFERENCE_DT_S

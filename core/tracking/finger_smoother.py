@@ -170,10 +170,7 @@ def _linearised(model: FingerModel, mean: FloatArray, covariance: FloatArray, se
 
 
 def _filtered(
-    model: FingerModel,
-    steps: Sequence[FingerStep | None],
-    seats: Sequence[Seat | None],
-    start: FingerStart | None,
+    model: FingerModel, steps: Sequence[FingerStep | None], seats: Sequence[Seat | None], start: FingerStart | None
 ) -> list[_Filtered | None]:
     out: list[_Filtered | None] = []
     estimates, unseen_s, time_s = model.at_neutral(), np.zeros((CHAINS, SLOTS)), float("nan")

@@ -9,11 +9,7 @@ from numpy.typing import NDArray
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
-from carpus.core.tracking.digit_filter import (
-    DIGIT_SIZE,
-    RATES,
-    SEEN,
-)
+from carpus.core.tracking.digit_filter import DIGIT_SIZE, RATES, SEEN
 from carpus.core.tracking.digit_naming import DigitMemory, DigitNaming, FingerTrial
 from carpus.core.tracking.digit_search import in_reach
 from carpus.core.tracking.finger_depth import FLEXION

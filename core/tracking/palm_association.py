@@ -13,12 +13,7 @@ from numpy.typing import NDArray
 from carpus.core.depth_sensor import CORE_SHARE, DepthSensor
 from carpus.core.kernels.choice import NOTHING, in_c
 from carpus.core.tracking import association
-from carpus.core.tracking.association import (
-    JointAssociation,
-    associate_jointly,
-    is_jointly_compatible,
-    most_chi2_row,
-)
+from carpus.core.tracking.association import JointAssociation, associate_jointly, is_jointly_compatible, most_chi2_row
 from carpus.core.tracking.kernel import ModeMixture, corrected, like
 from carpus.core.tracking.palm_state import PALM_DISCS
 from carpus.core.tracking.predicted_measurement import PredictedMeasurement

@@ -139,10 +139,7 @@ def calibrated_covariance(surface: BackSurface, view: View, settings: SurfaceSet
 
 
 def levelled_mixture(
-    mixture: ModeMixture,
-    found: SurfaceMeasurement,
-    partial: FloatArray | None,
-    settings: SurfaceSettings,
+    mixture: ModeMixture, found: SurfaceMeasurement, partial: FloatArray | None, settings: SurfaceSettings
 ) -> ModeMixture | None:
     """The palm's modes corrected by what the surface says, numbers taking their ``partial``; None where it is so far
     from what was believed that it is another surface."""

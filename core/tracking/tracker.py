@@ -152,10 +152,7 @@ class FrameResults:
         if fingers is not None and joints is not None:
             pixel = order.by_marker(pixel, fingers.predicted_px)
             covariance = order.by_marker(covariance, fingers.predicted_cov_px2)
-            discs, surprise = (
-                order.by_marker(discs, joints.disc_cam_m),
-                order.by_marker(surprise, fingers.surprise),
-            )
+            discs, surprise = (order.by_marker(discs, joints.disc_cam_m), order.by_marker(surprise, fingers.surprise))
         covariance = covariance + noise.pixel_sd_px**2 * _SAME_AXIS
         return _Rows(blob, pixel, seen_px, seen_depth_m, covariance, discs, int(surprise.argmax()))
 
@@ -178,11 +175,7 @@ class FrameResults:
 
 
 def _widened(moment: Moment, by: float) -> Moment:
-    return replace(
-        moment,
-        angles_sd_rad=moment.angles_sd_rad * by,
-        joint_angles_sd_rad=moment.joint_angles_sd_rad * by,
-    )
+    return replace(moment, angles_sd_rad=moment.angles_sd_rad * by, joint_angles_sd_rad=moment.joint_angles_sd_rad * by)
 
 
 class Tracker:

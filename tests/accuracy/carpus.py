@@ -101,10 +101,7 @@ def detected_sequence(truth: Truth, measured: Measured) -> MeasurementSequence:
 
 
 def run_on_blobs(
-    scenario: Scenario,
-    sequence: MeasurementSequence,
-    settings: TrackerSettings | None = None,
-    method: str = CARPUS,
+    scenario: Scenario, sequence: MeasurementSequence, settings: TrackerSettings | None = None, method: str = CARPUS
 ) -> tuple[Run, float]:
     """Track and smooth measurements; also when the neutral pose ends: only frames after it are scored."""
     tracker, neutral_ends_s = learnt_tracker(sequence, settings)

@@ -43,11 +43,7 @@ def informed_run(
     measured = measured - np.nanmean(error, axis=0)
     variance = np.nanmean(np.nanvar(error, axis=0), axis=0)
     view = View(
-        truth.camera,
-        truth.rotation_w0_cam,
-        truth.translation_w0_cam_m,
-        truth.marker_position_w0_m,
-        np.zeros((6, 18)),
+        truth.camera, truth.rotation_w0_cam, truth.translation_w0_cam_m, truth.marker_position_w0_m, np.zeros((6, 18))
     )
     scales = np.array(settings.mode_scales)
     motion = PalmMotion(settings.motion_noise, always_pushed(RIGID.tissue), scales)

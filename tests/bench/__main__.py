@@ -28,9 +28,7 @@ def main() -> int:
     parser.add_argument("--hand", action="store_true", help="the window's run measures the whole hand, 21 markers")
     parser.add_argument("--rounds", type=int, default=3, help="how often the recordings are tracked")
     parser.add_argument(
-        "--compare",
-        action="store_true",
-        help="whole-hand beside Stone Soup, filterpy, MediaPipe (installed apart)",
+        "--compare", action="store_true", help="whole-hand beside Stone Soup, filterpy, MediaPipe (installed apart)"
     )
     arguments = parser.parse_args()
     parts = arguments.parts or list(PARTS)

@@ -28,10 +28,7 @@ from tests.bench.whole_hand import FINGERS
 HEAD = (
     "| peer | CPU ms, median | p95 | times the plain step | Carpus, whole frame, is | note |\n|---|---|---|---|---|---|"
 )
-NEEDS = {
-    "filters": ("stonesoup==1.9.1", "filterpy==1.4.5"),
-    "mediapipe": ("mediapipe==0.10.21",),
-}
+NEEDS = {"filters": ("stonesoup==1.9.1", "filterpy==1.4.5"), "mediapipe": ("mediapipe==0.10.21",)}
 """0.10.21 is the last MediaPipe that brings its models along."""
 PICTURES = 40
 _ROOT = Path(__file__).resolve().parents[2]

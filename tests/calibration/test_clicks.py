@@ -112,11 +112,7 @@ BAD: dict[str, tuple[Any, type[CarpusFault], str]] = {
     "hundreds of digits": (markers(MCP2=[10**400, 210]), ClicksUnreadable, "MCP2"),
     "true": (markers(MCP2=[True, 210]), ClicksUnreadable, "MCP2"),
     "three numbers": (markers(MCP2=[1, 2, 3]), ClicksUnreadable, "MCP2"),
-    "marker twice": (
-        json.dumps(GOOD).replace('"CMC1"', '"WRIST"'),
-        ClicksUnreadable,
-        "WRIST is there twice",
-    ),
+    "marker twice": (json.dumps(GOOD).replace('"CMC1"', '"WRIST"'), ClicksUnreadable, "WRIST is there twice"),
     "left of the picture": (markers(MCP2=[-3, 210]), ClickOutsidePicture, "-3, 210"),
     "right of the picture": (markers(MCP2=[640, 210]), ClickOutsidePicture, "640 x 480"),
     "under the picture": (markers(MCP2=[300, 1e6]), ClickOutsidePicture, "1e+06"),

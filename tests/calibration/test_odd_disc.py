@@ -25,7 +25,7 @@ def judged(scene: Scene, clicked_px: FloatArray, *spots: FloatArray) -> Calibrat
     radius_px = CAMERA.fx_px * 0.006 / scene.distance_m
     extras = tuple(Extra((float(u), float(v)), radius_px, PAPERS["blue"]) for u, v in spots)
     clicks = replace(clicks_on(scene), pixel=clicked_px)
-    frames = frames_of(scene, extras=extras)
+    frames = frames_of(scene, 5, extras=extras)
     return calibrate(clicks, frames, CAMERA, CalibrationSettings(), DetectionSettings())
 
 
@@ -72,7 +72,7 @@ def test_a_spot_that_nobody_named_close_to_a_disc_is_told(radii: float, told: bo
     radius_px = CAMERA.fx_px * 0.006 / scene.distance_m
     u, v = scene.discs_px[0]
     spot = Extra((float(u + radii * radius_px), float(v)), 0.5 * radius_px, PAPERS["blue"])
-    frames = frames_of(scene, extras=(spot,))
+    frames = frames_of(scene, 5, extras=(spot,))
     for one in frames:  # a line of skin between the two
         left, right = (round(u + (radii + by) * radius_px) for by in (-0.85, -0.4))
         one.color_rgb[round(v) - 6 : round(v) + 7, left:right] = SKIN

@@ -81,8 +81,7 @@ def test_supination_raises_the_thumbs_side(side: Side) -> None:
 
 @pytest.mark.parametrize("axis", ["z", "y", "x"])
 @pytest.mark.parametrize(
-    ("side", "signs"),
-    [("right", {"z": 1.0, "y": 1.0, "x": 1.0}), ("left", {"z": -1.0, "y": 1.0, "x": -1.0})],
+    ("side", "signs"), [("right", {"z": 1.0, "y": 1.0, "x": 1.0}), ("left", {"z": -1.0, "y": 1.0, "x": -1.0})]
 )
 def test_signs_of_the_elementary_turns(axis: str, side: Side, signs: dict[str, float]) -> None:
     """Table 1.2: + about Z is radial on the right hand, ulnar on the left; + about X supination and pronation."""
@@ -130,11 +129,7 @@ def test_batches_are_read_as_one_by_one() -> None:
 
 @settings(deadline=None)
 @given(
-    st.floats(-80.0, 80.0),
-    st.floats(-80.0, 80.0),
-    st.floats(-80.0, 80.0),
-    st.sampled_from(SIDES),
-    st.integers(0, 2),
+    st.floats(-80.0, 80.0), st.floats(-80.0, 80.0), st.floats(-80.0, 80.0), st.sampled_from(SIDES), st.integers(0, 2)
 )
 def test_rates_of_the_angles_against_finite_differences(
     deviation: float, flexion: float, supination: float, side: Side, axis: int

@@ -30,38 +30,41 @@ def first(recording: Path, output: Path, *options: str) -> Path:
     return tracked(recording, output, "--calibration", str(recording / CLICKS_FILE), *options)
 
 
+@pytest.fixture(scope="module")
+def by_paper(recording: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return first(recording, tmp_path_factory.mktemp("paper") / "once.h5", "--filter", "paper")
+
+
 def angles(path: Path) -> FloatArray:
     with h5py.File(path) as file:
         return np.asarray(file["wrist/angles"])
 
 
-def test_the_preset_is_stored_and_repeated(recording: Path, tmp_path: Path) -> None:
-    once = first(recording, tmp_path / "once.h5", "--filter", "paper")
-    session = read_session(once)
+def test_the_preset_is_stored_and_repeated(by_paper: Path, tmp_path: Path) -> None:
+    session = read_session(by_paper)
     told = json.loads(session.header.parameters)["settings"]
     assert told["paper"]["palm"] == "flat"
     assert session.smoothed is None, "the papers do not look back"
     assert np.mean(session.status == TrackStatus.TRACKED) > 0.9
     assert np.nanmax(np.degrees(np.abs(session.motion.angles_rad[:, 0]))) > 10.0
 
-    with h5py.File(once) as file:
+    with h5py.File(by_paper) as file:
         rotation, translation = file["calibration/rotation"][()], file["calibration/translation"][()]
         wrist = file["wrist/position"][()] @ rotation.T + translation
         assert np.allclose(wrist, file["markers/position_camera"][:, 0], atol=1e-4, equal_nan=True)
 
-    again = tracked(once, tmp_path / "again.h5")
-    assert np.array_equal(angles(again), angles(once), equal_nan=True)
+    again = tracked(by_paper, tmp_path / "again.h5")
+    assert np.array_equal(angles(again), angles(by_paper), equal_nan=True)
     assert json.loads(read_session(again).header.parameters)["settings"]["paper"] == told["paper"]
-    brisk = tracked(once, tmp_path / "brisk.h5", "--profile", "brisk")
-    assert not np.array_equal(angles(brisk), angles(once), equal_nan=True)
+    brisk = tracked(by_paper, tmp_path / "brisk.h5", "--profile", "brisk")
+    assert not np.array_equal(angles(brisk), angles(by_paper), equal_nan=True)
 
 
-def test_the_two_filters_undo_each_other(recording: Path, tmp_path: Path) -> None:
+def test_the_two_filters_undo_each_other(recording: Path, by_paper: Path, tmp_path: Path) -> None:
     """Through the stored detections, to and fro: what each stands on is not what the other left."""
     default = first(recording, tmp_path / "default.h5", "--no-smooth")
     paper = tracked(default, tmp_path / "paper.h5", "--filter", "paper")
-    direct = first(recording, tmp_path / "direct.h5", "--filter", "paper")
-    with h5py.File(paper) as one, h5py.File(direct) as other, h5py.File(default) as known:
+    with h5py.File(paper) as one, h5py.File(by_paper) as other, h5py.File(default) as known:
         assert np.allclose(one["calibration/rotation"], other["calibration/rotation"], atol=1e-7)
         assert not np.allclose(one["calibration/rotation"], known["calibration/rotation"], atol=1e-3)
         assert np.allclose(one["calibration/rotation"][()].T @ one["calibration/rotation"][()], np.eye(3))

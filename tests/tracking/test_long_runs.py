@@ -52,7 +52,7 @@ def is_covariance(p: FloatArray) -> bool:
 def test_covariance_stays_one_whatever_comes_in(name: str) -> None:
     tracker = Tracker(calibration(), CAMERA, SETTINGS[name])
     statuses = []
-    for i, (time_s, found) in enumerate(trouble(len(name), 240)):
+    for i, (time_s, found) in enumerate(trouble(len(name), 190)):
         frame = tracker.step(i, time_s, found)
         estimate = tracker.record.history[-1].estimate
         statuses.append(frame.status)

@@ -129,7 +129,7 @@ def test_the_other_hand_is_never_taken_for_all_of_this_one(side: Side) -> None:
 def test_five_discs_of_the_other_hand_are_not_this_palm(side: Side, hidden: int) -> None:
     other: Side = "left" if side == "right" else "right"
     rng = np.random.default_rng(45)
-    for _ in range(20):
+    for _ in range(8):
         pose = Pose(rng.uniform(-1.0, 1.0, 3) * [30.0, 20.0, 20.0])
         assert looked_for(blobs(pose, rng, side=other, hidden=[hidden]), side) is None
 

@@ -24,12 +24,7 @@ def stored_of(
     old_offset_m = 1e-3 * float(before.get("depth_offset_corrected_mm", 0.0))
     found = made.intrinsics
     return StoredCalibration(
-        serial,
-        iso(when),
-        old_scale * scale,
-        old_scale * offset_m + old_offset_m,
-        found.error_px,
-        len(found.used),
+        serial, iso(when), old_scale * scale, old_scale * offset_m + old_offset_m, found.error_px, len(found.used)
     )
 
 
