@@ -7,11 +7,12 @@ import math
 import os
 import shutil
 import threading
-import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import fields, replace
+from contextlib import closing
+from dataclasses import dataclass, fields, replace
 from datetime import datetime, timedelta
 from pathlib import Path
+from uuid import uuid4
 
 import numpy as np
 import pytest
@@ -40,278 +41,118 @@ from carpus.core.records.values import PatientEntry
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.session.disk import publish
-from carpus.core.session.reader import read_session, write_anew
+from carpus.core.session.reader import read_session
+from carpus.core.session.rewriting import write_anew
 from carpus.core.session.values import RepetitionRow, Repetitions
 from carpus.ui.background import Background
 from carpus.ui.correct.flow import CorrectFlow
+from carpus.ui.flow import ScreenContext
 from carpus.ui.now_open import NowOpen
 from carpus.ui.review.flow import ReviewFlow
 from carpus.ui.sessions.flow import StoredSessions
 from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
-from tests.pipeline.test_correction import WRONG_FROM, Stored, put_right, stored  # noqa: F401  (a fixture)
+from tests.pipeline.test_correction import WRONG_FROM, Stored, put_right, wrongly_tracked
 from tests.ui.contexts import Told, a_context
 
 
-@pytest.fixture
-def library(tmp_path: Path) -> Iterator[Library]:
-    opened = Library(tmp_path / "data")
-    yield opened
-    opened.close()
+@pytest.fixture(scope="module")
+def stored(tmp_path_factory: pytest.TempPathFactory) -> Stored:
+    return wrongly_tracked(tmp_path_factory.mktemp("correction"))
 
 
-def entered(library: Library, stored: Stored) -> tuple[str, str]:  # noqa: F811
+@pytest.fixture(scope="module")
+def corrected(stored: Stored) -> Path:
+    """The new result of it."""
+    path = stored.path.with_name("corrected.h5")
+    correct(task_of(stored.path, path, (put_right(stored),), "2.0"))
+    return path
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A patient's session in a data folder."""
+
+    library: Library
+    patient: str
+    session_id: str
+    corrected: Path
+
+    @property
+    def corrections(self) -> Corrections:
+        return Corrections(self.library)
+
+    @property
+    def path(self) -> Path:
+        return self.library.entry(self.session_id).path
+
+    @property
+    def counting(self) -> list[str]:
+        return [entry.session_id for entry in self.library.sessions(self.patient)]
+
+    @property
+    def listed(self) -> list[str]:
+        return [entry.session_id for entry in self.library.index.of_patient(self.patient)]
+
+    def trial(self, **said: str) -> Path:
+        """It was tracked again: one more result that nobody has decided about."""
+        trial = self.corrections.trial_path(self.session_id)
+        write_anew(self.corrected, trial, {"session_id": str(uuid4()), **said})
+        return trial
+
+
+def entered(library: Library, stored: Stored, corrected: Path) -> Kept:
     patient = library.patients.add(PatientEntry("Linden 42", "right"))
     when = datetime(2026, 11, 20, 11, 36).astimezone()
     path = library.index.new_path(patient, "Linden 42", "WRIST_FE", "right", when)
     shutil.copyfile(stored.path, path)
-    return patient, library.index.enter(path, patient).session_id
+    return Kept(library, patient, library.index.enter(path, patient).session_id, corrected)
 
 
-def made(corrections: Corrections, session_id: str, stored: Stored) -> Path:  # noqa: F811
-    trial = corrections.trial_path(session_id)
-    correct(task_of(stored.path, trial, (put_right(stored),), "2.0"))
-    return trial
+@pytest.fixture
+def kept(tmp_path: Path, stored: Stored, corrected: Path) -> Iterator[Kept]:
+    with closing(Library(tmp_path / "data")) as library:
+        yield entered(library, stored, corrected)
 
 
-def test_a_trial_is_in_no_list_and_waits_until_it_is_wanted(library: Library, stored: Stored) -> None:  # noqa: F811
-    patient, session_id = entered(library, stored)
-    corrections = Corrections(library)
-    trial = made(corrections, session_id, stored)
-    recover(library)
-    assert [entry.session_id for entry in library.index.of_patient(patient)] == [session_id]
-    found = difference(*corrections.both(session_id, trial))
-    assert found.common > 100
-    assert math.degrees(found.most_rad) < 10.0
-    assert found.live, "the old result was not looked back at"
-    old, new = corrections.both(session_id, trial)
-    assert difference(new, new).live is False
-    behind = replace(new, motion=replace(new.motion, angles_rad=new.motion.angles_rad + 1.0))
-    assert difference(old, behind).changed == len(old), "what the camera showed at the time, not what looking back made"
-    trial.with_suffix(".12345678.part").write_bytes(b"x")  # the program was killed in the midst of another one
-    later = Corrections(library)
-    later.clear_unfinished()
-    assert later.waiting() == [Waiting(session_id, trial)]
-    assert list(trial.parent.iterdir()) == [trial]
-    corrections.drop(trial)
-    assert later.waiting() == []
+Correcting = Callable[[Told], tuple[CorrectFlow, ScreenContext]]
 
 
-@pytest.mark.parametrize("kind", ["session", "patient"])
-@pytest.mark.parametrize("is_damaged", [False, True])
-def test_what_waits_is_erased_with_its_session_also_what_is_damaged_or_not_finished(
-    library: Library,
-    stored: Stored,  # noqa: F811
-    kind: str,
-    is_damaged: bool,
-) -> None:
-    patient, session_id = entered(library, stored)
-    other, corrections = library.entry(session_id).path, Corrections(library)
-    trials = [made(corrections, session_id, stored) for _ in range(2)]
-    trials.append(trials[0].with_name(f"{trials[0].name}.12345678.part"))
-    trials[2].write_bytes(b"x")
-    if kind == "patient":
-        trials.append(trials[0].with_name("another name.h5"))
-        trials[3].write_bytes(other.read_bytes()[:9000])  # what is left of a session
-    if is_damaged:
-        for trial in trials[:2]:
-            trial.write_bytes(b"no session")
-    nobodys = trials[0].with_name(f"{other.stem}0.h5")
-    nobodys.write_bytes(b"no session")
-    copy = other.with_name(f".{other.stem}.12345678.h5.new")  # the program was killed while it took one
-    copy.write_bytes(b"x")
-    records = Records(library)
-    plan = records.plan_session(session_id) if kind == "session" else records.plan_patient(patient)
-    assert {*trials, copy} <= {*plan.files}
-    records.erase(plan)
-    assert [trial for trial in trials if trial.exists()] == []
-    assert not copy.exists()
-    assert nobodys.exists() == (kind == "session"), "of the patient also what has the name"
+@pytest.fixture
+def correcting(qtbot: QtBot, kept: Kept) -> Iterator[Correcting]:
+    """Puts the flow together with a window around it, and closes it."""
+    made: list[CorrectFlow] = []
 
+    def put_together(told: Told) -> tuple[CorrectFlow, ScreenContext]:
+        theme = Theme("light")
+        shell = Shell(theme)
+        qtbot.addWidget(shell)
+        shell.resize(1280, 744)
+        shell.show()
+        now = NowOpen(session_id=kept.session_id)
+        context = a_context(theme, shell, told, Background(), library=kept.library, now=now)
+        made.append(CorrectFlow(context))
+        return made[-1], context
 
-def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
-    qtbot: QtBot, library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch,  # noqa: F811
-) -> None:  # fmt: skip
-    patient, session_id = entered(library, stored)
-
-    def beside(task: CorrectionTask, progress: Callable[[int, int], None], stopping: threading.Event) -> bool:
-        progress(30, 120)
-        if again and stopping.wait(30.0):
-            return False
-        again.append("next time it is stopped")
-        correct(task)
-        return True
-
-    again: list[str] = []
-    monkeypatch.setattr("carpus.ui.correct.flow.correct_in_process", beside)
-    theme, told = Theme("light"), Told("settings", behind="correct")  # what comes of it comes behind them
-    shell = Shell(theme)
-    qtbot.addWidget(shell)
-    shell.resize(1280, 744)
-    shell.show()
-    stage = shell.stage
-    now = NowOpen(session_id=session_id)
-    flow = CorrectFlow(a_context(theme, shell, told, Background(), library=library, now=now))
-    sheet = flow.sheet
-    said: list[tuple[int, int]] = []
-    flow.changed.connect(lambda percent, count: said.append((percent, count)))
-    time.sleep(1.1)  # files say the second in which they were made, and nobody corrects within one
-    flow.start(session_id, (put_right(stored),))
-    qtbot.waitUntil(lambda: said[-1:] == [(-1, 1)], timeout=30_000)
-    assert (25, 0) in said
-    assert not sheet.isVisible()
-    for key in (Qt.Key.Key_Return, Qt.Key.Key_Space, Qt.Key.Key_Escape):
-        flow.open_sheet()
-        qtbot.waitUntil(lambda: sheet.both is not None, timeout=30_000)
-        assert sheet.use.isVisible()
-        qtbot.keyClick(stage.focusWidget(), key)
-        assert not sheet.isVisible()
-    assert [one.session_id for one in flow.waiting] == [session_id]
-    assert [entry.session_id for entry in library.sessions(patient)] == [session_id]
-    flow.open_sheet()
-    qtbot.waitUntil(lambda: sheet.both is not None, timeout=30_000)
-    assert "Not held" not in sheet.words.text()
-    sheet.use.click()
-    qtbot.waitUntil(lambda: bool(told.shown), timeout=30_000)
-    (new,) = (entry.session_id for entry in library.sessions(patient))
-    assert told.shown == [("review", new)]
-    assert said[-1] == (-1, 0)
-    line = StoredSessions(library).with_figures(StoredSessions(library).lines(patient)[0])
-    assert line.corrected.startswith("Corrected on ")
-    assert line.corrected.endswith(", from 00:02.0, by MK.")
-    assert not told.faults
-    flow.start(new, (put_right(stored),))
-    flow.open_sheet()
-    assert sheet.stop.isVisible()
-    sheet.stop.click()
-    qtbot.waitUntil(lambda: flow.running == "", timeout=30_000)
-    assert not sheet.isVisible()
-    assert flow.waiting == []
-    flow.close()
-
-
-def test_a_wanted_result_counts_and_the_old_one_stays(library: Library, stored: Stored) -> None:  # noqa: F811
-    patient, session_id = entered(library, stored)
-    corrections = Corrections(library)
-    old = library.entry(session_id).path
-    old.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
-    library.keep_choices(session_id, RepetitionChoices({0: "pain"}, not_counted=True, not_counted_reason="discs lost"))
-    library.index.rename_exercise(session_id, "WRIST_RUD")
-    time.sleep(1.1)  # files say the second in which they were made, and nobody corrects within one
-    new = corrections.use(session_id, made(corrections, session_id, stored))
-    assert [entry.session_id for entry in library.sessions(patient)] == [new]
-    assert [entry.session_id for entry in library.results_of(new)] == [session_id, new]
-    assert [entry.session_id for entry in library.results_of(session_id)] == [session_id, new]
-    assert old.exists()
-    assert library.entry(new).exercise == "WRIST_RUD"
-    assert library.entry(new).path.with_suffix(MARKERS_SUFFIX).read_bytes() == b"picture"
-    assert library.choices(new) == RepetitionChoices(not_counted=True, not_counted_reason="discs lost")
+    yield put_together
+    for flow in made:
+        flow.close()
 
 
 class Killed(BaseException):
     """Stands for a SIGKILL: nothing that comes behind it is done."""
 
 
-@pytest.mark.parametrize(
-    ("step", "is_listed"), [("core.records.store.Store.do", False), ("core.records.corrections.publish", True)]
-)
-def test_a_kill_leaves_the_older_result_or_the_new_one_with_what_was_left_out(
-    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch, step: str, is_listed: bool  # noqa: F811
-) -> None:  # fmt: skip
-    patient, session_id = entered(library, stored)
-    library.keep_choices(session_id, RepetitionChoices(not_counted=True, not_counted_reason="pain"))
-    time.sleep(1.1)  # files say the second in which they were made, and nobody corrects within one
-    trial = made(Corrections(library), session_id, stored)
+def killed(*_: object) -> None:
+    raise Killed
 
-    def killed(*_: object) -> None:
-        raise Killed
 
+def killed_once_listed(kept: Kept, monkeypatch: pytest.MonkeyPatch, trial: Path) -> None:
+    """The program is killed while it takes a result: it is listed, and its file has not got its name yet."""
     with monkeypatch.context() as patched:
-        patched.setattr(f"carpus.{step}", killed)
+        patched.setattr("carpus.core.records.corrections.publish", killed)
         with pytest.raises(Killed):
-            Corrections(library).use(session_id, trial)
-    recover(library)
-    listed = [entry.session_id for entry in library.index.of_patient(patient)]
-    later = Corrections(library)
-    if not is_listed:
-        assert listed == [session_id]
-        assert later.waiting() == [Waiting(session_id, trial)]
-        later.use(session_id, trial)
-    assert later.waiting() == []
-    assert not trial.exists()
-    (new,) = (entry.session_id for entry in library.sessions(patient))
-    assert new != session_id
-    assert len(library.session(new)) == len(library.session(session_id))
-    assert library.choices(new) == RepetitionChoices(not_counted=True, not_counted_reason="pain")
-    assert len(list(library.folder.rglob("*.h5"))) == 2
-
-
-def test_an_older_result_counts_again_with_its_choices_until_the_other_one_does(
-    library: Library,
-    stored: Stored,  # noqa: F811
-) -> None:
-    patient, old = entered(library, stored)
-    corrections = Corrections(library)
-    new = corrections.use(old, made(corrections, old, stored))
-    said = RepetitionChoices({0: "pain"}, {1: (1.0, 2.0)})
-    library.keep_choices(old, said)
-    again = corrections.use_again(old)
-    assert [entry.session_id for entry in library.sessions(patient)] == [again]
-    assert [entry.session_id for entry in library.results_of(old)][-1] == again
-    assert library.choices(again) == said
-    assert np.array_equal(library.session(again).motion.angles_rad, library.session(old).motion.angles_rad)
-    assert not np.array_equal(library.session(again).motion.angles_rad, library.session(new).motion.angles_rad)
-    last = corrections.use_again(new)
-    assert [entry.session_id for entry in library.sessions(patient)] == [last]
-
-
-def test_a_new_result_goes_to_a_share_on_another_disk(
-    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
-) -> None:  # fmt: skip
-    _, session_id = entered(library, stored)
-    trial = made(Corrections(library), session_id, stored)
-
-    on_another_disk(monkeypatch)
-    new = Corrections(library).use(session_id, trial)
-    place = library.entry(new).path
-    assert read_session(place).header.session_id == new
-    assert not trial.exists()
-    assert sorted(path.name for path in place.parent.iterdir()) == sorted(
-        entry.path.name for entry in library.results_of(new)
-    )
-    shutil.copyfile(place, trial)  # a program was killed before it could delete what it had copied
-    assert Corrections(library).waiting() == []
-    assert not trial.exists()
-    assert library.entry(new).path == place
-
-
-def test_what_a_killed_program_had_copied_goes_at_the_next_look_and_is_in_no_backup(
-    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
-) -> None:  # fmt: skip
-    _, session_id = entered(library, stored)
-    corrections, folder = Corrections(library), library.entry(session_id).path.parent
-    trial = made(corrections, session_id, stored)
-    copies: dict[Path, bytes] = {}
-
-    def killed(*_: object) -> None:
-        copies.update({path: path.read_bytes() for path in folder.glob(".*")})
-        raise Killed
-
-    with monkeypatch.context() as patched:
-        on_another_disk(patched)
-        patched.setattr(os, "fsync", killed)
-        with pytest.raises(Killed):
-            corrections.use(session_id, trial)
-    ((copy, content),) = copies.items()
-    copy.write_bytes(content)
-    names = {path for _, path, _ in gather(library.folder, library.folder.with_name("place"), None).files}
-    assert library.entry(session_id).path in names
-    assert copy not in names
-    assert corrections.waiting() == [Waiting(session_id, trial)]
-    assert not copy.exists()
-    copy.write_bytes(content)
-    corrections.use(session_id, trial)
-    assert list(folder.glob(".*")) == []
+            kept.corrections.use(kept.session_id, trial)
 
 
 def on_another_disk(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -329,43 +170,238 @@ def on_another_disk(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Path, "replace", replaced)
 
 
-@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES])
-def test_a_result_that_did_not_get_its_name_is_in_no_list_and_waits(
-    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch, number: int  # noqa: F811
-) -> None:  # fmt: skip
-    patient, session_id = entered(library, stored)
-    corrections = Corrections(library)
-    library.keep_choices(session_id, RepetitionChoices({0: "pain"}))
-    library.entry(session_id).path.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
-    before = sorted(library.entry(session_id).path.parent.iterdir())
-    trial = made(corrections, session_id, stored)
+def test_a_trial_is_in_no_list_and_waits_until_it_is_wanted(kept: Kept) -> None:
+    corrections, trial = kept.corrections, kept.trial()
+    recover(kept.library)
+    assert kept.listed == [kept.session_id]
+    old, new = corrections.both(kept.session_id, trial)
+    found = difference(old, new)
+    assert found.common > 100
+    assert math.degrees(found.most_rad) < 10.0
+    assert found.live, "the old result was not looked back at"
+    assert difference(new, new).live is False
+    behind = replace(new, motion=replace(new.motion, angles_rad=new.motion.angles_rad + 1.0))
+    assert difference(old, behind).changed == len(old), "what the camera showed at the time, not what looking back made"
+    trial.with_suffix(".12345678.part").write_bytes(b"x")  # the program was killed in the midst of another one
+    later = kept.corrections
+    later.clear_unfinished()
+    assert later.waiting() == [Waiting(kept.session_id, trial)]
+    assert list(trial.parent.iterdir()) == [trial]
+    corrections.drop(trial)
+    assert later.waiting() == []
 
-    def refused(*_: object) -> None:
-        raise OSError(number, os.strerror(number))
+
+@pytest.mark.parametrize("kind", ["session", "patient"])
+@pytest.mark.parametrize("is_damaged", [False, True])
+def test_what_waits_is_erased_with_its_session_also_what_is_damaged_or_not_finished(
+    kept: Kept, kind: str, is_damaged: bool
+) -> None:
+    other = kept.path
+    trials = [kept.trial() for _ in range(2)]
+    trials.append(trials[0].with_name(f"{trials[0].name}.12345678.part"))
+    trials[2].write_bytes(b"x")
+    if kind == "patient":
+        trials.append(trials[0].with_name("another name.h5"))
+        trials[3].write_bytes(other.read_bytes()[:9000])  # what is left of a session
+    if is_damaged:
+        for trial in trials[:2]:
+            trial.write_bytes(b"no session")
+    nobodys = trials[0].with_name(f"{other.stem}0.h5")
+    nobodys.write_bytes(b"no session")
+    copy = other.with_name(f".{other.stem}.12345678.h5.new")  # the program was killed while it took one
+    copy.write_bytes(b"x")
+    records = Records(kept.library)
+    plan = records.plan_session(kept.session_id) if kind == "session" else records.plan_patient(kept.patient)
+    assert {*trials, copy} <= {*plan.files}
+    records.erase(plan)
+    assert [trial for trial in trials if trial.exists()] == []
+    assert not copy.exists()
+    assert nobodys.exists() == (kind == "session"), "of the patient also what has the name"
+
+
+def test_nothing_comes_up_and_enter_space_and_escape_decide_nothing(
+    qtbot: QtBot, kept: Kept, stored: Stored, correcting: Correcting, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def beside(task: CorrectionTask, progress: Callable[[int, int], None], stopping: threading.Event) -> bool:
+        progress(30, 120)
+        if again and stopping.wait(30.0):
+            return False
+        again.append("next time it is stopped")
+        correct(task)
+        return True
+
+    again: list[str] = []
+    monkeypatch.setattr("carpus.ui.correct.flow.correct_in_process", beside)
+    told = Told("settings", behind="correct")  # what comes of it comes behind them
+    flow, context = correcting(told)
+    sheet, said = flow.sheet, list[tuple[int, int]]()
+    flow.changed.connect(lambda percent, count: said.append((percent, count)))
+    flow.start(kept.session_id, (put_right(stored),))
+    qtbot.waitUntil(lambda: said[-1:] == [(-1, 1)])
+    assert (25, 0) in said
+    assert not sheet.isVisible()
+    for key in (Qt.Key.Key_Return, Qt.Key.Key_Space, Qt.Key.Key_Escape):
+        flow.open_sheet()
+        qtbot.waitUntil(lambda: sheet.both is not None)
+        assert sheet.use.isVisible()
+        qtbot.keyClick(context.shell.stage.focusWidget(), key)
+        assert not sheet.isVisible()
+    assert [one.session_id for one in flow.waiting] == kept.counting == [kept.session_id]
+    flow.open_sheet()
+    qtbot.waitUntil(lambda: sheet.both is not None)
+    assert "Not held" not in sheet.words.text()
+    sheet.use.click()
+    qtbot.waitUntil(lambda: bool(told.shown))
+    (new,) = kept.counting
+    assert told.shown == [("review", new)]
+    assert said[-1] == (-1, 0)
+    line = StoredSessions(kept.library).with_figures(StoredSessions(kept.library).lines(kept.patient)[0])
+    assert line.corrected.startswith("Corrected on ")
+    assert line.corrected.endswith(", from 00:02.0, by MK.")
+    assert not told.faults
+    flow.start(new, (put_right(stored),))
+    flow.open_sheet()
+    assert sheet.stop.isVisible()
+    sheet.stop.click()
+    qtbot.waitUntil(lambda: flow.running == "")
+    assert not sheet.isVisible()
+    assert flow.waiting == []
+
+
+def test_a_wanted_result_counts_and_the_old_one_stays(kept: Kept) -> None:
+    library, session_id, old = kept.library, kept.session_id, kept.path
+    old.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
+    library.keep_choices(session_id, RepetitionChoices({0: "pain"}, not_counted=True, not_counted_reason="discs lost"))
+    library.index.rename_exercise(session_id, "WRIST_RUD")
+    new = kept.corrections.use(session_id, kept.trial())
+    assert kept.counting == [new]
+    for one in (new, session_id):
+        assert [entry.session_id for entry in library.results_of(one)] == [session_id, new]
+    assert old.exists()
+    assert library.entry(new).exercise == "WRIST_RUD"
+    assert library.entry(new).path.with_suffix(MARKERS_SUFFIX).read_bytes() == b"picture"
+    assert library.choices(new) == RepetitionChoices(not_counted=True, not_counted_reason="discs lost")
+
+
+@pytest.mark.parametrize(
+    ("step", "is_listed"), [("core.records.store.Store.do", False), ("core.records.corrections.publish", True)]
+)
+def test_a_kill_leaves_the_older_result_or_the_new_one_with_what_was_left_out(
+    kept: Kept, monkeypatch: pytest.MonkeyPatch, step: str, is_listed: bool
+) -> None:
+    library, session_id = kept.library, kept.session_id
+    choices = RepetitionChoices(not_counted=True, not_counted_reason="pain")
+    library.keep_choices(session_id, choices)
+    trial = kept.trial()
+    with monkeypatch.context() as patched:
+        patched.setattr(f"carpus.{step}", killed)
+        with pytest.raises(Killed):
+            kept.corrections.use(session_id, trial)
+    recover(library)
+    listed, later = kept.listed, kept.corrections
+    if not is_listed:
+        assert listed == [session_id]
+        assert later.waiting() == [Waiting(session_id, trial)]
+        later.use(session_id, trial)
+    assert later.waiting() == []
+    assert not trial.exists()
+    (new,) = kept.counting
+    assert new != session_id
+    assert len(library.session(new)) == len(library.session(session_id))
+    assert library.choices(new) == choices
+    assert len(list(library.folder.rglob("*.h5"))) == 2
+
+
+def test_an_older_result_counts_again_with_its_choices_until_the_other_one_does(kept: Kept) -> None:
+    library, old, corrections = kept.library, kept.session_id, kept.corrections
+    new = corrections.use(old, kept.trial())
+    said = RepetitionChoices({0: "pain"}, {1: (1.0, 2.0)})
+    library.keep_choices(old, said)
+    again = corrections.use_again(old)
+    assert kept.counting == [again]
+    assert [entry.session_id for entry in library.results_of(old)][-1] == again
+    assert library.choices(again) == said
+    assert np.array_equal(library.session(again).motion.angles_rad, library.session(old).motion.angles_rad)
+    assert not np.array_equal(library.session(again).motion.angles_rad, library.session(new).motion.angles_rad)
+    last = corrections.use_again(new)
+    assert kept.counting == [last]
+
+
+def test_a_new_result_goes_to_a_share_on_another_disk(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
+    library, trial = kept.library, kept.trial()
+    on_another_disk(monkeypatch)
+    new = kept.corrections.use(kept.session_id, trial)
+    place = library.entry(new).path
+    assert read_session(place).header.session_id == new
+    assert not trial.exists()
+    assert {*place.parent.iterdir()} == {entry.path for entry in library.results_of(new)}
+    shutil.copyfile(place, trial)  # a program was killed before it could delete what it had copied
+    assert kept.corrections.waiting() == []
+    assert not trial.exists()
+    assert library.entry(new).path == place
+
+
+def test_what_a_killed_program_had_copied_goes_at_the_next_look_and_is_in_no_backup(
+    kept: Kept, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    corrections, folder, trial = kept.corrections, kept.path.parent, kept.trial()
+    copies: dict[Path, bytes] = {}
+
+    def killed_after_copying(*_: object) -> None:
+        copies.update({path: path.read_bytes() for path in folder.glob(".*")})
+        raise Killed
 
     with monkeypatch.context() as patched:
         on_another_disk(patched)
-        patched.setattr(shutil, "copyfile", lambda one, other: refused() if one == trial else _copied(one, other))
+        patched.setattr(os, "fsync", killed_after_copying)
+        with pytest.raises(Killed):
+            corrections.use(kept.session_id, trial)
+    ((copy, content),) = copies.items()
+    copy.write_bytes(content)
+    data = kept.library.folder
+    names = {path for _, path, _ in gather(data, data.with_name("place"), None).files}
+    assert kept.path in names
+    assert copy not in names
+    assert corrections.waiting() == [Waiting(kept.session_id, trial)]
+    assert not copy.exists()
+    copy.write_bytes(content)
+    corrections.use(kept.session_id, trial)
+    assert list(folder.glob(".*")) == []
+
+
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES])
+def test_a_result_that_did_not_get_its_name_is_in_no_list_and_waits(
+    kept: Kept, monkeypatch: pytest.MonkeyPatch, number: int
+) -> None:
+    library, session_id, corrections = kept.library, kept.session_id, kept.corrections
+    library.keep_choices(session_id, RepetitionChoices({0: "pain"}))
+    kept.path.with_suffix(MARKERS_SUFFIX).write_bytes(b"picture")
+    before = sorted(kept.path.parent.iterdir())
+    trial = kept.trial()
+
+    def copied(one: Path, other: Path) -> None:
+        if one == trial:
+            raise OSError(number, os.strerror(number))
+        other.write_bytes(one.read_bytes())
+
+    with monkeypatch.context() as patched:
+        on_another_disk(patched)
+        patched.setattr(shutil, "copyfile", copied)
         with pytest.raises(DiskFull if number == errno.ENOSPC else OutputNotWritable):
             corrections.use(session_id, trial)
-    assert [entry.session_id for entry in library.index.of_patient(patient)] == [session_id]
-    assert len(library.history(patient)) == 1
-    assert sorted(library.entry(session_id).path.parent.iterdir()) == before
+    assert kept.listed == [session_id]
+    assert len(library.history(kept.patient)) == 1
+    assert sorted(kept.path.parent.iterdir()) == before
     assert corrections.waiting() == [Waiting(session_id, trial)]
     new = corrections.use(session_id, trial)
     assert library.choices(new).left_out
     assert len(library.session(new)) == len(library.session(session_id))
 
 
-def _copied(one: Path, other: Path) -> None:
-    other.write_bytes(one.read_bytes())
-
-
 def test_a_file_that_took_the_name_meanwhile_is_kept_and_the_result_has_another_one(
-    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
-) -> None:  # fmt: skip
-    _, session_id = entered(library, stored)
-    trial = made(Corrections(library), session_id, stored)
+    kept: Kept, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    library, trial = kept.library, kept.trial()
     real, taken = library.index.enter, list[Path]()
 
     def enter(path: Path, *told: object) -> object:
@@ -375,43 +411,34 @@ def test_a_file_that_took_the_name_meanwhile_is_kept_and_the_result_has_another_
 
     with monkeypatch.context() as patched:
         patched.setattr(library.index, "enter", enter)
-        new = Corrections(library).use(session_id, trial)
+        new = kept.corrections.use(kept.session_id, trial)
     assert taken[0].read_bytes() == b"another one's"
     assert library.entry(new).path != taken[0]
-    assert len(library.session(new)) == len(library.session(session_id))
+    assert len(library.session(new)) == len(library.session(kept.session_id))
     assert not trial.exists()
     assert len(list(taken[0].parent.iterdir())) == 3
 
 
-def test_a_result_that_two_give_its_name_lies_there_once(
-    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
-) -> None:  # fmt: skip
+def test_a_result_that_two_give_its_name_lies_there_once(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     """A look for what waits meets one that is just being taken."""
-    _, session_id = entered(library, stored)
-    trial = made(Corrections(library), session_id, stored)
+    library, trial = kept.library, kept.trial()
 
     def with_a_look(part: Path, target: Path) -> None:
         monkeypatch.undo()
-        Corrections(library).waiting()
+        kept.corrections.waiting()
         publish(part, target)
 
     monkeypatch.setattr("carpus.core.records.corrections.publish", with_a_look)
-    new = Corrections(library).use(session_id, trial)
-    old = library.entry(session_id).path
-    assert set(old.parent.iterdir()) == {old, library.entry(new).path}
-    assert len(library.session(new)) == len(library.session(session_id))
+    new = kept.corrections.use(kept.session_id, trial)
+    assert set(kept.path.parent.iterdir()) == {kept.path, library.entry(new).path}
+    assert len(library.session(new)) == len(library.session(kept.session_id))
     assert not trial.exists()
 
 
 def test_what_is_listed_is_never_dropped_nor_deleted_and_hides_nothing_that_waits(
-    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
-) -> None:  # fmt: skip
-    _, session_id = entered(library, stored)
-    corrections = Corrections(library)
-    trial, other = (made(corrections, session_id, stored) for _ in range(2))
-
-    def killed(*_: object) -> None:
-        raise Killed
+    kept: Kept, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    corrections, trial, other = kept.corrections, kept.trial(), kept.trial()
 
     def full(*_: object) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
@@ -419,10 +446,7 @@ def test_what_is_listed_is_never_dropped_nor_deleted_and_hides_nothing_that_wait
     def slow(path: Path) -> None:
         raise SessionUnreadable(path, "damaged: reading it does not end")
 
-    with monkeypatch.context() as patched:
-        patched.setattr("carpus.core.records.corrections.publish", killed)
-        with pytest.raises(Killed):
-            corrections.use(session_id, trial)
+    killed_once_listed(kept, monkeypatch, trial)
     with pytest.raises(ChangedMeanwhile):
         corrections.drop(trial)
     with monkeypatch.context() as patched:
@@ -433,91 +457,67 @@ def test_what_is_listed_is_never_dropped_nor_deleted_and_hides_nothing_that_wait
     with monkeypatch.context() as patched:
         patched.setattr(os, "link", full)
         patched.setattr(os, "open", full)
-        assert corrections.waiting() == [Waiting(session_id, other)]
+        assert corrections.waiting() == [Waiting(kept.session_id, other)]
     assert trial.exists()
-    assert corrections.waiting() == [Waiting(session_id, other)]
+    assert corrections.waiting() == [Waiting(kept.session_id, other)]
     assert not trial.exists()
 
 
 def test_keeping_the_old_one_is_refused_where_the_new_one_is_listed_already(
-    qtbot: QtBot, library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch,  # noqa: F811
-) -> None:  # fmt: skip
-    patient, session_id = entered(library, stored)
-    time.sleep(1.1)  # files say the second in which they were made, and nobody corrects within one
-    trial = made(Corrections(library), session_id, stored)
-
-    def killed(*_: object) -> None:
-        raise Killed
-
-    with monkeypatch.context() as patched:
-        patched.setattr("carpus.core.records.corrections.publish", killed)
-        with pytest.raises(Killed):
-            Corrections(library).use(session_id, trial)
-    theme, told = Theme("light"), Told("correct")
-    shell = Shell(theme)
-    qtbot.addWidget(shell)
-    flow = CorrectFlow(a_context(theme, shell, told, Background(), library=library, now=NowOpen(session_id=session_id)))
-    flow.waiting = [Waiting(session_id, trial)]
+    qtbot: QtBot, kept: Kept, correcting: Correcting, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    trial, told = kept.trial(), Told("correct")
+    killed_once_listed(kept, monkeypatch, trial)
+    flow, _ = correcting(told)
+    flow.waiting = [Waiting(kept.session_id, trial)]
     flow.open_sheet()
     flow.sheet.keep.click()
-    qtbot.waitUntil(lambda: bool(told.faults) and not trial.exists(), timeout=30_000)
-    (new,) = library.history(patient)
-    assert new.session_id != session_id
-    flow.close()
+    qtbot.waitUntil(lambda: bool(told.faults) and not trial.exists())
+    (new,) = kept.library.history(kept.patient)
+    assert new.session_id != kept.session_id
 
 
 def test_what_is_decided_about_while_it_is_looked_for_waits_no_more(
-    qtbot: QtBot, library: Library, stored: Stored,  # noqa: F811
-) -> None:  # fmt: skip
-    _, session_id = entered(library, stored)
-    trials = [made(Corrections(library), session_id, stored) for _ in range(2)]
-    theme, told, background = Theme("light"), Told("settings", behind="review"), Background()
-    shell = Shell(theme)
-    qtbot.addWidget(shell)
-    now = NowOpen(session_id=session_id)
-    flow = CorrectFlow(a_context(theme, shell, told, background, library=library, now=now))
+    qtbot: QtBot, kept: Kept, correcting: Correcting
+) -> None:
+    trials, told = [kept.trial() for _ in range(2)], Told("settings", behind="review")
+    flow, context = correcting(told)
     for trial, decided in zip(trials, (flow.sheet.keep, flow.sheet.use), strict=True):
-        flow.waiting = [Waiting(session_id, trial)]
+        flow.waiting = [Waiting(kept.session_id, trial)]
         flow.open_sheet()
         flow.look_for_waiting()
         decided.click()
-        qtbot.waitUntil(lambda trial=trial: not trial.exists() and not flow._background.busy, timeout=30_000)
+        qtbot.waitUntil(lambda trial=trial: not trial.exists() and not flow._background.busy)  # type: ignore[misc]
         assert trial not in [one.trial for one in flow.waiting]
     assert flow.waiting == []
     ((_, new),) = told.shown
-    review = ReviewFlow(a_context(theme, shell, told, background, library=library, now=NowOpen(session_id=new)))
-    review._use_again(new)
-    qtbot.waitUntil(lambda: len(told.shown) == 2, timeout=30_000)
-    assert [one.session_id for one in library.results_of(new)][1:] == [new, told.shown[1][1]]
+    context.now.session_id = str(new)
+    ReviewFlow(context)._use_again(str(new))
+    qtbot.waitUntil(lambda: len(told.shown) == 2)
+    assert [one.session_id for one in kept.library.results_of(str(new))][1:] == [new, told.shown[1][1]]
     assert told.asked == ["This result counts from now on."]
-    flow.close()
 
 
 @pytest.mark.parametrize("is_answered", ["before the end", "after the end"])
 def test_what_is_tracked_again_while_it_is_looked_for_waits_once(
-    qtbot: QtBot, library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch, is_answered: str  # noqa: F811
-) -> None:  # fmt: skip
-    _, session_id = entered(library, stored)
+    qtbot: QtBot, kept: Kept, stored: Stored, correcting: Correcting, monkeypatch: pytest.MonkeyPatch, is_answered: str
+) -> None:
     written, ends, answers = threading.Event(), threading.Event(), threading.Event()
 
     def beside(task: CorrectionTask, *_: object) -> bool:
         if is_answered == "after the end":
             ends.wait(30.0)
-        correct(task)
+        write_anew(kept.corrected, task.output, {})
         written.set()
         return ends.wait(30.0)
 
     monkeypatch.setattr("carpus.ui.correct.flow.correct_in_process", beside)
-    theme, told = Theme("light"), Told("review")
-    shell = Shell(theme)
-    qtbot.addWidget(shell)
-    now = NowOpen(session_id=session_id)
-    flow = CorrectFlow(a_context(theme, shell, told, Background(), library=library, now=now))
-    flow.start(session_id, (put_right(stored),))
+    flow, _ = correcting(Told("review"))
+    flow.start(kept.session_id, (put_right(stored),))
     if is_answered == "before the end":
-        qtbot.waitUntil(written.is_set, timeout=30_000)
+        qtbot.waitUntil(written.is_set)
         flow.look_for_waiting()
-        qtbot.waitUntil(lambda: len(flow.waiting) == 1, timeout=30_000)
+        qtbot.waitUntil(lambda: len(flow.waiting) == 1)
         ends.set()
     else:
         look = flow._stored.waiting
@@ -531,58 +531,47 @@ def test_what_is_tracked_again_while_it_is_looked_for_waits_once(
             patched.setattr(flow._stored, "waiting", slow)
             flow.look_for_waiting()
         ends.set()
-        qtbot.waitUntil(lambda: len(flow.waiting) == 1, timeout=30_000)
+        qtbot.waitUntil(lambda: len(flow.waiting) == 1)
         answers.set()
-    qtbot.waitUntil(lambda: not (flow.running or flow._tracking.busy or flow._background.busy), timeout=30_000)
-    assert [one.session_id for one in flow.waiting] == [session_id]
-    flow.close()
+    qtbot.waitUntil(lambda: not (flow.running or flow._tracking.busy or flow._background.busy))
+    assert [one.session_id for one in flow.waiting] == [kept.session_id]
 
 
 def test_one_of_a_session_that_may_come_yet_waits_and_one_of_none_goes(
-    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
-) -> None:  # fmt: skip
-    _, session_id = entered(library, stored)
-    corrections = Corrections(library)
-    trial = made(corrections, session_id, stored)
-    library.store.do([dropped(SESSION, session_id)])
+    kept: Kept, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    corrections, trial, store = kept.corrections, kept.trial(), kept.library.store
+    store.do([dropped(SESSION, kept.session_id)])
     with monkeypatch.context() as patched:
-        patched.setattr(library.store, "knows_all", lambda: False)
+        patched.setattr(store, "knows_all", lambda: False)
         assert corrections.waiting() == []
     assert trial.exists()
     assert corrections.waiting() == []
     assert not trial.exists()
 
 
-def test_a_share_that_is_away_is_told_before_anything_is_done(tmp_path: Path, stored: Stored) -> None:  # noqa: F811
+def test_a_share_that_is_away_is_told_before_anything_is_done(tmp_path: Path, stored: Stored, corrected: Path) -> None:
     share = tmp_path / "share"
     share.mkdir()
-    library = Library(tmp_path / "data", sessions=share)
-    try:
-        patient, session_id = entered(library, stored)
-        corrections = Corrections(library)
-        trial = made(corrections, session_id, stored)
+    with closing(Library(tmp_path / "data", sessions=share)) as library:
+        kept = entered(library, stored, corrected)
+        trial = kept.trial()
         share.rename(tmp_path / "away")
         with pytest.raises(FolderMissing):
-            corrections.use(session_id, trial)
-        assert corrections.waiting() == [Waiting(session_id, trial)]
-        assert [entry.session_id for entry in library.index.of_patient(patient)] == [session_id]
-    finally:
-        library.close()
+            kept.corrections.use(kept.session_id, trial)
+        assert kept.corrections.waiting() == [Waiting(kept.session_id, trial)]
+        assert kept.listed == [kept.session_id]
 
 
 def test_a_copy_that_counts_again_is_the_newest_by_any_clock_and_says_no_other_origin(
-    library: Library, stored: Stored, monkeypatch: pytest.MonkeyPatch  # noqa: F811
-) -> None:  # fmt: skip
-    patient, session_id = entered(library, stored)
-    corrections = Corrections(library)
-    trial = made(corrections, session_id, stored)
-    ahead = trial.with_name("ahead.h5")
-    write_anew(trial, ahead, created=(datetime.now().astimezone() + timedelta(hours=3)).isoformat())
-    corrections.drop(trial)
+    kept: Kept, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    library, session_id, corrections = kept.library, kept.session_id, kept.corrections
+    ahead = kept.trial(created=(datetime.now().astimezone() + timedelta(hours=3)).isoformat())
     fast = corrections.use(session_id, ahead)
     again = corrections.use_again(session_id)
-    assert [entry.session_id for entry in library.sessions(patient)] == [again]
-    assert [one.session_id for one in library.history(patient)] == [again]
+    assert kept.counting == [again]
+    assert [one.session_id for one in library.history(kept.patient)] == [again]
     assert library.session(again).header.origin == library.session(session_id).header.origin == ""
     assert library.session(corrections.use_again(fast)).header.origin == session_id
     before = [entry.session_id for entry in library.results_of(session_id)]
@@ -593,24 +582,23 @@ def test_a_copy_that_counts_again_is_the_newest_by_any_clock_and_says_no_other_o
     monkeypatch.setattr(Store, "do", busy)
     with pytest.raises(RegisterBusy):
         corrections.use_again(session_id)
-    assert list(trial.parent.iterdir()) == []
+    assert list(ahead.parent.iterdir()) == []
     assert [entry.session_id for entry in library.results_of(session_id)] == before
 
 
-def test_what_was_left_out_of_the_old_result_does_not_count_in_the_new_one(
-    library: Library,
-    stored: Stored,  # noqa: F811
-) -> None:
-    _, session_id = entered(library, stored)
-    figures = session_figures(library.session(session_id))
+@pytest.mark.parametrize("why", ["pain", PASSIVE])
+def test_what_was_said_of_a_repetition_is_as_true_of_the_new_result(kept: Kept, why: str) -> None:
+    """Left out, or moved by another."""
+    library = kept.library
+    figures = session_figures(library.session(kept.session_id))
     number = next(number for number, one in enumerate(figures.repetitions) if one.counts)
-    library.keep_choices(session_id, RepetitionChoices({number: "pain"}))
-    corrections = Corrections(library)
-    new = corrections.use(session_id, made(corrections, session_id, stored))
+    library.keep_choices(kept.session_id, RepetitionChoices({number: why}))
+    new = kept.corrections.use(kept.session_id, kept.trial())
     again = session_figures(library.session(new), library.choices(new))
-    left_out = [one for one in again.repetitions if not one.counts]
-    assert [one.reason for one in left_out] == ["pain"]
-    assert left_out[0].start_s == pytest.approx(figures.repetitions[number].start_s, abs=0.3)
+    (said,) = [one for one in again.repetitions if (one.helped if why == PASSIVE else not one.counts)]
+    assert why == PASSIVE or said.reason == why
+    assert said.start_s == pytest.approx(figures.repetitions[number].start_s, abs=0.3)
+    assert (again.passive is not None) == (why == PASSIVE)
 
 
 @pytest.mark.parametrize(
@@ -635,21 +623,7 @@ def test_what_was_left_out_is_found_by_its_moments(
     assert set(_found_again(dict.fromkeys(range(len(before)), "pain"), before, after)) == left_out  # type: ignore[arg-type]
 
 
-def test_who_moved_the_hand_is_still_known_of_the_new_result(library: Library, stored: Stored) -> None:  # noqa: F811
-    _, session_id = entered(library, stored)
-    corrections = Corrections(library)
-    figures = session_figures(library.session(session_id))
-    (number, *_) = [number for number, one in enumerate(figures.repetitions) if one.counts]
-    library.keep_choices(session_id, RepetitionChoices({number: PASSIVE}))
-    new = corrections.use(session_id, made(corrections, session_id, stored))
-    again = session_figures(library.session(new), library.choices(new))
-    (helped,) = [one for one in again.repetitions if one.helped]
-    assert helped.start_s == pytest.approx(figures.repetitions[number].start_s, abs=0.3)
-    assert again.passive is not None
-
-
-def test_a_moment_is_the_spots_where_no_picture_was_kept(library: Library, stored: Stored) -> None:  # noqa: F811
-    _, session_id = entered(library, stored)
-    picture, spots = Corrections(library).moment(session_id, WRONG_FROM)
+def test_a_moment_is_the_spots_where_no_picture_was_kept(kept: Kept) -> None:
+    picture, spots = kept.corrections.moment(kept.session_id, WRONG_FROM)
     assert picture is None
     assert len(spots) == 7

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 import threading
 from contextlib import closing
 from dataclasses import dataclass, replace
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +43,8 @@ FPS, SECONDS, WRONG_FROM = 30.0, 4.0, 60
 MCP3 = 3
 FALSE_PX = (60.0, 40.0)
 """Where the blue spot lies that is no disc, from the knuckle as it is at the start."""
+LONG_AGO = datetime(2024, 11, 20, 11, 36, tzinfo=UTC)
+"""Files say the second in which they were made, and nobody corrects within one."""
 
 
 @dataclass(frozen=True)
@@ -55,15 +57,14 @@ class Stored:
     disc_px: FloatArray
 
 
-@pytest.fixture(scope="module")
-def stored(tmp_path_factory: pytest.TempPathFactory) -> Stored:
+def wrongly_tracked(folder: Path) -> Stored:
     rng, motion = np.random.default_rng(4), swing(1, 30.0, 0.5)
     calibrated, settings = calibration(), TrackSettings()
-    path = tmp_path_factory.mktemp("correction") / "session.h5"
+    path = folder / "session.h5"
     learnt = Learnt(0.15, 1.0, -np.inf)
     header = new_header(
         hand="right", protocol=calibrated.clicks.protocol, software_version="0.1", subject_id="Linden 42",
-        exercise="WRIST_FE", parameters=parameters_json(settings, {}, learnt), dip_free=False,
+        exercise="WRIST_FE", parameters=parameters_json(settings, {}, learnt), now=LONG_AGO,
     )  # fmt: skip
     tracker = Tracker(calibrated, CAMERA, learnt.applied(settings.tracker))
     writer = SessionWriter.create(path, header, CAMERA, calibrated)
@@ -84,6 +85,11 @@ def stored(tmp_path_factory: pytest.TempPathFactory) -> Stored:
     return Stored(path, truth, false_px, disc_px)
 
 
+@pytest.fixture(scope="module")
+def stored(tmp_path_factory: pytest.TempPathFactory) -> Stored:
+    return wrongly_tracked(tmp_path_factory.mktemp("correction"))
+
+
 def task(stored: Stored, output: Path, *corrections: Correction) -> CorrectionTask:
     return task_of(stored.path, output, corrections, "2.0", by="MK")
 
@@ -92,22 +98,33 @@ def put_right(stored: Stored) -> Correction:
     return Correction(WRONG_FROM, {"MCP3": (float(stored.disc_px[0]), float(stored.disc_px[1]))})
 
 
+@pytest.fixture(scope="module")
+def right(stored: Stored) -> Path:
+    """Put right, in a process of its own that says how far it is and leaves the old file as it is."""
+    path, seen = stored.path.with_name("right.h5"), list[tuple[int, int]]()
+    before = stored.path.read_bytes()
+    assert correct_in_process(
+        task(stored, path, put_right(stored)), lambda at, of: seen.append((at, of)), threading.Event()
+    )
+    assert seen[-1][1] == round(SECONDS * FPS)
+    assert read_session(path).complete
+    assert stored.path.read_bytes() == before
+    return path
+
+
 def test_without_a_correction_nothing_changes(stored: Stored, tmp_path: Path) -> None:
     correct(task(stored, tmp_path / "new.h5"))
     before, after = read_session(stored.path), read_session(tmp_path / "new.h5")
     np.testing.assert_allclose(after.motion.angles_rad, before.motion.angles_rad, atol=1e-9)
 
 
-def test_the_false_spot_is_left_out_and_the_disc_is_taken_from_there_on(stored: Stored, tmp_path: Path) -> None:
-    before_bytes = hashlib.sha256(stored.path.read_bytes()).hexdigest()
-    correct(task(stored, tmp_path / "new.h5", put_right(stored)))
-    assert hashlib.sha256(stored.path.read_bytes()).hexdigest() == before_bytes
-    session = read_session(tmp_path / "new.h5")
+def test_the_false_spot_is_left_out_and_the_disc_is_taken_from_there_on(stored: Stored, right: Path) -> None:
+    session = read_session(right)
     taken = session.markers.measured_px[WRONG_FROM:]
     distance = np.linalg.norm(taken - stored.false_px, axis=-1)
     assert np.nanmin(distance) > 20.0
     assert np.isfinite(taken[:, MCP3]).all(axis=1).mean() > 0.95
-    assert not_held(session, read_detections(tmp_path / "new.h5"), [put_right(stored)]) == ()
+    assert not_held(session, read_detections(right), [put_right(stored)]) == ()
     for motion in (session.motion, session.smoothed):
         assert motion is not None
         error_deg = np.degrees(motion.angles_rad[WRONG_FROM + 10 :]) - stored.truth_deg[WRONG_FROM + 10 :]
@@ -116,9 +133,8 @@ def test_the_false_spot_is_left_out_and_the_disc_is_taken_from_there_on(stored: 
     np.testing.assert_allclose(session.motion.angles_rad[:WRONG_FROM], old.motion.angles_rad[:WRONG_FROM], atol=1e-9)
 
 
-def test_the_new_result_names_its_origin_what_was_done_and_keeps_the_notes(stored: Stored, tmp_path: Path) -> None:
-    correct(task(stored, tmp_path / "new.h5", put_right(stored)))
-    old, new = read_session(stored.path), read_session(tmp_path / "new.h5")
+def test_the_new_result_names_its_origin_what_was_done_and_keeps_the_notes(stored: Stored, right: Path) -> None:
+    old, new = read_session(stored.path), read_session(right)
     assert new.header.origin == old.header.session_id
     assert new.header.recording_id == old.header.recording_id
     assert new.header.session_id != old.header.session_id
@@ -200,16 +216,6 @@ def test_where_the_others_expect_a_disc_is_said_without_it(stored: Stored) -> No
     expected = expected_px(session, WRONG_FROM, places, MCP3)
     assert expected == pytest.approx(stored.disc_px, abs=4.0)
     assert np.linalg.norm(places[MCP3] - expected) > 40.0
-
-
-def test_it_is_done_in_a_process_of_its_own_and_says_how_far_it_is(stored: Stored, tmp_path: Path) -> None:
-    seen: list[tuple[int, int]] = []
-    done = correct_in_process(
-        task(stored, tmp_path / "new.h5", put_right(stored)), lambda at, of: seen.append((at, of)), threading.Event()
-    )
-    assert done
-    assert seen[-1][1] == round(SECONDS * FPS)
-    assert read_session(tmp_path / "new.h5").complete
 
 
 def test_stopping_leaves_nothing_behind_and_faults_come_across(stored: Stored, tmp_path: Path) -> None:
