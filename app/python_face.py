@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields, replace
-from itertools import chain
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Literal, get_args, get_origin, get_type_hints
@@ -23,7 +22,6 @@ from carpus.app.sources import open_recording
 from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCENT, MOST_SHIFT_S, Compared
 from carpus.core.agreement.compared_files import compare_files
 from carpus.core.agreement.reference import ANGLE_NAMES
-from carpus.core.calibration.calibrate import calibrate
 from carpus.core.calibration.candidates import CandidateSettings, marker_candidates
 from carpus.core.calibration.clicks import read_clicks, write_clicks
 from carpus.core.calibration.naming import NamingSettings, propose_names
@@ -37,7 +35,7 @@ from carpus.core.formats.provenance import provenance
 from carpus.core.hand.exercises import EXERCISES
 from carpus.core.hand.protocols import SITES, protocol_named
 from carpus.core.papers.chain import PaperSettings
-from carpus.core.pipeline.track import TrackSettings, from_neutral, learnt_from, pipeline_of, track_recording
+from carpus.core.pipeline.track import TrackSettings, begin_tracking, track_recording
 from carpus.core.results.camera_said import camera_of
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.measures_table import measure_rows
@@ -318,19 +316,9 @@ def _check_picture(
 def _tracked(path: Path, told: Clicks, chosen: TrackSettings) -> Iterator[HandFrame]:
     source = open_recording(path, need_depth=chosen.paper is None and chosen.tracker.use_depth)
     try:
-        frames = source.frames()
-        opening: list[Frame] = []
-        for frame in frames:
-            opening.append(frame)
-            if frame.timestamp_s - opening[0].timestamp_s > chosen.calibration.still_s:
-                break
-        camera = source.info.camera
-        outcome = calibrate(told, opening, camera, chosen.calibration, chosen.detection)
-        ends_s = opening[outcome.capture_frames - 1].timestamp_s
-        pipeline = pipeline_of(outcome, camera, chosen, learnt_from(outcome.noise, ends_s, chosen.tracker))
-        names = told.protocol.joint_names(chosen.dip_free)
-        for frame in from_neutral(chain(opening, frames), pipeline.tracker, ends_s, lambda each: each.timestamp_s):
-            yield _hand_frame(pipeline(frame), names, told.protocol.markers)
+        begun, names = begin_tracking(source, told, chosen), told.protocol.joint_names(chosen.dip_free)
+        for frame in begun.frames:
+            yield _hand_frame(begun.pipeline(frame), names, told.protocol.markers)
     finally:
         source.close()
 

@@ -8,10 +8,14 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from carpus.core.capture.source import FrameSource, Notice, ignore
-from carpus.core.errors import RecordingMissing, RecordingUnreadable
+from carpus.core.errors import IntrinsicsAssumed, RecordingMissing, RecordingUnreadable
 from carpus.core.phrase import phrase
+
+if TYPE_CHECKING:
+    from carpus.app.settings import Settings
 
 COLOR_LIST, RECORDING_FILE = "rgb.txt", "recording.oni"
 REALSENSE_SUFFIXES = (".db3", ".bag")
@@ -41,6 +45,21 @@ def open_recording(
     from carpus.core.capture.calibrated import with_stored_calibration
 
     return with_stored_calibration(source, data_folder)
+
+
+def open_board_or_card(recording: Path | None, settings: Settings, notice: Notice, *, calibrated: bool) -> FrameSource:
+    """What a printed board or card is looked at with: a recording, None for the live camera of the settings, named as
+    it was given; ``calibrated`` by what is kept of it."""
+    from carpus.core.capture.calibrated import with_given_name, with_stored_calibration
+
+    folder = settings.data_folder
+    if recording is not None:
+        source = open_recording(recording, need_depth=calibrated, leave_out_damaged=True, notice=notice)
+    else:
+        from carpus.core.capture.devices.cameras import open_camera
+
+        source = with_given_name(open_camera(settings.camera.uri, notice=notice), folder)
+    return with_stored_calibration(source, folder) if calibrated else source
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +130,16 @@ RECORDINGS: tuple[tuple[Callable[[Path], bool], Callable[[Path, _How], FrameSour
     (_is_raw, _raw),
 )
 """Every kind: whether a path is of it, and how it is opened; the first that is it counts."""
+
+
+_INTRINSICS = {"default": "the usual values of the Xtion", "driver": "the driver's field of view"}
+
+
+def tell_assumed(source: FrameSource, path: Path, notice: Notice) -> None:
+    """``notice`` hears where nobody measured how the camera of a recording sees."""
+    origin = source.info.camera.origin
+    if origin in _INTRINSICS:
+        notice(IntrinsicsAssumed(path, _INTRINSICS[origin]))
 
 
 def _opened(path: Path, how: _How) -> FrameSource:

@@ -16,11 +16,11 @@ from threadpoolctl import threadpool_limits
 
 from carpus import __version__
 from carpus.app.settings import load_settings
-from carpus.app.sources import TrackingInput, open_recording
+from carpus.app.sources import TrackingInput, open_recording, tell_assumed
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Verdict, finding_sentence
 from carpus.core.capture.source import Recorded
-from carpus.core.errors import CarpusFault, IntrinsicsAssumed, OutputBusy, OutputExists, OutputNotWritable
+from carpus.core.errors import CarpusFault, OutputBusy, OutputExists, OutputNotWritable
 from carpus.core.pipeline.told_settings import differences, settings_told
 from carpus.core.pipeline.track import TrackSettings, retrack_session, track_recording
 from carpus.core.results.figures import session_figures
@@ -33,7 +33,6 @@ from carpus.core.words import one_sentence
 
 Result = Literal["tracked", "kept", "fault"]
 BUSY_S, BUSY_STEP_S = 600.0, 1.0
-_INTRINSICS = {"default": "the usual values of the Xtion", "driver": "the driver's field of view"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,16 +145,19 @@ def _tracked(task: Task, said: list[str]) -> None:
     if place.clicks is None:
         retrack_session(place.recording, place.session, task.settings, software_version=__version__, on_verdict=doubt)
         return
+
+    def tell(fault: CarpusFault) -> None:
+        said.append(one_sentence(fault))
+
     source = open_recording(
         place.recording,
         leave_out_damaged=task.leave_out_damaged,
         data_folder=load_settings().data_folder,
-        notice=lambda fault: said.append(one_sentence(fault)),
+        notice=tell,
     )
     try:
         camera = source.info.camera
-        if camera.origin in _INTRINSICS:
-            said.append(one_sentence(IntrinsicsAssumed(place.recording, _INTRINSICS[camera.origin])))
+        tell_assumed(source, place.recording, tell)
         track_recording(
             source,
             read_clicks(place.clicks, camera.width_px, camera.height_px),

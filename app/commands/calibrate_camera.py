@@ -70,6 +70,8 @@ def _print_board(arguments: argparse.Namespace) -> int:
 
 
 def _calibrate(arguments: argparse.Namespace) -> int:
+    from carpus.app.settings import load_settings
+    from carpus.app.sources import open_board_or_card
     from carpus.core.calibration.camera.calibrate import calibrate_camera, calibration_lines
     from carpus.core.calibration.camera.keep import keep_calibration, stored_of, write_calibration
     from carpus.core.calibration.camera.views import Gathering
@@ -79,7 +81,8 @@ def _calibrate(arguments: argparse.Namespace) -> int:
 
     if arguments.output is not None and arguments.output.exists():
         raise OutputExists(arguments.output)
-    source = _source(arguments.recording)
+    settings = load_settings()
+    source = open_board_or_card(arguments.recording, settings, tell, calibrated=False)
     gathering = Gathering(source.info.camera, _boards(arguments))
     try:
         _gather(source, gathering, is_live=arguments.recording is None)
@@ -98,9 +101,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     if arguments.output is not None:
         print(f"Written: {write_calibration(arguments.output, made, stored)}")
     if serial:
-        from carpus.app.settings import load_settings
-
-        folder = load_settings().data_folder
+        folder = settings.data_folder
         if arguments.recording is None and arguments.serial and info.is_nameless:
             serial = keep_name(folder, info.name, serial)
             stored = replace(stored, serial=serial)
@@ -110,19 +111,6 @@ def _calibrate(arguments: argparse.Namespace) -> int:
         say("nobody says which camera this was, so it is not kept; name it with --serial, or use --output.")
         return 1
     return 0
-
-
-def _source(recording: Path | None) -> FrameSource:
-    if recording is not None:
-        from carpus.app.sources import open_recording
-
-        return open_recording(recording, need_depth=False, leave_out_damaged=True, notice=tell)
-    from carpus.app.settings import load_settings
-    from carpus.core.capture.calibrated import with_given_name
-    from carpus.core.capture.devices.cameras import open_camera
-
-    settings = load_settings()
-    return with_given_name(open_camera(settings.camera.uri, notice=tell), settings.data_folder)
 
 
 def _boards(arguments: argparse.Namespace) -> list[Board]:

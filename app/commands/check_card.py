@@ -56,6 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _check(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
+    from carpus.app.sources import open_board_or_card
     from carpus.core.calibration.card.chart import (
         add_check,
         before,
@@ -69,8 +70,9 @@ def _check(arguments: argparse.Namespace) -> int:
     from carpus.core.capture.calibrated import keep_name
     from carpus.core.dates import is_moment, iso
 
-    data_folder = load_settings().data_folder
-    source = _source(arguments.recording, data_folder)
+    settings = load_settings()
+    data_folder = settings.data_folder
+    source = open_board_or_card(arguments.recording, settings, tell, calibrated=True)
     info = source.info
     try:
         reading = measure_card(_shown(source), info.camera, str(arguments.recording or info.name))
@@ -126,19 +128,6 @@ def _write_page(path: Path, camera: str, check: CardCheck, earlier: Sequence[Car
     ]
     print(f"Result: {write_check_report(path, CheckResult(camera, check, earlier, asides))}")
     del application
-
-
-def _source(recording: Path | None, data_folder: Path) -> FrameSource:
-    if recording is not None:
-        from carpus.app.sources import open_recording
-
-        return open_recording(recording, leave_out_damaged=True, data_folder=data_folder, notice=tell)
-    from carpus.app.settings import load_settings
-    from carpus.core.capture.calibrated import with_given_name, with_stored_calibration
-    from carpus.core.capture.devices.cameras import open_camera
-
-    live = with_given_name(open_camera(load_settings().camera.uri, notice=tell), data_folder)
-    return with_stored_calibration(live, data_folder)
 
 
 def _shown(source: FrameSource) -> Iterator[Frame]:

@@ -14,13 +14,13 @@ from carpus import __version__
 from carpus.app.command_line import bar, count, misused, number, say, tell
 from carpus.app.of_file import note
 from carpus.app.settings import load_settings
-from carpus.app.sources import is_many
+from carpus.app.sources import is_many, open_recording, tell_assumed
 from carpus.core.calibration.clicks import read_clicks
 from carpus.core.calibration.result import Clicks, Verdict, finding_sentence
 from carpus.core.capture.paced import PacedSource
 from carpus.core.capture.source import Recorded
 from carpus.core.dates import iso
-from carpus.core.errors import IntrinsicsAssumed, NameUnsuited, RecordingMissing
+from carpus.core.errors import NameUnsuited, RecordingMissing
 from carpus.core.hand.exercises import EXERCISES
 from carpus.core.hand.protocols import MarkerProtocol
 from carpus.core.names import name_of
@@ -186,7 +186,6 @@ def _add_of_recording(parser: argparse.ArgumentParser) -> None:
     )
 
 
-_INTRINSICS = {"default": "the usual values of the Xtion", "driver": "the driver's field of view"}
 _OF_RECORDINGS = ("calibration", "start_angles", "subject", "exercise", "recorded")
 """Options that a session answers itself."""
 COLOR_ALONE = (
@@ -262,8 +261,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _recording(arguments: argparse.Namespace, settings: TrackSettings) -> int:
     """One recording, from its first picture to its last."""
-    from carpus.app.sources import open_recording
-
     source = open_recording(
         arguments.recording,
         leave_out_damaged=arguments.leave_out_damaged,
@@ -274,8 +271,7 @@ def _recording(arguments: argparse.Namespace, settings: TrackSettings) -> int:
         source = PacedSource(source)
     try:
         camera = source.info.camera
-        if camera.origin in _INTRINSICS:
-            tell(IntrinsicsAssumed(arguments.recording, _INTRINSICS[camera.origin]))
+        tell_assumed(source, arguments.recording, tell)
         clicks = read_clicks(arguments.calibration, camera.width_px, camera.height_px)
         warn_of_experiment(settings, clicks.protocol)
         listener = _stream(clicks, source.info.nominal_fps, settings) if arguments.stream else None

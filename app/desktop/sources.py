@@ -283,7 +283,7 @@ class Sources:
             session.notice(fault)
         session.start()
         # From the calibration on, the markers must keep their colours.
-        return self._live(session, source, set_up, on_begin=live.lock_exposure)
+        return self._opened(session, source, set_up, _of_the_moment(session), on_begin=live.lock_exposure)
 
     def _practice(self, set_up: SetUp, progress: Progress) -> OpenSource:
         """The still hand at once; what it does in each exercise is drawn beside it, in the order of the course."""
@@ -299,10 +299,11 @@ class Sources:
         drawing.start()
         session.start()
 
-        opened = self._live(
+        opened = self._opened(
             session,
             take,
             set_up,
+            _of_the_moment(session),
             on_recording=patient.let_go,
             on_chosen=lambda chosen: drawing.choose(chosen.exercise.id),
         )
@@ -322,18 +323,8 @@ class Sources:
         asks = any(isinstance(fault, RegistrationAssumed) for fault in told)
         for fault in () if asks else told:
             session.notice(fault)
-        measuring = SourceMeasuring(
-            session,
-            source.info,
-            set_up,
-            self._track(set_up),
-            self._places,
-            software_version=__version__,
-            recording=Path(choice.path),
-            listener=self._listener(session, set_up),
-        )
         pictures = Pictures(False, lambda: opening[0], lambda: opening)  # clicks are on the very first
-        return OpenSource(self._calibrator(pictures, source, set_up, measuring), measuring, asks)
+        return self._opened(session, source, set_up, pictures, asks, recording=Path(choice.path))
 
     def _track(self, set_up: SetUp) -> TrackSettings:
         """The settings with what this set-up says of the end joints."""
@@ -355,44 +346,37 @@ class Sources:
         settings = replace(self._settings.live, folder=self._settings.data_folder)
         return LiveSession(source, settings, source_waits=source_waits)
 
-    def _live(
+    def _opened(
         self,
         session: LiveSession,
         source: FrameSource,
         set_up: SetUp,
-        on_begin: Callable[[], None] = lambda: None,
-        on_recording: Callable[[], None] = lambda: None,
-        on_chosen: Callable[[SetUp], None] = lambda _: None,
+        pictures: Pictures,
+        asks: bool = False,
+        **told: Any,
     ) -> OpenSource:
+        """What is opened, with what else :class:`SourceMeasuring` is ``told`` of it."""
+        track = self._track(set_up)
         measuring = SourceMeasuring(
-            session,
-            source.info,
-            set_up,
-            self._track(set_up),
-            self._places,
-            software_version=__version__,
-            on_begin=on_begin,
-            on_recording=on_recording,
-            on_chosen=on_chosen,
-            listener=self._listener(session, set_up),
-        )
-        # Those before the picture of the moment, going back: the hand has been still up to now.
-        pictures = Pictures(True, session.newest_frame, lambda: session.recent_frames(RECENT_FRAMES)[::-1])
-        return OpenSource(self._calibrator(pictures, source, set_up, measuring), measuring)
-
-    def _calibrator(
-        self, pictures: Pictures, source: FrameSource, set_up: SetUp, measuring: SourceMeasuring
-    ) -> HandCalibrator:
-        return HandCalibrator(
+            session, source.info, set_up, track, self._places, software_version=__version__,
+            listener=self._listener(session, set_up), **told,
+        )  # fmt: skip
+        calibrator = HandCalibrator(
             pictures,
             source.info.camera,
             set_up.side,
             set_up.protocol,
-            self._track(set_up),
+            track,
             measuring.begin,
             self._places.last_hand_length_mm(set_up, simulated=is_simulated(source.info)),
             self._places.last_straight_fingers(set_up),
         )
+        return OpenSource(calibrator, measuring, asks)
+
+
+def _of_the_moment(session: LiveSession) -> Pictures:
+    """The newest picture, and those before it going back: the hand has been still up to now."""
+    return Pictures(True, session.newest_frame, lambda: session.recent_frames(RECENT_FRAMES)[::-1])
 
 
 class TakesDrawn:

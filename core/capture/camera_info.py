@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import yaml
 
-from carpus.core.camera import COEFFICIENTS, DEFAULT_CAMERA, Camera, DistortionModel
+from carpus.core.camera import COEFFICIENTS, Camera, DistortionModel
 from carpus.core.dates import is_moment
 from carpus.core.depth_sensor import ASSUMED, ASSUMED_SENSOR, DepthSensor, sensor_of
 from carpus.core.durable import private, write_fault
@@ -122,20 +122,22 @@ def write_camera_info(
         raise write_fault(path, cause) from cause
 
 
-def default_camera(width_px: int, height_px: int) -> Camera | None:
-    """The nominal Xtion scaled to pictures of this size; None for another shape than 4:3, which cannot be guessed."""
-    nominal = DEFAULT_CAMERA
-    if width_px * nominal.height_px != height_px * nominal.width_px:
+def fitted_camera(camera: Camera, size_px: tuple[int, int]) -> Camera | None:
+    """``camera`` for pictures enlarged or shrunk to ``size_px``; None when they are of another shape."""
+    width, height = size_px
+    if size_px == (camera.width_px, camera.height_px):
+        return camera
+    if width * camera.height_px != height * camera.width_px:
         return None
-    scale = width_px / nominal.width_px
-    return Camera(
-        nominal.fx_px * scale,
-        nominal.fy_px * scale,
-        (nominal.cx_px + 0.5) * scale - 0.5,
-        (nominal.cy_px + 0.5) * scale - 0.5,
-        width_px,
-        height_px,
-        origin=nominal.origin,
+    scale = width / camera.width_px
+    return replace(
+        camera,
+        fx_px=camera.fx_px * scale,
+        fy_px=camera.fy_px * scale,
+        cx_px=(camera.cx_px + 0.5) * scale - 0.5,
+        cy_px=(camera.cy_px + 0.5) * scale - 0.5,
+        width_px=width,
+        height_px=height,
     )
 
 

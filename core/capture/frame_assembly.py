@@ -12,8 +12,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.camera import COEFFICIENTS, Camera, DistortionModel
-from carpus.core.capture.camera_info import default_camera
+from carpus.core.camera import COEFFICIENTS, DEFAULT_CAMERA, Camera, DistortionModel
+from carpus.core.capture.camera_info import fitted_camera
 from carpus.core.capture.video_mode import Lens, PixelFormat
 from carpus.core.types import Frame
 
@@ -225,7 +225,7 @@ def camera_of_view(size_px: tuple[int, int], field_of_view_rad: tuple[float, flo
     """Intrinsics from the driver's field of view, else the nominal ones; None for a shape that cannot be guessed."""
     width, height = size_px
     if field_of_view_rad is None:
-        return default_camera(width, height)
+        return fitted_camera(DEFAULT_CAMERA, (width, height))
     across, down = field_of_view_rad
     return Camera(
         width / 2.0 / math.tan(across / 2.0),
@@ -251,26 +251,6 @@ def camera_of_lens(size_px: tuple[int, int], lens: Lens) -> Camera:
         lens.coefficients if known else (0.0,) * COEFFICIENTS[model],
         origin="factory",
         distortion_model=model,
-    )
-
-
-def fitted_camera(camera: Camera, size_px: tuple[int, int]) -> Camera | None:
-    """``camera`` for pictures enlarged to ``size_px``; None when they are of another shape."""
-    if (camera.width_px, camera.height_px) == size_px:
-        return camera
-    scale = size_px[0] / camera.width_px
-    if size_px[1] != camera.height_px * scale:
-        return None
-    return Camera(
-        camera.fx_px * scale,
-        camera.fy_px * scale,
-        (camera.cx_px + 0.5) * scale - 0.5,
-        (camera.cy_px + 0.5) * scale - 0.5,
-        *size_px,
-        camera.distortion,
-        camera.origin,
-        camera.sensor,
-        camera.distortion_model,
     )
 
 

@@ -25,10 +25,9 @@ from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import (
     Progress,
     TrackSettings,
-    answers_in,
-    from_neutral,
     learnt_again,
     notes_in,
+    tracked_again,
     write_tracked,
     writer_again,
 )
@@ -142,25 +141,12 @@ class _Retracking:
         self._session, self._table, self._settings = session, table, settings
         self.learnt = learnt_again(session, settings)
         self._by_row = {correction.row: correction for correction in corrections}
-        self._answers = answers_in(session)
         self._moments: list[Moment] = []
         own = self.learnt.applied(settings.tracker)
         self._tracker = Tracker(session.calibration, session.camera, own, keep_history=settings.smooth)
 
     def frames(self) -> Iterator[TrackedFrame]:
-        session = self._session
-        times_s = session.timestamp_s
-        rows = from_neutral(range(len(session)), self._tracker, self.learnt.neutral_ends_s, lambda row: times_s[row])
-        for row in rows:
-            time_s = float(times_s[row])
-            blobs = self._table.of_frame(row)
-            correction = self._by_row.get(row)
-            if correction is not None:
-                blobs = self._put_right(correction, blobs, time_s)
-            for answer in self._answers.get(row, ()):
-                self._tracker.hear(answer)
-            dropped = max(int(session.quality.dropped_before[row]), 0)
-            yield self._tracker.step(row, time_s, blobs, dropped)
+        return tracked_again(self._session, self._tracker, self.learnt, self._blobs_of)
 
     def looked_back(self) -> list[Moment]:
         self._take_moments()
@@ -170,7 +156,11 @@ class _Retracking:
         if self._settings.smooth:
             self._moments += self._tracker.smoothed()
 
-    def _put_right(self, correction: Correction, blobs: Detections, time_s: float) -> Detections:
+    def _blobs_of(self, row: int) -> Detections:
+        blobs, correction = self._table.of_frame(row), self._by_row.get(row)
+        return blobs if correction is None else self._put_right(correction, blobs)
+
+    def _put_right(self, correction: Correction, blobs: Detections) -> Detections:
         """The blobs of the corrected picture: the named ones, and what else may be a disc."""
         session = self._session
         markers = session.header.protocol.markers
@@ -182,7 +172,7 @@ class _Retracking:
         blobs = with_places(blobs, named)
         palm = [markers[number] for number in session.header.protocol.palm]
         if any(name in palm for name in correction.places):
-            self._look_anew(time_s)
+            self._look_anew(float(session.timestamp_s[correction.row]))
             if not session.header.protocol.has_fingers:
                 blobs = blobs.only(_nearest(blobs, named))
         for name, place in correction.places.items():

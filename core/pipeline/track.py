@@ -37,7 +37,17 @@ from carpus.core.session.values import SET_UP, Event, Session, motion_of, new_he
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import SIMULATED, SPOT_SAID, FloatArray, Frame, Moment, SpotAnswer, TrackedFrame, TrackStatus
+from carpus.core.types import (
+    SIMULATED,
+    SPOT_SAID,
+    Detections,
+    FloatArray,
+    Frame,
+    Moment,
+    SpotAnswer,
+    TrackedFrame,
+    TrackStatus,
+)
 
 Seen = Frame | PackedFrame
 """A frame, or one whose pictures are unpacked where they are looked at."""
@@ -241,15 +251,6 @@ def build_pipeline(
     return FramePipeline(detector, tracker, settings.detection.sampling)
 
 
-def pipeline_of(
-    outcome: CalibrationOutcome, camera: Camera, settings: TrackSettings, learnt: Learnt
-) -> FramePipeline[HandTracker]:
-    """As :func:`build_pipeline`, with the chosen filter, which may be the papers'."""
-    calibration = _calibrated(require_calibration(outcome), camera, settings.paper)
-    tracker, _ = _following(calibration, camera, settings, learnt)
-    return FramePipeline(Detector(outcome.appearance, camera, settings.detection), tracker, settings.detection.sampling)
-
-
 def _calibrated(calibration: Calibration, camera: Camera, paper: PaperSettings | None) -> Calibration:
     """The calibration as the chosen filter has it."""
     return calibration if paper is None else as_written(calibration, camera, paper.palm)
@@ -289,6 +290,45 @@ def from_neutral(
         yield frame
 
 
+@dataclass(frozen=True, slots=True)
+class Begun:
+    """A stored recording about to be tracked: its ``first`` frame, all ``frames`` from that on, what tracks them by the
+    chosen filter, and how that looks back if it is to."""
+
+    first: Frame
+    frames: Iterator[Seen]
+    pipeline: FramePipeline[HandTracker]
+    look_back: Callable[[], list[Moment]] | None
+    calibration: Calibration
+    learnt: Learnt
+
+
+def begin_tracking(
+    source: FrameSource,
+    clicks: Clicks,
+    settings: TrackSettings,
+    start_angles_rad: FloatArray | None = None,
+    on_verdict: Callable[[Verdict], None] | None = None,
+) -> Begun:
+    """Calibrate from the first frames. A poor verdict is handed to ``on_verdict``; a click with no blob or no depth
+    raises, and :class:`RecordingEmpty` where there is no frame."""
+    frames: Iterator[Seen] = source.packed_frames() if isinstance(source, RawRecording) else source.frames()
+    opening, camera = _opening(frames, settings.calibration.still_s), source.info.camera
+    if not opening:
+        raise RecordingEmpty(source.info.name)
+    outcome = calibrate(clicks, opening, camera, settings.calibration, settings.detection, start_angles_rad)
+    if on_verdict is not None and not outcome.verdict.is_good:
+        on_verdict(outcome.verdict)  # also before a fault: it may say why a click has no depth
+    calibration = _calibrated(require_calibration(outcome), camera, settings.paper)
+    ends_s = opening[outcome.capture_frames - 1].timestamp_s
+    learnt = learnt_from(outcome.noise, ends_s, settings.tracker)
+    tracker, look_back = _following(calibration, camera, settings, learnt)
+    detector = Detector(outcome.appearance, camera, settings.detection)
+    pipeline = FramePipeline(detector, tracker, settings.detection.sampling)
+    ordered = from_neutral(chain(opening, frames), tracker, ends_s, lambda frame: frame.timestamp_s)
+    return Begun(opening[0], ordered, pipeline, look_back, calibration, learnt)
+
+
 def _standing() -> float:
     """The clock of a session that is done again when it is cut short: rows go to the file by their number alone."""
     return 0.0
@@ -324,24 +364,9 @@ def track_recording(
     """
     if output.exists():
         raise OutputExists(output)
-    frames: Iterator[Seen] = source.packed_frames() if isinstance(source, RawRecording) else source.frames()
-    opening = _opening(frames, settings.calibration.still_s)
-    if not opening:
-        raise RecordingEmpty(source.info.name)
-    outcome = calibrate(clicks, opening, source.info.camera, settings.calibration, settings.detection, start_angles_rad)
-    if on_verdict is not None and not outcome.verdict.is_good:
-        on_verdict(outcome.verdict)  # also before a fault: it may say why a click has no depth
-    calibration = require_calibration(outcome)
-    neutral_ends_s = opening[outcome.capture_frames - 1].timestamp_s
-    learnt = learnt_from(outcome.noise, neutral_ends_s, settings.tracker)
-    calibration = _calibrated(calibration, source.info.camera, settings.paper)
-    tracker, look_back = _following(calibration, source.info.camera, settings, learnt)
-    pipeline = FramePipeline(
-        Detector(outcome.appearance, source.info.camera, settings.detection), tracker, settings.detection.sampling
-    )
-    ordered = from_neutral(chain(opening, frames), tracker, neutral_ends_s, lambda frame: frame.timestamp_s)
+    begun = begin_tracking(source, clicks, settings, start_angles_rad, on_verdict)
     if recorded is None:
-        recorded = recorded_at(source.info, opening[0].timestamp_s, path)
+        recorded = recorded_at(source.info, begun.first.timestamp_s, path)
     if on_date is not None:
         on_date(recorded)
     header = new_header(
@@ -350,22 +375,22 @@ def track_recording(
         software_version=software_version,
         subject_id=subject_id,
         exercise=exercise,
-        parameters=parameters_json(settings, _recording_facts(source.info, recorded, path), learnt, set_up),
+        parameters=parameters_json(settings, _recording_facts(source.info, recorded, path), begun.learnt, set_up),
         origin=origin,
         dip_free=settings.dip_free,
         recorded=recorded.when if recorded else "",
-        recording_id=recording_id(source.info, opening[0]),
+        recording_id=recording_id(source.info, begun.first),
     )
-    writer = SessionWriter.create(output, header, source.info.camera, calibration, clock=_standing)
+    writer = SessionWriter.create(output, header, source.info.camera, begun.calibration, clock=_standing)
     answers = {} if said is None else answers_in(said)
 
     def answered(frame: Seen) -> TrackedFrame:
-        _answer(tracker, answers.get(frame.index, ()))
-        return pipeline(frame)
+        _answer(begun.pipeline.tracker, answers.get(frame.index, ()))
+        return begun.pipeline(frame)
 
-    tracked = _heard(map(answered, ordered), listener)
-    notes = () if said is None else notes_in(said)
-    return write_tracked(writer, tracked, look_back, outcome.verdict, source.info.frame_count, progress, notes)
+    tracked = _heard(map(answered, begun.frames), listener)
+    notes, verdict = () if said is None else notes_in(said), begun.calibration.verdict
+    return write_tracked(writer, tracked, begun.look_back, verdict, source.info.frame_count, progress, notes)
 
 
 def _recording_facts(info: SourceInfo, recorded: Recorded | None, path: Path | None) -> dict[str, Any]:
@@ -440,18 +465,21 @@ def _retrack_detections(
     if (before and before.palm) != (settings.paper and settings.paper.palm):
         calibration = _calibrated(by_the_discs(calibration) if before else calibration, session.camera, settings.paper)
     tracker, look_back = _following(calibration, session.camera, settings, learnt)
-    time_s, answers = session.timestamp_s, answers_in(session)
-
-    def tracked() -> Iterator[TrackedFrame]:
-        rows = from_neutral(range(len(session)), tracker, learnt.neutral_ends_s, lambda row: float(time_s[row]))
-        for row in rows:
-            _answer(tracker, answers.get(row, ()))
-            dropped = max(int(session.quality.dropped_before[row]), 0)
-            yield tracker.step(row, float(time_s[row]), table.of_frame(row), dropped)
-
+    tracked = tracked_again(session, tracker, learnt, table.of_frame)
     facts = {"sha256": sha256_of_file(origin)}
     writer = writer_again(session, output, settings, learnt, calibration, software_version, facts)
-    return write_tracked(writer, tracked(), look_back, calibration.verdict, len(session), progress, notes_in(session))
+    return write_tracked(writer, tracked, look_back, calibration.verdict, len(session), progress, notes_in(session))
+
+
+def tracked_again(
+    session: Session, tracker: HandTracker, learnt: Learnt, blobs_of: Callable[[int], Detections]
+) -> Iterator[TrackedFrame]:
+    """The frames of a session from the blobs of each row, with what was said of them while it was measured."""
+    times_s, answers = session.timestamp_s.tolist(), answers_in(session)
+    for row in from_neutral(range(len(session)), tracker, learnt.neutral_ends_s, times_s.__getitem__):
+        blobs = blobs_of(row)
+        _answer(tracker, answers.get(row, ()))
+        yield tracker.step(row, times_s[row], blobs, max(int(session.quality.dropped_before[row]), 0))
 
 
 def learnt_again(session: Session, settings: TrackSettings) -> Learnt:

@@ -71,7 +71,6 @@ class Opened:
     """The device is open and its streams run; ``modes`` are those of the pictures that come through the ring.
 
     ``settings`` goes into the session; ``lens`` where the driver knows it, else perhaps the ``field_of_view_rad``.
-    ``frame_count``: colour pictures of a recording, None where nobody knows.
     """
 
     modes: Mapping[Sensor, VideoMode]
@@ -80,7 +79,6 @@ class Opened:
     settings: Mapping[str, str]
     lens: Lens | None = None
     depth_unit_m: float = 1e-3
-    frame_count: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,14 +89,6 @@ class Arrived:
     slot: int
     number: int
     timestamp_us: int
-
-
-@dataclass(frozen=True, slots=True)
-class Broken:
-    """A picture whose size, format or stride was not as agreed; its memory was not read."""
-
-    sensor: Sensor
-    number: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,7 +128,7 @@ class Stop:
     """To the process: close the device and end."""
 
 
-Report = Alive | Opened | Arrived | Broken | ExposureSet | Ended | Trouble
+Report = Alive | Opened | Arrived | ExposureSet | Ended | Trouble
 Command = Free | LockExposure | Stop
 
 
@@ -225,10 +215,8 @@ class Outlet:
             self.stay_alive()
 
     def put(self, sensor: Sensor, number: int, timestamp_us: int, picture: memoryview) -> None:
-        """Copy one picture (contiguous bytes) and announce it; dropped when no slot is free."""
-        if picture.nbytes > self._ring.slot_bytes:
-            self.send(Broken(sensor, number))
-        elif self._free:
+        """Copy one picture (contiguous bytes) and announce it; dropped when no slot is free or it is too large."""
+        if self._free and picture.nbytes <= self._ring.slot_bytes:
             slot = self._free.pop()  # the one freed last: what is never needed takes no memory
             start = slot * self._ring.slot_bytes
             self._pixels[start : start + picture.nbytes] = picture

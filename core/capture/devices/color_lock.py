@@ -12,6 +12,10 @@ from typing import Protocol
 
 from carpus.core.capture.devices.capture_process import ExposureSet, Outlet
 
+LIGHT_SHARE = 0.9
+"""Of a picture's time the longest exposure: a longer one would slow the camera down."""
+EXPOSURE_UNIT_S = 1e-4
+"""In which both makers count exposure."""
 EVERY = 97
 """Every so-many-th pixel is looked at."""
 TAKES_EFFECT = 7
@@ -100,6 +104,11 @@ class ColorHold:
 
 def _within(value: float, reach: tuple[float, float]) -> float:
     return max(reach[0], min(reach[1], value))
+
+
+def longest_exposure(fps: float) -> float:
+    """In :data:`EXPOSURE_UNIT_S`."""
+    return LIGHT_SHARE / fps / EXPOSURE_UNIT_S
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,6 @@ from concurrent.futures.process import BrokenProcessPool
 from carpus.core.camera import Camera
 from carpus.core.capture.devices.capture_process import (
     WAIT_MS,
-    Broken,
     CameraPlan,
     GaveUp,
     Heard,
@@ -192,14 +191,12 @@ class _Gone(threading.Event):
 
 
 def _take(outlet: Outlet, stream: Stream, mode: VideoMode) -> None:
-    """Pass one picture on, where there is one."""
+    """Pass one picture on, where there is one; the memory of one that is not as agreed is not read."""
     with stream.read() as picture:
         if picture is None:
             return
         size = agreed_size(picture, mode)
-        if size is None:
-            outlet.send(Broken(stream.sensor, picture.index))
-        else:
+        if size is not None:
             pixels = memoryview((ctypes.c_ubyte * size).from_address(picture.address)).cast("B")
             outlet.put(stream.sensor, picture.index, picture.timestamp_us, pixels)
 

@@ -26,7 +26,7 @@ from carpus.core.capture.devices.capture_process import (
     why_not_opened,
     why_unlisted,
 )
-from carpus.core.capture.devices.color_lock import ColorLock, Control, Step
+from carpus.core.capture.devices.color_lock import ColorLock, Control, Step, longest_exposure
 from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
 from carpus.core.capture.devices.usb_devices import usb_cameras
 from carpus.core.capture.frame_assembly import LensBending, camera_of_lens
@@ -229,10 +229,6 @@ def _mode_text(profile: Any) -> str:
     return f"{profile.get_width()}x{profile.get_height()} {profile.get_format().name} {profile.get_fps()} fps"
 
 
-LIGHT_SHARE = 0.9
-"""Of a picture's time the longest exposure: a longer one would slow the camera down."""
-EXPOSURE_UNIT_S = 1e-4
-"""Of the colour camera's exposure."""
 UNIT_DIGITS = 7
 
 
@@ -342,7 +338,7 @@ class _OrbbecControls:
 
     def __init__(self, ob: Any, device: Any, streams: OrbbecStreams) -> None:
         self._ob, self._device, self._prop = ob, device, ob.OBPropertyID
-        self._longest = LIGHT_SHARE / streams.color.get_fps() / EXPOSURE_UNIT_S
+        self._longest = longest_exposure(streams.color.get_fps())
 
     def stop_following(self) -> tuple[bool, bool]:
         exposure, balance = (

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
+from carpus.core.capture.camera_info import fitted_camera
 from carpus.core.capture.devices.capture_process import (
     Arrived,
     CameraPlan,
@@ -34,7 +35,7 @@ from carpus.core.capture.devices.capture_process import (
     Trouble,
     run,
 )
-from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_lens, camera_of_view, fitted_camera
+from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_lens, camera_of_view
 from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.capture.video_mode import Sensor, VideoMode
 from carpus.core.depth_sensor import DepthSensor

@@ -25,7 +25,7 @@ from carpus.core.capture.devices.capture_process import (
     why_not_opened,
     why_unlisted,
 )
-from carpus.core.capture.devices.color_lock import ColorLock, Control, Step
+from carpus.core.capture.devices.color_lock import ColorLock, Control, Step, longest_exposure
 from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
 from carpus.core.capture.devices.usb_devices import usb_cameras
 from carpus.core.capture.source import Notice, ignore
@@ -255,10 +255,6 @@ def _mode_text(profile: Any) -> str:
 WAITING_FRAMES = 8
 JOIN_MS = 1000
 FILE_SILENCE_S = 5.0
-LIGHT_SHARE = 0.9
-"""Of a picture's time the longest exposure: a longer one would slow the camera down."""
-EXPOSURE_UNIT_S = 1e-4
-"""Of the colour sensor's exposure."""
 
 
 def serve(outlet: Outlet, plan: CameraPlan | Path) -> None:
@@ -458,7 +454,7 @@ class _RealSenseControls:
     def __init__(self, rs: Any, streams: RealsenseStreams) -> None:
         self._option = rs.option
         self._sensor = next(sensor for sensor, profiles in streams.opening if streams.color in profiles)
-        self._longest = LIGHT_SHARE / streams.color.fps() / EXPOSURE_UNIT_S
+        self._longest = longest_exposure(streams.color.fps())
 
     def stop_following(self) -> tuple[bool, bool]:
         option, sensor = self._option, self._sensor

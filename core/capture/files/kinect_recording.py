@@ -5,10 +5,12 @@ Its depth lies in the depth camera's own pictures; it is laid on colour by the c
 
 from __future__ import annotations
 
+import json
+import math
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import closing
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,22 +19,16 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.capture.frame_assembly import Assembler, Layout, fitted_camera
+from carpus.core.camera import Camera
+from carpus.core.capture.camera_info import fitted_camera
+from carpus.core.capture.frame_assembly import Assembler, Layout, LensBending, straight_pixels
 from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.depth_sensor import AZURE_KINECT
 from carpus.core.errors import ExtraMissing, PicturesLost, RecordingDamaged, RecordingUnsupported
-from carpus.core.types import Frame
+from carpus.core.types import FloatArray, Frame
 
 if TYPE_CHECKING:
     from av.container import InputContainer
-import json
-import math
-from collections.abc import Mapping
-from dataclasses import dataclass
-
-from carpus.core.camera import Camera
-from carpus.core.capture.frame_assembly import LensBending, straight_pixels
-from carpus.core.types import FloatArray
 
 # The calibration that lies in a recording of an Azure Kinect or Femto: both lenses, and how the cameras stand.
 DEPTH_WINDOWS_PX: Mapping[tuple[int, int], tuple[int, int, int]] = {

@@ -15,7 +15,7 @@ from typing import Any, BinaryIO, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from carpus.core.capture.camera_info import CameraInfo, read_camera_info, sidecar_path
+from carpus.core.capture.camera_info import CameraInfo, fitted_camera, read_camera_info, sidecar_path
 from carpus.core.capture.files import oni_format as oni
 from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType, decode_depth
 from carpus.core.capture.files.pictures import decode_color
@@ -25,7 +25,6 @@ from carpus.core.capture.frame_assembly import (
     Assembler,
     Layout,
     camera_of_view,
-    fitted_camera,
 )
 from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.capture.video_mode import PixelFormat, Sensor

@@ -210,11 +210,7 @@ def _png_is_whole(data: bytes) -> bool:
 
 
 def _decoded(path: Path, data: bytes, flags: int) -> NDArray[Any]:
-    try:
-        picture = cv2.imdecode(np.frombuffer(data, np.uint8), flags)
-    except cv2.error as cause:
-        raise PictureDamaged(path, phrase("not a picture")) from cause
+    picture = _decode(data, flags)
     if picture is None:
         raise PictureDamaged(path, phrase("not a picture"))
-    picture.setflags(write=False)
     return picture

@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import sqlite3
 import threading
-from collections import Counter
-from collections.abc import Generator, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
@@ -27,61 +26,58 @@ OPEN_S = 20.0
 
 
 class FilePlayer:
-    """Plays ``path`` by ``serve``; pictures have at most ``slot_bytes``, ``slots`` of them wait.
+    """Plays ``path`` by ``serve``; pictures have at most ``slot_bytes``, :data:`SLOTS` of them wait.
 
     :meth:`open` starts a process and ends the one before; :meth:`frames` then walks through its pictures once.
     """
 
-    def __init__(self, serve: Serve, path: Path, slot_bytes: int, slots: int = SLOTS) -> None:
-        self._serve, self._path, self._slot_bytes, self._slots = serve, path, slot_bytes, slots
+    def __init__(self, serve: Serve, path: Path, slot_bytes: int) -> None:
+        self._serve, self._path, self._slot_bytes = serve, path, slot_bytes
         self._closing = threading.Event()
         self._lock = threading.Lock()
         self._process: CaptureProcess | None = None
-        self.arrived: Counter[Sensor] = Counter()
 
     def open(self, plan: object, open_s: float) -> Opened | None:
         """What the library found in the file, at most ``open_s`` after the process is up; None when closed meanwhile.
         Raises the fault that ended the process."""
-        self.stop()
+        self._stop()
         if self._closing.is_set():
             return None
-        process = CaptureProcess(self._serve, plan, str(self._path), self._slot_bytes, self._slots)
+        process = CaptureProcess(self._serve, plan, str(self._path), self._slot_bytes, SLOTS)
         self._process = process
-        self.arrived = Counter()
         try:
             with self._lock:
                 opened = process.wait_open(self._closing, open_s)
         except BaseException:
-            self.stop()
+            self._stop()
             raise
         if opened is None:
-            self.stop()  # closed while the process was being made: that close did not see it
+            self._stop()  # closed while the process was being made: that close did not see it
         return opened
 
-    def frames(self, assembler: Assembler, modes: Mapping[Sensor, VideoMode]) -> Generator[Frame, None, bool]:
-        """Frames of what was opened last; at the end whether all of the file was walked through. ``arrived`` counts
-        pictures. A walk ends early when another file, or the same once more, is opened, or at :meth:`close`."""
+    def frames(self, assembler: Assembler, modes: Mapping[Sensor, VideoMode]) -> Iterator[Frame]:
+        """Frames of what was opened last. A walk ends early when another file, or the same once more, is opened, or at
+        :meth:`close`."""
         process = self._process
         if process is None:
-            return False
+            return
         try:
             while True:
                 with self._lock:
                     if process is not self._process:
-                        return False
+                        return
                     report = process.report(self._closing, ANSWER_S)
                     if report is None:
-                        return False
+                        return
                     frames: list[Frame] = []
                     if isinstance(report, Arrived):
-                        self.arrived[report.sensor] += 1
                         take = assembler.color if report.sensor == Sensor.COLOR else assembler.depth
                         pixels = process.pixels(report, modes[report.sensor])
                         frames = take(report.timestamp_us, report.number, pixels)
                         process.free(report)
                 if isinstance(report, Ended):
                     yield from assembler.finish()
-                    return True
+                    return
                 yield from frames
         finally:
             with self._lock:
@@ -90,9 +86,9 @@ class FilePlayer:
     def close(self) -> None:
         """End playback; may be called twice, and while another thread waits for a frame."""
         self._closing.set()
-        self.stop()
+        self._stop()
 
-    def stop(self) -> None:
+    def _stop(self) -> None:
         """End the process that runs, and with it a walk under way; another may be opened."""
         with self._lock:
             if self._process is not None:
@@ -111,7 +107,7 @@ class RealSenseRecording:
         require_library()
         self._path = path
         self._count = color_count(path)
-        self._player = FilePlayer(serve, path, LARGEST_BYTES, SLOTS)
+        self._player = FilePlayer(serve, path, LARGEST_BYTES)
         opened = self._ready = self._open()
         assert opened is not None
         self._info = self._describe(opened)

@@ -16,8 +16,8 @@ from pathlib import Path, PurePath
 
 import numpy as np
 
-from carpus.core.camera import Camera
-from carpus.core.capture.camera_info import CAMERA_FILE, default_camera, read_camera_info, write_camera_info
+from carpus.core.camera import DEFAULT_CAMERA, Camera
+from carpus.core.capture.camera_info import CAMERA_FILE, fitted_camera, read_camera_info, write_camera_info
 from carpus.core.capture.files.pictures import encode_color, encode_depth, read_color, read_depth
 from carpus.core.capture.source import Notice, SourceInfo, ignore, is_simulated
 from carpus.core.durable import Writing, private, write_fault
@@ -341,7 +341,7 @@ def _camera(folder: Path, width_px: int, height_px: int) -> Camera:
     path = folder / CAMERA_FILE
     size = f"{width_px} x {height_px} pixels"
     if not path.exists():
-        camera = default_camera(width_px, height_px)
+        camera = fitted_camera(DEFAULT_CAMERA, (width_px, height_px))
         if camera is None:
             raise CameraFileUnreadable(
                 path, phrase("missing, and pictures of {size} have no default camera", size=size)
