@@ -14,6 +14,7 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from functools import partial
+from itertools import islice
 from pathlib import Path
 from subprocess import PIPE
 
@@ -105,13 +106,15 @@ def tracked(
 
 
 def test_tracking_says_what_of_the_camera_is_assumed(recording: Path, tmp_path: Path, command: Command) -> None:
-    code, said = tracked(command, linked(recording, tmp_path / "copy", CAMERA_FILE), tmp_path / "a.h5")
-    assert (code, CAMERA_FILE in said) == (0, True)
+    """Before anything is tracked, which here has no clicks."""
+    none = tmp_path / "none.json"
+    copy = linked(recording, tmp_path / "copy", CAMERA_FILE)
+    assert CAMERA_FILE in tracked(command, copy, tmp_path / "a.h5", clicks=none)[1]
     source, path = TumFolder(recording), tmp_path / "r.oni"
-    write_oni(path, in_millimetres(source.frames()), source.info.camera, fps=30, color="jpeg")
+    write_oni(path, in_millimetres(islice(source.frames(), 3)), source.info.camera, fps=30, color="jpeg")
     for sidecar in tmp_path.glob("*.yaml"):
         sidecar.unlink()
-    assert "depth lies on colour" in tracked(command, path, tmp_path / "s.h5", clicks=recording / CLICKS_FILE)[1]
+    assert "depth lies on colour" in tracked(command, path, tmp_path / "s.h5", clicks=none)[1]
 
 
 def test_clicks_from_something_endless(recording: Path, tmp_path: Path, command: Command) -> None:
@@ -124,7 +127,7 @@ def test_clicks_from_something_endless(recording: Path, tmp_path: Path, command:
 
 def test_closed_streams_are_no_trouble(recording: Path, tmp_path: Path) -> None:
     output = tmp_path / "s.h5"
-    words = (*COMMAND, "track", str(recording), "--calibration", str(recording / CLICKS_FILE), "--output", str(output))
+    words = (*COMMAND, "track", recording, "--calibration", recording / CLICKS_FILE, "--output", output, "--no-smooth")
     ended = subprocess.run(words, cwd=ROOT, preexec_fn=lambda: [os.close(one) for one in (0, 1, 2)], check=False)
     assert ended.returncode == 0
     assert len(read_session(output)) > 10
@@ -182,7 +185,7 @@ def test_what_could_not_be_said_on_a_full_disk_comes_once_there_is_room(
     assert (tmp_path / "said").read_text() == "carpus: no room for this\ncarpus: here is room\n"
 
 
-@pytest.mark.parametrize(("asked", "unbuffered"), [("info SESSION", ""), ("info SESSION", "1"), ("track --help", "")])
+@pytest.mark.parametrize(("asked", "unbuffered"), [("info SESSION", "1"), ("track --help", "")])
 def test_a_reader_that_goes_away_is_no_trouble(asked: str, unbuffered: str, session: Path) -> None:
     """As `carpus info FILE | head -1`, with a head that has gone before the first line comes."""
     reading, writing = os.pipe()
@@ -222,7 +225,7 @@ def test_stopped_while_modules_load_it_ends_without_a_traceback() -> None:
     assert signalled([sys.executable, "-c", after], lambda: True) == (0, "")
 
 
-@pytest.mark.parametrize(("asked", "lines"), [("bogus", 1), ("plain", 0), ("", 0)])
+@pytest.mark.parametrize(("asked", "lines"), [("bogus", 1), ("plain", 0)])
 def test_kernels_that_there_are_not_are_told(asked: str, lines: int, session: Path) -> None:
     environment = os.environ | {"CARPUS_KERNELS": asked}
     done = subprocess.run([*COMMAND, "info", session], cwd=ROOT, env=environment, capture_output=True, text=True)
@@ -266,8 +269,9 @@ def test_a_simulated_person_is_drawn_or_given(tmp_path: Path, command: Command) 
 
 def test_the_folder_of_a_rendered_oni_file_opens_it(recording: Path, tmp_path: Path) -> None:
     source = TumFolder(recording)
-    write_oni(tmp_path / "recording.oni", in_millimetres(source.frames()), source.info.camera, fps=30, color="jpeg")
-    assert open_recording(tmp_path).info.frame_count == source.info.frame_count
+    some = in_millimetres(islice(source.frames(), 3))
+    write_oni(tmp_path / "recording.oni", some, source.info.camera, fps=30, color="jpeg")
+    assert open_recording(tmp_path).info.frame_count == 3
     (tmp_path / COLOR_LIST).write_text("")
     with pytest.raises(RecordingEmpty):
         open_recording(tmp_path)

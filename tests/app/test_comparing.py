@@ -119,49 +119,28 @@ def test_from_the_review_to_saved_tables(
     assert [entry.facts["files"] for entry in exported] == [5]
 
 
-def test_from_the_list_of_sessions_with_another_one(qtbot: QtBot, desktop: Desktop) -> None:
-    journey = desktop.journey
+def test_with_another_session_with_what_is_none_and_given_up(
+    qtbot: QtBot, desktop: Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, optical: Path
+) -> None:
+    journey, comparing, screen = desktop.journey, desktop.journey.agreement, desktop.journey.agreement.screen
+    sheet, asked = comparing.reference, list[bool]()
     journey.sessions.show(journey.now.patient.patient_id)
     journey.sessions.screen.reference_button.click()
     assert journey.place == "agreement"
-    sheet = journey.agreement.reference
     assert [sheet.box.itemText(row) for row in range(sheet.box.count())] == [
         "19 Nov 2026, 09:00 · Wrist flexion–extension"
     ]
     sheet.session_button.click()
-    qtbot.waitUntil(lambda: journey.agreement.screen.compared is not None)
-    flexion = journey.agreement.screen.compared.pairs[0].figures_deg
-    assert flexion.largest == pytest.approx(3.0, abs=0.1)
-    assert not journey.agreement.screen.columns_button.isVisible(), "a session has no columns to be told"
+    qtbot.waitUntil(lambda: screen.compared is not None)
+    assert screen.compared.pairs[0].figures_deg.largest == pytest.approx(3.0, abs=0.1)
+    assert not screen.columns_button.isVisible(), "a session has no columns to be told"
     journey.way.back()
     assert journey.place == "review"
 
-
-def test_a_file_that_is_no_measurement_is_said_in_words(
-    qtbot: QtBot, desktop: Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    wrong = tmp_path / "notes.csv"
-    wrong.write_text("one line only\n", encoding="utf-8")
-    choosing(monkeypatch, wrong, tmp_path)
-    journey = desktop.journey
-    journey.agreement.show(journey.now.session_id)
-    journey.agreement.reference.file_button.click()
-    qtbot.waitUntil(lambda: journey.messages.busy)
-    assert journey.agreement.screen.compared is None
-    assert journey.agreement.screen.other_button.isEnabled()
-
-
-def test_a_comparison_is_given_up_when_the_screen_is_left(
-    qtbot: QtBot, desktop: Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, optical: Path
-) -> None:
-    journey = desktop.journey
-    comparing = journey.agreement
-    held = tmp_path / "movement.csv"
+    held, real = tmp_path / "movement.csv", WorkWatch.at
     held.write_text(optical.read_text(encoding="utf-8").replace("Zeit,FlexExt", "time,flexion"), encoding="utf-8")
     choosing(monkeypatch, held, tmp_path)
     comparing.show(journey.now.session_id)
-    asked: list[bool] = []
-    real = WorkWatch.at
 
     def at(watch: WorkWatch, share: float) -> None:
         if share == 0.0 and not asked:
@@ -169,12 +148,20 @@ def test_a_comparison_is_given_up_when_the_screen_is_left(
             comparing.leave()  # as the way back does
         real(watch, share)
 
-    monkeypatch.setattr(WorkWatch, "at", at)
-    comparing.reference.file_button.click()
-    qtbot.waitUntil(lambda: bool(asked))
-    qtbot.waitUntil(journey.agreement.screen.other_button.isEnabled)
-    assert journey.agreement.screen.compared is None
+    with monkeypatch.context() as patched:
+        patched.setattr(WorkWatch, "at", at)
+        sheet.file_button.click()
+        qtbot.waitUntil(lambda: bool(asked))
+        qtbot.waitUntil(screen.other_button.isEnabled)
+    assert screen.compared is None
     assert not journey.messages.busy, "who stops it needs no message"
+
+    held.write_text("one line only\n", encoding="utf-8")
+    comparing.show(journey.now.session_id)
+    sheet.file_button.click()
+    qtbot.waitUntil(lambda: journey.messages.busy)
+    assert screen.compared is None
+    assert screen.other_button.isEnabled()
 
 
 def test_progress_rises_and_a_stop_writes_nothing(recorded: Path, optical: Path) -> None:

@@ -51,9 +51,15 @@ def test_another_language_at_the_same_place_and_none_while_something_is_at_work(
     assert desktop.closed
 
 
-def test_a_window_that_cannot_be_built_leaves_no_picture_of_the_old_one(
-    qtbot: QtBot, desktop: Desktop, monkeypatch: pytest.MonkeyPatch
+def test_a_camera_that_waits_behind_the_review_keeps_no_language_and_a_window_that_cannot_be_built_no_picture(
+    desktop: Desktop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    with monkeypatch.context() as waiting:
+        waiting.setattr(desktop.journey.now, "source", object())
+        for place, refused in (("review", False), ("sessions", False), ("markers", True), ("live", True)):
+            waiting.setattr(type(desktop.journey.way), "behind", place)
+            assert bool(desktop.why_no_other_language()) is refused, place
+
     def fails(*_: object, **__: object) -> Desktop:
         raise RuntimeError
 
@@ -65,13 +71,3 @@ def test_a_window_that_cannot_be_built_leaves_no_picture_of_the_old_one(
     assert ended == [1]
     shown = [widget for widget in desktop.application.topLevelWidgets() if isinstance(widget, QSplashScreen)]
     assert not any(widget.isVisible() for widget in shown)
-
-
-def test_a_camera_that_waits_behind_the_review_keeps_no_language(
-    desktop: Desktop, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with monkeypatch.context() as waiting:
-        waiting.setattr(desktop.journey.now, "source", object())
-        for place, refused in (("review", False), ("sessions", False), ("markers", True), ("live", True)):
-            waiting.setattr(type(desktop.journey.way), "behind", place)
-            assert bool(desktop.why_no_other_language()) is refused, place

@@ -32,8 +32,9 @@ from carpus.core.session.reader import read_session
 from carpus.core.session.values import Session, new_header
 from carpus.core.session.writer import SessionWriter
 from carpus.core.tracking.settings import TrackerSettings
+from carpus.core.tracking.smoother_record import KeptSteps
 from carpus.core.tracking.tracker import Tracker
-from carpus.core.types import SPOT_SAID, Detections, Frame, Region, SpotAnswer
+from carpus.core.types import SPOT_SAID, Detections, Frame, Region, SpotAnswer, TrackedFrame
 from tests.pipeline.live_fakes import HeldSource, wait_until
 from tests.session.samples import make_header
 from tests.tracking.hands import CAMERA, DT_S, MCP3, Pose, blobs, calibration
@@ -85,19 +86,25 @@ def begin_looking_back(piece_s: float = PIECE_S) -> LookingBack:
     return LookingBack(TrackedHand(calibration(), CAMERA, TrackerSettings()), piece_s=piece_s)
 
 
-def recorded(path: Path, piece_s: float, at_row: Callable[[LookingBack, int], None] = lambda *_: None) -> LivePipeline:
+@cache
+def walked() -> list[tuple[TrackedFrame, KeptSteps]]:
+    """Every frame as tracked, and its steps."""
+    pipeline, kept = live_pipeline(), list[KeptSteps]()
+    pipeline.keep = kept.append
+    return list(zip([pipeline(frame) for frame in frames()], kept, strict=True))
+
+
+def recorded(path: Path, piece_s: float, at_row: Callable[[LookingBack, int], None] = lambda *_: None) -> None:
     """Records rows 30 to 559, pausing from 200 to 259; ``at_row`` is called before every frame."""
-    pipeline, looker = live_pipeline(), begin_looking_back(piece_s)
+    looker = begin_looking_back(piece_s)
     session = open_session(path, looker)
-    for frame in frames():
-        at_row(looker, frame.index)
-        if frame.index == 30:
-            pipeline.keep = looker.take
-        tracked = pipeline(frame)
-        if 30 <= frame.index < 560 and not 200 <= frame.index < 260:
+    for row, (tracked, kept) in enumerate(walked()):
+        at_row(looker, row)
+        if row >= 30:
+            looker.take(kept)
+        if 30 <= row < 560 and not 200 <= row < 260:
             session.append(tracked)
     session.close()
-    return pipeline
 
 
 @pytest.fixture(scope="module")
@@ -109,7 +116,11 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> Session:
 
 
 def test_smoothed_in_pieces_is_as_good_as_smoothed_whole(whole: Session, tmp_path: Path) -> None:
-    recorded(tmp_path / "pieces.h5", PIECE_S)
+    def come(looker: LookingBack, row: int) -> None:
+        if row == 500:  # stored while rows still come
+            wait_until(lambda: looker.has_more)
+
+    recorded(tmp_path / "pieces.h5", PIECE_S, come)
     pieces = read_session(tmp_path / "pieces.h5")
     assert len(pieces.smoothed.angles_rad) == len(pieces.timestamp_s) == 470
     sd_rad = whole.smoothed.angles_sd_rad

@@ -28,6 +28,7 @@ from carpus.core.types import Side
 from carpus.ui.opening import NobodyWaitsError, Progress
 from tests.accuracy.carpus import measured_hand
 from tests.capture.test_practice import Take
+from tests.pipeline.live_fakes import wait_until
 from tests.simulation.measurements import measurement_sequence
 from tests.ui.fakes import set_up
 
@@ -63,24 +64,15 @@ class Drawn:
         return Take(), 0.55
 
 
-def until(condition: Any) -> None:
-    waiting = threading.Event()
-    for _ in range(12000):
-        if condition():
-            return
-        waiting.wait(0.005)
-    raise AssertionError("waited in vain")
-
-
 def test_a_movement_is_played_as_soon_as_it_is_drawn_and_the_next_one_after_it() -> None:
     drawn = Drawn()
     assert not drawn.patient.can_move
     drawn.go_on.release()
-    until(lambda: drawn.patient.can_move)
+    wait_until(lambda: drawn.patient.can_move)
     drawn.takes.choose("WRIST_RU")
     assert not drawn.patient.can_move, "the second is not drawn yet"
     drawn.go_on.release()
-    until(lambda: drawn.patient.can_move)
+    wait_until(lambda: drawn.patient.can_move)
     assert drawn.asked == ["WRIST_FE", "WRIST_RU"]
 
 
@@ -89,14 +81,14 @@ def test_a_drawing_ends_when_nobody_looks_any_more() -> None:
     drawn.patient.close()
     drawn.go_on.release()
     assert drawn.ended.wait(60.0)
-    until(lambda: "practice takes" not in [one.name for one in threading.enumerate()])
+    wait_until(lambda: "practice takes" not in [one.name for one in threading.enumerate()])
     assert drawn.asked == ["WRIST_FE"]
 
 
 def test_what_goes_wrong_with_a_drawing_is_told() -> None:
     drawn = Drawn(DiskFull("cache"))
     drawn.go_on.release()
-    until(lambda: drawn.told)
+    wait_until(lambda: drawn.told)
     assert isinstance(drawn.told[0], DiskFull)
 
 

@@ -14,11 +14,11 @@ import numpy as np
 import pytest
 
 import carpus
-from carpus.app.python_face import ProposedClicks
+from carpus.app.python_face import HandFrame, ProposedClicks
 from carpus.core.errors import CalibrationImpossible, SettingsInvalid
 from carpus.core.hand.protocols import protocol_named
 from carpus.core.session.reader import read_session
-from tests.rendered import REPEATED_FLEXION, Rendered
+from tests.rendered import FLEXION, REPEATED_FLEXION, Rendered
 
 ROOT = Path(__file__).parents[2]
 
@@ -28,8 +28,12 @@ def folder(rendered: Rendered) -> Path:
     return rendered(REPEATED_FLEXION)
 
 
-def test_frames_come_as_values_and_agree_with_the_truth(folder: Path) -> None:
-    frames = list(carpus.track(folder, folder / "calibration.json"))
+@pytest.fixture(scope="module")
+def frames(folder: Path) -> list[HandFrame]:
+    return list(carpus.track(folder, folder / "calibration.json"))
+
+
+def test_frames_come_as_values_and_agree_with_the_truth(folder: Path, frames: list[HandFrame]) -> None:
     truth = read_session(folder / "truth.h5")
     assert [frame.time_s for frame in frames] == truth.timestamp_s.tolist()
     assert {frame.status for frame in frames} == {"tracked"}
@@ -146,7 +150,8 @@ def test_the_package_lists_its_functions() -> None:
     assert loaded == "False", "listing them loads nothing"
 
 
-def test_the_papers_filter_in_python_is_that_of_the_command(folder: Path, tmp_path: Path) -> None:
+def test_the_papers_filter_in_python_is_that_of_the_command(rendered: Rendered, tmp_path: Path) -> None:
+    folder = rendered(FLEXION)
     frames = list(carpus.track(folder, folder / "calibration.json", filter="paper"))
     session = carpus.write_session(folder, folder / "calibration.json", tmp_path / "paper.h5", filter="paper")
     assert [frame.wrist.flexion_deg for frame in frames] == np.degrees(session.motion.angles_rad[:, 1]).tolist()
@@ -156,11 +161,12 @@ def test_the_papers_filter_in_python_is_that_of_the_command(folder: Path, tmp_pa
     assert np.isnan(frames[-1].wrist.angular_velocity_deg_s).all(), "white noise in the papers' model"
 
 
-def test_a_session_is_written_with_velocities_and_repetitions(folder: Path, tmp_path: Path) -> None:
+def test_a_session_is_written_with_velocities_and_repetitions(
+    folder: Path, frames: list[HandFrame], tmp_path: Path
+) -> None:
     clicks = folder / "calibration.json"
     session = carpus.write_session(folder, clicks, tmp_path / "s.h5", exercise="WRIST_FE", subject_id="P-1")
     assert session.smoothed is not None
-    frames = list(carpus.track(folder, clicks))
     assert np.array([frame.wrist.velocity_m_s for frame in frames]) == pytest.approx(session.motion.velocity_m_s)
     turning = np.array([frame.wrist.angular_velocity_deg_s for frame in frames])
     assert np.radians(turning) == pytest.approx(session.motion.angular_velocity_rad_s)

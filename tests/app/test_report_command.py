@@ -89,14 +89,16 @@ def test_sessions_make_a_report_of_a_session_or_of_progress(
     assert "Session report" in words(tmp_path / "twice.pdf")
 
 
-def test_the_comment_is_on_it_and_paper_and_language_are_chosen(sessions: list[Path], tmp_path: Path) -> None:
+def test_the_comment_is_on_it_and_paper_and_language_are_chosen(
+    sessions: list[Path], tmp_path: Path, command: Command
+) -> None:
     path, out = tmp_path / "data" / "sessions" / "day.h5", tmp_path / "de.pdf"
     with opened(tmp_path / "data") as house:
         shutil.copy(sessions[0], path)
         house.files.take_in()
         add_comment(house.store, read_outline(path).header.session_id, "Splint at night.", "")
-    done = carpus("report", path, "--output", out, "--paper", "letter", "--language", "de")
-    assert (done.returncode, done.stderr) == (0, "")
+    done = command("report", path, "--output", out, "--paper", "letter", "--language", "de")
+    assert (done.code, done.err) == (0, "")
     page = words(out)
     assert "Splint at night." in page
     assert "Sitzungsbericht" in page

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import gc
+import shutil
 import sys
 import threading
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import replace
 from datetime import date, datetime, timedelta
 from functools import partial
@@ -31,18 +33,20 @@ from tests.records.samples import traces
 Open = Callable[..., Desktop]
 
 
-@pytest.fixture
-def data(tmp_path: Path) -> Path:
+@pytest.fixture(scope="module")
+def prepared(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Two patients, the first with two sessions."""
-    library = Library(tmp_path / "data")
-    try:
+    with closing(Library(tmp_path_factory.mktemp("prepared") / "data")) as library:
         linden = library.patients.add(PatientEntry("Linden 42", "right", name="Erika Mustermann"))
         library.patients.add(PatientEntry("Heron 17", "left"))
         for _ in range(2):
             store(library, set_up(linden, "Linden 42"))
-    finally:
-        library.close()
     return library.folder
+
+
+@pytest.fixture
+def data(prepared: Path, tmp_path: Path) -> Path:
+    return Path(shutil.copytree(prepared, tmp_path / "data"))
 
 
 @pytest.fixture
@@ -50,8 +54,16 @@ def opened(open_desktop: Open, data: Path) -> Open:
     return partial(open_desktop, today=date(2026, 11, 20))
 
 
+def patient(desktop: Desktop, pseudonym: str) -> str:
+    return next(one.patient_id for one in desktop.library.patients.listed() if one.entry.pseudonym == pseudonym)
+
+
 def linden(desktop: Desktop) -> str:
-    return next(one.patient_id for one in desktop.library.patients.listed() if one.entry.pseudonym == "Linden 42")
+    return patient(desktop, "Linden 42")
+
+
+def names(desktop: Desktop) -> list[str]:
+    return [one.entry.pseudonym for one in desktop.library.patients.listed()]
 
 
 def visible_words(window: QWidget) -> set[str]:
@@ -65,18 +77,36 @@ def visible_words(window: QWidget) -> set[str]:
     return words
 
 
-def test_a_session_is_archived_or_erased_from_the_list(qtbot: QtBot, opened: Open) -> None:
+def test_a_session_is_looked_at_given_away_archived_and_erased_from_the_list(qtbot: QtBot, opened: Open) -> None:
     desktop = opened()
-    journey = desktop.journey
+    journey, sheet = desktop.journey, desktop.safe.erasing.sheet
+    rows = journey.sessions.screen.list.rows
     journey.sessions.show(linden(desktop))
-    sheet = desktop.safe.erasing.sheet
-    for answer in (sheet.instead, sheet.for_good):
-        before = len(journey.sessions.screen.list.rows.lines)
+    chosen = journey.sessions.screen.chosen()
+    journey.sessions.screen.open_chosen()
+    qtbot.waitUntil(lambda: journey.review.screen.shown)
+    last = read_log(desktop.library.store)[-1]
+    assert (last.did, last.kind, last.subject) == ("opened", "session", fingerprint(chosen.session_id))
+
+    heron = patient(desktop, "Heron 17")
+    journey.sessions.show(linden(desktop))
+    journey.sessions.screen.move_sheet.chosen.emit(heron)
+    said = "The session is now one of Heron 17."
+    qtbot.waitUntil(lambda: said in visible_words(desktop.shell))
+    assert len(desktop.library.sessions(heron)) == 1
+    journey.way.go("patients")
+    assert said not in visible_words(desktop.shell)
+
+    for who, pseudonym, answer in (
+        (linden(desktop), "Linden 42", sheet.instead), (heron, "Heron 17", sheet.for_good),
+    ):  # fmt: skip
+        journey.sessions.show(who)
+        assert len(rows.lines) == 1
         journey.sessions.screen.erase_button.click()
         qtbot.waitUntil(sheet.isVisible)
-        sheet.line.setText("Linden 42")
+        sheet.line.setText(pseudonym)
         qtbot.mouseClick(answer, Qt.MouseButton.LeftButton)
-        qtbot.waitUntil(lambda before=before: len(journey.sessions.screen.list.rows.lines) == before - 1)  # type: ignore[misc]
+        qtbot.waitUntil(lambda: len(rows.lines) == 0)
     assert len(desktop.library.index.archived()) == 1
     assert [entry.did for entry in read_log(desktop.library.store)][-3:] == [
         "archived", "erase_begun", "erased",
@@ -99,12 +129,9 @@ def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: 
         assert ("in the archive" in strip.words.happened, strip.button.text()) == (True, "&Undo")
         return strip
 
-    def names() -> list[str]:
-        return [one.entry.pseudonym for one in desktop.library.patients.listed()]
-
     def archive_patient() -> NoticeStrip:
         journey.patients.screen.change_patient(who)
-        return archive(journey.patients.screen.form.remove, lambda: names() == ["Heron 17"])
+        return archive(journey.patients.screen.form.remove, lambda: names(desktop) == ["Heron 17"])
 
     archive_patient().button.click()
     qtbot.waitUntil(lambda: journey.patients.screen.list.rows.find(who) >= 0)
@@ -138,29 +165,6 @@ def test_who_was_archived_comes_back_from_where_they_were(qtbot: QtBot, opened: 
     qtbot.waitUntil(lambda: len(lines.lines) == 2)
 
 
-def test_it_is_said_to_whom_a_session_was_given(qtbot: QtBot, opened: Open) -> None:
-    desktop = opened()
-    journey = desktop.journey
-    journey.sessions.show(linden(desktop))
-    (heron,) = (one.patient_id for one in desktop.library.patients.listed("heron"))
-    journey.sessions.screen.move_sheet.chosen.emit(heron)
-    said = "The session is now one of Heron 17."
-    qtbot.waitUntil(lambda: said in visible_words(desktop.shell), timeout=60_000)
-    assert len(desktop.library.sessions(heron)) == 1
-    journey.way.go("patients")
-    assert said not in visible_words(desktop.shell)
-
-
-def test_what_is_looked_at_is_logged(qtbot: QtBot, opened: Open) -> None:
-    desktop = opened()
-    desktop.journey.sessions.show(linden(desktop))
-    chosen = desktop.journey.sessions.screen.chosen()
-    desktop.journey.sessions.screen.open_chosen()
-    qtbot.waitUntil(lambda: desktop.journey.review.screen.shown)
-    last = read_log(desktop.library.store)[-1]
-    assert (last.did, last.kind, last.subject) == ("opened", "session", fingerprint(chosen.session_id))
-
-
 def test_a_patient_is_erased_from_the_form(qtbot: QtBot, opened: Open, data: Path) -> None:
     desktop = opened()
     patients, sheet = desktop.journey.patients.screen, desktop.safe.erasing.sheet
@@ -171,7 +175,7 @@ def test_a_patient_is_erased_from_the_form(qtbot: QtBot, opened: Open, data: Pat
     assert "2 sessions" in sheet.goes.text()
     qtbot.keyClicks(sheet.line, "Linden 42")
     sheet.for_good.click()
-    qtbot.waitUntil(lambda: [one.entry.pseudonym for one in desktop.library.patients.listed()] == ["Heron 17"])
+    qtbot.waitUntil(lambda: names(desktop) == ["Heron 17"])
     qtbot.waitUntil(lambda: desktop.journey.place == "patients" and not desktop.journey.background.busy)
     assert traces(data, "Linden", "Mustermann") == []
     qtbot.waitUntil(lambda: "The patient is erased." in visible_words(desktop.shell), timeout=60_000)
@@ -185,7 +189,7 @@ def test_who_goes_on_with_another_patient_while_one_is_erased_stays_there(
     desktop = opened()
     journey, records = desktop.journey, desktop.safe.erasing._records
     goes_on, erase = threading.Event(), records.erase
-    (heron,) = (one.patient_id for one in desktop.library.patients.listed() if one.entry.pseudonym == "Heron 17")
+    heron = patient(desktop, "Heron 17")
 
     def slow(plan: ErasurePlan) -> int:
         goes_on.wait(60.0)
@@ -200,7 +204,7 @@ def test_who_goes_on_with_another_patient_while_one_is_erased_stays_there(
     sheet.for_good.click()
     journey.sessions.show(heron)
     goes_on.set()
-    qtbot.waitUntil(lambda: [one.entry.pseudonym for one in desktop.library.patients.listed()] == ["Heron 17"])
+    qtbot.waitUntil(lambda: names(desktop) == ["Heron 17"])
     qtbot.waitUntil(lambda: not journey.background.busy)
     assert journey.place == "sessions"
     assert journey.now.patient is not None
@@ -312,11 +316,8 @@ def test_back_up_now_reminder_and_restore(
     old = backing.restored.put_in_place(datetime(2026, 11, 20, 18, 0))
     assert old is not None, "what was there is kept"
     assert old.is_dir()
-    restored = Library(data)
-    try:
+    with closing(Library(data)) as restored:
         assert {one.entry.pseudonym for one in restored.patients.listed()} == {"Linden 42", "Heron 17"}
-    finally:
-        restored.close()
 
 
 def test_back_up_now_without_a_folder_asks_for_one_and_backs_up(

@@ -74,9 +74,65 @@ class ShownWindows(QObject):
         return False
 
 
-def test_every_screen_has_a_page_and_every_place_that_is_named_is_there(open_desktop: Callable[..., Desktop]) -> None:
-    desktop, windows = open_desktop(), ShownWindows()
-    way = desktop.journey.way
+def test_esc_closes_the_patients_view_and_a_slow_source_is_said_of_the_simulated_one_too(
+    open_desktop: Callable[..., Desktop],
+) -> None:
+    desktop = open_desktop()
+    journey = desktop.journey
+    journey.way.show("help")
+    journey.live.patient_view.toggle()
+    journey._take_key("back")
+    assert not journey.live.patient_view.is_open
+    assert journey.place == "help", "over the window, and goes nowhere"
+    journey._take_key("back")
+    assert journey.place == "patients"
+    for kind, slow_hz in (("practice", 11.0), ("camera", 24.0)):
+        journey.now.choice = SourceChoice(kind)  # type: ignore[arg-type]
+        for fps, state in ((slow_hz + 2.0, "good"), (slow_hz, "warn")):
+            journey.bar.show_counters(replace(FakeFeed().counters(), fps=fps))
+            assert desktop.shell.bar.camera.state == state
+
+
+def test_a_start_makes_no_screen_but_the_first_and_loads_the_others_in_the_windows_thread(
+    open_desktop: Callable[..., Desktop], qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Two threads that name classes of Qt for the first time at once end the process."""
+    left = tmp_path / "data" / UNFINISHED
+    left.parent.mkdir()
+    left.write_bytes(b"a hand")
+    loaded: dict[str, threading.Thread] = {}
+
+    def noted(modules: Sequence[str]) -> Iterator[str]:
+        for module in load(modules):
+            loaded[module] = threading.current_thread()
+            yield module
+
+    monkeypatch.setattr(compose, "load", noted)
+    desktop = open_desktop()
+    assert set(desktop.journey.way.flows) == {"patients"}
+    assert not left.exists(), "a film that a killed program left goes"
+    desktop._load()
+    qtbot.waitUntil(lambda: {*CORE, *SCREENS} <= set(loaded))
+    assert {loaded[module] for module in SCREENS} == {threading.main_thread()}
+    assert threading.main_thread() not in {loaded[module] for module in CORE}
+    desktop.close()
+    assert set(desktop.journey.way.flows) == {"patients"}
+    code = f"import sys, importlib; [importlib.import_module(one) for one in {CORE!r}]; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not [one for one in done.stdout.split() if one.startswith(("PySide6", "carpus.ui"))]
+
+
+CHOSEN = {"theme": "dark", "text_scale": 1.25, "research": True, "start": "still", "patient_sound": True}
+SOME = ("settings", "sessions", "live")
+
+
+def choose(desktop: Desktop, **chosen: Any) -> None:
+    desktop.keeper.take(replace(desktop.keeper.screen.preferences, **chosen))
+
+
+def all_made(desktop: Desktop) -> None:
+    """Every screen has a page of the guide and a picture, and every place that is named is there."""
+    windows, way = ShownWindows(), desktop.journey.way
     assert {*STEPS, *TABS, *ASIDE, "patients"} <= set(way.makers)
     desktop.application.installEventFilter(windows)
     flows = [way.flow(place) for place in way.makers]
@@ -85,86 +141,24 @@ def test_every_screen_has_a_page_and_every_place_that_is_named_is_there(open_des
     assert {flow.place: flow for flow in flows} == way.flows
     assert {flow.guide for flow in flows} <= set(guide.PAGES)
     assert {flow.tab for flow in flows} <= {*TABS, ""}
-    sources = [path for part in ("app", "ui") for path in (ROOT / part).rglob("*.py")]
-    named = {one for path in sources for found in NAMED.findall(path.read_text("utf-8")) for one in found if one}
+    sources = [path.read_text("utf-8") for part in ("app", "ui") for path in (ROOT / part).rglob("*.py")]
+    named = {one for text in sources for found in NAMED.findall(text) for one in found if one}
     assert "review" in named
     assert named <= set(way.makers)
-    led = {one for path in sources for one in LED.findall(path.read_text("utf-8"))} | {*STEPS, *TABS}
+    led = {one for text in sources for one in LED.findall(text)} | {*STEPS, *TABS}
     assert set(way.makers) - led == set(), "screens that nobody leads to"
     shown = {place for place in way.makers for state in STATES if f"{state}_".startswith(f"{place}_")}
     assert set(way.makers) - shown == set(), "screens without a picture"
 
 
-def test_esc_closes_the_patients_view_over_the_window_and_goes_nowhere(open_desktop: Callable[..., Desktop]) -> None:
-    journey = open_desktop().journey
-    journey.way.show("help")
-    journey.live.patient_view.toggle()
-    journey._take_key("back")
-    assert not journey.live.patient_view.is_open
-    assert journey.place == "help"
-    journey._take_key("back")
-    assert journey.place == "patients"
-
-
-@pytest.mark.parametrize(("kind", "slow_hz"), [("practice", 11.0), ("camera", 24.0)])
-def test_a_source_that_falls_behind_is_said_of_the_simulated_one_too(
-    open_desktop: Callable[..., Desktop], kind: str, slow_hz: float
-) -> None:
-    desktop = open_desktop()
-    desktop.journey.now.choice = SourceChoice(kind)  # type: ignore[arg-type]
-    for fps, state in ((slow_hz + 2.0, "good"), (slow_hz, "warn")):
-        desktop.journey.bar.show_counters(replace(FakeFeed().counters(), fps=fps))
-        assert desktop.shell.bar.camera.state == state
-
-
-def test_a_start_makes_no_screen_but_the_first_and_a_film_that_a_killed_program_left_goes(
-    open_desktop: Callable[..., Desktop], tmp_path: Path
-) -> None:
-    left = tmp_path / "data" / UNFINISHED
-    left.parent.mkdir()
-    left.write_bytes(b"a hand")
-    desktop = open_desktop()
-    assert set(desktop.journey.way.flows) == {"patients"}
-    assert not left.exists()
-    desktop.close()
-    assert set(desktop.journey.way.flows) == {"patients"}
-
-
-def test_what_screens_are_made_of_is_loaded_in_the_windows_thread(
-    open_desktop: Callable[..., Desktop], qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Two threads that name classes of Qt for the first time at once end the process."""
-    seen: dict[str, threading.Thread] = {}
-
-    def noted(modules: Sequence[str]) -> Iterator[str]:
-        for module in load(modules):
-            seen[module] = threading.current_thread()
-            yield module
-
-    monkeypatch.setattr(compose, "load", noted)
-    open_desktop()._load()
-    qtbot.waitUntil(lambda: {*CORE, *SCREENS} <= set(seen), timeout=60_000)
-    assert {seen[module] for module in SCREENS} == {threading.main_thread()}
-    assert threading.main_thread() not in {seen[module] for module in CORE}
-    code = f"import sys, importlib; [importlib.import_module(one) for one in {CORE!r}]; print(*sys.modules)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert not [one for one in done.stdout.split() if one.startswith(("PySide6", "carpus.ui"))]
-
-
-CHOSEN = {"theme": "dark", "text_scale": 1.25, "research": True, "start": "still", "patient_sound": True}
-
-
-def choose(desktop: Desktop, **chosen: Any) -> None:
-    desktop.keeper.take(replace(desktop.keeper.screen.preferences, **chosen))
-
-
 def test_what_is_chosen_reaches_the_screens_that_are_made_later(open_desktop: Callable[..., Desktop]) -> None:
     early, late = open_desktop(), open_desktop()
-    before = seen(early)
+    all_made(early)
+    before = seen(early, *SOME)
     for desktop in (early, late):
         choose(desktop, **CHOSEN)
     after = seen(early)
-    assert not any(same(after[place], before[place]) for place in after)
+    assert not any(same(after[place], looks) for place, looks in before.items())
     assert "live" not in late.journey.way.flows
     made_later = seen(late)
     assert [place for place in after if not same(after[place], made_later[place])] == []
@@ -178,7 +172,7 @@ def test_a_language_that_is_chosen_reaches_the_screens_that_are_made_later(
 ) -> None:
     try:
         late = open_desktop()
-        english, old = seen(late, "settings", "sessions", "live"), late.journey
+        english, old = seen(late, *SOME), late.journey
         choose(late, language="de")
         qtbot.waitUntil(lambda: late.journey is not old, timeout=60_000)
         german = seen(late)

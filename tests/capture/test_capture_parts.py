@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from carpus.core.camera import Camera
+from carpus.core.capture.camera_info import fitted_camera
 from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.devices.capture_process import Alive, Arrived, Opened, why_unlisted
 from carpus.core.capture.devices.openni2 import CallFailed, Picture
@@ -26,7 +27,6 @@ from carpus.core.capture.frame_assembly import (
     NearestPairing,
     Stamped,
     camera_of_view,
-    fitted_camera,
 )
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
 from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CarpusFault, DriverFailed

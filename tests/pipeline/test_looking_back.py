@@ -7,7 +7,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import fields
 from functools import lru_cache
@@ -32,6 +32,7 @@ from tests.pipeline.live_fakes import wait_until
 from tests.simulation.measurements import MeasurementSequence, measurement_sequence
 
 PIECE_S, LAG_S = 1.5, 1.0
+FIELDS = fields(Motion)
 BEGIN = 40
 """Recording starts in the middle of a movement, so that what was believed before counts."""
 
@@ -85,9 +86,9 @@ def times_s() -> list[float]:
 
 
 def assert_same(found: Motion, expected: Motion) -> None:
-    for field in fields(Motion):
+    for one in FIELDS:
         np.testing.assert_allclose(
-            getattr(found, field.name), getattr(expected, field.name), rtol=0, atol=1e-9, err_msg=field.name
+            getattr(found, one.name), getattr(expected, one.name), rtol=0, atol=1e-9, err_msg=one.name
         )
 
 
@@ -102,25 +103,51 @@ def begun() -> Iterator[LookingBack]:
         running.cancel()
 
 
-def test_the_process_gives_what_looking_back_here_gives() -> None:
+@lru_cache(maxsize=1)
+def looked_back_here() -> tuple[int, Motion]:
+    """How many pieces there are, and their motion, without a process."""
     here = PieceByPiece(tracked_hand(), PIECE_S, LAG_S)
     pieces = [piece for kept in steps() for piece in here.take(kept)]
     pieces += here.rest()
-    assert len(pieces) >= 3
+    return len(pieces), joined([piece.motion for piece in pieces])
+
+
+def joined(motions: Sequence[Motion]) -> Motion:
+    return Motion(**{one.name: np.concatenate([getattr(motion, one.name) for motion in motions]) for one in FIELDS})
+
+
+def at_rows(motion: Motion, rows: slice) -> Motion:
+    return Motion(**{one.name: getattr(motion, one.name)[rows] for one in FIELDS})
+
+
+def test_the_process_gives_what_looking_back_here_gives() -> None:
+    """Behind the tracking, until it is waited for."""
+    own = os.getpriority(os.PRIO_PROCESS, 0)
+    count, expected = looked_back_here()
+    assert count >= 3
     with begun() as running:
+        pid = running.pid
+        assert pid is not None
+
+        def niceness() -> list[int]:
+            return [os.getpriority(os.PRIO_PROCESS, int(task.name)) for task in Path(f"/proc/{pid}/task").iterdir()]
+
+        if sys.platform.startswith("linux"):  # only here a thread has a niceness of its own
+            wait_until(lambda: max(niceness()) == min(own + NICER, 19))
+            assert os.getpriority(os.PRIO_PROCESS, pid) == own, "the thread that does what is left at the end"
         for kept in steps():
             running.take(kept)
+        with pytest.raises(NotLookedBack, match="2 frames missing"):  # never handed over
+            running.finish([*times_s(), 1e6, 2e6])
         motion = running.finish(times_s())
-    expected = {
-        field.name: np.concatenate([getattr(piece.motion, field.name) for piece in pieces]) for field in fields(Motion)
-    }
-    assert_same(motion, Motion(**expected))
+    assert_same(motion, expected)
     assert np.isfinite(motion.joint_angles_rad).mean() > 0.9
 
 
 def test_what_is_given_as_it_comes_is_not_kept_and_the_end_gives_the_rest() -> None:
     """Every third frame is recorded, as if there had been pauses."""
-    recorded, out = times_s()[2::3], []
+    every_third = slice(2, None, 3)
+    recorded, out = times_s()[every_third], []
     with begun() as running:
         for number, kept in enumerate(steps()):
             running.take(kept)
@@ -133,13 +160,7 @@ def test_what_is_given_as_it_comes_is_not_kept_and_the_end_gives_the_rest() -> N
         given = len(out[0].position_m)
         assert 0 < given < 40
         out.append(running.finish(recorded[given:]))
-        whole = LookingBack(tracked_hand(), piece_s=PIECE_S, lag_s=LAG_S)
-        for kept in steps():
-            whole.take(kept)
-        expected = whole.finish(recorded)
-    assert_same(
-        Motion(**{f.name: np.concatenate([getattr(one, f.name) for one in out]) for f in fields(Motion)}), expected
-    )
+    assert_same(joined(out), at_rows(looked_back_here()[1], every_third))
 
 
 def test_steps_handed_over_one_by_one_are_looked_back_at_as_where_they_were_made() -> None:
@@ -218,28 +239,6 @@ def test_the_process_ends_with_its_owner(capfd: pytest.CaptureFixture[str]) -> N
     process.join(60.0)
     assert process.exitcode == 0
     assert capfd.readouterr().err == ""
-
-
-def test_a_frame_that_was_never_handed_over_is_told() -> None:
-    with begun() as running:
-        for kept in steps():
-            running.take(kept)
-        with pytest.raises(NotLookedBack, match="2 frames missing"):
-            running.finish([*times_s(), 1e6, 2e6])
-
-
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only here a thread has a niceness of its own")
-def test_the_process_steps_back_behind_the_tracking_until_it_is_waited_for() -> None:
-    own = os.getpriority(os.PRIO_PROCESS, 0)
-    with begun() as running:
-        assert running.pid is not None
-        pid = running.pid
-
-        def niceness() -> list[int]:
-            return [os.getpriority(os.PRIO_PROCESS, int(task.name)) for task in Path(f"/proc/{pid}/task").iterdir()]
-
-        wait_until(lambda: max(niceness()) == min(own + NICER, 19))
-        assert os.getpriority(os.PRIO_PROCESS, pid) == own, "the thread that does what is left at the end"
 
 
 def test_the_process_loads_no_window_and_no_numpy_before_its_threads_are_settled() -> None:

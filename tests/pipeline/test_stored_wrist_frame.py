@@ -21,11 +21,12 @@ from tests.rendered import LEFT_DEVIATION, REPEATED_FLEXION, Rendered
 # Discs that glide over the bones leave the axis of W2 by what they glided: only on stiff skin does the axis run through
 # them, which is what shows that it was stored in the axes that the file says.
 STIFF = TrackSettings(
+    smooth=False,
     tracker=TrackerSettings(
         tissue=SoftTissue(
             **{f"{place}_{way}_m": 1e-7 for place in ("knuckle", "wrist") for way in ("along", "across", "up")}
         )
-    )
+    ),
 )
 
 
@@ -38,7 +39,7 @@ HAND = RecordingSpec(seed=11, protocol="hand21", motion="flexion", seconds=2.2, 
         (LEFT_DEVIATION, (0.0, 0.0, 0.0), STIFF),
         (REPEATED_FLEXION, (4.0, -20.0, 8.0), STIFF),
         (HAND, (0.0, 0.0, 0.0), STIFF),
-        (REPEATED_FLEXION, (0.0, 0.0, 0.0), TrackSettings()),
+        (LEFT_DEVIATION, (0.0, 0.0, 0.0), TrackSettings(smooth=False)),
     ],
     ids=["left", "started bent", "hand", "soft"],
 )

@@ -50,6 +50,8 @@ class Made:
     truth: Truth
     session: Path
     report: TrackReport
+    told: list[tuple[int, int | None]]
+    """How far it was, and of how many."""
 
     @property
     def clicks(self) -> Clicks:
@@ -60,8 +62,10 @@ class Made:
 def made(rendered: Rendered, tmp_path_factory: pytest.TempPathFactory) -> Made:
     folder, session = rendered(LEFT_DEVIATION), tmp_path_factory.mktemp("track") / "session.h5"
     clicks = read_clicks(folder / CLICKS_FILE, 640, 480)
-    report = track(folder, clicks, session, exercise="radial and ulnar", subject_id="P-7")
-    return Made(folder, truth_in(LEFT_DEVIATION, folder), session, report)
+    told: list[tuple[int, int | None]] = []
+    said = {"exercise": "radial and ulnar", "subject_id": "P-7"}
+    report = track(folder, clicks, session, progress=lambda *at: told.append(at), **said)
+    return Made(folder, truth_in(LEFT_DEVIATION, folder), session, report, told)
 
 
 def track(folder: Path, clicks: Clicks, output: Path, settings: TrackSettings | None = None, **kwargs) -> TrackReport:  # type: ignore[no-untyped-def]
@@ -89,6 +93,7 @@ def test_recording_becomes_a_complete_session(made: Made) -> None:
     count = len(made.truth.timestamp_s)
     assert made.report.frames == made.report.tracked == count
     assert made.report.verdict.is_good
+    assert made.told == [(k, count) for k in range(1, count + 1)]
     with h5py.File(made.session) as file:
         assert file.attrs["complete"]
         assert file.attrs["hand"] == "left"
@@ -135,6 +140,8 @@ def test_tracking_again_from_detections_gives_the_same_angles(made: Made, tmp_pa
             assert new.attrs[name] == old.attrs[name]
         assert np.array_equal(new["markers/measured"], old["markers/measured"], equal_nan=True)
         assert np.array_equal(new["detections/pixel"], old["detections/pixel"])
+    retrack_session(tmp_path / "again.h5", tmp_path / "third.h5", TrackSettings(), software_version=VERSION)
+    assert np.array_equal(angles(tmp_path / "third.h5"), angles(made.session)), "and again from that"
 
 
 def test_pictures_unpacked_only_where_they_are_looked_at_give_the_same(made: Made, tmp_path: Path) -> None:
@@ -147,12 +154,6 @@ def test_pictures_unpacked_only_where_they_are_looked_at_give_the_same(made: Mad
     with h5py.File(made.session) as old, h5py.File(tmp_path / "new.h5") as new:
         for name in ("wrist/angles", "smoothed/wrist/angles", "detections/pixel", "detections/depth", "surface/depth"):
             np.testing.assert_array_equal(new[name], old[name])
-
-
-def test_and_again_from_that_still_the_same(made: Made, tmp_path: Path) -> None:
-    again(made, tmp_path / "second.h5")
-    retrack_session(tmp_path / "second.h5", tmp_path / "third.h5", TrackSettings(), software_version=VERSION)
-    assert np.array_equal(angles(tmp_path / "third.h5"), angles(made.session))
 
 
 def test_tracking_again_leaves_the_old_file_alone_and_heeds_new_settings(made: Made, tmp_path: Path) -> None:
@@ -211,40 +212,6 @@ def test_stopping_it_or_a_full_disk_leaves_nothing_behind(why: type[BaseExceptio
     assert list(tmp_path.iterdir()) == []
 
 
-def test_progress_is_told_frame_by_frame(made: Made, tmp_path: Path) -> None:
-    told: list[tuple[int, int | None]] = []
-    track(
-        made.folder,
-        made.clicks,
-        tmp_path / "session.h5",
-        replace(TrackSettings(), smooth=False),
-        progress=lambda done, total: told.append((done, total)),
-    )
-    count = len(made.truth.timestamp_s)
-    assert told == [(k, count) for k in range(1, count + 1)]
-    assert read_session(tmp_path / "session.h5").smoothed is None
-
-
-def test_a_poor_verdict_is_told_and_tracking_goes_on(made: Made, tmp_path: Path) -> None:
-    verdicts: list[Verdict] = []
-    strict = replace(TrackSettings(), calibration=CalibrationSettings(least_distance_m=2.0), smooth=False)
-    report = track(made.folder, made.clicks, tmp_path / "session.h5", strict, on_verdict=verdicts.append)
-    assert [finding.kind for finding in verdicts[0].findings] == ["distance"]
-    assert len(verdicts) == 1
-    assert report.frames == len(made.truth.timestamp_s)
-
-
-def test_start_angles_are_added_and_marked(made: Made, tmp_path: Path) -> None:
-    start = np.radians([0.0, 20.0, 0.0])
-    track(made.folder, made.clicks, tmp_path / "s.h5", replace(TrackSettings(), smooth=False), start_angles_rad=start)
-    at_rest = np.degrees(angles(tmp_path / "s.h5")[:15].mean(axis=0))
-    assert at_rest == pytest.approx([0.0, 20.0, 0.0], abs=1.0)
-    assert np.allclose(read_session(tmp_path / "s.h5").calibration.start_angles_rad, start)
-    # Also when it is tracked again from that file.
-    retrack_session(tmp_path / "s.h5", tmp_path / "t.h5", replace(TrackSettings(), smooth=False), software_version="1")
-    assert np.array_equal(angles(tmp_path / "t.h5"), angles(tmp_path / "s.h5"))
-
-
 def test_a_frame_without_depth_is_a_frame(made: Made, tmp_path: Path) -> None:
     folder = copy_of(made, tmp_path / "recording")
     lines = (folder / "depth.txt").read_text().splitlines()
@@ -294,25 +261,32 @@ def test_a_recording_without_pictures_is_empty_not_a_session(made: Made, tmp_pat
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("with_pictures", [False, True])
-def test_what_was_simulated_and_what_was_aimed_at_stay_when_it_is_tracked_again(
-    made: Made, tmp_path: Path, with_pictures: bool
-) -> None:
-    aims = {"repetitions": 7, "targets_deg": [20.0, None]}
-    settings = replace(TrackSettings(), smooth=False)
-    track(made.folder, made.clicks, tmp_path / "s.h5", settings, set_up=aims)
-    if with_pictures:
-        keep_pictures(made.folder, tmp_path / "s.h5", tmp_path / "p.h5")
-    origin = tmp_path / ("p.h5" if with_pictures else "s.h5")
-    retrack_session(origin, tmp_path / "t.h5", settings, software_version="1")
-    header = read_session(tmp_path / "t.h5").header
-    assert json.loads(header.parameters)["source"].get("format") == ("session" if with_pictures else None)
-    assert header.simulated
-    assert header.set_up == aims
-    assert header.targets_deg[0] == 20.0
-    assert np.isnan(header.targets_deg[1])
-    real = replace(header, parameters=json.dumps({"source": {"format": "tum"}}))
-    assert not real.simulated
+def test_what_is_told_with_a_recording_stays_when_it_is_tracked_again(made: Made, tmp_path: Path) -> None:
+    """Where the hand was at the start, what was aimed at, that it was simulated; and a poor verdict stops nothing."""
+    aims, start = {"repetitions": 7, "targets_deg": [20.0, None]}, np.radians([0.0, 20.0, 0.0])
+    settings = replace(TrackSettings(), calibration=CalibrationSettings(least_distance_m=2.0), smooth=False)
+    verdicts: list[Verdict] = []
+    first = tmp_path / "s.h5"
+    report = track(
+        made.folder, made.clicks, first, settings, on_verdict=verdicts.append, start_angles_rad=start, set_up=aims
+    )
+    assert [[finding.kind for finding in verdict.findings] for verdict in verdicts] == [["distance"]]
+    assert report.frames == len(made.truth.timestamp_s)
+    assert np.degrees(angles(first)[:15].mean(axis=0)) == pytest.approx([0.0, 20.0, 0.0], abs=1.0)
+    assert np.allclose(read_session(first).calibration.start_angles_rad, start)
+    with_pictures = tmp_path / "p.h5"
+    keep_pictures(made.folder, first, with_pictures)
+    for origin, form in ((first, None), (with_pictures, "session")):
+        again = origin.with_suffix(".again.h5")
+        retrack_session(origin, again, settings, software_version="1")
+        session = read_session(again)
+        header = session.header
+        assert json.loads(header.parameters)["source"].get("format") == form
+        assert (header.simulated, header.set_up, header.targets_deg[0]) == (True, aims, 20.0)
+        assert np.isnan(header.targets_deg[1])
+        assert not replace(header, parameters=json.dumps({"source": {"format": "tum"}})).simulated
+        assert session.smoothed is None
+        assert form or np.array_equal(angles(again), angles(first))
 
 
 def keep_pictures(folder: Path, session: Path, output: Path) -> None:
