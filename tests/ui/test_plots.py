@@ -351,14 +351,26 @@ def test_an_angle_that_no_joint_can_have_takes_only_its_own_figures_live() -> No
     assert not measured[0, [FIGURES.index(figure) for figure in gone]].any()
 
 
-@pytest.mark.parametrize("seconds", [130.0, 400.0])
-def test_a_long_session_has_no_gaps_but_its_own(seconds: float) -> None:
-    time_s = np.arange(0.0, seconds, 1 / 30)
-    time_s = time_s[(time_s < 50.0) | (time_s > 62.6)]
-    value = 40.0 * np.sin(time_s)
-    gaps = thinned(Series(time_s, value, np.ones_like(value), np.zeros(len(value), dtype=bool)), 500).gaps_s()
-    assert len(gaps) == 1
-    assert gaps[0] == pytest.approx((50.0, 62.6), abs=1.0)
+def test_thinning_keeps_extremes_gaps_and_ends() -> None:
+    rng = np.random.default_rng(2)
+    value = rng.normal(0, 1, 20_000).cumsum()
+    value[5_000:5_040] = math.nan
+    value[12_345] = 9_999.0
+    whole = Series(np.arange(20_000) / 30.0, value, np.abs(value) * 0.01, np.zeros(20_000, bool))
+    thin = thinned(whole, 400)
+    assert len(thin.time_s) <= 3 * 400
+    assert np.nanmax(thin.value) == 9_999.0
+    assert np.nanmin(thin.value) == np.nanmin(value)
+    assert np.isnan(thin.value).any()
+    assert thin.sd is not None
+    assert np.all(np.diff(thin.time_s) > 0)
+    assert thinned(thin, 4_000) is thin
+    for seconds in (130.0, 400.0):  # frames that lack are the only gap
+        time_s = np.arange(0.0, seconds, 1 / 30)
+        time_s = time_s[(time_s < 50.0) | (time_s > 62.6)]
+        value = 40.0 * np.sin(time_s)
+        (gap,) = thinned(Series(time_s, value, np.ones_like(value), np.zeros(len(value), dtype=bool)), 500).gaps_s()
+        assert gap == pytest.approx((50.0, 62.6), abs=1.0)
 
 
 def test_numbers_of_values_beyond_the_scale_never_cover_each_other_and_a_hidden_stretch_has_none(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 import re
 import subprocess
 import sys
@@ -227,14 +228,14 @@ def test_a_kill_leaves_no_half_report_and_the_next_one_is_whole(
 
 def test_a_report_is_written_without_any_window_or_display(tmp_path: Path) -> None:
     program = (
-        "import sys; from pathlib import Path\n"
-        "from tests.ui.fakes import session\n"
+        "import pickle, sys; from pathlib import Path\n"
         "from carpus.ui.report.pdf import write_session_report\n"
-        "write_session_report(session(seconds=12.0), Path(sys.argv[1]))\n"
+        "write_session_report(pickle.loads(Path(sys.argv[1]).read_bytes()), Path(sys.argv[2]))\n"
         "print('PySide6.QtWidgets' in sys.modules)"
     )
+    (tmp_path / "session").write_bytes(pickle.dumps(session(seconds=12.0)))
     done = subprocess.run(
-        [sys.executable, "-c", program, str(tmp_path / "x.pdf")],
+        [sys.executable, "-c", program, str(tmp_path / "session"), str(tmp_path / "x.pdf")],
         cwd=ROOT, capture_output=True, text=True, check=True, env={"PATH": "/usr/bin:/bin"},
     )  # fmt: skip
     assert done.stdout.strip() == "False"

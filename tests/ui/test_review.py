@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from datetime import datetime
 from pathlib import Path
 
-import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from pytestqt.qtbot import QtBot
@@ -19,8 +17,6 @@ from carpus.ui.keys import Keys
 from carpus.ui.numbers import day_beside, day_month, report_date, since, time_beside
 from carpus.ui.plot.course import panels_of
 from carpus.ui.plot.export import picture
-from carpus.ui.plot.series import Series
-from carpus.ui.plot.session import thinned
 from carpus.ui.progress.screen import ProgressScreen
 from carpus.ui.review.card import ResultChoice
 from carpus.ui.review.screen import ReviewScreen
@@ -161,22 +157,6 @@ def test_the_edges_of_a_repetition_are_moved_by_keys_and_dragged_by_mouse(
 
 def test_without_pictures_the_marks_are_still_shown(review: Reviewing) -> None:
     assert not review(FakeSessions(pictures=False), "session-7").grab().isNull()
-
-
-def test_thinning_keeps_extremes_gaps_and_ends() -> None:
-    rng = np.random.default_rng(2)
-    value = rng.normal(0, 1, 20_000).cumsum()
-    value[5_000:5_040] = math.nan
-    value[12_345] = 9_999.0
-    whole = Series(np.arange(20_000) / 30.0, value, np.abs(value) * 0.01, np.zeros(20_000, bool))
-    thin = thinned(whole, 400)
-    assert len(thin.time_s) <= 3 * 400
-    assert np.nanmax(thin.value) == 9_999.0
-    assert np.nanmin(thin.value) == np.nanmin(value)
-    assert np.isnan(thin.value).any()
-    assert thin.sd is not None
-    assert np.all(np.diff(thin.time_s) > 0)
-    assert thinned(thin, 4_000) is thin
 
 
 def test_progress_answers_with_the_arc_and_rings_what_is_unfair(

@@ -66,7 +66,6 @@ class PanelBox(pg.ViewBox):
         self.show_panel(panel)
 
     def show_panel(self, panel: Panel) -> None:
-        """Another place, scale or time."""
         self.setGeometry(panel.box)
         across, up = self.viewRange()  # each setting costs as much as a curve, so only what is new is set
         if tuple(across) != (panel.start_s, panel.end_s):
@@ -126,7 +125,6 @@ class MarksItem(pg.GraphicsObject):
         self._marks: Sequence[Mark] = ()
 
     def set_marks(self, marks: Sequence[Mark]) -> None:
-        """Draw others from now on."""
         self._marks = marks
         self.update()
 
@@ -248,7 +246,6 @@ class Canvas(pg.GraphicsView):
             self._hands.take_range(float(ends[0]), float(ends[1]))
 
     def left(self) -> None:
-        """The mouse is gone."""
         if self._hands is not None:
             self._hands.hover(None)
 
@@ -274,7 +271,6 @@ class Canvas(pg.GraphicsView):
             item.set_marks(own)
 
     def add_layer(self, paint: Paint, *, kept: bool = False) -> Layer:
-        """A layer over the panels."""
         layer = Layer(paint, kept=kept)
         self.scene().addItem(layer)
         return layer

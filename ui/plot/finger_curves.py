@@ -58,7 +58,6 @@ class FingerCurves(PlotCard):
         self.setAccessibleName(self.tr("Joint angles of the last ten seconds, by finger"))
 
     def set_figure(self, figure: Figure, target_deg: float) -> None:
-        """The figure that is large, and its target."""
         self._figure, self._target_deg = figure, target_deg
         self.forget()
 
@@ -68,7 +67,6 @@ class FingerCurves(PlotCard):
         self._refresh()
 
     def show_speeds(self, on: bool) -> None:
-        """How fast the joints bend and spread instead of how far."""
         if on != self._speeds:
             self._speeds = on
             self.forget()
@@ -91,7 +89,6 @@ class FingerCurves(PlotCard):
 
     # --- places -------------------------------------------------------------------------------------------
     def column(self, finger: int) -> QRectF:
-        """The whole column of a finger."""
         scale = self._theme.text_scale
         left, right = LEFT_PX * scale, self.width() - RIGHT_PX
         step = (right - left + BETWEEN_PX) / len(FINGERS)
@@ -132,7 +129,6 @@ class FingerCurves(PlotCard):
         )
 
     def cell(self, figure: Figure) -> QRectF:
-        """Where a figure's number stands."""
         column, height = self.column(figure.finger), ROW_PX * self._theme.text_scale
         return QRectF(column.left(), self.rows_top() + ROWS.index(figure.row) * height, column.width(), height)
 

@@ -73,7 +73,6 @@ class History:
         self.clear(protocol)
 
     def clear(self, protocol: MarkerProtocol) -> None:
-        """Forget everything, as before another recording with these discs."""
         self._protocol = protocol
         self._rows = np.empty((0, _COLUMNS))
         self._index = np.empty(0, dtype=np.int64)

@@ -292,12 +292,10 @@ def _scale(style: PlotStyle) -> float:
 
 
 def _pitch(panels: Sequence[tuple[Panel, int]]) -> float:
-    """From one panel to the next."""
     return panels[1][0].box.top() - panels[0][0].box.top() if len(panels) > 1 else math.inf
 
 
 def _paint_named(painter: QPainter, style: PlotStyle, panel: Panel, value: Value) -> None:
-    """The movement's name over its angle."""
     scale = _scale(style)
     left, middle = panel.box.right() + 14 * scale, panel.box.center().y()
     face = fitted(font(14 * scale, REGULAR), value.name, room_at(painter, left))

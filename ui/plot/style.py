@@ -26,7 +26,6 @@ class PlotStyle:
     """One design pixel in the painter's unit; gaps and dashes are multiples of it."""
 
     def color(self, token: str, alpha: int = 255) -> QColor:
-        """A token's colour."""
         value = QColor(getattr(self.tokens, token))
         value.setAlpha(alpha)
         return value

@@ -70,7 +70,6 @@ class ZoomCard(PlotCard):
     # --- window -------------------------------------------------------------------------------------------
     @property
     def shown_part(self) -> tuple[float, float] | None:
-        """The part that is shown; None for all."""
         return self._window
 
     def shown(self) -> tuple[float, float]:
@@ -78,7 +77,6 @@ class ZoomCard(PlotCard):
         return self._window or self.extent() or (0.0, 1.0)
 
     def show_window(self, window: tuple[float, float] | None) -> None:
-        """Show a part of the axis, or all of it."""
         extent = self.extent()
         if window is not None and extent is not None:
             low, high = extent
@@ -96,15 +94,12 @@ class ZoomCard(PlotCard):
         self.show_window((begin, begin + span))
 
     def zoom_in(self) -> None:
-        """Less of the axis, larger."""
         self.zoom(1.0 / ZOOM_STEP, self._about_shown())
 
     def zoom_out(self) -> None:
-        """More of the axis."""
         self.zoom(ZOOM_STEP, self._about_shown())
 
     def show_all(self) -> None:
-        """The whole axis."""
         self.show_window(None)
 
     def _about_shown(self) -> float:
@@ -115,7 +110,6 @@ class ZoomCard(PlotCard):
         canvas.unlock(self)
 
     def take_range(self, start: float, end: float) -> None:
-        """The mouse has moved or zoomed the panels."""
         now, extent = self.shown(), self.extent()
         if extent is None:
             return
@@ -166,7 +160,6 @@ class PlotMenu(QObject):
             menu.popup(at)
 
     def copy_picture(self) -> None:
-        """The plot at print size, for other programs."""
         QGuiApplication.clipboard().setImage(export.picture(self._card))
 
     def save_picture(self) -> None:

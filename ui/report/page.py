@@ -61,20 +61,16 @@ class Page:
 
     @property
     def left(self) -> float:
-        """Left edge of the text in points."""
         return MARGIN_PT
 
     @property
     def right(self) -> float:
-        """Right edge of the text in points."""
         return A4_PT[0] - MARGIN_PT
 
     def box(self, left: float, top: float, width: float, height: float) -> QRectF:
-        """A rectangle in painter units."""
         return QRectF(left * self.point, top * self.point, width * self.point, height * self.point)
 
     def at(self, x: float, y: float) -> QPointF:
-        """A place in painter units."""
         return QPointF(x * self.point, y * self.point)
 
     def face(self, size_pt: float, weight: int = REGULAR) -> QFont:
