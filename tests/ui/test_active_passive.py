@@ -91,13 +91,12 @@ def test_a_passive_repetition_that_was_hidden_says_that() -> None:
 
 def test_what_is_measured_over_all_of_a_fist_leaves_out_what_was_helped() -> None:
     made = FakeHandSessions().session("hand-7")
-    start_s = float(made.timestamp_s[0])
     assert figures_once(made).further
-    everything = figures_once(replace(made, events=(Event(start_s, PASSIVE, ""),)))
+    helped = replace(made, events=(Event(float(made.timestamp_s[0]), PASSIVE, ""),))
+    everything = figures_once(helped)
     assert everything.passive is not None
     assert not everything.further, "nothing was active"
-    counted = RepetitionChoices(dict.fromkeys(range(len(everything.repetitions)), ""))
-    assert figures_once(replace(made, events=(Event(start_s, PASSIVE, ""),)), counted).further
+    assert figures_once(helped, RepetitionChoices(dict.fromkeys(range(len(everything.repetitions)), ""))).further
 
 
 def test_a_person_has_the_last_word_and_active_again_ends_a_stretch() -> None:
@@ -125,20 +124,16 @@ def test_the_table_has_active_passive_and_by_hand_in_one_row() -> None:
     assert active_passive(figures_once(session()), ()) is None, "one way alone has no table"
 
 
-def test_where_passive_went_less_far_the_table_says_so() -> None:
+def test_where_passive_went_less_far_the_table_says_so_and_the_sentence_keeps_the_sign() -> None:
     found = active_passive(figures_once(helped_session((0.0, PASSIVE), (HELPED_S, ACTIVE))), ())
     arc = next(row for row in found.rows if row[0] == "Whole arc")
     assert arc[3].startswith("\N{MINUS SIGN}")
     assert "error" in arc[3]
-
-
-def test_the_sentence_keeps_the_sign_of_what_does_not_reach_neutral() -> None:
     figures = figures_once(helped_session((HELPED_S, PASSIVE)))
     row = figures.row("flexion", 1)
     assert row is not None
     made = replace(figures, rows=tuple(replace(one, mean_deg=-12.0) if one is row else one for one in figures.rows))
-    found = active_passive(made, ())
-    assert "\N{MINUS SIGN}12° by itself" in found.said
+    assert "\N{MINUS SIGN}12° by itself" in active_passive(made, ()).said, "it does not reach neutral"
 
 
 def test_beside_at_least_stands_what_the_goniometer_said() -> None:

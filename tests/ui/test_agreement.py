@@ -54,18 +54,17 @@ def test_the_sign_is_a_word() -> None:
 
 
 @pytest.mark.parametrize(
-    ("bias", "sd", "limit", "verdict"),
-    [(0.0, 2.0, 5.0, "agree"), (0.0, 2.0, 3.5, "apart"), (4.0, 1.0, 5.0, "apart"), (-4.0, 1.0, 5.0, "apart"),
-     (0.0, 2.0, 0.0, "not_judged")],
+    ("bias", "sd", "count", "limit", "verdict"),
+    [
+        (0.0, 2.0, 200, 5.0, "agree"), (0.0, 2.0, 200, 3.5, "apart"), (4.0, 1.0, 200, 5.0, "apart"),
+        (-4.0, 1.0, 200, 5.0, "apart"), (0.0, 2.0, 200, 0.0, "not_judged"), (0.0, 0.5, 10, 5.0, "agree"),
+        (0.0, 0.5, 9, 5.0, "few"), (0.0, 4.0, 11, 4.0, "few"),  # its limit is not known as well as that
+    ],
 )  # fmt: skip
-def test_both_limits_must_lie_within_what_was_set(bias: float, sd: float, limit: float, verdict: str) -> None:
-    assert judged(of("flexion", bias, sd).figures_deg, limit) == verdict
-
-
-def test_few_or_scattered_readings_say_nothing() -> None:
-    assert judged(of("flexion", 0.0, 0.5, 9).figures_deg, 5.0) == "few"
-    assert judged(of("flexion", 0.0, 4.0, 11).figures_deg, 4.0) == "few", "its limit is not known as well as that"
-    assert judged(of("flexion", 0.0, 0.5, 10).figures_deg, 5.0) == "agree"
+def test_both_limits_must_lie_within_what_was_set_and_few_or_scattered_readings_say_nothing(
+    bias: float, sd: float, count: int, limit: float, verdict: str
+) -> None:
+    assert judged(of("flexion", bias, sd, count).figures_deg, limit) == verdict
 
 
 def test_the_sentence_names_what_agrees_and_what_does_not() -> None:

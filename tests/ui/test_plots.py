@@ -33,7 +33,7 @@ from carpus.ui.plot.live_curves import LiveCurves
 from carpus.ui.plot.series import Curve, Series, paint_curves
 from carpus.ui.plot.session import SessionPlot, paint_session, thinned
 from carpus.ui.plot.session_view import CurveView
-from carpus.ui.plot.style import screen_style
+from carpus.ui.plot.style import RIGHT_MIDDLE, screen_style, write
 from carpus.ui.theme import Theme
 from tests.moments import with_moment
 from tests.ui.fakes import FakeFeed, figures_once, session
@@ -302,6 +302,24 @@ def test_all_that_is_drawn_of_a_curve_lies_on_it(
     assert np.abs(down - expected).max() < 4.0
     reached = np.histogram(across, bins=20, range=(0, 600))[0]
     assert (reached > 20).all(), "no stretch of it is left out"
+
+
+def test_words_stand_at_a_point_or_on_their_side_of_a_box(qapp: QApplication, theme: Theme) -> None:
+    style, box = screen_style(theme), QRectF(0.0, 0.0, 200.0, 40.0)
+
+    def ink(at: QPointF | QRectF, *side: Qt.AlignmentFlag) -> tuple[ByteImage, ByteImage]:
+        image = QImage(200, 40, QImage.Format.Format_RGB32)
+        image.fill(QColor("white"))
+        with QPainter(image) as painter:
+            write(painter, at, "x", style.label, style.color("text"), *side)
+        return np.nonzero(pixels(image).min(axis=2) < 160)
+
+    for (down, across), left, right in ((ink(box), 0, 20), (ink(box, RIGHT_MIDDLE), 180, 200)):
+        assert left <= across.min() < across.max() < right
+        assert 15 <= down.min() < down.max() < 26
+    down, across = ink(QPointF(50.0, 39.0))
+    assert 48 < across.min() < across.max() < 65
+    assert 28 < down.min() < down.max() < 40
 
 
 def test_nothing_moves_by_mouse_while_measuring(qtbot: QtBot, theme: Theme) -> None:
