@@ -349,7 +349,7 @@ def test_it_backs_up_by_itself_once_a_day_and_not_over_a_recording(
     desktop = opened(replace(Settings(), backup=BackupSettings(folder=str(disk), hour=12)))
     backing = desktop.safe.backing_up
     today = datetime.now().astimezone().replace(hour=13)
-    monkeypatch.setattr(backing, "_now", lambda: today)
+    monkeypatch.setattr("carpus.ui.records.backing_up._now", lambda: today)
     backing.look()
     assert not backing._running, "the disk is not there"
     disk.mkdir()
@@ -361,7 +361,7 @@ def test_it_backs_up_by_itself_once_a_day_and_not_over_a_recording(
     qtbot.waitUntil(lambda: backing.last is not None and not backing._running)
     backing.look()
     assert not backing._running, "once a day"
-    monkeypatch.setattr(backing, "_now", lambda: today + timedelta(days=1))
+    monkeypatch.setattr("carpus.ui.records.backing_up._now", lambda: today + timedelta(days=1))
     backing.look()
     assert backing._running
     qtbot.waitUntil(lambda: not backing._running)

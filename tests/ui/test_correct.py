@@ -59,35 +59,34 @@ def corrections(screen: CorrectScreen) -> tuple[Correction, ...]:
     return screen.places.corrections()
 
 
-def test_dragging_a_name_to_a_spot_puts_it_on_the_middle_of_the_spot(qtbot: QtBot, screen: CorrectScreen) -> None:
-    start = screen.places.before(ROW)[3]
+@pytest.fixture
+def asked(screen: CorrectScreen) -> list[object]:
+    """With what it was to be tracked again."""
+    said: list[object] = []
+    screen.wanted.connect(lambda _, corrections: said.append(corrections))
+    return said
+
+
+def test_dragging_a_name_to_a_spot_puts_it_on_the_middle_of_the_spot(
+    qtbot: QtBot, screen: CorrectScreen, asked: list[object]
+) -> None:
     assert not screen.primary.isEnabled()
-    drag(qtbot, screen, start, np.array([423.0, 118.0]))
+    drag(qtbot, screen, screen.places.before(ROW)[3], np.array([423.0, 118.0]))
     (one,) = corrections(screen)
-    assert one.row == ROW
-    assert one.places["MCP3"] == (420.0, 120.0)
+    assert (one.row, one.places["MCP3"]) == (ROW, (420.0, 120.0))
     screen.undo()
-    asked: list[object] = []
-    screen.wanted.connect(lambda _, said: asked.append(said))
     screen.choose("MCP3")
     screen.hide_current()
     qtbot.keyClick(screen, Qt.Key.Key_Return)
     assert asked == [corrections(screen)]
 
 
-def test_dragging_a_name_onto_another_disc_swaps_the_two(qtbot: QtBot, screen: CorrectScreen) -> None:
+def test_names_dragged_onto_each_other_swap_are_told_before_and_enter_mends_them(
+    qtbot: QtBot, screen: CorrectScreen, asked: list[object]
+) -> None:
     before = screen.places.before(ROW).copy()
     drag(qtbot, screen, before[2], before[4])
-    now = screen.places.now(ROW)
-    np.testing.assert_allclose(now[2], before[4])
-    np.testing.assert_allclose(now[4], before[2])
-
-
-def test_exchanged_names_are_told_before_and_enter_mends_them(qtbot: QtBot, screen: CorrectScreen) -> None:
-    before = screen.places.before(ROW).copy()
-    asked: list[object] = []
-    screen.wanted.connect(lambda _, said: asked.append(said))
-    drag(qtbot, screen, before[2], before[4])
+    np.testing.assert_allclose(screen.places.now(ROW)[[2, 4]], before[[4, 2]])
     assert screen.title.text() == "“Index knuckle” and “Ring knuckle” look exchanged"
     assert screen.although.isVisible()
     qtbot.keyClick(screen, Qt.Key.Key_Return)
@@ -99,9 +98,7 @@ def test_exchanged_names_are_told_before_and_enter_mends_them(qtbot: QtBot, scre
     assert asked == [corrections(screen)]
 
 
-def test_a_name_far_from_its_place_is_told_before(qtbot: QtBot, screen: CorrectScreen) -> None:
-    asked: list[object] = []
-    screen.wanted.connect(lambda _, said: asked.append(said))
+def test_a_name_far_from_its_place_is_told_before(qtbot: QtBot, screen: CorrectScreen, asked: list[object]) -> None:
     drag(qtbot, screen, screen.places.before(ROW)[5], np.array([600.0, 60.0]))
     assert screen.title.text() == "“Little knuckle” cannot be there"
     qtbot.keyClick(screen, Qt.Key.Key_Return)
@@ -140,20 +137,25 @@ def test_a_name_stands_nearest_its_own_disc_or_has_a_line_to_it(screen: CorrectS
         assert min(off, key=lambda one: off[one]) == name or off[name] > beside, name
 
 
-def test_a_name_is_dragged_by_its_words_too(qtbot: QtBot, screen: CorrectScreen) -> None:
-    screen.grab()
-    before = screen.places.before(ROW).copy()
+def test_a_click_without_a_drag_only_chooses_also_on_a_names_words_which_are_dragged_too(
+    qtbot: QtBot, screen: CorrectScreen
+) -> None:
     left, picture = Qt.MouseButton.LeftButton, screen.picture
-    words = picture.plates["MCP4"].center().toPoint()
-    qtbot.mouseClick(picture, left, pos=words)
+    before = screen.places.before(ROW).copy()
+    screen.grab()
+    qtbot.mouseClick(picture, left, pos=picture.plates["MCP4"].center().toPoint())
     assert picture.current == "MCP4"
-    assert not corrections(screen)  # a click moves nothing
+    qtbot.mouseClick(picture, left, pos=on_screen(screen, before[5]))
+    assert screen.current == "MCP5"
+    assert corrections(screen) == ()
+    qtbot.mouseClick(picture, left, pos=on_screen(screen, np.array([420.0, 120.0])))
+    assert corrections(screen)[0].places["MCP5"] == (420.0, 120.0)
+    screen.undo()
     screen.grab()
     qtbot.mousePress(picture, left, pos=picture.plates["MCP4"].center().toPoint())
     qtbot.mouseMove(picture, on_screen(screen, before[5]))
     qtbot.mouseRelease(picture, left, pos=on_screen(screen, before[5]))
-    number = screen.places.markers.index("MCP4")
-    np.testing.assert_allclose(screen.places.now(ROW)[number], before[5])
+    np.testing.assert_allclose(screen.places.now(ROW)[screen.places.markers.index("MCP4")], before[5])
 
 
 def test_keys_do_the_same(qtbot: QtBot, screen: CorrectScreen) -> None:
@@ -167,14 +169,6 @@ def test_keys_do_the_same(qtbot: QtBot, screen: CorrectScreen) -> None:
     for _ in range(3):
         qtbot.keyClick(screen, "z")
     assert corrections(screen) == ()
-
-
-def test_a_click_without_a_drag_only_chooses(qtbot: QtBot, screen: CorrectScreen) -> None:
-    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=on_screen(screen, screen.places.before(ROW)[5]))
-    assert screen.current == "MCP5"
-    assert corrections(screen) == ()
-    qtbot.mouseClick(screen.picture, Qt.MouseButton.LeftButton, pos=on_screen(screen, np.array([420.0, 120.0])))
-    assert corrections(screen)[0].places["MCP5"] == (420.0, 120.0)
 
 
 def test_a_marker_that_was_not_measured_is_put_on_the_spot_that_is_clicked_where_it_is_shown(
@@ -192,13 +186,6 @@ def test_a_marker_that_was_not_measured_is_put_on_the_spot_that_is_clicked_where
     np.testing.assert_allclose(one.places["MCP3"], spot, atol=6.0)
 
 
-def test_another_session_that_is_shorter_is_shown(qtbot: QtBot, screen: CorrectScreen, background: Background) -> None:
-    screen.begin("session-7", session(seconds=0.5 * ROW / 30.0), ROW // 4)
-    assert screen.hint.text() == "", "its picture is being read"
-    qtbot.waitUntil(lambda: not background.busy)
-    assert screen.row == ROW // 4
-
-
 def test_the_distance_says_which_marker_is_wrong_also_beside_a_wrong_one(sessions: FakeSessions) -> None:
     places = Places(sessions.session("session-7"))
     assert all(places.off_mm(ROW, name) < 3.0 for name in places.markers)
@@ -207,11 +194,6 @@ def test_the_distance_says_which_marker_is_wrong_also_beside_a_wrong_one(session
     assert all(places.off_mm(ROW, name) < 6.0 for name in places.markers if name != "MCP3")
     assert places.undo() == ROW
     assert places.undo() == -1
-
-
-def test_without_stored_pictures_the_spots_are_shown_and_said(screen: CorrectScreen) -> None:
-    assert "No pictures stored" in screen.hint.text()
-    assert len(screen.picture.spots) == 7
 
 
 def test_the_curve_is_of_the_finger_whose_disc_is_put_right_and_a_key_is_named_that_does_something(
@@ -263,10 +245,18 @@ def test_old_and_new_curves_differ_in_width_also_where_both_are_predicted() -> N
     assert any(0 < curve.series.predicted.sum() < len(curve.series.predicted) for curve in old), "as it was predicted"
 
 
-def test_each_picture_is_corrected_by_itself(qtbot: QtBot, screen: CorrectScreen) -> None:
+def test_each_picture_is_corrected_by_itself_and_a_shorter_session_is_shown(
+    qtbot: QtBot, screen: CorrectScreen, background: Background
+) -> None:
+    assert "No pictures stored" in screen.hint.text()
+    assert len(screen.picture.spots) == 7
     screen.put("MCP3", screen.places.before(ROW)[3])
     screen.go_on(5)
     qtbot.waitUntil(lambda: screen.picture.row == ROW + 5)
     screen.put("MCP2", screen.places.before(ROW + 5)[2])
     assert [one.row for one in corrections(screen)] == [ROW, ROW + 5]
     assert "00:20.6" in screen.primary.text()
+    screen.begin("session-7", session(seconds=0.5 * ROW / 30.0), ROW // 4)
+    assert screen.hint.text() == "", "its picture is being read"
+    qtbot.waitUntil(lambda: not background.busy)
+    assert screen.row == ROW // 4

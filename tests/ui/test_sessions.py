@@ -66,35 +66,27 @@ def test_a_session_is_set_aside_with_a_reason_and_taken_back(
     qtbot.waitUntil(lambda: sessions.done[-1] == ("aside", "s1", ""))
 
 
-def test_a_session_moves_to_the_patient_that_is_chosen(
+def test_a_session_is_renamed_moved_and_deleted(
     qtbot: QtBot, screen: SessionsScreen, sessions: FakeStoredSessions
 ) -> None:
-    screen.move_button.click()
-    screen.move_sheet.box.setCurrentIndex(1)
-    screen.move_sheet.take.click()
-    qtbot.waitUntil(lambda: sessions.done == [("move", "s1", "alder")])
-    qtbot.waitUntil(lambda: screen.list.rows.find("s1") < 0)
-
-
-def test_only_exercises_with_the_same_discs_are_offered(
-    qtbot: QtBot, screen: SessionsScreen, sessions: FakeStoredSessions
-) -> None:
-    screen.rename_button.click()
-    offered = {screen.rename_sheet.box.itemData(row) for row in range(screen.rename_sheet.box.count())}
-    assert "WRIST_RU" in offered
-    assert not offered & {"WRIST_FE", "FIST_COMPOSITE"}
-    screen.rename_sheet.box.setCurrentIndex(screen.rename_sheet.box.findData("WRIST_RU"))
-    screen.rename_sheet.take.click()
-    qtbot.waitUntil(lambda: sessions.done == [("rename", "s1", "WRIST_RU")])
-
-
-def test_deleting_is_asked_for_by_button_and_key(qtbot: QtBot, screen: SessionsScreen) -> None:
     wanted: list[str] = []
     screen.erase_wanted.connect(wanted.append)
     screen.erase_button.click()
     screen.list.setFocus()
     qtbot.keyClick(screen.list, Qt.Key.Key_Delete)
-    assert wanted == ["s1", "s1"]
+    assert wanted == ["s1", "s1"], "it is asked for by button and key"
+    screen.rename_button.click()
+    offered = {screen.rename_sheet.box.itemData(row) for row in range(screen.rename_sheet.box.count())}
+    assert "WRIST_RU" in offered
+    assert not offered & {"WRIST_FE", "FIST_COMPOSITE"}, "only exercises with the same discs"
+    screen.rename_sheet.box.setCurrentIndex(screen.rename_sheet.box.findData("WRIST_RU"))
+    screen.rename_sheet.take.click()
+    qtbot.waitUntil(lambda: sessions.done == [("rename", "s1", "WRIST_RU")])
+    screen.move_button.click()
+    screen.move_sheet.box.setCurrentIndex(1)
+    screen.move_sheet.take.click()
+    qtbot.waitUntil(lambda: sessions.done[-1] == ("move", "s1", "alder"))
+    qtbot.waitUntil(lambda: screen.list.rows.find("s1") < 0)
 
 
 def test_a_patient_without_a_session_is_told_so(

@@ -42,6 +42,11 @@ class Clicking:
         return self.protocol.markers
 
     @property
+    def places(self) -> dict[str, FloatArray]:
+        """Where each name is, of a person or proposed."""
+        return {name: one.pixel for name, one in self.proposed.items()} | self.pixel
+
+    @property
     def missing(self) -> tuple[str, ...]:
         return tuple(name for name in self.order if name not in self.pixel)
 
@@ -84,7 +89,7 @@ class Clicking:
 
     def taken_by(self, pixel: FloatArray) -> str:
         """The name a person has given to this disc, where the current marker has no place it could change for it."""
-        if self.current in self.pixel or self.current in self.proposed:
+        if self.current in self.places:
             return ""
         return next((name for name, other in self.pixel.items() if _same(other, pixel)), "")
 
@@ -93,9 +98,9 @@ class Clicking:
 
         A name that was on this disc moves to where the current one was, or is taken off.
         """
-        had_place = self.current in self.proposed or self.current in self.pixel
-        places = {name: one.pixel for name, one in self.proposed.items()} | self.pixel
-        swapped = had_place and any(name != self.current and _same(place, pixel) for name, place in places.items())
+        places = self.places
+        had_place = places.pop(self.current, None) is not None
+        swapped = had_place and any(_same(place, pixel) for place in places.values())
         mine = self.proposed.pop(self.current, None)
         before = self.pixel.pop(self.current, None)
         before_width_px = self.widths_px.get(self.current, width_px)
@@ -134,9 +139,6 @@ class Clicking:
         else:
             self._go_on()
 
-    def swap(self, one: str, other: str) -> None:
-        self.pixel[one], self.pixel[other] = self.pixel[other], self.pixel[one]
-
     def step(self, by: int) -> None:
         self.choose(self.order[(self.order.index(self.current) + by) % len(self.order)])
 
@@ -146,8 +148,7 @@ class Clicking:
 
     def near(self, pixel: FloatArray, reach_px: float) -> str:
         """The marker clicked or proposed within reach of a pixel, empty for none."""
-        places = {name: one.pixel for name, one in self.proposed.items()} | self.pixel
-        distances = {name: float(np.hypot(*(place - pixel))) for name, place in places.items()}
+        distances = {name: float(np.hypot(*(place - pixel))) for name, place in self.places.items()}
         name = min(distances, key=lambda key: distances[key], default="")
         return name if name and distances[name] <= reach_px else ""
 

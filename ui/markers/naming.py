@@ -201,8 +201,9 @@ class Naming(QObject):
         """Names that stand in for each other change places."""
         pairs = exchanged(self.outcome.verdict) if self.outcome is not None else []
         if pairs and self.clicking is not None:
+            pixel = self.clicking.pixel
             for one, other in pairs:
-                self.clicking.swap(one, other)
+                pixel[one], pixel[other] = pixel[other], pixel[one]
             self.edit()
 
     def click_again(self) -> None:

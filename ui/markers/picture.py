@@ -215,8 +215,7 @@ class MarkerPicture(PictureView):
 
     def _paint_proposals(self, painter: QPainter, clicking: Clicking, rings: list[tuple[str, QPointF, float]]) -> None:
         """Proposed names as dashed rings, each finger's discs joined: a wrong name shows as a crossing line."""
-        places = {name: one.pixel for name, one in clicking.proposed.items()} | clicking.pixel
-        at = {name: self.to_screen(*map(float, pixel)) for name, pixel in places.items()}
+        at = {name: self.to_screen(*map(float, pixel)) for name, pixel in clicking.places.items()}
         painter.setPen(QPen(QColor(255, 255, 255, 170), 1.5))
         for ray in rays(clicking.protocol.markers) if clicking.protocol.has_fingers else ():
             known = [at[name] for name in ray if name in at]
@@ -325,8 +324,7 @@ class MarkerPicture(PictureView):
 
     def _discs_in(self, box: QRectF) -> int:
         assert self.clicking is not None
-        places = {name: one.pixel for name, one in self.clicking.proposed.items()} | self.clicking.pixel
-        return sum(box.contains(self.to_screen(*map(float, pixel))) for pixel in places.values())
+        return sum(box.contains(self.to_screen(*map(float, pixel))) for pixel in self.clicking.places.values())
 
     def _paint_loupe(self, painter: QPainter) -> None:
         assert self.cursor_px is not None

@@ -110,19 +110,15 @@ class VerdictPanel(Card):
         self._lines: list[tuple[StateText, Text, Text, Text]] = []
         self._close = False
 
-    def show_rows(self, headline: str, state: State, rows: Sequence[Row], aside: str = "") -> None:
-        """Show the verdict; ``aside`` is a small remark at the right of the headline."""
+    def show_rows(self, headline: str, state: State, rows: Sequence[Row]) -> None:
         self.headline.setText(headline)
-        self.sign.show_state(state if not aside else "none", aside)
+        self.sign.show_state(state, "")
         while len(self._lines) < len(rows):
             self._add_line()
         for (icon, thing, value, limit), row in zip(self._lines, rows, strict=True):
             icon.show_state(row.state, "")
-            icon.setAccessibleName(
-                {"good": self.tr("good"), "warn": self.tr("doubtful"), "bad": self.tr("wrong")}.get(
-                    row.state, self.tr("open")
-                )
-            )
+            words = {"good": self.tr("good"), "warn": self.tr("doubtful"), "bad": self.tr("wrong")}
+            icon.setAccessibleName(words.get(row.state, self.tr("open")))
             thing.setText(row.thing)
             value.setText(row.value)
             limit.setText(row.limit)

@@ -301,15 +301,16 @@ class StopCard(Sheet):
 
     def show_words(
         self, words: Words, answers: Sequence[Answer], *, icon: str = "", detail: str = "", safe_detail: str = "",
-        data_safe: bool = True, alarm: bool = True,
+        alarm: bool = True,
     ) -> None:  # fmt: skip
         """Open with the three answers; details are what only the moment knows (times, counts). Without ``alarm``
         nothing went wrong: a question, or good news, and no red."""
-        self._set_row(self.what, self.detail, words.happened.rstrip("."), detail)
-        self._set_row(self.safe, self.safe_detail, words.safe, safe_detail)
-        self._set_row(self.todo, self.todo_detail, words.do, "")
+        for head, text in ((self.what, words.happened.rstrip(".")), (self.safe, words.safe), (self.todo, words.do)):
+            head.setText(text)
+        self.detail.say(detail)
+        self.safe_detail.say(safe_detail)
         self._icon.show_sign(icon or ("bad" if alarm else "circle-help"), "bad" if alarm else "accent", 36)
-        self._icon_safe.show_sign("good" if data_safe else "warn", size_px=26)
+        self._icon_safe.show_sign("good", size_px=26)
         self.waiting.setText("")
         self.card.set_colors("surface", *(("bad", 2.0) if alarm else ("line", 1.0)))
         self.setAccessibleName(" ".join((words.happened, detail, words.safe, safe_detail, words.do)))
@@ -326,10 +327,6 @@ class StopCard(Sheet):
         if self._answers:
             self.set_default(self._answers[-1][0])
         self.open()
-
-    def _set_row(self, head: Text, small: Text, text: str, detail: str) -> None:
-        head.setText(text)
-        small.say(detail)
 
     def set_waiting(self, words: str) -> None:
         self.waiting.setText(words)

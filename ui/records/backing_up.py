@@ -7,6 +7,7 @@ from collections.abc import Callable
 from datetime import datetime
 from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 from PySide6.QtCore import QObject, QStandardPaths, QTimer, Signal
 from PySide6.QtWidgets import QFileDialog, QLineEdit, QVBoxLayout, QWidget
@@ -45,6 +46,7 @@ from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
 
 LOOK_MS = 60_000
+T = TypeVar("T")
 
 
 class BackingUp(QObject):
@@ -59,11 +61,10 @@ class BackingUp(QObject):
         settings_folder: Path,
         *,
         keep: Callable[[BackupSettings], None],
-        now: Callable[[], datetime] = lambda: datetime.now().astimezone(),
     ) -> None:
         super().__init__(context.shell)
         self._context, self._library, self._settings = context, context.library, settings
-        self._settings_folder, self._keep, self._now = settings_folder, keep, now
+        self._settings_folder, self._keep = settings_folder, keep
         self._background = Background()  # its own: a back-up of gigabytes holds up nothing else
         self._running = False
         self.last: LastBackup | None = None
@@ -102,7 +103,7 @@ class BackingUp(QObject):
         self._background.run(lambda: last_backup(store), show, self._context.messages.fault, self)
 
     def _facts(self) -> BackupFacts:
-        return backup_facts(self.last, self._settings, self._library.folder, self._now(), can_back_up=not self._running)
+        return backup_facts(self.last, self._settings, self._library.folder, _now(), can_back_up=not self._running)
 
     def is_old(self) -> bool:
         """Whether a person should be reminded: back-ups are wanted, there is something to lose, and the last one is old
@@ -110,7 +111,7 @@ class BackingUp(QObject):
         if self.last is None and not self._settings.folder:
             return False  # nobody has asked for back-ups; the settings say that there is none
         sessions = sum(record.session_count for record in self._library.patients.listed())
-        return sessions > 0 and is_due(self.last.made if self.last else None, self._settings.remind_days, self._now())
+        return sessions > 0 and is_due(self.last.made if self.last else None, self._settings.remind_days, _now())
 
     def remind(self, place: QVBoxLayout) -> None:
         """A strip above the patients, once at the start, where the last back-up is old."""
@@ -123,7 +124,7 @@ class BackingUp(QObject):
         self._context.messages.strip(place, words, self.tr("To the settings"), to_settings)
 
     def look(self) -> None:
-        settings, now = self._settings, self._now()
+        settings, now = self._settings, _now()
         if settings.hour < 0 or not settings.folder or now.hour < settings.hour or self._context.way.is_recording():
             return
         if self.last is not None and self.last.made.astimezone(now.tzinfo).date() >= now.date():
@@ -135,12 +136,14 @@ class BackingUp(QObject):
         """Now, beside whatever the window does. Without a folder it is asked for first, and then backed up to."""
         if self._running or not (self._settings.folder or self._choose_place()):
             return
-        self._running = True
         place, settings = Path(self._settings.folder), self._settings
+        self._begin(lambda: self._work(place, settings), self._done)
+
+    def _begin(self, work: Callable[[], T], done: Callable[[T], None]) -> None:
+        """One thing at a time; not niced: a thread shares the program's priority."""
+        self._running = True
         self.card.show_progress(0)
-        self._background.run(
-            lambda: self._work(place, settings), self._done, self._failed, self
-        )  # not niced: a thread shares the program's priority
+        self._background.run(work, done, self._failed, self)
 
     def _work(self, place: Path, settings: BackupSettings) -> Backup:
         made = back_up(
@@ -153,21 +156,23 @@ class BackingUp(QObject):
         )
         note_backup(self._library.store, made.made, str(place), made.sessions, made.size_bytes)
         self._library.notes.program("backed_up", sessions=made.sessions)
-        thin_out(place, settings.keep, settings.months, self._now())
+        thin_out(place, settings.keep, settings.months, _now())
         return made
 
     def _step(self, done: int, total: int) -> None:
         self.stepped.emit(100 * done // total)
 
     def _done(self, _: Backup) -> None:
-        self._running = False
-        self.card.show_progress(None)
+        self._end()
         self.look_again()
 
     def _failed(self, fault: Exception) -> None:
+        self._end()
+        self._context.messages.fault(fault)
+
+    def _end(self) -> None:
         self._running = False
         self.card.show_progress(None)
-        self._context.messages.fault(fault)
 
     def _choose_place(self) -> bool:
         """Ask for the folder; whether one was chosen."""
@@ -227,8 +232,6 @@ class BackingUp(QObject):
     def _restore(self, backup: Backup, content: Content) -> None:
         if self._running:
             return
-        self._running = True
-        self.card.show_progress(0)
 
         def work() -> Staged:
             staged = restore(backup, content, self._library.folder, progress=self._step, replaces=True)
@@ -240,14 +243,14 @@ class BackingUp(QObject):
             self.restored = staged
             self._context.shell.close_surely()
 
-        self._background.run(work, done, self._failed, self)
+        self._begin(work, done)
 
     # --- as one file --------------------------------------------------------------------------------------
     def seal(self) -> None:
         """Everything as one file with a passphrase, to be carried away."""
         if self._running:
             return
-        name = str(_sealed_in(self._settings.folder) / f"carpus-{self._now():%Y-%m-%d}{ENDING}")
+        name = str(_sealed_in(self._settings.folder) / f"carpus-{_now():%Y-%m-%d}{ENDING}")
         title = self.tr("Seal into one file")
         chosen, _ = QFileDialog.getSaveFileName(self.card.window(), title, name, self.tr("Sealed files (*.age)"))
         if chosen:
@@ -255,8 +258,6 @@ class BackingUp(QObject):
 
     def _seal(self, chosen: Path, passphrase: str) -> None:
         path = chosen if chosen.suffix == Path(ENDING).suffix else chosen.with_name(f"{chosen.name}{ENDING}")
-        self._running = True
-        self.card.show_progress(0)
         self.card.show_sealed("")
 
         def work() -> Backup:
@@ -276,7 +277,11 @@ class BackingUp(QObject):
             size = numbers.fixed(path.stat().st_size / 1e6, 1)
             self.card.show_sealed(words.format(name=path.name, size=size))
 
-        self._background.run(work, done, self._failed, self)
+        self._begin(work, done)
+
+
+def _now() -> datetime:
+    return datetime.now().astimezone()
 
 
 def backup_facts(

@@ -146,7 +146,7 @@ class Locking(QObject):
                     self._library.notes.program("pin_refused", left=tried.left)
                     words = self.tr("The PIN until now is another one.")
                     wait = self.tr("Too many tries. The next one in {seconds} s.").format(seconds=round(tried.pause_s))
-                    self.pin_sheet.say(wait if tried.pause_s else words)
+                    self.pin_sheet.said.say(wait if tried.pause_s else words)
                     return
             if new:
                 self.pin.set(new)
@@ -253,15 +253,11 @@ class PinSheet(Sheet):
         self.said.hide()
         self.open(self.old if is_set else self.new)
 
-    def say(self, words: str) -> None:
-        self.said.setText(words)
-        self.said.show()
-
     def _keep(self) -> None:
         if len(self.new.text()) < LEAST_SIGNS:
-            self.say(self.tr("A PIN has four signs or more."))
+            self.said.say(self.tr("A PIN has four signs or more."))
         elif self.new.text() != self.again.text():
-            self.say(self.tr("The two are not the same."))
+            self.said.say(self.tr("The two are not the same."))
         else:
             self.chosen.emit(self.old.text(), self.new.text())
 
@@ -333,8 +329,7 @@ class LockSheet(Sheet):
         self._say_forgotten(help_shown=False)
         self.said.hide()
         self.line.clear()
-        self.line.setEnabled(True)
-        self.unlock.setEnabled(True)
+        self._let_try(True)
         self.open(self.line)
 
     def reason(self, when: datetime, minutes: int) -> str:
@@ -345,38 +340,39 @@ class LockSheet(Sheet):
 
     def refuse(self, left: int, pause_s: int) -> None:
         """The PIN was not the one: how many tries are left, or how long to wait."""
-        self.line.clear()
-        self._pause_s = pause_s
         if pause_s:
-            self.line.setEnabled(False)
-            self.unlock.setEnabled(False)
-            self._clock.start()
+            self.line.clear()
+            self._wait(pause_s)
             self._show_pause()
-        else:
-            words = self.tr("Not this PIN. 1 more try, then a pause of 1 minute.")
-            if left != 1:
-                words = self.tr("Not this PIN. {left} more tries, then a pause of 1 minute.").format(left=left)
-            self.said.setText(words)
-            self.line.setFocus(Qt.FocusReason.OtherFocusReason)
-        self.said.show()
+            return
+        words = self.tr("Not this PIN. 1 more try, then a pause of 1 minute.")
+        if left != 1:
+            words = self.tr("Not this PIN. {left} more tries, then a pause of 1 minute.").format(left=left)
+        self.say(words)
 
     def say(self, words: str) -> None:
         self.line.clear()
-        self.said.setText(words)
-        self.said.show()
+        self.said.say(words)
         self.line.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def pause(self, pause_s: int) -> None:
         """Nothing is tried for so long; what was said stays."""
-        self._says_why, self._pause_s = True, pause_s
-        self.line.setEnabled(False)
-        self.unlock.setEnabled(False)
+        self._says_why = True
+        self._wait(pause_s)
+
+    def _wait(self, pause_s: int) -> None:
+        self._pause_s = pause_s
+        self._let_try(False)
         self._clock.start()
+
+    def _let_try(self, may: bool) -> None:
+        self.line.setEnabled(may)
+        self.unlock.setEnabled(may)
 
     def _show_pause(self) -> None:
         if self._says_why:
             return
-        self.said.setText(self.tr("Too many tries. The next one in {seconds} s.").format(seconds=self._pause_s))
+        self.said.say(self.tr("Too many tries. The next one in {seconds} s.").format(seconds=self._pause_s))
 
     def _count(self) -> None:
         self._pause_s = max(0, self._pause_s - 1)
@@ -386,8 +382,7 @@ class LockSheet(Sheet):
         self._clock.stop()
         self._says_why = False
         self.said.hide()
-        self.line.setEnabled(True)
-        self.unlock.setEnabled(True)
+        self._let_try(True)
         self.line.setFocus(Qt.FocusReason.OtherFocusReason)
 
     def _try(self) -> None:

@@ -292,14 +292,13 @@ class SettingsScreen(QWidget):
         return card
 
     def _connect(self) -> None:
-        self.looks.chosen.connect(lambda value: self._change(replace(self.preferences, theme=value)))
-        self.text_scale.chosen.connect(lambda value: self._change(replace(self.preferences, text_scale=value)))
-        self.language.chosen.connect(lambda value: self._change(replace(self.preferences, language=value)))
-        self.angle_order.chosen.connect(lambda value: self._change(replace(self.preferences, angle_order=value)))
-        self.stream.chosen.connect(lambda value: self._change(replace(self.preferences, stream=value)))
+        for name, choices in (
+            ("theme", self.looks), ("text_scale", self.text_scale), ("language", self.language),
+            ("angle_order", self.angle_order), ("stream", self.stream), ("start", self.start),
+            ("patient_sound", self.patient_sound),
+        ):  # fmt: skip
+            choices.chosen.connect(lambda value, name=name: self._change(replace(self.preferences, **{name: value})))
         self.research.toggled.connect(self._take_research)
-        self.start.chosen.connect(lambda value: self._change(replace(self.preferences, start=value)))
-        self.patient_sound.chosen.connect(lambda value: self._change(replace(self.preferences, patient_sound=value)))
         self.therapist.editingFinished.connect(self._take_therapist)
         self.agreement.editingFinished.connect(self._take_agreement)
         self.folder_button.clicked.connect(self.ask_folder)
