@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import gc
+import itertools
 import multiprocessing
 import os
 import sys
@@ -114,16 +115,23 @@ def windows_let_go(qapp: QApplication) -> Iterator[None]:
         qapp.sendPostedEvents(None, QEvent.Type.DeferredDelete)  # outside a running loop nobody does
 
 
+@pytest.fixture(scope="session")
+def homes(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A new folder for whoever asks; pytest itself looks through all that there are for each that it makes."""
+    root = tmp_path_factory.mktemp("homes")
+    return (root / str(number) for number in itertools.count())
+
+
 @pytest.fixture(autouse=True)
-def own_folders(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Path:
+def own_folders(homes: Iterator[Path], monkeypatch: pytest.MonkeyPatch) -> Path:
     """Settings, patients and caches of the person who runs the tests are neither read nor written.
 
     Child processes inherit it. Returns the folder that stands for the person's home.
     """
-    home = tmp_path_factory.mktemp("home")
+    home = next(homes)
     for name in _FOLDERS:
         folder = home / name.lower()
-        folder.mkdir(mode=0o700)
+        folder.mkdir(mode=0o700, parents=True)
         monkeypatch.setenv(name, str(folder))
     return home
 

@@ -18,6 +18,7 @@ import pytest
 
 from carpus import __version__
 from carpus.core.kernels import build
+from tests.rendered import FLEXION, Rendered
 
 ROOT = Path(__file__).parents[1]
 PARTS = ("app", "core", "ui", "resources")
@@ -127,7 +128,7 @@ def carpus(installed: Path, folder: Path, *arguments: str) -> str:
 
 
 def test_the_installed_program_runs_where_folders_and_files_are_called_as_its_parts_are(
-    installed: Path, tmp_path: Path
+    installed: Path, rendered: Rendered, tmp_path: Path
 ) -> None:
     for name in ("app", "core", "ui", "resources", "tests", "carpus"):
         (tmp_path / name).mkdir()
@@ -137,9 +138,9 @@ def test_the_installed_program_runs_where_folders_and_files_are_called_as_its_pa
     asked = [sys.executable, "-P", "-c", f"import sys; sys.path[:0] = [{str(installed)!r}]; {where}"]
     found = subprocess.run(asked, cwd=tmp_path, check=True, capture_output=True, text=True).stdout.split()
     assert [Path(path).is_relative_to(installed) for path in found] == [True, True]
-    carpus(installed, tmp_path, "simulate", "--output", "r", "--seconds", "0.5", "--seed", "3")
-    carpus(installed, tmp_path, "track", "r", "--calibration", "r/calibration.json", "--output", "s.h5")
-    assert "\nFrames       15 " in carpus(installed, tmp_path, "info", "s.h5")
+    (tmp_path / "r").symlink_to(rendered(FLEXION))
+    words = ("track", "r", "--calibration", "r/calibration.json", "--output", "s.h5", "--no-smooth")
+    assert "Frames: 24, " in carpus(installed, tmp_path, *words)
 
 
 def test_metadata_says_licences_extras_and_what_starts_it_and_no_address_that_nobody_has(wheel: Path) -> None:

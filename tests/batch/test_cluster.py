@@ -23,15 +23,14 @@ from carpus.app.__main__ import main
 from carpus.app.batch.processes import outcomes_on
 from carpus.app.batch.work import Outcome, Task
 from carpus.app.commands.track_many import OUTCOMES_FILE
-from carpus.app.sources import places
+from carpus.app.sources import CLICKS_FILE, places
 from carpus.core.errors import SchedulerUnreachable
 from carpus.core.pipeline.track import TrackSettings
 from carpus.core.session.reader import read_session
-from tests.rendered import DEVIATION, FLEXION, LEFT_DEVIATION, Rendered
+from tests.rendered import FLEXION, Rendered
 
 ROOT = Path(__file__).parents[2]
-RECORDINGS = (FLEXION, DEVIATION, LEFT_DEVIATION)
-COUNT = len(RECORDINGS)
+COUNT = 3
 LOCAL = """
 from distributed import LocalCluster
 if __name__ == "__main__":
@@ -69,8 +68,8 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 @pytest.fixture(scope="module")
 def recordings(rendered: Rendered, tmp_path_factory: pytest.TempPathFactory) -> Path:
     root = tmp_path_factory.mktemp("recordings")
-    for number, spec in enumerate(RECORDINGS):
-        shutil.copytree(rendered(spec), root / f"r{number}")
+    for number in range(COUNT):
+        shutil.copytree(rendered(FLEXION), root / f"r{number}")
     return root
 
 
@@ -81,32 +80,47 @@ def told(folder: Path) -> dict[str, str]:
 
 def test_a_worker_that_is_killed_costs_nothing(address: str, recordings: Path, tmp_path: Path) -> None:
     out = tmp_path / "far"
-    tasks = [Task(place, TrackSettings(smooth=False)) for place in places([recordings], out)]
+    found_there = places([recordings], out)
+    broken = replace(found_there[0], clicks=recordings / "none.json", session=out / "none.h5", name="none.h5")
+    tasks = [Task(place, TrackSettings(smooth=False)) for place in (*found_there, broken)]
     with Client(address, set_as_default=False) as client:
         processes = client.run(os.getpid)
     coming = outcomes_on(address, tasks)
     found: list[Outcome] = [next(coming)]
     os.kill(next(iter(processes.values())), signal.SIGKILL)
     found += coming
-    assert sorted(each.place.name for each in found) == [f"r{seed}.h5" for seed in range(COUNT)]
+    (fault,) = (each for each in found if each.place == broken)
+    assert (fault.result, "none.json" in fault.said[0]) == ("fault", True)
+    found.remove(fault)
+    assert sorted(each.place.name for each in found) == [f"r{number}.h5" for number in range(COUNT)]
     assert {each.result for each in found} <= {"tracked", "kept"}, [each.said for each in found]
     assert {path.suffix for path in out.iterdir()} == {".h5"}, "nothing half-done is left"
 
     # The same by the command, which finds all done; and the same numbers as here.
-    words = ["track", str(recordings), "--no-smooth"]
-    assert main([*words, "--output", str(out), "--scheduler", address]) == 0
+    assert main(["track", str(recordings), "--no-smooth", "--output", str(out), "--scheduler", address]) == 0
     assert set(told(out).values()) == {"kept"}
-    assert main([*words, "--output", str(tmp_path / "near"), "--jobs", "2"]) == 0
-    for seed in range(COUNT):
-        far, near = (read_session(folder / f"r{seed}.h5").motion for folder in (out, tmp_path / "near"))
-        assert np.array_equal(far.angles_rad, near.angles_rad, equal_nan=True)
-        assert np.array_equal(far.angles_sd_rad, near.angles_sd_rad, equal_nan=True)
+    near, clicks = tmp_path / "near.h5", recordings / "r0" / CLICKS_FILE
+    words = ["track", str(recordings / "r0"), "--calibration", str(clicks), "--no-smooth", "--output", str(near)]
+    assert main(words) == 0
+    here = read_session(near).motion
+    for number in range(COUNT):
+        far = read_session(out / f"r{number}.h5").motion
+        assert np.array_equal(far.angles_rad, here.angles_rad, equal_nan=True)
+        assert np.array_equal(far.angles_sd_rad, here.angles_sd_rad, equal_nan=True)
 
 
-def test_a_client_that_is_killed_begins_again(address: str, recordings: Path, tmp_path: Path) -> None:
+@pytest.fixture
+def made_in_python() -> Iterator[str]:
+    """Dask's own default: workers in processes, several threads each."""
+    begun = subprocess.Popen([sys.executable, "-c", LOCAL], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    yield begun.stdout.readline().strip()
+    begun.communicate("", 60)
+
+
+def test_a_client_that_is_killed_begins_again(made_in_python: str, recordings: Path, tmp_path: Path) -> None:
     out, table = tmp_path / "out", tmp_path / "all.parquet"
     words = ["track", str(recordings), "--no-smooth", "--output", str(out), "--table", str(table)]
-    words += ["--scheduler", address]
+    words += ["--scheduler", made_in_python]
     client = subprocess.Popen([sys.executable, "-m", "carpus", *words], stderr=subprocess.DEVNULL)
     until = time.monotonic() + 120.0
     while not list(out.glob("*.part")) and time.monotonic() < until:
@@ -120,21 +134,6 @@ def test_a_client_that_is_killed_begins_again(address: str, recordings: Path, tm
     assert set(parquet.read_table(table).column("session").to_pylist()) == set(told(out))
     assert {path.suffix for path in out.iterdir()} == {".h5", ".csv"}
     assert [path.name for path in tmp_path.iterdir() if path.is_file()] == [table.name]
-    assert main(words) == 0, "and once more"
-
-
-def test_a_cluster_made_in_python_tracks(recordings: Path, tmp_path: Path) -> None:
-    """Dask's own default: workers in processes, several threads each."""
-    place = places([recordings / "r0"], tmp_path)[0]
-    broken = replace(place, clicks=recordings / "none.json", session=tmp_path / "none.h5", name="none.h5")
-    tasks = [Task(each, TrackSettings(smooth=False)) for each in (place, broken)]
-    begun = subprocess.Popen([sys.executable, "-c", LOCAL], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-    address = begun.stdout.readline().strip()
-    found = {each.place.name: each for each in outcomes_on(address, tasks)}
-    begun.communicate("", 60)
-    assert found["r0.h5"].result == "tracked"
-    assert found["none.h5"].result == "fault"
-    assert "none.json" in found["none.h5"].said[0]
 
 
 def test_a_scheduler_that_is_not_there_is_told(

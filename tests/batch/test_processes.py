@@ -140,7 +140,6 @@ def test_there_is_a_core() -> None:
     assert list(outcomes([], 2)) == []
 
 
-@pytest.mark.parametrize("count", [1, 5])
-def test_any_number_of_processes(count: int, tmp_path: Path) -> None:
-    tasks = [task(tmp_path, f"r{i}") for i in range(3)]
-    assert {outcome.place.name for outcome in outcomes(tasks, count, deadly)} == {t.place.name for t in tasks}
+def test_more_processes_than_tasks(tmp_path: Path) -> None:
+    tasks = [task(tmp_path, f"r{i}") for i in range(2)]
+    assert {outcome.place.name for outcome in outcomes(tasks, 5, deadly)} == {t.place.name for t in tasks}

@@ -33,20 +33,16 @@ def made(rendered: Rendered, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return root
 
 
-@pytest.fixture
-def recordings(made: Path, tmp_path: Path) -> Path:
-    return Path(shutil.copytree(made, tmp_path / "in"))
-
-
 def rows(path: Path) -> list[dict[str, str]]:
     with path.open(newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
 
 
-def test_faults_are_gathered_and_what_is_done_is_left(recordings: Path, tmp_path: Path, command: Command) -> None:
-    out = tmp_path / "out"
-    words = ("track", recordings, "--output", out, "--exercise", "WRIST_RU", "--jobs", "2", "--no-smooth")
-    done = command(*words)
+def test_faults_are_gathered_and_what_is_done_is_left(made: Path, tmp_path: Path, command: Command) -> None:
+    recordings = Path(shutil.copytree(made, tmp_path / "in"))
+    out, table, other_table = tmp_path / "out", tmp_path / "all.parquet", tmp_path / "all.csv"
+    words = ("track", recordings, "--output", out, "--exercise", "WRIST_RU", "--jobs", "2", "--no-smooth", "--table")
+    done = command(*words, table)
     assert done.code == 1
     assert "hand is null" in done.out
     assert "tracked 2, done before 0, faults 1" in done.out
@@ -73,17 +69,22 @@ def test_faults_are_gathered_and_what_is_done_is_left(recordings: Path, tmp_path
     assert float(arc["mean"]) == pytest.approx(wanted.mean_deg, rel=1e-5)
     assert arc["session_id"] == session.header.session_id
     assert arc["at_least"] in ("yes", "no")
+    assert [(row["session"], row["measure"], row["of"]) for row in parquet.read_table(table).to_pylist()] == [
+        (row["session"], row["measure"], row["of"]) for row in measures
+    ]
 
     # Mended, and begun again with something that a killed process left: only what is missing is tracked.
     shutil.copy(recordings / "second" / CLICKS_FILE, recordings / "third" / CLICKS_FILE)
     left = out / "third.h5.0123abcd.part"
     left.write_bytes(b"half")
     before = {path: path.stat().st_mtime_ns for path in out.rglob("*.h5")}
-    assert command(*words).code == 0
+    assert command(*words, table).code == 0
     assert {path: path.stat().st_mtime_ns for path in before} == before
     told = {row["session"]: row["outcome"] for row in rows(out / OUTCOMES_FILE)}
     assert told == {"anna/first.h5": "kept", "second.h5": "kept", "third.h5": "tracked"}
-    assert {row["session"] for row in rows(out / MEASURES_FILE)} == set(told)
+    measures = rows(out / MEASURES_FILE)
+    assert {row["session"] for row in measures} == set(told)
+    assert parquet.read_table(table).num_rows == len(measures), "begun again with the same table"
     assert not left.exists()
     assert sorted(path.name for path in out.iterdir()) == [
         "anna", MEASURES_FILE, OUTCOMES_FILE, "second.h5", "third.h5",
@@ -93,8 +94,18 @@ def test_faults_are_gathered_and_what_is_done_is_left(recordings: Path, tmp_path
     again = tmp_path / "again"
     assert command("track", out / "second.h5", out / "third.h5", "--output", again, "--no-smooth").code == 0
     assert read_session(again / "second.h5").header.origin == read_session(out / "second.h5").header.session_id
-    done = command(*words, "--profile", "brisk")
+    done = command(*words, other_table, "--profile", "brisk")
     assert (done.code, done.out.count("tracked before with other settings")) == (0, 3)
+    assert len(rows(other_table)) == len(measures), "what was tracked before is in it too"
+
+    # What is no table of measures is somebody else's.
+    parquet.write_table(pyarrow.table({"mine": [1]}), table)
+    other_table.write_text("mine\n1\n")
+    for path in (table, other_table):
+        content = path.read_bytes()
+        done = command(*words, path)
+        assert (done.code, path.name in done.err) == (1, True)
+        assert path.read_bytes() == content
 
 
 def test_many_into_one_file_is_refused(made: Path, tmp_path: Path, command: Command) -> None:
@@ -112,31 +123,6 @@ def test_somebody_elses_table_is_left_alone(made: Path, tmp_path: Path, command:
     assert (done.code, MEASURES_FILE in done.err) == (1, True)
     assert (out / MEASURES_FILE).read_text() == "mine\n1\n"
     assert [path.name for path in out.iterdir()] == [MEASURES_FILE]
-
-
-def test_the_measures_of_all_sessions_are_one_table(recordings: Path, tmp_path: Path, command: Command) -> None:
-    out, table = tmp_path / "out", tmp_path / "all.parquet"
-    shutil.rmtree(recordings / "third")
-    words = ("track", recordings, "--output", out, "--jobs", "1", "--no-smooth", "--table")
-    assert command(*words, table).code == 0
-    read = parquet.read_table(table).to_pylist()
-    assert [(row["session"], row["measure"], row["of"]) for row in read] == [
-        (row["session"], row["measure"], row["of"]) for row in rows(out / MEASURES_FILE)
-    ]
-    assert {row["session"] for row in read} == {"anna/first.h5", "second.h5"}
-    assert command(*words, table).code == 0, "begun again with the same table"
-    assert parquet.read_table(table).num_rows == len(read)
-    assert command(*words, tmp_path / "all.csv").code == 0, "what was tracked before is in it too"
-    assert len(rows(tmp_path / "all.csv")) == len(read)
-
-    # What is no table of measures is somebody else's.
-    parquet.write_table(pyarrow.table({"mine": [1]}), table)
-    (tmp_path / "all.csv").write_text("mine\n1\n")
-    for name in ("all.parquet", "all.csv"):
-        before = (tmp_path / name).read_bytes()
-        done = command(*words, tmp_path / name)
-        assert (done.code, name in done.err) == (1, True)
-        assert (tmp_path / name).read_bytes() == before
 
 
 def test_a_table_holds_few_rows_in_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

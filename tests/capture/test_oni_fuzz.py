@@ -19,7 +19,7 @@ from carpus.core.errors import CarpusFault
 from tests.capture.oni_samples import HEIGHT, WIDTH, records, write_sample
 from tests.torture.mutations import cut, flip, noise, remove, repeat, zeros
 
-COUNT = int(os.environ.get("CARPUS_FUZZ_FILES", "600"))
+COUNT = int(os.environ.get("CARPUS_FUZZ_FILES", "300"))
 NUMBERS = (0, 1, 2, 27, 29, 255, 65_535, 65_536, 5_760_000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF)
 
 Mutation = Callable[[bytearray, np.random.Generator], None]

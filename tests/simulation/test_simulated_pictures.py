@@ -107,7 +107,7 @@ def test_hidden_discs_are_not_in_the_picture() -> None:
 def test_passing_thing_hides_discs_and_stands_nearer() -> None:
     spec = RecordingSpec(seed=5, object_passes=True, motion="rest", seconds=5.0, sensor_noise=False)
     pictures = SimulatedPictures(spec)
-    frames = range(0, len(pictures), 4)
+    frames = range(0, len(pictures), 8)
     shares = [pictures.visible_share(i).sum() for i in frames]
     assert shares[0] > 5.5
     worst = frames[int(np.argmin(shares))]

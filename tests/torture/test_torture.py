@@ -9,36 +9,38 @@ import pytest
 from tests.torture import backup_kills, kills, mutations, store_kills, two_programs
 from tests.torture.__main__ import MOST_BYTES, mutation_line, read_mutations, start_line
 
-FILES = {"session": 24, "part": 24, "register": 16}
+FILES = {"session": 12, "part": 12, "register": 8}
 
 
-@pytest.mark.parametrize("kind", kills.KINDS)
+@pytest.mark.parametrize("kind", ["program with pictures", "capture", "clock set back and forth", "two programs"])
 def test_a_kill_loses_a_second_at_most(tmp_path: Path, kind: str) -> None:
+    """Of the program alone too, which three of these add to; that of looking back is ``tests/app/test_measuring``'s."""
     done = kills.kill_once(kind, 1, tmp_path / "killed")
     assert done.lost_s <= kills.MOST_LOST_S
 
 
 @pytest.mark.parametrize("kind", backup_kills.KINDS)
 def test_a_killed_back_up_or_restore_leaves_nothing_half(tmp_path: Path, kind: str) -> None:
-    assert backup_kills.line(kind, 5, tmp_path / "kills")
+    assert backup_kills.line(kind, 3, tmp_path / "kills")
 
 
 @pytest.mark.parametrize("kind", store_kills.KINDS)
 def test_a_killed_change_of_the_store_is_there_whole_or_not_at_all(tmp_path: Path, kind: str) -> None:
-    assert store_kills.line(kind, 2, tmp_path / "kills")
+    assert store_kills.line(kind, 1, tmp_path / "kills")
 
 
-@pytest.mark.parametrize("kind", mutations.KINDS)
+@pytest.mark.parametrize("kind", [kind for kind in mutations.KINDS if kind not in ("oni", "raw")])
 def test_damaged_files_are_told(tmp_path: Path, kind: str) -> None:
-    """No traceback, no reader that dies or stays, no gigabyte; times are measured where nothing else runs."""
+    """No traceback, no reader that dies or stays, no gigabyte; times are measured where nothing else runs. Recordings
+    of one file are damaged hundreds of times in ``tests/capture``."""
     outcomes = read_mutations(kind, FILES.get(kind, 40), tmp_path)
     assert [one for one in outcomes if not one.good or one.memory_bytes > MOST_BYTES] == []
     assert any(one.said != "read" for one in outcomes), mutation_line(kind, outcomes)
 
 
 def test_the_program_starts_with_all_of_them_in_its_folder(tmp_path: Path) -> None:
-    assert "set apart" in start_line(16, tmp_path)
+    assert "set apart" in start_line(6, tmp_path)
 
 
 def test_two_programs_on_one_server_that_fails(tmp_path: Path) -> None:
-    assert two_programs.line(80, 4.0, 0.6, tmp_path / "clinic")
+    assert two_programs.line(40, 2.0, 0.4, tmp_path / "clinic")
