@@ -9852,7 +9852,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>Target {angle}</source>
-        <translation>Ziel {angle}</translation>
+        <translation type="vanished">Ziel {angle}</translation>
     </message>
     <message>
         <source>10 s ago</source>
@@ -9864,7 +9864,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>should stay within {angle}</source>
-        <translation>soll in {angle} bleiben</translation>
+        <translation type="vanished">soll in {angle} bleiben</translation>
     </message>
     <message>
         <source>0° = palm down; stay within {angle}</source>
@@ -9872,7 +9872,7 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>0° = palm down</source>
-        <translation>0° = Handfläche unten</translation>
+        <translation type="vanished">0° = Handfläche unten</translation>
     </message>
 </context>
 <context>
@@ -10552,35 +10552,35 @@ Umschalt+F8 von der Seite</translation>
     </message>
     <message>
         <source>thumb ←</source>
-        <translation>Daumen ←</translation>
+        <translation type="vanished">Daumen ←</translation>
     </message>
     <message>
         <source>thumb →</source>
-        <translation>Daumen →</translation>
+        <translation type="vanished">Daumen →</translation>
     </message>
     <message>
         <source>fingers ↑</source>
-        <translation>Finger ↑</translation>
+        <translation type="vanished">Finger ↑</translation>
     </message>
     <message>
         <source>From above</source>
-        <translation>Von oben</translation>
+        <translation type="vanished">Von oben</translation>
     </message>
     <message>
         <source>up ↑</source>
-        <translation>oben ↑</translation>
+        <translation type="vanished">oben ↑</translation>
     </message>
     <message>
         <source>fingers →</source>
-        <translation>Finger →</translation>
+        <translation type="vanished">Finger →</translation>
     </message>
     <message>
         <source>From the side</source>
-        <translation>Von der Seite</translation>
+        <translation type="vanished">Von der Seite</translation>
     </message>
     <message>
         <source>From the fingers</source>
-        <translation>Von den Fingern</translation>
+        <translation type="vanished">Von den Fingern</translation>
     </message>
     <message>
         <source>15 mm</source>

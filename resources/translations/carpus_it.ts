@@ -9852,7 +9852,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>Target {angle}</source>
-        <translation>Obiettivo {angle}</translation>
+        <translation type="vanished">Obiettivo {angle}</translation>
     </message>
     <message>
         <source>10 s ago</source>
@@ -9864,7 +9864,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>should stay within {angle}</source>
-        <translation>deve restare entro {angle}</translation>
+        <translation type="vanished">deve restare entro {angle}</translation>
     </message>
     <message>
         <source>0° = palm down; stay within {angle}</source>
@@ -9872,7 +9872,7 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>0° = palm down</source>
-        <translation>0° = palmo in giù</translation>
+        <translation type="vanished">0° = palmo in giù</translation>
     </message>
 </context>
 <context>
@@ -10552,35 +10552,35 @@ Maiusc+F8 di lato</translation>
     </message>
     <message>
         <source>thumb ←</source>
-        <translation>pollice ←</translation>
+        <translation type="vanished">pollice ←</translation>
     </message>
     <message>
         <source>thumb →</source>
-        <translation>pollice →</translation>
+        <translation type="vanished">pollice →</translation>
     </message>
     <message>
         <source>fingers ↑</source>
-        <translation>dita ↑</translation>
+        <translation type="vanished">dita ↑</translation>
     </message>
     <message>
         <source>From above</source>
-        <translation>Dall’alto</translation>
+        <translation type="vanished">Dall’alto</translation>
     </message>
     <message>
         <source>up ↑</source>
-        <translation>su ↑</translation>
+        <translation type="vanished">su ↑</translation>
     </message>
     <message>
         <source>fingers →</source>
-        <translation>dita →</translation>
+        <translation type="vanished">dita →</translation>
     </message>
     <message>
         <source>From the side</source>
-        <translation>Di lato</translation>
+        <translation type="vanished">Di lato</translation>
     </message>
     <message>
         <source>From the fingers</source>
-        <translation>Dalle dita</translation>
+        <translation type="vanished">Dalle dita</translation>
     </message>
     <message>
         <source>15 mm</source>

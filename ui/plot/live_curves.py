@@ -26,6 +26,7 @@ from carpus.ui.plot.card import PlotCard
 from carpus.ui.plot.history import SHOWN_S, History
 from carpus.ui.plot.marks import Curves, Dot, Hatch, Mark, Remark, Scales, StayWithin, Target, Times, fitted
 from carpus.ui.plot.series import Curve
+from carpus.ui.plot.session import stay_words, target_words
 from carpus.ui.plot.style import CURVE_TOKENS, screen_style, write
 from carpus.ui.theme import Theme
 
@@ -181,7 +182,7 @@ class LiveCurves(PlotCard):
         out: list[Mark] = [] if self._speeds else self._limits(column)
         out.append(Scales())
         if not self._speeds and column == self._first():
-            words = self.tr("Target {angle}")
+            words = target_words()
             targets = [value for value in self._targets_deg if math.isfinite(value)]
             out += [Target(value, words.format(angle=numbers.degrees(value))) for value in targets]
         if place == 0:
@@ -193,11 +194,11 @@ class LiveCurves(PlotCard):
     def _limits(self, column: int) -> list[Mark]:
         limit = self._exercise.trick_limit_deg
         if column != self._first() and math.isfinite(limit):
-            words = self.tr("should stay within {angle}").format(angle=numbers.degrees(limit))
+            words = stay_words(limit, column)
             if column == PRONOSUPINATION:
                 words = self.tr("0° = palm down; stay within {angle}").format(angle=numbers.degrees(limit))
             return [StayWithin(limit, words)]
-        return [Remark(0.0, self.tr("0° = palm down"))] if column == PRONOSUPINATION else []
+        return [Remark(0.0, stay_words(limit, column))] if column == PRONOSUPINATION else []
 
     def paint_ground(self, painter: QPainter) -> None:
         style, panels = screen_style(self._theme), self.panels()

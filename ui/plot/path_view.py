@@ -22,7 +22,7 @@ from carpus.ui.plot.history import History
 from carpus.ui.plot.marks import Mark, paint_dot
 from carpus.ui.plot.polygon import polygon, runs
 from carpus.ui.plot.style import RIGHT_MIDDLE, PlotStyle, dashed, screen_style, write
-from carpus.ui.plot.ways import ACROSS, ACROSS_SIGN, AXIS_LETTERS, AXIS_TOKENS, UP
+from carpus.ui.plot.ways import ACROSS, ACROSS_SIGN, AXIS_LETTERS, AXIS_TOKENS, UP, plane_names
 from carpus.ui.theme import Theme
 
 if TYPE_CHECKING:
@@ -156,14 +156,6 @@ class PathView(PlotCard):
     def _span_mm(self) -> float:
         return STILL_SPAN_MM if self._pure else FREE_SPAN_MM
 
-    def _names(self, plane: int) -> tuple[str, str, str, str]:
-        thumb = self.tr("thumb ←") if self._side == "right" else self.tr("thumb →")
-        return (
-            (self.tr("fingers ↑"), thumb, self.tr("From above"), "XY"),
-            (self.tr("up ↑"), self.tr("fingers →"), self.tr("From the side"), "ZX"),
-            (self.tr("up ↑"), thumb, self.tr("From the fingers"), "ZY"),
-        )[plane]
-
     # --- what is in it ------------------------------------------------------------------------------------
     def furnish(self, canvas: Canvas) -> None:
         self._said: Layer = canvas.add_layer(self._paint_forearm)
@@ -189,7 +181,7 @@ class PathView(PlotCard):
     def _path(self, plane: int, way_mm: FloatArray, turned: FloatArray) -> Path:
         across, up, sign = ACROSS[plane], UP[plane], ACROSS_SIGN[plane]
         newest = turned[-1]
-        named = self._names(plane)[3]
+        named = plane_names(self._side)[plane][3]
         return Path(sign * way_mm[:, across], way_mm[:, up], sign * newest[across], newest[up], named)
 
     def paint_ground(self, painter: QPainter) -> None:
@@ -207,7 +199,7 @@ class PathView(PlotCard):
 
     def _paint_plane(self, painter: QPainter, panel: Panel, plane: int) -> None:
         theme, style, scale, box = self._theme, screen_style(self._theme), self._theme.text_scale, panel.box
-        up, across, title, letters = self._names(plane)
+        up, across, title, letters = plane_names(self._side)[plane]
         painter.setPen(QPen(theme.color("line"), 1))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawRoundedRect(box, 4, 4)
