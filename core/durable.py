@@ -7,6 +7,7 @@ import contextlib
 import errno
 import os
 import re
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
@@ -117,6 +118,17 @@ def make_private_file(path: Path) -> None:
         path.chmod(0o600)
     except OSError as cause:
         raise OutputNotWritable(path, cause.strerror or "") from cause
+
+
+def link_or_copy(path: Path, target: Path) -> None:
+    """The same file under another name as well, or a private copy that is on the disk. Raises OSError."""
+    try:
+        os.link(path, target)
+    except OSError:  # no hard links here, or another disk
+        shutil.copyfile(path, target)
+        target.chmod(0o600)
+        with target.open("r+b") as copy:
+            os.fsync(copy.fileno())
 
 
 def is_still_there(descriptor: int, path: Path) -> bool:

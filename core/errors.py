@@ -293,7 +293,6 @@ class OtherCamera(CameraLost):
     """Another camera is plugged in than the one that is wanted. Told while that one is away; raised at the opening."""
 
     happened = phrase("Carpus waits for its camera: {subject}. Another one is there ({detail}).")
-    safe = _STORED
     do = phrase("Plug its own camera in again; what was begun then goes on by itself.")
 
 
@@ -418,7 +417,6 @@ class RegisterDamaged(RegisterUnreadable):
     """The register's file is broken or not a register; reading it again does not help."""
 
     happened = phrase("The list of patients is damaged: {subject} ({detail}).")
-    safe = phrase("The session files are safe; the list can be made again from them, without the names.")
     do = phrase("Start Carpus again, or take the list from a backup.")
 
 

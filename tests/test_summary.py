@@ -11,7 +11,7 @@ import pytest
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.hand.protocols import HAND21
 from carpus.core.results.figures import session_figures
-from carpus.core.results.session_lines import duration_text, range_lines, recording_summary, session_summary
+from carpus.core.results.session_lines import range_lines, recording_summary, session_summary
 from carpus.core.session.reader import read_session
 from carpus.core.session.recovery import recover_folder
 from carpus.core.session.values import motion_of
@@ -151,16 +151,6 @@ def test_a_recording_is_told_in_plain_lines(tmp_path: Path) -> None:
     assert told["Depth"] == "4 of 5 frames have a depth picture"
     assert told["Camera"].startswith("64 x 48 pixels, fx 52.50")
     assert told["Camera"].endswith("(usual values, no camera_info.yaml)")
-
-
-def test_durations() -> None:
-    assert [duration_text(s) for s in (0.0, 59.96, 60.0, 3599.0, 6000.04)] == [
-        "00:00.0",
-        "01:00.0",
-        "01:00.0",
-        "59:59.0",
-        "100:00.0",
-    ]
 
 
 def test_a_simulated_or_doubtful_session_says_so(tmp_path: Path) -> None:

@@ -78,7 +78,7 @@ class AgreementStudy:
         kinds = sorted({str(result.compared.kind) for _, result in self.compared})
         kind = phrase(
             "{people} people, {sessions} sessions, {kinds}",
-            people=self.people, sessions=len(self.compared), kinds=", ".join(kinds),
+            people=self.people, sessions=len(self.compared), kinds=", ".join(kinds)
         )  # fmt: skip
         first = self.compared[0][1].compared
         remarks = [f"{one.pairs.name}: {words}" for one in self.angles for words in _few(one)]

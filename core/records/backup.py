@@ -492,16 +492,9 @@ def _kept(path: str, source: Path, place: Path, before: Kept | None) -> Kept:
 
 def _stored(place: Path, path: str, blocks: Iterator[bytes], changed_ns: int) -> Kept:
     part = place / OBJECTS / f".{uuid.uuid4().hex}"
-    digest, size = hashlib.sha256(), 0
     try:
-        with open(part, "wb", opener=private) as copy:
-            for block in blocks:
-                digest.update(block)
-                copy.write(block)
-                size += len(block)
-            copy.flush()
-            os.fsync(copy.fileno())
-        target = _object(place, digest.hexdigest())
+        sha256, size = _written(part, blocks)
+        target = _object(place, sha256)
         make_private(target.parent)
         part.replace(target)
         sync_folder(target.parent)
@@ -509,7 +502,20 @@ def _stored(place: Path, path: str, blocks: Iterator[bytes], changed_ns: int) ->
         raise write_fault(place, cause) from cause
     finally:
         part.unlink(missing_ok=True)
-    return Kept(path, digest.hexdigest(), size, changed_ns)
+    return Kept(path, sha256, size, changed_ns)
+
+
+def _written(into: Path, blocks: Iterator[bytes]) -> tuple[str, int]:
+    """A new private file on the disk; its SHA-256 and size."""
+    digest, size = hashlib.sha256(), 0
+    with open(into, "xb", opener=private) as copy:
+        for block in blocks:
+            digest.update(block)
+            copy.write(block)
+            size += len(block)
+        copy.flush()
+        os.fsync(copy.fileno())
+    return digest.hexdigest(), size
 
 
 def _object(place: Path, sha256: str) -> Path:
@@ -532,21 +538,16 @@ def _compare(place: Path, one: Kept) -> None:
 
 
 def _fetch(content: Content, one: Kept, into: Path) -> None:
-    digest = hashlib.sha256()
     try:
-        with content(one) as file, open(into, "xb", opener=private) as copy:
-            while block := file.read(BLOCK):
-                digest.update(block)
-                copy.write(block)
-            copy.flush()
-            os.fsync(copy.fileno())
+        with content(one) as file:
+            sha256, _ = _written(into, iter(lambda: file.read(BLOCK), b""))
         with contextlib.suppress(OverflowError):
             os.utime(into, ns=(one.changed_ns, one.changed_ns))
     except (FileNotFoundError, KeyError) as cause:
         raise BackupUnequal(one.sha256[:12], Path(one.path).suffix) from cause
     except OSError as cause:
         raise write_fault(into, cause) from cause
-    if digest.hexdigest() != one.sha256:
+    if sha256 != one.sha256:
         into.unlink(missing_ok=True)
         raise BackupUnequal(one.sha256[:12], Path(one.path).suffix)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
@@ -13,7 +12,7 @@ from uuid import uuid4
 
 import numpy as np
 
-from carpus.core.durable import make_private, replace_file, write_fault
+from carpus.core.durable import link_or_copy, make_private, replace_file, write_fault
 from carpus.core.errors import CarpusFault, ChangedMeanwhile, OutputExists, RegisterBusy, SessionUnreadable
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.records.changes import changed
@@ -141,7 +140,8 @@ class Corrections:
         copy = _copy_beside(entry.path, header)
         try:
             if not _holds(place, header.session_id):  # a program was killed before it could delete what it had copied
-                _copy(trial, copy)
+                copy.unlink(missing_ok=True)
+                link_or_copy(trial, copy)  # the sessions may lie on a share, which is another disk
                 if not is_listed:
                     choices = library.choices(session_id) if is_copy else self._that_hold(session_id, trial)
                     also = [change_of(header.session_id, choices)] if choices is not None else []
@@ -223,17 +223,6 @@ def _copy_beside(path: Path, header: SessionHeader) -> Path:
     """Where a new result lies beside the session at ``path`` until it is listed: no back-up takes it, and it is erased
     with that session."""
     return path.with_name(f".{path.stem}.{header.session_id[:8]}{COPY_SUFFIX}")
-
-
-def _copy(trial: Path, copy: Path) -> None:
-    copy.unlink(missing_ok=True)
-    try:
-        os.link(trial, copy)
-    except OSError:  # the sessions lie on a share, which is another disk
-        shutil.copyfile(trial, copy)
-        copy.chmod(0o600)
-        with copy.open("r+b") as written:
-            os.fsync(written.fileno())
 
 
 def _holds(path: Path, session_id: str) -> bool:

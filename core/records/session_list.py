@@ -7,9 +7,7 @@ set apart too, so that it counts once."""
 from __future__ import annotations
 
 import glob
-import os
 import re
-import shutil
 import stat
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -21,7 +19,7 @@ from typing import Any
 from sqlalchemy import Insert, Row, delete, select
 from sqlalchemy.dialects.sqlite import insert
 
-from carpus.core.durable import make_private, write_fault
+from carpus.core.durable import link_or_copy, make_private, write_fault
 from carpus.core.errors import CarpusFault, FolderMissing, OutputNotWritable, SessionUnreadable, ShareEmpty
 from carpus.core.names import folded
 from carpus.core.phrase import phrase
@@ -219,12 +217,14 @@ class ListedSessions:
         try:
             write_anew(entry.path, path, subject_id=pseudonym)
             for one, other in zip(beside, made[1:], strict=True):
-                _same(one, other)
+                link_or_copy(one, other)  # a kill in between loses none
             size, stored_path = read_outline(path).size_bytes, self.stored_path(path)
             self._store.do([changed(SESSION, session_id, patient_id=patient_id, path=stored_path, size=size)])
-        except BaseException:
+        except BaseException as cause:
             for one in made:
                 one.unlink(missing_ok=True)
+            if isinstance(cause, OSError):
+                raise write_fault(path, cause) from cause
             raise
         for one in (entry.path, *beside, *trials_of(self._store, [session_id])):
             with suppress(OSError):  # open elsewhere: it is nobody's, and goes with the patient
@@ -444,18 +444,6 @@ class FilesOfSessions:
     def _is_part(self, path: str) -> bool:
         """Whether a path is of a part file that is still there and could not be finished."""
         return path.endswith(".part") and (self._folder / path).exists()
-
-
-def _same(one: Path, other: Path) -> None:
-    """The file under another name as well, so that a kill in between loses none."""
-    try:
-        os.link(one, other)
-    except OSError:  # no hard links here
-        try:
-            shutil.copyfile(one, other)
-            other.chmod(0o600)
-        except OSError as cause:
-            raise write_fault(other, cause) from cause
 
 
 def _columns(path: str, patient_id: str | None, outline: SessionOutline) -> dict[str, Any]:

@@ -53,7 +53,7 @@ class Norm:
         """Where it is from and whom it covers."""
         return phrase(
             "Usual: {source}; {ages}, {sexes}; not for children or old age.",
-            source=self.source, ages=self.ages, sexes=self.sexes,
+            source=self.source, ages=self.ages, sexes=self.sexes
         )  # fmt: skip
 
 

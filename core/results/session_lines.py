@@ -98,8 +98,8 @@ def source_summary(path: Path, info: SourceInfo) -> list[str]:
 def duration_text(duration_s: float) -> str:
     """Minutes and seconds.
 
-    >>> duration_text(83.24)
-    '01:23.2'
+    >>> duration_text(83.24), duration_text(59.96), duration_text(6000.04)
+    ('01:23.2', '01:00.0', '100:00.0')
     """
     minutes, seconds = divmod(round(duration_s, 1), 60.0)
     return f"{int(minutes):02d}:{seconds:04.1f}"

@@ -87,12 +87,6 @@ def test_a_change_is_one_only_beyond_its_limit(figures: SessionFigures, differen
     assert verdicts["arc"] == ("no_change" if abs(difference_deg) <= 10 * math.sqrt(2) else sign)
 
 
-def test_two_repetitions_are_never_compared(figures: SessionFigures) -> None:
-    few = figures_once(session(), RepetitionChoices(dict.fromkeys(range(2, 9), "trial")))
-    assert {item.verdict for item in compare(figures, few)} == {"not_judged"}
-    assert "few_repetitions_after" in unfair_reasons(figures, few)
-
-
 def test_a_session_with_another_camera_height_is_shown_but_not_compared(figures: SessionFigures) -> None:
     sessions = [days_ago(figures, day) for day in (21, 14, 7, 0)]
     sessions[2] = replace(sessions[2], quality=replace(sessions[2].quality, distance_m=0.9))

@@ -74,16 +74,6 @@ def test_what_was_written_is_read(tmp_path: Path, protocol: MarkerProtocol) -> N
     assert not has_raw(session.path)
 
 
-def test_a_lost_frame_is_unknown_everywhere_and_nowhere_zero(tmp_path: Path) -> None:
-    session = read_session(write(tmp_path / "s.h5"))
-    lost = session.status == 2
-    assert lost.any()
-    for field in dataclasses.fields(Motion):
-        values = getattr(session.motion, field.name)
-        assert np.isnan(values[lost]).all(), field.name
-    assert np.isnan(session.markers.position_cam_m[lost]).all()
-
-
 def edit(change: Callable[[h5py.File], object]) -> Callable[[Path], None]:
     def apply(path: Path) -> None:
         with h5py.File(path, "r+") as file:
