@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from tests.accuracy import __main__ as accuracy
-from tests.accuracy import pages, short_table
+from tests.accuracy import pages
 from tests.accuracy.readings import Reading
-from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
+from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow, short
 
 
 def _reading(error_deg: float) -> Reading:
@@ -46,6 +46,6 @@ def test_tables_are_put_between_the_marks_of_their_name(tmp_path: Path, monkeypa
 
 def test_short_table_pools_the_rows_of_a_kind() -> None:
     rows = [ReadRow(name, WRIST_COLUMNS, (_reading(error),)) for name, error in (("a", 3.0), ("b", 1.0))]
-    line = short_table.markdown([("both", rows), ("none", [])]).splitlines()[-1]
+    line = short([("both", rows), ("none", [])]).splitlines()[-1]
     rmse = f"{np.sqrt(5.0):.2f}"
     assert line.startswith(f"| both | 2 | {rmse} / {rmse} / {rmse} | 50 / 50 / 50 | 2.0 / 2.0 / 2.0 | 3.0")

@@ -69,19 +69,13 @@ class MeasuredHand:
 
 
 @dataclass(frozen=True, slots=True)
-class CalibrationOutcome:
-    """What there is to judge: the verdict always, the calibration unless a finding blocks.
+class CalibrationOutcome(MeasuredHand):
+    """What there is to judge of pictures: besides the measured hand what its discs look like, ``pixel`` (M, 2) where
+    they were found, NaN where not, and ``capture_frames`` still frames used, from the first on."""
 
-    ``pixel`` (M, 2) where the discs were found, NaN where not; ``capture_frames`` still frames used, from
-    the first on; ``noise`` of one picture as the still hand showed it.
-    """
-
-    verdict: Verdict
     appearance: MarkerAppearance
     pixel: FloatArray
-    calibration: Calibration | None
     capture_frames: int
-    noise: StillNoise
 
 
 def calibrate(
@@ -105,7 +99,7 @@ def calibrate(
     found_px = np.where((taken >= 0)[:, None], _rows(blobs.pixel, taken), np.nan)
     if np.any(taken < 0):
         verdict = _no_verdict(clicks, findings)
-        return CalibrationOutcome(verdict, appearance, found_px, None, 0, StillNoise())
+        return CalibrationOutcome(verdict, None, StillNoise(), appearance, found_px, 0)
 
     offset_px = depth_offset_px(first, appearance, found_px, settings.registration)
     if offset_px > 0.0:
@@ -127,7 +121,7 @@ def calibrate(
     if calibration is not None:
         still = [frame for frame in frames if frame.timestamp_s <= first.timestamp_s + capture.lasted_s]
         calibration = replace(calibration, surface=surface_of(calibration, still, camera, settings.back))
-    return CalibrationOutcome(hand.verdict, appearance, found_px, calibration, capture.frames, hand.noise)
+    return CalibrationOutcome(hand.verdict, calibration, hand.noise, appearance, found_px, capture.frames)
 
 
 _NAMES_WRONG = ("shifted", "swapped", "misnamed", "wrong_side")
@@ -184,7 +178,7 @@ def _with_near_spot(
     return _doubted(hand, CalibrationFinding("near_spot", (clicks.protocol.markers[marker],), spot_px=spot_px))
 
 
-_Judged = TypeVar("_Judged", MeasuredHand, CalibrationOutcome)
+_Judged = TypeVar("_Judged", bound=MeasuredHand)
 
 
 def _doubted(judged: _Judged, finding: CalibrationFinding) -> _Judged:

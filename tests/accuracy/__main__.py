@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeVar
 
 from carpus.core.provenance import revision
-from tests.accuracy import badly, cameras, check_cards, hand21_table, papers, readings_table, second, short_table
+from tests.accuracy import badly, cameras, check_cards, hand21_table, papers, readings_table, second
 from tests.accuracy.hand21 import ROWS, HandRun, HandScenario
 from tests.accuracy.jobs import all_runs, jobs_for
 from tests.accuracy.pages import marked
@@ -20,8 +20,7 @@ from tests.accuracy.readings_table import ReadRow
 from tests.accuracy.robustness import robustness_verdicts
 from tests.accuracy.runs import Run
 from tests.accuracy.scenarios import GROUPS, Scenario
-from tests.accuracy.sensors import SENSOR_HAND, SENSOR_WRIST
-from tests.accuracy.soft import SOFT_HAND, SOFT_WRIST
+from tests.accuracy.soft import SENSOR_HAND, SENSOR_WRIST, SOFT_HAND, SOFT_WRIST
 from tests.accuracy.table import markdown, read_rows, rows_of, terminal
 from tests.accuracy.targets import verdicts
 
@@ -88,7 +87,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         read += some
         print("", told, sep="\n")
     if options.group == "all" and pictures and not options.only:
-        print("", marked("short", short_table.markdown(_kinds(read))), sep="\n")
+        print("", marked("short", readings_table.short(_kinds(read))), sep="\n")
         print("", marked("made", _made(seeds, pictures)), sep="\n")
     print(f"{time.monotonic() - begin:.0f} s", file=sys.stderr)
     return 0

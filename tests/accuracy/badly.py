@@ -19,6 +19,7 @@ from carpus.core.session.reader import read_session
 from carpus.core.simulation.recording import CLICKS_FILE, cached_recording
 from carpus.core.types import FloatArray, TrackStatus
 from tests.accuracy.jobs import PICTURE_SECONDS
+from tests.accuracy.pages import ruled
 from tests.accuracy.runs import degrees_between
 from tests.accuracy.scenarios import WRIST
 from tests.accuracy.sequences import scored_frames
@@ -98,8 +99,7 @@ def report(recordings: int) -> str:
     """Run every row and tell, as Markdown."""
     scenario = next(one for one in WRIST if one.name == "mixed axes")
     lines = [
-        "| calibrated | recordings | told before | as | live RMSE | in 2 sd % | doubtful, lost or not begun, % |",
-        "|---" * 7 + "|",
+        ["calibrated", "recordings", "told before", "as", "live RMSE", "in 2 sd %", "doubtful, lost or not begun, %"]
     ]
     for row in ROWS:
         runs = [run_one(row, seed) for seed in scenario.seeds(recordings)]
@@ -112,5 +112,5 @@ def report(recordings: int) -> str:
             rmse = " / ".join(f"{value:.2f}" for value in np.sqrt(np.nanmean(error**2, axis=0)))
             inside = " / ".join(f"{100 * value:.0f}" for value in (np.abs(error) <= 2.0 * sd).mean(axis=0))
         doubtful = 100.0 * float(np.mean([run.doubtful for run in runs]))
-        lines.append(f"| {row} | {len(runs)} | {told} of {len(runs)} | {kinds} | {rmse} | {inside} | {doubtful:.0f} |")
-    return "\n".join(lines)
+        lines.append([row, f"{len(runs)}", f"{told} of {len(runs)}", kinds, rmse, inside, f"{doubtful:.0f}"])
+    return ruled(lines)

@@ -21,6 +21,7 @@ from carpus.core.errors import BoardViewsAlike
 from carpus.core.simulation.practice_camera import LENS, Studio, card_scene, poses, texture_of
 from carpus.core.simulation.sensor import depth_scale
 from carpus.core.types import FloatArray, Frame
+from tests.accuracy.pages import aligned, ruled
 
 FOCAL_SHARE, DEPTH_SHARE = 0.003, 0.002
 """What was promised."""
@@ -147,7 +148,8 @@ def report(only: str, seeds: int, *, as_markdown: bool) -> str:
         if only.lower() in one.name.lower()
         for k in range(seeds)
     ]
-    return "\n".join([*_table(runs, as_markdown=as_markdown), "", *_verdicts(runs)]) if runs else ""
+    told = ruled if as_markdown else aligned
+    return "\n".join([told(_table(runs)), "", *_verdicts(runs)]) if runs else ""
 
 
 HEAD = (
@@ -156,7 +158,7 @@ HEAD = (
 )  # fmt: skip
 
 
-def _table(runs: Sequence[CameraRun], *, as_markdown: bool) -> list[str]:
+def _table(runs: Sequence[CameraRun]) -> list[tuple[str, ...]]:
     rows = [HEAD]
     for name in [*dict.fromkeys(run.camera for run in runs), "all"]:
         some = [run for run in runs if name in (run.camera, "all")]
@@ -164,20 +166,16 @@ def _table(runs: Sequence[CameraRun], *, as_markdown: bool) -> list[str]:
         length = max(run.card.length_error_mm for run in some)
         rows.append((
             name, str(len(some)),
-            _most([100 * run.focal for run in some], 2), _most([run.middle_px for run in some], 1),
-            _most([run.lens_px for run in some], 2), _most([100 * run.depth for run in some], 2),
+            most_of([100 * run.focal for run in some], 2), most_of([run.middle_px for run in some], 1),
+            most_of([run.lens_px for run in some], 2), most_of([100 * run.depth for run in some], 2),
             f"{angle:.1f} / {length:.1f}",
             f"{max(100 * abs(run.card.scale - 1.0) for run in some):.2f}",
             f"{sum(map(sum, (run.told for run in some)))} of {2 * len(some)}",
         ))  # fmt: skip
-    if as_markdown:
-        lines = [f"| {' | '.join(row)} |" for row in rows]
-        return [lines[0], f"|{'---|' * len(HEAD)}", *lines[1:]]
-    wide = [max(len(row[k]) for row in rows) for k in range(len(HEAD))]
-    return ["  ".join(cell.ljust(size) for cell, size in zip(row, wide, strict=True)).rstrip() for row in rows]
+    return rows
 
 
-def _most(values: Sequence[float], digits: int) -> str:
+def most_of(values: Sequence[float], digits: int) -> str:
     """Root mean square and worst."""
     square = float(np.sqrt(np.mean(np.square(values))))
     return f"{square:.{digits}f}, worst {max(values):.{digits}f}"

@@ -12,7 +12,8 @@ from carpus.core.calibration.card.card import CHECK_S, CardReading
 from carpus.core.calibration.card.measure import LOOK_EVERY_S, measure_card
 from carpus.core.depth_sensor import SENSORS
 from carpus.core.simulation.practice_camera import LENS, Studio, card_scene
-from tests.accuracy.cameras import OFF_SHARE
+from tests.accuracy.cameras import OFF_SHARE, most_of
+from tests.accuracy.pages import aligned, ruled
 
 SEED = 7600
 FEWER = 10
@@ -66,11 +67,7 @@ def report(only: str, seeds: int, *, as_markdown: bool) -> str:
             rows.append(_row(name, [run_one(sensor, SEED + 100 * number + k, step) for k in range(count)]))
     if len(rows) == 1:
         return ""
-    if as_markdown:
-        lines = [f"| {' | '.join(row)} |" for row in rows]
-        return "\n".join([lines[0], f"|{'---|' * len(HEAD)}", *lines[1:]])
-    wide = [max(len(row[k]) for row in rows) for k in range(len(HEAD))]
-    return "\n".join("  ".join(cell.ljust(size) for cell, size in zip(row, wide, strict=True)).rstrip() for row in rows)
+    return ruled(rows) if as_markdown else aligned(rows)
 
 
 def _row(name: str, runs: Sequence[CardRun]) -> tuple[str, ...]:
@@ -79,12 +76,7 @@ def _row(name: str, runs: Sequence[CardRun]) -> tuple[str, ...]:
     out = sum(not (one.angles_hold and one.lengths_hold) for one in right)
     return (
         name, str(len(runs)), f"{limits[0]:.1f} / {limits[1]:.1f}",
-        _most([one.angle_error_deg for one in right], 1), _most([one.length_error_mm for one in right], 1),
-        _most([100.0 * abs(one.scale - 1.0) for one in right], 2), f"{out} of {len(runs)}",
+        most_of([one.angle_error_deg for one in right], 1), most_of([one.length_error_mm for one in right], 1),
+        most_of([100.0 * abs(one.scale - 1.0) for one in right], 2), f"{out} of {len(runs)}",
         f"{sum(map(sum, (run.told for run in runs)))} of {2 * len(runs)}",
     )  # fmt: skip
-
-
-def _most(values: Sequence[float], digits: int) -> str:
-    """Root mean square and worst."""
-    return f"{float(np.sqrt(np.mean(np.square(values)))):.{digits}f}, worst {max(values):.{digits}f}"

@@ -21,10 +21,11 @@ from tests.accuracy.hand21 import (
     run_on_pictures,
     tracked,
 )
+from tests.accuracy.jobs import side_by_side
+from tests.accuracy.pages import ruled
 from tests.accuracy.readings import mean, rms
 from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
 from tests.accuracy.runs import Mode
-from tests.accuracy.side_by_side import side_by_side
 from tests.accuracy.targets import Verdict
 
 MOST_RMSE_DEG = {
@@ -193,7 +194,7 @@ def markdown(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> str:
         "wrist",
         "discs, mm",
     ]
-    lines = [" | ".join(head).join(("| ", " |")), "|---" * len(head) + "|"]
+    lines = [head]
     for row, mode, mine in _by_row(runs, rows):
         found = [figures(mine, group) for group in JOINT_GROUPS]
         hidden = [np.concatenate([_hidden(value, run) for run, value in pairs]) for pairs in (
@@ -205,8 +206,8 @@ def markdown(runs: Sequence[HandRun], rows: Sequence[HandScenario]) -> str:
         cells.append(f"{100 * min(f.all_inside for f in found):.0f} to {100 * max(f.all_inside for f in found):.0f}")
         cells.append(" / ".join(f"{v:.1f}" for v in wrist_rmse(mine)))
         cells.append(" / ".join(f"{v:.1f}" for v in disc_mm(mine)))
-        lines.append(" | ".join(cells).join(("| ", " |")))
-    return "\n".join(lines)
+        lines.append(cells)
+    return ruled(lines)
 
 
 def _hidden(values: FloatArray, run: HandRun) -> FloatArray:

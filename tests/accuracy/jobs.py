@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import multiprocessing
+import sys
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from typing import TypeVar
 
 from threadpoolctl import threadpool_limits
+from tqdm import tqdm
 
 from tests.accuracy.carpus import run_on_blobs, run_on_pictures
 from tests.accuracy.informed import informed_run
 from tests.accuracy.runs import UNTROUBLED, Mode, Run
 from tests.accuracy.scenarios import REPORT_SEEDS, Scenario
 from tests.accuracy.sequences import without_false
-from tests.accuracy.side_by_side import side_by_side
 from tests.accuracy.simplest import simplest_run
 from tests.simulation.measurements import measurement_sequence
 
@@ -58,6 +62,17 @@ def jobs_for(scenarios: Sequence[Scenario], seeds: int, pictures: int, first: in
     ]
     by_blobs = [scenario for scenario in scenarios if not (scenario.pictures and pictures)]
     return out + [Job(scenario, seed, "blobs") for scenario in by_blobs for seed in scenario.seeds(seeds, first)]
+
+
+_Job = TypeVar("_Job")
+_Done = TypeVar("_Done")
+
+
+def side_by_side(work: Callable[[_Job], _Done], jobs: Sequence[_Job], processes: int) -> list[_Done]:
+    """What becomes of all jobs, in their order; progress goes to stderr."""
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(processes, mp_context=context) as pool:
+        return list(tqdm(pool.map(work, jobs), total=len(jobs), file=sys.stderr))
 
 
 def all_runs(jobs: Sequence[Job], processes: int) -> list[Run]:

@@ -21,12 +21,12 @@ from carpus.core.types import FloatArray, TrackStatus
 from tests.accuracy.carpus import measured_hand, stepped
 from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, HandScenario, clickable_sequence, seen_joints, with_end_joints
 from tests.accuracy.hand21 import ROWS as HAND
-from tests.accuracy.jobs import BLOB_SECONDS
+from tests.accuracy.jobs import BLOB_SECONDS, side_by_side
+from tests.accuracy.pages import aligned, ruled
 from tests.accuracy.readings import Reading, read_figures, reading_of, unused_share
 from tests.accuracy.runs import degrees_between, longest_s
 from tests.accuracy.scenarios import TROUBLE, WRIST, Scenario
 from tests.accuracy.sequences import longest_untracked_s, names_taken, scored_frames
-from tests.accuracy.side_by_side import side_by_side
 from tests.accuracy.soft import SOFT_HAND, SOFT_WRIST
 from tests.simulation.measurements import MeasurementSequence
 
@@ -173,9 +173,4 @@ def report(only: str, seeds: int, processes: int, *, as_markdown: bool) -> str:
     if not wrist and not hand:
         return ""
     lines = list(lines_of(all_paper_runs(paper_jobs(wrist, hand, max(1, seeds // 2)), processes)))
-    if as_markdown:
-        ruled = [HEAD, ["---"] * len(HEAD), *lines]
-        return "\n".join(f"| {' | '.join(line)} |" for line in ruled)
-    widths = [max(len(line[i]) for line in [HEAD, *lines]) for i in range(len(HEAD))]
-    told = ["  ".join(cell.ljust(w) for cell, w in zip(line, widths, strict=True)) for line in [HEAD, *lines]]
-    return "\n".join([*told, f"joints: {' / '.join(JOINT_GROUPS)}"])
+    return ruled([HEAD, *lines]) if as_markdown else f"{aligned([HEAD, *lines])}\njoints: {' / '.join(JOINT_GROUPS)}"

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from tests.accuracy.pages import ruled
 from tests.accuracy.readings import ReadFigures, Reading, read_figures, unused_share
 
 WRIST_COLUMNS: dict[str, tuple[int, ...]] = {"deviation": (0,), "flexion": (1,), "pro/sup": (2,)}
@@ -52,10 +53,46 @@ def terminal(rows: Sequence[ReadRow]) -> str:
 def markdown(rows: Sequence[ReadRow]) -> str:
     """One line for every row, the groups of angles side by side in its cells."""
     head = ["row", "recordings", "angles", *_HEAD, "unused discs, %"]
-    lines = [" | ".join(head).join(("| ", " |")), "|---" * len(head) + "|"]
+    lines = [head]
     for row in rows:
         found = dict(row.figures())
         cells = [" / ".join(values) for values in zip(*map(_cells, found.values()), strict=True)]
-        whole = [row.name, str(len(row.readings)), " / ".join(found), *cells, f"{100 * unused_share(row.readings):.1f}"]
-        lines.append(" | ".join(whole).join(("| ", " |")))
-    return "\n".join(lines)
+        unused = f"{100 * unused_share(row.readings):.1f}"
+        lines.append([row.name, str(len(row.readings)), " / ".join(found), *cells, unused])
+    return ruled(lines)
+
+
+_SHORT_HEAD = (
+    "rendered recordings", "how many", "wrist RMSE", "truth within 2 sd, %",
+    "range of motion misread, mean", "at worst", "MCP, PIP",
+)  # fmt: skip
+_SHORT_COLUMNS: tuple[tuple[Callable[[ReadFigures], float], int], ...] = (
+    (lambda f: f.rmse, 2),
+    (lambda f: 100.0 * f.inside, 0),
+    (lambda f: f.range_mean, 1),
+    (lambda f: f.range_worst, 1),
+)
+_SHORT_JOINTS = ("MCP flexion", "PIP flexion")
+
+
+def short(kinds: Sequence[tuple[str, Sequence[ReadRow]]]) -> str:
+    """The short table of the README: one line for every kind of hand by its name, all rows of it pooled, wrists and
+    joints."""
+    lines = [_SHORT_HEAD]
+    for name, rows in kinds:
+        wrists = [one for row in rows if "deviation" in row.columns for one in row.readings]
+        joints = [row for row in rows if "MCP flexion" in row.columns]
+        if not wrists:
+            continue
+        found = [read_figures(wrists, some) for some in WRIST_COLUMNS.values()]
+        told = (" / ".join(f"{of(one):.{digits}f}" for one in found) for of, digits in _SHORT_COLUMNS)
+        lines.append((name, str(len(wrists)), *told, _joints(joints)))
+    return ruled(lines)
+
+
+def _joints(rows: Sequence[ReadRow]) -> str:
+    """RMSE of knuckles and middle joints while seen."""
+    if not rows:
+        return "-"
+    readings = [one for row in rows for one in row.readings]
+    return ", ".join(f"{read_figures(readings, rows[0].columns[name]).rmse:.1f}" for name in _SHORT_JOINTS)

@@ -18,12 +18,12 @@ from carpus.core.types import FloatArray, TrackStatus
 from tests.accuracy import readings_table
 from tests.accuracy.carpus import measured_session
 from tests.accuracy.hand21 import ANGLES, JOINT_GROUPS, readable, seen_joints, with_end_joints
+from tests.accuracy.jobs import side_by_side
 from tests.accuracy.pages import marked
 from tests.accuracy.readings import AT_NEUTRAL_RAD, Reading, reading_in
 from tests.accuracy.readings_table import WRIST_COLUMNS, ReadRow
 from tests.accuracy.runs import degrees_between
 from tests.accuracy.sequences import enough_inside, markers_of, names_taken
-from tests.accuracy.side_by_side import side_by_side
 from tests.second_patient.motions import ROWS, Row, motion_of
 from tests.second_patient.recording import clear_px, kept_recording, take_of
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carpus.core.types import FloatArray
+from tests.accuracy.pages import ruled
 from tests.accuracy.readings_table import ReadRow
 from tests.accuracy.runs import CARPUS, INFORMED, SIMPLEST, UNTROUBLED, Mode, Run
 from tests.accuracy.scenarios import Scenario
@@ -115,7 +116,7 @@ def markdown(rows: Sequence[Row]) -> str:
         "RMSE / bound", "within 2 sd, %", "mean sd / RMSE", "tracked, %", "wrong, %", "longest swap, s",
         "back after, s",
     ]  # fmt: skip
-    lines = [" | ".join(head).join(("| ", " |")), "|---" * len(head) + "|"]
+    lines = [head]
     for row in rows:
         found = dict(_scores(row))
         live = found.get("Carpus, live")
@@ -133,5 +134,5 @@ def markdown(rows: Sequence[Row]) -> str:
             _three(live.sd_over_rmse), f"{100 * live.tracked:.1f}", f"{100 * live.wrong:.2f}",
             f"{live.longest_wrong_s:.1f}", f"{live.longest_untracked_s:.1f}",
         ]  # fmt: skip
-        lines.append(" | ".join(cells).join(("| ", " |")))
-    return "\n".join(lines)
+        lines.append(cells)
+    return ruled(lines)

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from carpus.core.calibration.camera.board import FoundBoard
+from carpus.core import so3
 from carpus.core.calibration.camera.calibrate import CameraCalibration, Intrinsics
-from carpus.core.calibration.camera.views import BoardView
+from carpus.core.calibration.camera.views import BoardView, board_pose
 from carpus.core.camera import Camera
 from carpus.core.types import FloatArray
 
@@ -48,7 +48,7 @@ def _map(found: Intrinsics, views: Sequence[BoardView]) -> FloatArray:
     poses = dict(zip(found.used, zip(found.board_turn, found.board_shift_m, strict=True), strict=True))
     for k, view in enumerate(views):  # also what did not count in the end: the guidance has counted its corners
         seen = view.found
-        pose = poses.get(k) or _pose(camera, seen)
+        pose = poses.get(k) or board_pose(seen, camera)
         if pose is None:
             continue
         turn, shift = pose
@@ -60,17 +60,11 @@ def _map(found: Intrinsics, views: Sequence[BoardView]) -> FloatArray:
     return np.where(count > 0, total / np.maximum(count, 1.0), np.nan)
 
 
-def _pose(camera: Camera, seen: FoundBoard) -> tuple[FloatArray, FloatArray] | None:
-    points = seen.board.corners_m[seen.corner]
-    there, turn, shift = cv2.solvePnP(points, camera.undistort(seen.pixel), camera.matrix, np.zeros(5))
-    return (np.asarray(turn, np.float64), np.asarray(shift, np.float64)) if there else None
-
-
 def _error_px(camera: Camera, found: Intrinsics, views: Sequence[BoardView]) -> float:
     squares: list[FloatArray] = []
     for k in found.used:
         seen = views[k].found
-        pose = _pose(camera, seen)
+        pose = board_pose(seen, camera)
         if pose is not None:
             at = _projected(camera, seen.board.corners_m[seen.corner], *pose)
             squares.append(np.asarray(np.sum((seen.pixel - at) ** 2, axis=1)))
@@ -100,9 +94,7 @@ def _on_a_hand(made: CameraCalibration) -> tuple[float, float]:
         return made.before.back_project(pixel, scale * points[:, 2] + offset_m)
 
     flat, bent = read(_PALM_M + centre), read(_PALM_M @ turn.T + centre)
-    one, other = flat - flat.mean(axis=0), bent - bent.mean(axis=0)
-    u, _, vt = np.linalg.svd(one.T @ other)
-    rotation = vt.T @ np.diag([1.0, 1.0, np.sign(np.linalg.det(vt.T @ u.T))]) @ u.T
+    rotation, _ = so3.rigid(flat, bent)
     angle = math.degrees(math.acos(float(np.clip(0.5 * (np.trace(rotation) - 1.0), -1.0, 1.0))))
     hand = read(np.array([[0.0, -0.5 * HAND_LENGTH_M, 0.0], [0.0, 0.5 * HAND_LENGTH_M, 0.0]]) + centre)
     length_m = float(np.linalg.norm(hand[1] - hand[0]))

@@ -96,12 +96,19 @@ class Judgement:
         return "Move the board to another place, tilt it another way, nearer or farther."
 
 
-def view_of(found: FoundBoard, camera: Camera, depth_raw: DepthImage | None, depth_unit_m: float) -> BoardView | None:
-    """What a picture shows; ``camera`` may be a rough guess. None where the board cannot stand like that."""
+def board_pose(found: FoundBoard, camera: Camera) -> tuple[FloatArray, FloatArray] | None:
+    """Turn, as a rotation vector, and shift from a board's own axes into the camera's; None where there is none."""
     points = found.board.corners_m[found.corner]
     there, turn, shift = cv2.solvePnP(points, camera.undistort(found.pixel), camera.matrix, np.zeros(5))
-    if not there:
+    return (np.asarray(turn, np.float64), np.asarray(shift, np.float64)) if there else None
+
+
+def view_of(found: FoundBoard, camera: Camera, depth_raw: DepthImage | None, depth_unit_m: float) -> BoardView | None:
+    """What a picture shows; ``camera`` may be a rough guess. None where the board cannot stand like that."""
+    pose = board_pose(found, camera)
+    if pose is None:
         return None
+    turn, shift = pose
     rotation = np.asarray(cv2.Rodrigues(turn)[0], dtype=np.float64)
     normal = rotation[:, 2] if rotation[2, 2] > 0.0 else -rotation[:, 2]
     centre = rotation @ found.board.outline_m.mean(axis=0) + shift.ravel()
