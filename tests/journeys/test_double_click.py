@@ -24,12 +24,24 @@ def session(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_session_of_nobody_here_is_shown_and_stays_where_it_is(
-    qtbot: QtBot, open_desktop: Open, session: Path, data: Path
+def test_a_session_of_nobody_here_is_shown_once_somebody_has_the_pin_and_stays_where_it_is(
+    qtbot: QtBot, open_desktop: Open, session: Path, data: Path, tmp_path: Path
 ) -> None:
     before = session.read_bytes()
     journey = (desktop := open_desktop()).journey
+    other = tmp_path / "other.h5"
+    other.write_bytes(b"\x89HDF\r\n\x1a\nnothing")
+    desktop.called(other)
+    assert journey.place == "patients"
+    assert journey.messages.busy, "what is no session is told"
+    journey.messages.card.answers[-1].click()
+    locking = desktop.safe.locking
+    locking.pin.set("4711")
+    locking.lock_by_key()
+    assert locking.locked
     desktop.called(session)
+    assert (journey.place, journey.now.patient) == ("patients", None)
+    locking.sheet.tried.emit("4711")
     qtbot.waitUntil(lambda: journey.review.screen.shown, timeout=30_000)
     assert journey.place == "review"
     assert journey.now.patient.pseudonym == "Linden 42"
@@ -53,30 +65,6 @@ def test_a_session_of_a_patient_is_opened_as_theirs_also_by_a_copy(
     qtbot.waitUntil(lambda: journey.review.screen.shown, timeout=30_000)
     assert journey.now.patient.patient_id
     assert journey.now.patient.session_count == 1
-
-
-def test_behind_the_lock_nothing_is_opened_until_somebody_has_the_pin(
-    qtbot: QtBot, open_desktop: Open, session: Path
-) -> None:
-    desktop = open_desktop()
-    locking = desktop.safe.locking
-    locking.pin.set("4711")
-    locking.lock_by_key()
-    assert locking.locked
-    desktop.called(session)
-    assert desktop.journey.place == "patients"
-    assert desktop.journey.now.patient is None
-    locking.sheet.tried.emit("4711")
-    qtbot.waitUntil(lambda: desktop.journey.review.screen.shown, timeout=30_000)
-
-
-def test_what_is_no_session_is_told(open_desktop: Open, tmp_path: Path) -> None:
-    path = tmp_path / "other.h5"
-    path.write_bytes(b"\x89HDF\r\n\x1a\nnothing")
-    journey = (desktop := open_desktop()).journey
-    desktop.called(path)
-    assert journey.place == "patients"
-    assert journey.messages.busy
 
 
 def test_a_file_alone_is_as_good_as_the_command(

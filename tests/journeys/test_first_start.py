@@ -15,6 +15,7 @@ from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.doctor import examine_at_start
 from carpus.core.errors import OutputNotWritable
 from carpus.core.records.values import PatientEntry
+from carpus.ui.ports import PatientRow
 from tests.journeys.conftest import Open
 from tests.journeys.test_journey import at, click, click_discs, still_hand
 
@@ -62,19 +63,9 @@ def test_the_first_session_is_led_from_control_to_control(
     assert load_settings(tmp_path / "settings").first_start.answered
 
 
-def test_typing_goes_to_the_search_and_escape_says_not_now(qtbot: QtBot, open_desktop: Open, tmp_path: Path) -> None:
-    desktop = open_desktop()
-    journey = desktop.journey
-    assert desktop.welcome.panel is not None
-    QTest.keyClicks(journey.patients.screen.search, "prac")
-    assert journey.patients.screen.search.text() == "prac"
-    desktop.shell.key.emit("back")
-    assert desktop.welcome.panel is None
-    assert journey.patients.screen.welcome is None
-    assert load_settings(tmp_path / "settings").first_start.answered
-
-
-def test_escape_leaves_the_guide_and_not_the_screen(qtbot: QtBot, open_desktop: Open) -> None:
+def test_escape_leaves_the_guide_and_not_the_screen_and_it_is_for_the_practice_patient_unless_it_was_asked_for(
+    qtbot: QtBot, open_desktop: Open
+) -> None:
     desktop = open_desktop()
     journey, tour = desktop.journey, desktop.tour
     desktop.shell.key.emit("help")
@@ -94,19 +85,12 @@ def test_escape_leaves_the_guide_and_not_the_screen(qtbot: QtBot, open_desktop: 
     desktop.shell.key.emit("back")
     assert not tour.is_on
     assert journey.place == "patients"
-
-
-def test_it_is_for_the_practice_patient_unless_it_was_asked_for(qtbot: QtBot, open_desktop: Open) -> None:
-    desktop = open_desktop()
-    desktop.library.patients.add(_somebody())
-    (somebody,) = desktop.library.patients.listed()
-    desktop.tour.begin(asked_for=False)
-    desktop.journey.now.patient = desktop.journey.patients.screen._store.card(somebody.patient_id).row
-    desktop.journey.way.go("camera")
-    desktop.tour.look()
-    assert desktop.tour.bubble is None
-    desktop.tour.begin(asked_for=True)
-    assert shown(desktop, "camera")
+    journey.now.patient = PatientRow.of(desktop.library.patients.one(desktop.library.patients.add(_somebody())))
+    for asked_for in (False, True):
+        tour.begin(asked_for=asked_for)
+        journey.way.go("camera")
+        tour.look()
+        assert tour.bubble == ("camera" if asked_for else None)
 
 
 def test_with_a_patient_in_the_list_it_is_no_first_start(open_desktop: Open) -> None:
@@ -117,11 +101,11 @@ def test_with_a_patient_in_the_list_it_is_no_first_start(open_desktop: Open) -> 
     assert again.welcome.panel is None
 
 
-def test_another_folder_is_looked_at_and_counts_from_the_next_start(
+def test_another_folder_is_looked_at_typing_goes_to_the_search_and_escape_says_not_now(
     qtbot: QtBot, open_desktop: Open, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desktop = open_desktop()
-    panel = desktop.welcome.panel
+    panel, search = desktop.welcome.panel, desktop.journey.patients.screen.search
     qtbot.waitUntil(lambda: bool(panel.checks))
     other = tmp_path / "elsewhere" / "Carpus"
     monkeypatch.setattr("carpus.ui.settings.screen.QFileDialog.getExistingDirectory", lambda *_: str(other))
@@ -132,7 +116,12 @@ def test_another_folder_is_looked_at_and_counts_from_the_next_start(
     assert not panel.close_button.visibleRegion().isEmpty(), "it is not scrolled away"
     qtbot.waitUntil(lambda: any(str(other) in row.check.found for row in panel.checks))
     assert load_settings(tmp_path / "settings").data_folder == other
-    assert desktop.library.folder != other
+    assert desktop.library.folder != other, "it counts from the next start"
+    QTest.keyClicks(search, "prac")
+    assert search.text() == "prac"
+    desktop.shell.key.emit("back")
+    assert (desktop.welcome.panel, desktop.journey.patients.screen.welcome) == (None, None)
+    assert load_settings(tmp_path / "settings").first_start.answered
 
 
 def test_what_cannot_be_looked_at_is_told_and_stops_nothing(
@@ -148,20 +137,11 @@ def test_what_cannot_be_looked_at_is_told_and_stops_nothing(
     assert panel.again_button.isEnabled()
 
 
-def test_the_look_opens_nothing_and_makes_no_folder(tmp_path: Path) -> None:
-    folder = tmp_path / "not" / "there"
-    findings = list(examine_at_start(folder))
-    assert not folder.exists()
-    assert all(finding.remedy for finding in findings if finding.state != "good")
-    assert "Pictures" not in {finding.name for finding in findings}
-    assert next(finding for finding in findings if finding.name == "Data folder").state == "good"
-
-
 def _somebody() -> PatientEntry:
     return PatientEntry("Heron 17", "right", "right")
 
 
-def test_the_drivers_own_code_is_never_called_in_the_windows_process(
+def test_the_look_opens_nothing_makes_no_folder_and_calls_no_drivers_own_code_in_the_windows_process(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """OpenNI2 ends the process of a second thread that calls it."""
@@ -171,5 +151,9 @@ def test_the_drivers_own_code_is_never_called_in_the_windows_process(
             raise AssertionError(f"{name} was called")
 
     monkeypatch.setattr(openni2_camera, "load_library", Library)
-    (driver,) = (finding for finding in examine_at_start(tmp_path) if finding.name == "Driver")
-    assert driver.state == "good"
+    folder = tmp_path / "not" / "there"
+    findings = {finding.name: finding for finding in examine_at_start(folder)}
+    assert not folder.exists()
+    assert all(finding.remedy for finding in findings.values() if finding.state != "good")
+    assert "Pictures" not in findings
+    assert findings["Data folder"].state == findings["Driver"].state == "good"

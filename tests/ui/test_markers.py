@@ -452,7 +452,7 @@ def test_a_proposed_name_dropped_on_a_taken_disc_changes_places_with_it() -> Non
     places = {name: np.array([20.0 * i, 0.0]) for i, name in enumerate(HAND21.markers)}
     clicking.propose({name: ProposedMarker(at, 9.0, True) for name, at in places.items()})
     clicking.current = "TIP3"
-    clicking.place(places["TIP4"], 9.0)
+    assert clicking.place(places["TIP4"], 9.0), "the two change places"
     np.testing.assert_allclose(clicking.pixel["TIP3"], places["TIP4"])
     np.testing.assert_allclose(clicking.proposed["TIP4"].pixel, places["TIP3"])
     clicking.take_all()
@@ -460,6 +460,9 @@ def test_a_proposed_name_dropped_on_a_taken_disc_changes_places_with_it() -> Non
     clicking.place(places["PIP2"], 9.0)
     np.testing.assert_allclose(clicking.pixel["PIP2"], places["TIP2"])
     assert clicking.complete
+    clicking = Clicking(HAND21, "right")
+    clicking.propose({"WRIST": ProposedMarker(places["WRIST"], 9.0, True)})
+    assert not clicking.place(places["WRIST"], 9.0), "one that was nowhere takes the disc: names are asked for anew"
 
 
 def test_names_that_are_proposed_leave_the_marker_that_a_person_has_gone_to() -> None:

@@ -118,13 +118,16 @@ def test_the_focus_ring_follows_the_keyboard(qtbot: QtBot, shell: Shell) -> None
     assert not shell.ring.isVisible() or shell.ring.geometry() != place
 
 
-def test_a_change_of_theme_and_scale_reaches_every_text(qtbot: QtBot, theme: Theme, shell: Shell) -> None:
+def test_a_change_of_theme_and_scale_reaches_everything(
+    qapp: QApplication, qtbot: QtBot, theme: Theme, shell: Shell
+) -> None:
     label = Text(theme, "x", 14, token="text2")
     qtbot.addWidget(label)
     light, size = label.palette().windowText().color(), label.font().pixelSize()
     theme.choose("dark", 1.5)
     assert label.palette().windowText().color() == theme.color("text2") != light
     assert label.font().pixelSize() == round(1.5 * size)
+    assert theme.tokens.canvas in qapp.styleSheet(), "nor are surfaces left behind"
 
 
 def test_a_title_has_room_for_the_dots_of_its_capitals(qtbot: QtBot, theme: Theme) -> None:
