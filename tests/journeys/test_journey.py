@@ -284,7 +284,7 @@ def test_a_recording_is_measured_from_its_first_picture_to_its_last_in_real_time
         assert json.loads(read_session(path).header.parameters)["source"]["registered"] == "assumed"
 
 
-def test_depth_that_is_measured_beside_the_colours_is_opened_again_the_other_way(
+def test_depth_beside_the_colours_is_opened_again_the_other_way_and_a_camera_that_is_not_there_is_told(
     qtbot: QtBot, open_desktop: Open, take: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     journey = (desktop := open_desktop()).journey
@@ -300,11 +300,28 @@ def test_depth_that_is_measured_beside_the_colours_is_opened_again_the_other_way
     journey.markers.check_registration(replace(verdict, findings=()))
     assert not journey.messages.busy
     wanted: list[SourceChoice] = []
-    monkeypatch.setattr(journey.opener, "open", wanted.append)
-    journey.markers.check_registration(off)
-    assert "11 pixels" in journey.messages.card.what.text()
-    click(qtbot, journey.messages.card.answers[-1])
+    with monkeypatch.context() as instead:
+        instead.setattr(journey.opener, "open", wanted.append)
+        journey.markers.check_registration(off)
+        assert "11 pixels" in journey.messages.card.what.text()
+        click(qtbot, journey.messages.card.answers[-1])
     assert wanted == [SourceChoice("file", str(take), registered=False)]
+    assert journey.place == "camera"
+
+    def missing(**_: object) -> None:
+        raise CameraMissing("", "no device")
+
+    monkeypatch.setattr(xtion, "KIND", replace(xtion.KIND, open=missing))
+    journey.camera.context.camera.stop()  # its next look would find none
+    journey.camera.screen.set_camera_ready(True)
+    click(qtbot, journey.camera.screen.sources.option("camera"))
+    click(qtbot, journey.camera.screen.primary)
+    wait(qtbot, journey.messages.card.isVisible)
+    assert "camera" in journey.messages.card.what.text()
+    assert journey.messages.card.todo.text().startswith("Plug")
+    click(qtbot, journey.messages.card.answers[-1])
+    assert journey.place == "camera"
+    assert journey.now.source is None
 
 
 def test_a_recording_that_is_being_stored_is_not_stopped_again_by_closing(
@@ -503,27 +520,3 @@ def test_an_interrupted_session_is_told_at_the_next_start_and_can_be_reviewed(qt
     click(qtbot, strip.button)
     assert reviewed(qtbot, second) == path
     assert second.journey.now.patient.pseudonym == make_header().subject_id
-
-
-def test_a_camera_that_is_not_there_is_told_with_what_to_do(
-    qtbot: QtBot, open_desktop: Open, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    journey = (desktop := open_desktop()).journey
-
-    def missing(**_: object) -> None:
-        raise CameraMissing("", "no device")
-
-    monkeypatch.setattr(xtion, "KIND", replace(xtion.KIND, open=missing))
-    journey.camera.show(PRACTICE_PATIENT)
-    at(qtbot, desktop.journey, "markers")
-    journey.way.back()
-    journey.camera.context.camera.stop()  # its next look would find none
-    journey.camera.screen.set_camera_ready(True)
-    click(qtbot, journey.camera.screen.sources.option("camera"))
-    click(qtbot, journey.camera.screen.primary)
-    wait(qtbot, journey.messages.card.isVisible)
-    assert "camera" in journey.messages.card.what.text()
-    assert journey.messages.card.todo.text().startswith("Plug")
-    click(qtbot, journey.messages.card.answers[-1])
-    assert journey.place == "camera"
-    assert journey.now.source is None

@@ -20,7 +20,7 @@ def press_escape(qtbot: QtBot, desktop: Desktop) -> None:
     qtbot.keyClick(desktop.shell.focusWidget() or desktop.shell, Qt.Key.Key_Escape)
 
 
-def test_esc_closes_any_sheet_and_leaves_its_screen(qtbot: QtBot, open_desktop: Open) -> None:
+def test_esc_closes_any_sheet_leaves_its_screen_and_answers_no_message(qtbot: QtBot, open_desktop: Open) -> None:
     desktop = open_desktop()
     journey = desktop.journey
     desktop.shell.activateWindow()
@@ -41,18 +41,14 @@ def test_esc_closes_any_sheet_and_leaves_its_screen(qtbot: QtBot, open_desktop: 
             seen.append(type(sheet).__name__)
     assert set(seen) >= {"PatientForm", "StartAngleSheet", "NoteSheet", "PainSheet", "ReasonSheet"}
     journey.way.go("patients")
-
-
-def test_esc_answers_no_message(qtbot: QtBot, open_desktop: Open) -> None:
-    desktop = open_desktop()
-    desktop.journey.messages.fault(DiskFull("x"))
+    journey.messages.fault(DiskFull("x"))
     press_escape(qtbot, desktop)
-    assert desktop.journey.messages.card.isVisible()
-    desktop.journey.messages.card.answers[-1].click()
-    assert not desktop.journey.messages.busy
+    assert journey.messages.card.isVisible()
+    journey.messages.card.answers[-1].click()
+    assert not journey.messages.busy
 
 
-def test_every_label_follows_a_change_of_colours_also_on_screens_not_opened_yet(
+def test_every_label_follows_a_change_of_colours_also_on_screens_not_opened_yet_and_a_recording_keeps_its_keys(
     qtbot: QtBot, open_desktop: Open
 ) -> None:
     desktop = open_desktop()
@@ -73,15 +69,11 @@ def test_every_label_follows_a_change_of_colours_also_on_screens_not_opened_yet(
     check_all()
     theme.choose("light")
     check_all()
-
-
-def test_a_running_recording_keeps_its_keys(qtbot: QtBot, open_desktop: Open) -> None:
-    """What leads away cannot take the focus from it, nor the keys and the pedal with it."""
-    bar = open_desktop().shell.bar
+    bar = desktop.shell.bar
     bar.lock_aside(True)
     for button in (bar.back_button, bar.help_button, bar.settings_button):
         qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
-        assert not button.hasFocus()
+        assert not button.hasFocus(), "it would take the keys and the pedal from a running recording"
         assert "recording" in button.toolTip()
     bar.lock_aside(False)
     assert bar.settings_button.isEnabled()
