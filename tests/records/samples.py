@@ -175,11 +175,12 @@ def kept(folder: Path, patient: PatientEntry, *sessions: tuple[Path, datetime, s
 
 
 def shared(house: House) -> dict[str, list[dict[str, Any]]]:
-    """All rows that are of every computer."""
+    """All rows that are of every computer, as its own copy has them; of the log what the server has."""
     found = {}
     for table in (*COPIED, DEED):
         columns = [column for column in table.c if column.name != "step"]
-        rows = house.store.rows_there(select(*columns).order_by(table.c.id))
+        read = house.store.rows_there if table is DEED else house.store.rows
+        rows = read(select(*columns).order_by(table.c.id))
         found[table.name] = [
             dict(row._mapping) for row in rows if PRACTICE not in (row.id, row._mapping.get("patient_id"))
         ]
