@@ -385,6 +385,14 @@ def test_a_damaged_store_is_set_aside_told_and_made_again(tmp_path: Path, conten
         assert Path(fault.subject).read_bytes() == content
 
 
+def test_a_store_that_lacks_a_column_is_damaged(tmp_path: Path) -> None:
+    Store(tmp_path).close()
+    with contextlib.closing(sqlite3.connect(tmp_path / STORE_FILE)) as database:
+        database.execute("ALTER TABLE goal DROP COLUMN side")
+    with Store(tmp_path) as store:
+        assert [type(one) for one in store.told] == [RegisterSetAside]
+
+
 @pytest.mark.parametrize("how", ["deleted", "emptied"])
 def test_a_store_that_is_gone_while_sessions_are_there_is_told(tmp_path: Path, how: str) -> None:
     with opened(tmp_path) as house:
