@@ -18,7 +18,6 @@ from carpus.core.camera import Camera
 from carpus.core.durable import Writing
 from carpus.core.errors import (
     CarpusFault,
-    DiskFull,
     EndStalled,
     FolderGone,
     OutputExists,
@@ -219,7 +218,7 @@ class SessionWriter(Writing):
     def _move(self, fault: CarpusFault) -> None:
         """Go on elsewhere, with all that was recorded if it can still be read, else with what was not yet written."""
         lost, stored = self._part, self.stored
-        if self._fallback is None or isinstance(fault, DiskFull):
+        if self._fallback is None:
             lost.fault = lost.fault or fault
             raise fault
         path = free_name(self._fallback.folder() / self.path.name)
