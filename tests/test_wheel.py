@@ -139,8 +139,9 @@ def test_the_installed_program_runs_where_folders_and_files_are_called_as_its_pa
     found = subprocess.run(asked, cwd=tmp_path, check=True, capture_output=True, text=True).stdout.split()
     assert [Path(path).is_relative_to(installed) for path in found] == [True, True]
     (tmp_path / "r").symlink_to(rendered(FLEXION))
-    words = ("track", "r", "--calibration", "r/calibration.json", "--output", "s.h5", "--no-smooth")
+    words = ("track", "r", "--calibration", "r/calibration.json", "--output", "s.h5")
     assert "Frames: 24, " in carpus(installed, tmp_path, *words)
+    assert "\nFrames       24 " in carpus(installed, tmp_path, "info", "s.h5")
 
 
 def test_metadata_says_licences_extras_and_what_starts_it_and_no_address_that_nobody_has(wheel: Path) -> None:

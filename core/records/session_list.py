@@ -214,17 +214,18 @@ class ListedSessions:
         path = self.new_path(patient_id, pseudonym, entry.exercise, entry.hand, entry.recorded)
         beside = [one for one in entry.path.parent.glob(f"{glob.escape(entry.path.stem)}.*") if one != entry.path]
         made = [path, *(path.with_name(f"{path.stem}{one.name.removeprefix(entry.path.stem)}") for one in beside)]
+        written = path
         try:
             write_anew(entry.path, path, subject_id=pseudonym)
-            for one, other in zip(beside, made[1:], strict=True):
-                link_or_copy(one, other)  # a kill in between loses none
+            for one, written in zip(beside, made[1:], strict=True):
+                link_or_copy(one, written)  # a kill in between loses none
             size, stored_path = read_outline(path).size_bytes, self.stored_path(path)
             self._store.do([changed(SESSION, session_id, patient_id=patient_id, path=stored_path, size=size)])
         except BaseException as cause:
             for one in made:
                 one.unlink(missing_ok=True)
             if isinstance(cause, OSError):
-                raise write_fault(path, cause) from cause
+                raise write_fault(written, cause) from cause
             raise
         for one in (entry.path, *beside, *trials_of(self._store, [session_id])):
             with suppress(OSError):  # open elsewhere: it is nobody's, and goes with the patient

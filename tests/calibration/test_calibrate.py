@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from itertools import combinations
 
 import numpy as np
 import pytest
@@ -123,11 +122,12 @@ def test_two_clicks_on_one_disc_are_both_named() -> None:
         require_calibration(outcome)
 
 
-PAIRS = list(combinations(range(6), 2))
-
-
 @pytest.mark.parametrize(
-    ("pair", "side"), [*((pair, "right") for pair in PAIRS[::4]), *((pair, "left") for pair in PAIRS[2::6])]
+    ("pair", "side"),
+    [
+        *((pair, "right") for pair in ((0, 1), (1, 5), (2, 3), (4, 5))),
+        *((pair, "left") for pair in ((0, 3), (1, 2), (3, 4))),
+    ],
 )
 def test_two_swapped_clicks_are_named(pair: tuple[int, int], side: Side) -> None:
     scene = Scene(side)

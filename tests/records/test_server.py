@@ -152,14 +152,11 @@ def test_two_people_change_one_thing_and_the_second_is_told(tmp_path: Path, ther
         session_id = measure(a, linden, T0)
         settled(a)
         until(lambda: bool(b.store.rows(select(SESSION.c.id).where(SESSION.c.id == session_id))))
-        for house, note in ((a, "mine"), (b, "yours")):
-            version = house.patients.one(linden).version
-            entry = PatientEntry("Linden 42", "right", note=note)
-            if house is a:
-                house.patients.change(linden, entry, version)
-            else:
-                with pytest.raises(ChangedMeanwhile):
-                    house.patients.change(linden, entry, version)
+        seen = b.patients.one(linden).version
+        assert seen == a.patients.one(linden).version, "both have it before anybody changes it"
+        a.patients.change(linden, PatientEntry("Linden 42", "right", note="mine"), seen)
+        with pytest.raises(ChangedMeanwhile):
+            b.patients.change(linden, PatientEntry("Linden 42", "right", note="yours"), seen)
         assert b.patients.one(linden).entry.note == "mine", "the copy has what holds"
         of_sessions.keep_choices(a.store, session_id, RepetitionChoices({0: "a"}), 0)
         with pytest.raises(ChangedMeanwhile):

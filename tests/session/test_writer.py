@@ -7,6 +7,7 @@ import errno
 import os
 import subprocess
 import sys
+import uuid
 from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
@@ -91,7 +92,7 @@ def test_the_name_appears_only_when_the_session_is_whole_and_never_on_another_fi
     target.unlink()
     session = begun(target, rows=1)
     target.write_text("mine")
-    for end in (lambda: begun(target), session.close):
+    for end in (lambda: begun(target, make_header(session_id=uuid.uuid4())), session.close):
         with pytest.raises(OutputExists):
             end()
     assert recover_folder(tmp_path).recovered == (tmp_path / "s-2.h5",)

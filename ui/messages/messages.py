@@ -277,7 +277,6 @@ class StopCard(Sheet):
         self.safe = Text(theme, "", 20, SEMIBOLD, wrap=True)
         self.safe_detail = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.todo = Text(theme, "", 20, SEMIBOLD, wrap=True)
-        self.todo_detail = Text(theme, "", 14, REGULAR, "text2", wrap=True)
         self.waiting = Text(theme, "", 14, REGULAR, "text2")
         self._icon, self._icon_safe, onward = (
             Sign(theme, name, 26, (44, 40), lean=0.5) for name in ("unplug", "good", "chevron-right")
@@ -291,11 +290,11 @@ class StopCard(Sheet):
         rows = (
             (self._icon, self.what, self.detail),
             (self._icon_safe, self.safe, self.safe_detail),
-            (onward, self.todo, self.todo_detail),
+            (onward, self.todo),
         )
-        for icon, head, detail in rows:
+        for icon, *words in rows:
             row = in_line((icon, 0, Qt.AlignmentFlag.AlignVCenter), gap=24)
-            row.addLayout(in_column(head, detail, gap=2), 1)
+            row.addLayout(in_column(*words, gap=2), 1)
             fill(body, row, Line(theme))
         body.addLayout(in_line((self.waiting, 1), self._buttons))
 

@@ -317,10 +317,7 @@ def _paint_in_rows(
     for value in values:
         painter.setPen(_stroke(style, value, 2.5))
         painter.drawLine(QPointF(left, line), QPointF(left + 12 * scale, line))
-        face, color = (
-            font(14 * scale, MEDIUM if value.hidden else SEMIBOLD),
-            style.color("text2" if value.hidden else "text"),
-        )
+        face, color = _look(style, value, 14)
         at = QPointF(left + 18 * scale, line + 5 * scale)
         write(painter, at, with_side(value.value_deg, spreads) if spreads else value.words, face, color)
         if spreads and math.isfinite(value.value_deg):  # with its side, and so with no room beside it
@@ -334,10 +331,7 @@ def _paint_in_one_line(painter: QPainter, style: PlotStyle, panel: Panel, values
     scale = _scale(style)
     left, middle = panel.box.right() + 12 * scale, panel.box.center().y()
     for value in values:
-        face, color = (
-            font(12 * scale, MEDIUM if value.hidden else SEMIBOLD),
-            style.color("text2" if value.hidden else "text"),
-        )
+        face, color = _look(style, value, 12)
         write(painter, QPointF(left, middle + 3 * scale), numbers.degrees(value.value_deg), face, color)
         painter.setPen(_stroke(style, value, 2.0))
         painter.drawLine(QPointF(left, middle + 8 * scale), QPointF(left + 22 * scale, middle + 8 * scale))
