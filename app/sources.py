@@ -47,19 +47,31 @@ def open_recording(
     return with_stored_calibration(source, data_folder)
 
 
-def open_board_or_card(recording: Path | None, settings: Settings, notice: Notice, *, calibrated: bool) -> FrameSource:
-    """What a printed board or card is looked at with: a recording, None for the live camera of the settings, named as
-    it was given; ``calibrated`` by what is kept of it."""
-    from carpus.core.capture.calibrated import with_given_name, with_stored_calibration
+def open_board(recording: Path | None, notice: Notice) -> FrameSource:
+    """What a printed board is looked at with: a recording, also without depth, or None for the live camera."""
+    if recording is None:
+        from carpus.app.settings import load_settings
 
-    folder = settings.data_folder
-    if recording is not None:
-        source = open_recording(recording, need_depth=calibrated, leave_out_damaged=True, notice=notice)
-    else:
-        from carpus.core.capture.devices.cameras import open_camera
+        return _named_camera(load_settings(), notice)
+    return open_recording(recording, need_depth=False, leave_out_damaged=True, notice=notice)
 
-        source = with_given_name(open_camera(settings.camera.uri, notice=notice), folder)
-    return with_stored_calibration(source, folder) if calibrated else source
+
+def open_card(recording: Path | None, settings: Settings, notice: Notice) -> FrameSource:
+    """What a printed card is looked at with, calibrated by what is kept of it: a recording, or None for the live
+    camera."""
+    from carpus.core.capture.calibrated import with_stored_calibration
+
+    if recording is None:
+        return with_stored_calibration(_named_camera(settings, notice), settings.data_folder)
+    return open_recording(recording, leave_out_damaged=True, notice=notice, data_folder=settings.data_folder)
+
+
+def _named_camera(settings: Settings, notice: Notice) -> FrameSource:
+    """The live camera of the settings, named as it was given."""
+    from carpus.core.capture.calibrated import with_given_name
+    from carpus.core.capture.devices.cameras import open_camera
+
+    return with_given_name(open_camera(settings.camera.uri, notice=notice), settings.data_folder)
 
 
 @dataclass(frozen=True, slots=True)

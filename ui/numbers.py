@@ -60,6 +60,15 @@ def millimetres(value_mm: float) -> str:
     return f"{_whole(value_mm)}{NARROW_GAP}mm" if math.isfinite(value_mm) else UNKNOWN
 
 
+def shortest(value: float) -> str:
+    """With a decimal only where there is one.
+
+    >>> shortest(2.5), shortest(5.0)
+    ('2.5', '5')
+    """
+    return fixed(value, int(value % 1 != 0))
+
+
 def fixed(value: float, decimals: int) -> str:
     """``12.5`` with that many decimals, written as the person's language writes it; a dash when unknown.
 

@@ -71,7 +71,7 @@ def _print_board(arguments: argparse.Namespace) -> int:
 
 def _calibrate(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
-    from carpus.app.sources import open_board_or_card
+    from carpus.app.sources import open_board
     from carpus.core.calibration.camera.calibrate import calibrate_camera, calibration_lines
     from carpus.core.calibration.camera.keep import keep_calibration, stored_of, write_calibration
     from carpus.core.calibration.camera.views import Gathering
@@ -81,8 +81,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
 
     if arguments.output is not None and arguments.output.exists():
         raise OutputExists(arguments.output)
-    settings = load_settings()
-    source = open_board_or_card(arguments.recording, settings, tell, calibrated=False)
+    source = open_board(arguments.recording, tell)
     gathering = Gathering(source.info.camera, _boards(arguments))
     try:
         _gather(source, gathering, is_live=arguments.recording is None)
@@ -101,7 +100,7 @@ def _calibrate(arguments: argparse.Namespace) -> int:
     if arguments.output is not None:
         print(f"Written: {write_calibration(arguments.output, made, stored)}")
     if serial:
-        folder = settings.data_folder
+        folder = load_settings().data_folder
         if arguments.recording is None and arguments.serial and info.is_nameless:
             serial = keep_name(folder, info.name, serial)
             stored = replace(stored, serial=serial)

@@ -56,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _check(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
-    from carpus.app.sources import open_board_or_card
+    from carpus.app.sources import open_card
     from carpus.core.calibration.card.chart import (
         add_check,
         before,
@@ -72,7 +72,7 @@ def _check(arguments: argparse.Namespace) -> int:
 
     settings = load_settings()
     data_folder = settings.data_folder
-    source = open_board_or_card(arguments.recording, settings, tell, calibrated=True)
+    source = open_card(arguments.recording, settings, tell)
     info = source.info
     try:
         reading = measure_card(_shown(source), info.camera, str(arguments.recording or info.name))

@@ -226,7 +226,7 @@ class SessionFigures:
     not_counted: bool = False
     """Whether a person decided that the session shall not count."""
     older: bool = False
-    """Whether a result of the same recording that was made later counts instead."""
+    """Whether there is a result of the same recording that was made later."""
     targets_deg: tuple[float, float] = (math.nan, math.nan)
     """Targets of the trained angle, of its positive and its negative direction, signed; NaN for none."""
     pain_s: tuple[float, ...] = ()

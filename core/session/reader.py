@@ -146,18 +146,18 @@ class ReadingProcess:
             return self._link
         if self._owner == os.getpid():
             self._end()
-        self._link, theirs = multiprocessing.Pipe()
+        link, theirs = multiprocessing.Pipe()
         if _may_fork():
             of_a_kind: Any = multiprocessing.get_context("fork")
             target = _run_forked
         else:
             of_a_kind, target = multiprocessing.get_context("spawn"), reading_process.run
-        self._process = of_a_kind.Process(target=target, args=(theirs,), name="carpus-reading", daemon=True)
+        process = of_a_kind.Process(target=target, args=(theirs,), name="carpus-reading", daemon=True)
         with _nobodys_main():
-            self._process.start()
+            process.start()
         theirs.close()
-        self._owner = os.getpid()
-        return self._link
+        self._link, self._process, self._owner = link, process, os.getpid()
+        return link
 
     def _end(self) -> None:
         if self._link is not None:

@@ -3836,8 +3836,8 @@
         <translation>Diese Sitzung ist als nicht zählend markiert.</translation>
     </message>
     <message>
-        <source>An older result: a newer one of the same recording counts instead.</source>
-        <translation>Ein älteres Ergebnis: Es zählt ein neueres derselben Aufnahme.</translation>
+        <source>An older result: there is a newer one of the same recording.</source>
+        <translation>Ein älteres Ergebnis: Es gibt ein neueres derselben Aufnahme.</translation>
     </message>
     <message>
         <source>This recording was cut short and recovered.</source>

@@ -3836,8 +3836,8 @@
         <translation>Questa seduta è segnata come non valida.</translation>
     </message>
     <message>
-        <source>An older result: a newer one of the same recording counts instead.</source>
-        <translation>Risultato precedente: conta uno più recente della stessa registrazione.</translation>
+        <source>An older result: there is a newer one of the same recording.</source>
+        <translation>Risultato precedente: ce n’è uno più recente della stessa registrazione.</translation>
     </message>
     <message>
         <source>This recording was cut short and recovered.</source>

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import resource
 import subprocess
@@ -218,6 +219,23 @@ def test_what_a_file_does_to_its_reader_ends_there(
     assert isinstance(read, Session)
     assert len(read) == ROWS
     another.end()
+
+
+def test_a_reader_that_could_not_be_started_is_started_for_the_next_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own, path = ReadingProcess(), stored(tmp_path / "s.h5")
+
+    def no_process(*_: object) -> None:
+        raise OSError(errno.EAGAIN, "no more processes")
+
+    with monkeypatch.context() as full:
+        full.setattr("multiprocessing.popen_fork.Popen._launch", no_process)
+        full.setattr(reader, "_may_fork", lambda: True)
+        with pytest.raises(OSError, match="no more processes"):
+            own.ask("outline", path)
+    assert own.ask("outline", path) is not None
+    own.end()
 
 
 def test_one_process_serves_many_files(tmp_path: Path) -> None:

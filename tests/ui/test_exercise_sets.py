@@ -103,6 +103,8 @@ def test_a_proposed_goal_is_taken_over_or_changed_and_shown_over_the_weeks(
     figures = session_figures(session(seconds=26.0))
     screen.show_history("somebody else", [figures])
     assert not screen.accept.isVisible()
+    screen.show_history(row.patient_id, [replace(figures, simulated=True)])
+    assert not screen.accept.isVisible(), "what a simulated hand did is no measure of this patient"
     screen.show_history(row.patient_id, [figures])
     mean_deg = figures.row("flexion", 1).mean_deg  # type: ignore[union-attr]
     assert "from the last session" in screen.proposal.text()

@@ -146,7 +146,7 @@ def test_the_report_of_an_older_result_says_that_a_newer_one_counts() -> None:
     session = store.session("session-7")
     made = session_report(session).figures
     newer = replace(made, session_id="newer", created=made.when + timedelta(days=1))
-    said = "An older result: a newer one of the same recording counts instead."
+    said = "An older result: there is a newer one of the same recording."
     for history, is_older in (((), False), ((newer,), True), ((made, replace(newer, recording_id="another")), False)):
         assert (said in warnings(session_report(session, history=history).figures)) is is_older
 

@@ -12,6 +12,7 @@ from PySide6.QtCore import Signal
 
 from carpus.core.pipeline.correction import correct_in_process, not_held, task_of
 from carpus.core.records.corrections import Corrections, Difference, Waiting, difference
+from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.results.figures import session_figures
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.session.marker_doubts import Correction, corrections_in
@@ -23,6 +24,7 @@ from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
 from carpus.ui.correct.screen import CorrectScreen
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.marker_words import finger_of, marker_name
+from carpus.ui.now_open import practice_name
 from carpus.ui.translate import inside, tr
 from carpus.ui.words.agreement import angle_name
 
@@ -226,7 +228,8 @@ def whose(header: SessionHeader) -> str:
     """Whose session, from when and of what."""
     when = numbers.report_date(datetime.fromisoformat(header.recorded or header.created))
     what = f"{terms.exercise_name(header.exercise)}, {inside(terms.hand_name(header.hand))}"
-    return " · ".join((header.subject_id, when, what))
+    name = practice_name() if header.subject_id == PRACTICE_PATIENT else header.subject_id
+    return " · ".join((name, when, what))
 
 
 def difference_words(found: Difference, missed: Sequence[str]) -> str:

@@ -15,6 +15,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter
 
 from carpus.core.types import FloatArray
+from carpus.ui import numbers
 from carpus.ui.plot.axes import Panel, Scale, hatch, time_labels
 from carpus.ui.plot.marks import Curves, Level, Mark, Remark, Scales, Times
 from carpus.ui.plot.series import Curve, Series
@@ -84,7 +85,8 @@ class AgreementPlot:
             reach = next((one for one in REACHES_DEG if most <= one), REACHES_DEG[-1])
             step = reach / 2
             ticks = tuple(step * k for k in (2, 1, 0, -1, -2))
-            return Scale(-1.04 * reach, 1.04 * reach, ticks, tuple((tick, f"{abs(tick):g}°") for tick in ticks), False)
+            named = tuple((tick, f"{numbers.shortest(abs(tick))}°") for tick in ticks)
+            return Scale(-1.04 * reach, 1.04 * reach, ticks, named, False)
         both = np.concatenate((self.measured_deg, self.reference_deg))
         step = _step(float(np.ptp(both)))
         low, high = step * math.floor(float(both.min()) / step), step * math.ceil(float(both.max()) / step)

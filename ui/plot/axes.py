@@ -88,7 +88,8 @@ def time_labels(start_s: float, end_s: float) -> list[tuple[float, str]]:
     span_s = end_s - start_s
     step = next((step for step in (0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600) if span_s / step <= 7), 1200)
     ticks = step * np.arange(math.ceil(start_s / step - 1e-6), math.floor(end_s / step + 1e-6) + 1)
-    return [(float(t), f"{t:g} s" if end_s <= 180 else numbers.clock(float(t))) for t in ticks]
+    word = (lambda t: f"{numbers.shortest(t)} s") if end_s <= 180 else numbers.clock
+    return [(t, word(t)) for t in ticks.tolist()]
 
 
 def crisp(box: QRectF) -> QRectF:

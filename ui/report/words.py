@@ -153,7 +153,7 @@ def warnings(figures: SessionFigures) -> list[str]:
     if figures.not_counted:
         lines.append(tr("This session is marked as not counting."))
     if figures.older:
-        lines.append(tr("An older result: a newer one of the same recording counts instead."))
+        lines.append(tr("An older result: there is a newer one of the same recording."))
     if not figures.complete or figures.recovered:
         lines.append(tr("This recording was cut short and recovered."))
     if said := unsure_words(figures.camera):

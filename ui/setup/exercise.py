@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from carpus.core.hand.exercises import SIDES, Exercise, exercise_named, exercises_of
 from carpus.core.hand.protocols import PROTOCOLS, MarkerProtocol, protocol_named
-from carpus.core.records.set_up import ExerciseSet, SetUp, begun
+from carpus.core.records.set_up import PRACTICE_PATIENT, ExerciseSet, SetUp, begun
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.progress import GoalProposal, Goals, proposals
 from carpus.core.types import Side
@@ -254,7 +254,8 @@ class ExerciseScreen(QWidget):
     def show_history(self, patient_id: str, history: Sequence[SessionFigures]) -> None:
         """What was measured before, by which goals are proposed; of somebody else it is not shown."""
         if self._row is not None and self._row.patient_id == patient_id:
-            self._history = tuple(history)
+            practises = patient_id == PRACTICE_PATIENT  # of anybody else a simulated hand says nothing
+            self._history = tuple(one for one in history if practises or not one.simulated)
             self._show_proposal()
 
     def _side(self) -> Side | None:
