@@ -20,7 +20,8 @@ def named(path: Path) -> str:
 
 
 @pytest.mark.parametrize(
-    "name", [named(path) for path in modules("core", "tests") if EXAMPLE.search(path.read_text(encoding="utf-8"))]
+    "name",
+    [named(path) for path in modules("app", "core", "ui", "tests") if EXAMPLE.search(path.read_text(encoding="utf-8"))],
 )
 def test_examples_hold(name: str) -> None:
     """Collected here, since pytest's own way loads and searches every file there is, in each of its processes."""
