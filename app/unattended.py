@@ -20,7 +20,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 
 from carpus.app import compose
-from carpus.app.command_line import on_stop
+from carpus.app.command_line import on_stop, say
 from carpus.app.desktop.sources import RECENT_FRAMES, practice_spec
 from carpus.app.settings import FirstStartSettings, ScreenSettings, Settings
 from carpus.core.errors import CalibrationImpossible
@@ -34,6 +34,8 @@ from carpus.ui.flow import TABS
 
 REPETITIONS = 2
 PATIENCE_S = 60.0
+STEP_LINE_EVERY_S = 4.0
+"""How often a line says what is going on where no terminal shows a bar."""
 Progress = Callable[[int, int | None], None]
 
 
@@ -46,12 +48,45 @@ class Walked:
     lines: Sequence[str]
 
 
+class StepLog:
+    """Says every few seconds which step runs and how far it is, where no terminal shows a bar."""
+
+    def __init__(self, is_terminal: bool) -> None:
+        self._is_terminal = is_terminal
+        self.begin_step("opening the window")
+
+    def begin_step(self, step: str) -> None:
+        """Name the step that begins; it is said at once."""
+        self._step, self._done, self._total = step, 0, 0
+        self._write_line()
+
+    def update(self, done: int, total: int) -> None:
+        """How much of the step is done."""
+        self._done, self._total = done, total
+
+    def tick(self) -> None:
+        """Called again and again while the step runs."""
+        if time.monotonic() - self._last_line_s >= STEP_LINE_EVERY_S:
+            self._write_line()
+
+    def _write_line(self) -> None:
+        self._last_line_s = time.monotonic()
+        if not self._is_terminal:
+            say(f"demo: {self._step}" + (f", {self._done} of {self._total}" if self._total > 1 else ""))
+
+
 class Walker:
     """Presses keys and clicks as a person would; waits for what must follow, never for a time."""
 
-    def __init__(self, desktop: compose.Desktop, is_stopping: Callable[[], bool] = lambda: False) -> None:
-        """``is_stopping`` ends the way, by a KeyboardInterrupt at its next wait."""
+    def __init__(
+        self,
+        desktop: compose.Desktop,
+        is_stopping: Callable[[], bool] = lambda: False,
+        on_wait: Callable[[], None] = lambda: None,
+    ) -> None:
+        """``is_stopping`` ends the way, by a KeyboardInterrupt at its next wait; ``on_wait`` is called at each wait."""
         self.desktop = desktop
+        self._on_wait = on_wait
         self.journey = desktop.journey
         self._faults: list[Exception] = []
         self._is_stopping = is_stopping
@@ -63,6 +98,7 @@ class Walker:
         while not condition():
             if self._is_stopping():
                 raise KeyboardInterrupt
+            self._on_wait()
             if self._faults:
                 raise self._faults[0]
             if time.monotonic() > end_s:
@@ -145,24 +181,35 @@ class Walker:
 def walk(settings: Settings, progress: Progress) -> Walked:
     """Walk the whole way on the practice patient; raises the first fault that the windows would tell."""
     settings = replace(settings, screen=ScreenSettings("light"), first_start=FirstStartSettings(answered=True))
+    steps = StepLog(sys.stderr.isatty())
     stopping = threading.Event()
     on_stop(stopping.set)  # first of all: an exception out of the middle of a window's own work would be lost
     qInstallMessageHandler(_told_by_qt)
     qt = compose.application(["carpus"])
     desktop = compose.compose(qt, settings, is_demo=True)
+
+    def show_progress(done: int, total: int) -> None:
+        steps.update(done, total)
+        progress(done, total)
+
     try:
-        walker = Walker(desktop, stopping.is_set)
+        walker = Walker(desktop, stopping.is_set, steps.tick)
         desktop.show()
         walker.at("patients")
-        desktop.journey.opener.progressed.connect(lambda done, total: progress(done, total))
+        desktop.journey.opener.progressed.connect(show_progress)
+        steps.begin_step("simulating the camera's frames")
         walker.start_practice()
         walker.until(lambda: desktop.journey.place == "markers", patience_s=1800.0)
         set_up = desktop.journey.now.set_up
         assert set_up is not None
+        steps.begin_step("clicking the markers")
         walker.take_picture()
         walker.click_markers(clicks_of(SimulatedPictures(practice_spec(set_up)).truth).pixel)
+        steps.begin_step("simulating the rest of the frames")
         walker.until(lambda: is_cached(practice_spec(set_up)), patience_s=1800.0)  # here nobody sees the hand rest
-        session_id = walker.record(REPETITIONS, lambda done: progress(done, REPETITIONS))
+        steps.begin_step("recording repetitions")
+        session_id = walker.record(REPETITIONS, lambda done: show_progress(done, REPETITIONS))
+        steps.begin_step("review, progress and report")
         walker.tab("progress")
         walker.tab("review")
         walker.until(lambda: desktop.journey.review.screen.shown)

@@ -90,15 +90,29 @@ missing_packages() {
     [ "$purpose" = run ] || ls /usr/lib/postgresql/*/bin/initdb >/dev/null 2>&1 || command -v initdb >/dev/null || echo postgresql
 }
 
-# Long work moves: of what a tool says one line at a time, counted on a terminal, one now and then elsewhere.
+# Long work moves: on a terminal each step of a tool in one line, elsewhere a line every few seconds, also while the tool
+# itself is silent. Read by the shell: some awk (mawk) hold back what they read from a pipe.
 passing() {
-    local terminal=""
+    local pattern=$1 name=$2 count=0 step="" line printed=0 terminal="" code
     [ -t 1 ] && terminal=1
-    awk -v pattern="$1" -v name="$2" -v terminal="$terminal" '
-        $0 ~ pattern { count++
-            if (terminal) { printf "\rsetup: %s, step %d: %-60.60s", name, count, $0; fflush() }
-            else if (count % 10 == 1) { printf "setup: %s, step %d\n", name, count; fflush() } }
-        END { if (terminal && count) printf "\n" }'
+    SECONDS=0
+    while true; do
+        code=0
+        IFS= read -r -t 2 line || code=$?
+        if [ "$code" = 0 ]; then
+            [[ $line =~ $pattern ]] || continue
+            count=$((count + 1)) step=$line
+        elif [ "$code" -le 128 ]; then  # the end; more than 128: silent for two seconds
+            break
+        fi
+        if [ -n "$terminal" ]; then
+            printf '\rsetup: %s, step %d, %d s: %-60.60s' "$name" "$count" "$SECONDS" "$step"
+        elif [ "$SECONDS" -ge "$printed" ]; then
+            printf 'setup: %s, step %d, %d s: %.60s\n' "$name" "$count" "$SECONDS" "$step"
+            printed=$((SECONDS + 5))
+        fi
+    done
+    if [ -n "$terminal" ] && [ "$count" -gt 0 ]; then echo; fi
 }
 
 as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
