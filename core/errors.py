@@ -11,7 +11,10 @@ from typing import ClassVar
 
 from carpus.core.phrase import Phrase, phrase
 
-_UNTOUCHED = phrase("Nothing has been changed, and nothing is lost.")
+_UNCHANGED = phrase("Nothing has been changed.")
+_FILE_UNCHANGED = phrase("The file was not changed.")
+_RECORDING_UNCHANGED = phrase("The recording was not changed.")
+_GOES_ON = phrase("The measurement goes on.")
 _NOTHING_YET = phrase("Nothing has been recorded, so nothing is lost.")
 _STORED = phrase("Everything recorded so far is stored on this computer.")
 _INSTALL = phrase("Install it; “carpus doctor” says what and how.")
@@ -22,11 +25,12 @@ class CarpusFault(Exception):
 
     ``subject`` is the file, folder, device or marker concerned; ``detail`` the measured fact
     (a number, a name, a line), a :class:`Phrase` where it says more. Neither ever holds a patient's name.
+    Each class states ``safe`` itself, and only what is known wherever it is raised: there is no default.
     ``happened``, whether the data are ``safe``, and what to ``do`` have places for ``{subject}`` and ``{detail}``.
     """
 
     happened: ClassVar[Phrase]
-    safe: ClassVar[Phrase] = _UNTOUCHED
+    safe: ClassVar[Phrase]
     do: ClassVar[Phrase]
 
     def __init__(self, subject: str | Path = "", detail: str = "") -> None:
@@ -39,21 +43,25 @@ class CarpusFault(Exception):
 
 class RecordingMissing(CarpusFault):
     happened = phrase("There is no recording at {subject} ({detail}).")
+    safe = _UNCHANGED
     do = phrase("Check the name and the folder.")
 
 
 class RecordingUnreadable(CarpusFault):
     happened = phrase("The recording cannot be read: {subject} ({detail}).")
+    safe = _RECORDING_UNCHANGED
     do = phrase("Copy the recording again from where it was made, or correct the list.")
 
 
 class RecordingEmpty(CarpusFault):
     happened = phrase("The recording holds no picture: {subject} ({detail}).")
+    safe = _RECORDING_UNCHANGED
     do = phrase("Choose another recording, or record again.")
 
 
 class PictureDamaged(CarpusFault):
     happened = phrase("A picture of the recording cannot be used: {subject} ({detail}).")
+    safe = _RECORDING_UNCHANGED
     do = phrase("Copy the recording again from where it was made; carpus track --leave-out-damaged goes on without it.")
 
 
@@ -61,36 +69,43 @@ class FirstPictureDamaged(PictureDamaged):
     """The one on which the markers are clicked, without which nothing goes on."""
 
     happened = phrase("The first picture of the recording cannot be used: {subject} ({detail}).")
+    safe = _RECORDING_UNCHANGED
     do = phrase("Copy the recording again from where it was made.")
 
 
 class PictureSizeChanged(CarpusFault):
     happened = phrase("The pictures of the recording differ in size: {subject} ({detail}).")
+    safe = _RECORDING_UNCHANGED
     do = phrase("Use a recording whose pictures all have one size.")
 
 
 class TimesUnordered(CarpusFault):
     happened = phrase("The times of the recording do not rise: {subject} ({detail}).")
+    safe = _RECORDING_UNCHANGED
     do = phrase("Put the list in the order of time with each time once, or record again.")
 
 
 class DepthMissing(CarpusFault):
     happened = phrase("The recording has no usable depth: {subject} ({detail}).")
+    safe = _RECORDING_UNCHANGED
     do = phrase("Use a recording of colour and depth.")
 
 
 class CameraFileUnreadable(CarpusFault):
     happened = phrase("The file of the camera cannot be used: {subject} ({detail}).")
+    safe = _FILE_UNCHANGED
     do = phrase("Calibrate the camera again, or take the file away to use the usual values.")
 
 
 class ClicksUnreadable(CarpusFault):
     happened = phrase("The clicks cannot be read: {subject} ({detail}).")
+    safe = _FILE_UNCHANGED
     do = phrase("Correct the file, or click the markers again.")
 
 
 class ProtocolUnknown(CarpusFault):
     happened = phrase("There is no set of markers with the name {subject} ({detail}).")
+    safe = _UNCHANGED
     do = phrase("Use wrist6 or hand21.")
 
 
@@ -128,11 +143,13 @@ class ExtraMissing(CarpusFault):
     """A Python package that is installed only when asked for is not installed; ``subject`` is its name."""
 
     happened = phrase("This needs the Python package {subject}, which is not installed.")
+    safe = _UNCHANGED
     do = _INSTALL
 
 
 class SchedulerUnreachable(CarpusFault):
     happened = phrase("The scheduler at {subject} does not answer ({detail}).")
+    safe = _UNCHANGED
     do = phrase("Check the address, or leave out --scheduler to use this machine.")
 
 
@@ -180,11 +197,13 @@ class SessionUnfinished(CarpusFault):
 
 class ReferenceUnreadable(CarpusFault):
     happened = phrase("The reference cannot be read: {subject} ({detail}).")
+    safe = phrase("The session and the reference were not changed.")
     do = phrase("Use C3D, TRC, MOT, a CSV table with its column map, or a session.")
 
 
 class ReferenceUnsuited(CarpusFault):
     happened = phrase("Nothing in the reference can be compared: {subject} ({detail}).")
+    safe = phrase("The session and the reference were not changed.")
     do = phrase("Check that it is the same movement, and say which column or marker is which.")
 
 
@@ -196,6 +215,7 @@ class StudyUnsuited(CarpusFault):
 
 class SettingsInvalid(CarpusFault):
     happened = phrase("A setting cannot be used: {subject} ({detail}).")
+    safe = _UNCHANGED
     do = phrase("Correct the setting, or take it out to use the usual value.")
 
 
@@ -235,11 +255,13 @@ class ServerGone(CarpusFault):
 
 class NameUnsuited(CarpusFault):
     happened = phrase("This cannot be a name: {detail} ({subject}).")
+    safe = _UNCHANGED
     do = phrase("Type the name by hand instead of pasting it.")
 
 
 class DriverMissing(CarpusFault):
     happened = phrase("The driver of the camera is not on this computer, or cannot be loaded ({detail}).")
+    safe = _UNCHANGED
     do = _INSTALL
 
 
@@ -293,6 +315,7 @@ class OtherCamera(CameraLost):
     """Another camera is plugged in than the one that is wanted. Told while that one is away; raised at the opening."""
 
     happened = phrase("Carpus waits for its camera: {subject}. Another one is there ({detail}).")
+    safe = _STORED
     do = phrase("Plug its own camera in again; what was begun then goes on by itself.")
 
 
@@ -308,17 +331,19 @@ class ExposureNotHeld(CarpusFault):
     """Told, never raised."""
 
     happened = phrase("The camera cannot hold its exposure: {subject}.")
-    safe = phrase("The measurement goes on.")
+    safe = _GOES_ON
     do = phrase("Keep the light as it is while you measure.")
 
 
 class RecordingDamaged(CarpusFault):
     happened = phrase("The recording is damaged: {subject} ({detail}).")
+    safe = _RECORDING_UNCHANGED
     do = phrase("Copy the recording again from where it was made.")
 
 
 class RecordingUnsupported(CarpusFault):
     happened = phrase("Carpus cannot use the pictures of this recording: {subject} ({detail}).")
+    safe = _RECORDING_UNCHANGED
     do = phrase("Record again with colour and depth of one size.")
 
 
@@ -334,6 +359,7 @@ class PicturesEnlarged(CarpusFault):
     """Told, never raised: pictures of one kind were smaller and have been enlarged."""
 
     happened = phrase("Some pictures are smaller and have been enlarged: {subject} ({detail}).")
+    safe = _GOES_ON
     do = phrase("Set colour and depth to one size next time.")
 
 
@@ -343,6 +369,7 @@ class IntrinsicsAssumed(CarpusFault):
     happened = phrase(
         "There is no file of the camera with {subject}; Carpus uses {detail}, and lengths may be several per cent off."
     )
+    safe = _GOES_ON
     do = phrase("Put the camera_info.yaml of the camera beside it.")
 
 
@@ -350,6 +377,7 @@ class RegistrationAssumed(CarpusFault):
     """Told, never raised: nothing says whether depth lies on colour; it is taken as so."""
 
     happened = phrase("Nothing says whether depth lies on colour in {subject}; Carpus takes it so.")
+    safe = _GOES_ON
     do = phrase("Write “registered: true” or “false” into its camera_info.yaml.")
 
 
@@ -357,6 +385,7 @@ class DepthNotRegistered(CarpusFault):
     """Told, never raised: depth is known not to lie on colour, so depths are read beside the markers."""
 
     happened = phrase("Depth does not lie on colour in {subject}, so depths are less sure.")
+    safe = _GOES_ON
     do = phrase("Switch on registration in the camera next time.")
 
 
@@ -398,7 +427,7 @@ class RegisterUnreadable(CarpusFault):
 
 class RegisterBusy(RegisterUnreadable):
     happened = phrase("The window of Carpus, or another program, has the list of patients open: {subject} ({detail}).")
-    safe = _UNTOUCHED
+    safe = _UNCHANGED
     do = phrase("Close Carpus first, then try again.")
 
 
@@ -409,7 +438,7 @@ class RegisterJournalLeft(RegisterUnreadable):
         "The last changes of the list of patients lie in its journal, "
         "which needs a folder that can be written: {subject}."
     )
-    safe = _UNTOUCHED
+    safe = _UNCHANGED
     do = phrase("Close Carpus wherever it is open; if that does not help, copy the folder to where it can be written.")
 
 
@@ -417,6 +446,7 @@ class RegisterDamaged(RegisterUnreadable):
     """The register's file is broken or not a register; reading it again does not help."""
 
     happened = phrase("The list of patients is damaged: {subject} ({detail}).")
+    safe = RegisterUnreadable.safe
     do = phrase("Start Carpus again, or take the list from a backup.")
 
 
@@ -508,7 +538,7 @@ class RecordingReturned(CarpusFault):
 
 class FolderMissing(CarpusFault):
     happened = phrase("There is no folder {subject}.")
-    safe = phrase("Nothing has been changed.")
+    safe = _UNCHANGED
     do = phrase("Name the folder that holds the sessions.")
 
 
@@ -522,30 +552,31 @@ class ShareEmpty(FolderMissing):
 
 class NoDataFolder(CarpusFault):
     happened = phrase("There is nothing of Carpus in the folder {subject}.")
-    safe = phrase("Nothing has been changed.")
+    safe = _UNCHANGED
     do = phrase("Name the folder that holds the patients; carpus doctor says which it is.")
 
 
 class FolderInUse(CarpusFault):
     happened = phrase("Another Carpus is using the patients of {subject}.")
-    safe = phrase("Nothing has been changed.")
+    safe = _UNCHANGED
     do = phrase("Go to the window that is open already, or choose another folder.")
 
 
 class SessionsMissing(CarpusFault):
     happened = phrase("There is no session in {subject}.")
-    safe = phrase("Nothing has been changed.")
+    safe = _UNCHANGED
     do = phrase("Measure one, or name the folder that holds the sessions.")
 
 
 class PatientUnknown(CarpusFault):
     happened = phrase("There is no patient {subject} ({detail}).")
-    safe = phrase("Nothing has been changed.")
+    safe = _UNCHANGED
     do = phrase("Choose one of the patients that there are.")
 
 
 class PseudonymTaken(CarpusFault):
     happened = phrase("The name {subject} belongs to another patient.")
+    safe = _UNCHANGED
     do = phrase("Choose another name.")
 
 
@@ -569,6 +600,7 @@ class ErasureLeadsOut(CarpusFault):
 
 class BackupPlaceUnsuited(CarpusFault):
     happened = phrase("Back-ups cannot lie there: {subject} ({detail}).")
+    safe = _UNCHANGED
     do = phrase("Choose a folder on another disk.")
 
 
@@ -584,11 +616,13 @@ class PassphraseUnfit(CarpusFault):
     """What was typed cannot seal a file: ``detail`` says why."""
 
     happened = phrase("This passphrase cannot be taken: {detail}.")
+    safe = _UNCHANGED
     do = phrase("Choose {count} signs or more, best four words.", count=10)
 
 
 class SealRefused(CarpusFault):
     happened = phrase("{subject} does not open: the passphrase is another one, or the file is damaged.")
+    safe = _FILE_UNCHANGED
     do = phrase("Type the passphrase again, capitals and blanks as they were.")
 
 
@@ -596,6 +630,7 @@ class TooLargeToSeal(CarpusFault):
     """More than can be sealed as one file; ``detail`` says how much."""
 
     happened = phrase("This is too much to be sealed as one file: {detail} GB.")
+    safe = _UNCHANGED
     do = phrase("Back up to a folder on an encrypted disk, or seal single sessions.")
 
 
@@ -609,21 +644,25 @@ class BackupUnequal(CarpusFault):
 
 class BackupUnreadable(CarpusFault):
     happened = phrase("The back-up cannot be read: {subject} ({detail}).")
+    safe = _FILE_UNCHANGED
     do = phrase("Choose another back-up, or bring Carpus up to date.")
 
 
 class BackupMissing(CarpusFault):
     happened = phrase("There is no back-up in {subject}.")
+    safe = _UNCHANGED
     do = phrase("Choose the folder that holds the back-ups.")
 
 
 class BoardMissing(CarpusFault):
     happened = phrase("The printed board is not to be seen: {subject} ({detail}).")
+    safe = phrase("The calibration of the camera stays as it is.")
     do = phrase("Print it with carpus calibrate-camera --board, and hold all of it in the picture, in good light.")
 
 
 class BoardViewsAlike(CarpusFault):
     happened = phrase("The pictures of the board are too few or too alike: {subject} ({detail}).")
+    safe = phrase("The calibration of the camera stays as it is.")
     do = phrase(
         "Show the board in every part of the picture, tilted to all four sides, near and far, and hold it still."
     )
@@ -631,11 +670,13 @@ class BoardViewsAlike(CarpusFault):
 
 class BoardUnfit(CarpusFault):
     happened = phrase("The corners do not fit a flat board: {subject} ({detail}).")
+    safe = phrase("The calibration of the camera stays as it is.")
     do = phrase("Glue the board onto something stiff and flat, give it light, and hold it still.")
 
 
 class CardMissing(CarpusFault):
     happened = phrase("The check card is not to be seen well enough: {subject} ({detail}).")
+    safe = _UNCHANGED
     do = phrase("Lay it flat under the camera, all of it in the picture, about 60 cm away, in good light.")
 
 

@@ -3036,10 +3036,6 @@
         <translation>Wie weit {other} mit {one} mitgeht</translation>
     </message>
     <message>
-        <source>Share of {one} that {other} moves</source>
-        <translation type="vanished">Mitgehen {one}–{other}</translation>
-    </message>
-    <message>
         <source>Widest span, {one}–{other}</source>
         <translation>Spanne {one}–{other}</translation>
     </message>
@@ -3906,14 +3902,6 @@
     <message>
         <source>{angle} at most (limit {limit})</source>
         <translation>höchstens {angle} (Grenze {limit})</translation>
-    </message>
-    <message>
-        <source>Markers and camera</source>
-        <translation type="vanished">Marker und Kamera</translation>
-    </message>
-    <message>
-        <source>doubtful, see above</source>
-        <translation type="vanished">zweifelhaft, siehe oben</translation>
     </message>
     <message>
         <source>Peak speed, mean ± sd</source>
@@ -5008,10 +4996,6 @@
         <translation>Sonst wurde nichts geändert.</translation>
     </message>
     <message>
-        <source>Nothing has been changed, and nothing is lost.</source>
-        <translation>Nichts ist geändert, und nichts ist verloren.</translation>
-    </message>
-    <message>
         <source>Nothing has been changed.</source>
         <translation>Nichts ist geändert.</translation>
     </message>
@@ -5316,6 +5300,10 @@
         <translation>RealSense-Treiber</translation>
     </message>
     <message>
+        <source>The calibration of the camera stays as it is.</source>
+        <translation>Die Kalibrierung der Kamera bleibt, wie sie ist.</translation>
+    </message>
+    <message>
         <source>The camera cannot hold its exposure: {subject}.</source>
         <translation>Die Kamera kann ihre Belichtung nicht halten: {subject}.</translation>
     </message>
@@ -5402,6 +5390,10 @@
     <message>
         <source>The file of the camera cannot be used: {subject} ({detail}).</source>
         <translation>Die Datei der Kamera ist nicht verwendbar: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The file was not changed.</source>
+        <translation>Die Datei wurde nicht verändert.</translation>
     </message>
     <message>
         <source>The first picture of the recording cannot be used: {subject} ({detail}).</source>
@@ -5512,12 +5504,20 @@
         <translation>Die Aufnahme ist beschädigt: {subject} ({detail}).</translation>
     </message>
     <message>
+        <source>The recording was not changed.</source>
+        <translation>Die Aufnahme wurde nicht verändert.</translation>
+    </message>
+    <message>
         <source>The reference cannot be read: {subject} ({detail}).</source>
         <translation>Die Referenz ist nicht lesbar: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The scheduler at {subject} does not answer ({detail}).</source>
         <translation>Der Verteiler antwortet nicht: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The session and the reference were not changed.</source>
+        <translation>Sitzung und Referenz wurden nicht verändert.</translation>
     </message>
     <message>
         <source>The session files are safe; the list can be made again from them, without the names.</source>
@@ -9347,10 +9347,6 @@
         <translation>Niemand ist daran zu erkennen: Zufallsname, kein Datum (Tag 1, 2 …), keine Notizen</translation>
     </message>
     <message>
-        <source>Nobody can be found by it: new random name, days counted, no notes</source>
-        <translation type="vanished">Niemand ist daran erkennbar: neuer Zufallsname, Tage gezählt, keine Notizen</translation>
-    </message>
-    <message>
         <source>How far the export is</source>
         <translation>Wie weit der Export ist</translation>
     </message>
@@ -9851,10 +9847,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>kein Wert</translation>
     </message>
     <message>
-        <source>Target {angle}</source>
-        <translation type="vanished">Ziel {angle}</translation>
-    </message>
-    <message>
         <source>10 s ago</source>
         <translation>vor 10 s</translation>
     </message>
@@ -9863,16 +9855,8 @@ Umschalt+F8 von der Seite</translation>
         <translation>jetzt</translation>
     </message>
     <message>
-        <source>should stay within {angle}</source>
-        <translation type="vanished">soll in {angle} bleiben</translation>
-    </message>
-    <message>
         <source>0° = palm down; stay within {angle}</source>
         <translation>0° = Handfläche unten; in {angle} bleiben</translation>
-    </message>
-    <message>
-        <source>0° = palm down</source>
-        <translation type="vanished">0° = Handfläche unten</translation>
     </message>
 </context>
 <context>
@@ -10549,38 +10533,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Path of the wrist</source>
         <translation>Weg des Handgelenks</translation>
-    </message>
-    <message>
-        <source>thumb ←</source>
-        <translation type="vanished">Daumen ←</translation>
-    </message>
-    <message>
-        <source>thumb →</source>
-        <translation type="vanished">Daumen →</translation>
-    </message>
-    <message>
-        <source>fingers ↑</source>
-        <translation type="vanished">Finger ↑</translation>
-    </message>
-    <message>
-        <source>From above</source>
-        <translation type="vanished">Von oben</translation>
-    </message>
-    <message>
-        <source>up ↑</source>
-        <translation type="vanished">oben ↑</translation>
-    </message>
-    <message>
-        <source>fingers →</source>
-        <translation type="vanished">Finger →</translation>
-    </message>
-    <message>
-        <source>From the side</source>
-        <translation type="vanished">Von der Seite</translation>
-    </message>
-    <message>
-        <source>From the fingers</source>
-        <translation type="vanished">Von den Fingern</translation>
     </message>
     <message>
         <source>15 mm</source>
@@ -12632,10 +12584,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Settings (Ctrl+,)</source>
         <translation>Einstellungen (Strg+,)</translation>
-    </message>
-    <message>
-        <source>Back from {name}</source>
-        <translation type="vanished">Zurück von {name}</translation>
     </message>
     <message>
         <source>After the recording</source>

@@ -3036,10 +3036,6 @@
         <translation>Quanto {other} segue {one}</translation>
     </message>
     <message>
-        <source>Share of {one} that {other} moves</source>
-        <translation type="vanished">Segue {one}: {other}</translation>
-    </message>
-    <message>
         <source>Widest span, {one}–{other}</source>
         <translation>Apertura massima, {one}–{other}</translation>
     </message>
@@ -3906,14 +3902,6 @@
     <message>
         <source>{angle} at most (limit {limit})</source>
         <translation>al massimo {angle} (limite {limit})</translation>
-    </message>
-    <message>
-        <source>Markers and camera</source>
-        <translation type="vanished">Marcatori e telecamera</translation>
-    </message>
-    <message>
-        <source>doubtful, see above</source>
-        <translation type="vanished">dubbi, vedere sopra</translation>
     </message>
     <message>
         <source>Peak speed, mean ± sd</source>
@@ -5012,10 +5000,6 @@
         <translation>Null’altro è stato cambiato.</translation>
     </message>
     <message>
-        <source>Nothing has been changed, and nothing is lost.</source>
-        <translation>Nulla è stato cambiato e nulla è perso.</translation>
-    </message>
-    <message>
         <source>Nothing has been changed.</source>
         <translation>Nulla è stato cambiato.</translation>
     </message>
@@ -5304,6 +5288,10 @@
         <translation>Non cambiare la luce durante la misura.</translation>
     </message>
     <message>
+        <source>The calibration of the camera stays as it is.</source>
+        <translation>La calibrazione della telecamera resta com’è.</translation>
+    </message>
+    <message>
         <source>The camera cannot hold its exposure: {subject}.</source>
         <translation>La telecamera non può mantenere l’esposizione: {subject}.</translation>
     </message>
@@ -5390,6 +5378,10 @@
     <message>
         <source>The file of the camera cannot be used: {subject} ({detail}).</source>
         <translation>Il file della telecamera non si può usare: {subject} ({detail}).</translation>
+    </message>
+    <message>
+        <source>The file was not changed.</source>
+        <translation>Il file non è stato modificato.</translation>
     </message>
     <message>
         <source>The first picture of the recording cannot be used: {subject} ({detail}).</source>
@@ -5500,12 +5492,20 @@
         <translation>La registrazione è danneggiata: {subject} ({detail}).</translation>
     </message>
     <message>
+        <source>The recording was not changed.</source>
+        <translation>La registrazione non è stata modificata.</translation>
+    </message>
+    <message>
         <source>The reference cannot be read: {subject} ({detail}).</source>
         <translation>Il riferimento non si può leggere: {subject} ({detail}).</translation>
     </message>
     <message>
         <source>The scheduler at {subject} does not answer ({detail}).</source>
         <translation>Lo scheduler in {subject} non risponde ({detail}).</translation>
+    </message>
+    <message>
+        <source>The session and the reference were not changed.</source>
+        <translation>La sessione e il riferimento non sono stati modificati.</translation>
     </message>
     <message>
         <source>The session files are safe; the list can be made again from them, without the names.</source>
@@ -9347,10 +9347,6 @@
         <translation>Nessuno è riconoscibile: nome casuale, nessuna data (giorno 1, 2 …), nessuna nota</translation>
     </message>
     <message>
-        <source>Nobody can be found by it: new random name, days counted, no notes</source>
-        <translation type="vanished">Nessuno è riconoscibile: nuovo nome casuale, giorni contati, nessuna nota</translation>
-    </message>
-    <message>
         <source>How far the export is</source>
         <translation>Avanzamento dell’esportazione</translation>
     </message>
@@ -9851,10 +9847,6 @@ Maiusc+F8 di lato</translation>
         <translation>nessun valore</translation>
     </message>
     <message>
-        <source>Target {angle}</source>
-        <translation type="vanished">Obiettivo {angle}</translation>
-    </message>
-    <message>
         <source>10 s ago</source>
         <translation>10 s fa</translation>
     </message>
@@ -9863,16 +9855,8 @@ Maiusc+F8 di lato</translation>
         <translation>ora</translation>
     </message>
     <message>
-        <source>should stay within {angle}</source>
-        <translation type="vanished">deve restare entro {angle}</translation>
-    </message>
-    <message>
         <source>0° = palm down; stay within {angle}</source>
         <translation>0° = palmo in giù; restare entro {angle}</translation>
-    </message>
-    <message>
-        <source>0° = palm down</source>
-        <translation type="vanished">0° = palmo in giù</translation>
     </message>
 </context>
 <context>
@@ -10549,38 +10533,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Path of the wrist</source>
         <translation>Percorso del polso</translation>
-    </message>
-    <message>
-        <source>thumb ←</source>
-        <translation type="vanished">pollice ←</translation>
-    </message>
-    <message>
-        <source>thumb →</source>
-        <translation type="vanished">pollice →</translation>
-    </message>
-    <message>
-        <source>fingers ↑</source>
-        <translation type="vanished">dita ↑</translation>
-    </message>
-    <message>
-        <source>From above</source>
-        <translation type="vanished">Dall’alto</translation>
-    </message>
-    <message>
-        <source>up ↑</source>
-        <translation type="vanished">su ↑</translation>
-    </message>
-    <message>
-        <source>fingers →</source>
-        <translation type="vanished">dita →</translation>
-    </message>
-    <message>
-        <source>From the side</source>
-        <translation type="vanished">Di lato</translation>
-    </message>
-    <message>
-        <source>From the fingers</source>
-        <translation type="vanished">Dalle dita</translation>
     </message>
     <message>
         <source>15 mm</source>
@@ -12632,10 +12584,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Settings (Ctrl+,)</source>
         <translation>Impostazioni (Ctrl+,)</translation>
-    </message>
-    <message>
-        <source>Back from {name}</source>
-        <translation type="vanished">Torna da: {name}</translation>
     </message>
     <message>
         <source>After the recording</source>
