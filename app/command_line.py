@@ -1,11 +1,10 @@
-"""What commands have in common: how wrong usage is told, values are read and a passphrase is asked for; standard output
-and error, told of where they cannot be written, with a progress bar for people; what asks the program to stop (Ctrl+C,
-a shutdown, a closed terminal)."""
+"""What commands have in common: how wrong usage is told, and values are read; standard output and error, told of where
+they cannot be written, with a progress bar for people; what asks the program to stop (Ctrl+C, a shutdown, a closed
+terminal)."""
 
 from __future__ import annotations
 
 import argparse
-import getpass
 import io
 import math
 import os
@@ -17,9 +16,8 @@ from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, NoReturn, Protocol, TextIO
 
 from carpus.core.capture.devices.cameras import CAMERAS, check_address
-from carpus.core.errors import CameraUnknown, PassphraseUnfit
+from carpus.core.errors import CameraUnknown
 from carpus.core.names import known_names, nearest
-from carpus.core.phrase import phrase
 
 if TYPE_CHECKING:
     from carpus.core.errors import CarpusFault
@@ -183,17 +181,3 @@ def camera_address(text: str) -> str:
 
 
 CAMERA_HELP = f"KIND is {', '.join(CAMERAS)}; WHICH its serial number, or OpenNI2's address"
-
-
-def ask_passphrase(*, least_signs: int = 0) -> str:
-    """For what is to be opened; with ``least_signs`` for what is to be sealed, typed twice. Raises
-    :class:`PassphraseUnfit`."""
-    if not sys.stdin.isatty():
-        typed = sys.stdin.readline().rstrip("\r\n")
-    else:
-        typed = getpass.getpass("Passphrase: ")
-        if least_signs and typed != getpass.getpass("The same again: "):
-            raise PassphraseUnfit("", phrase("the two are not the same"))
-    if len(typed) < max(least_signs, 1):
-        raise PassphraseUnfit("", phrase("too few signs"))
-    return typed

@@ -612,28 +612,6 @@ class BackupIncomplete(CarpusFault):
     do = phrase("Bring the folder of the sessions back or its disk, and back up again; or erase these sessions.")
 
 
-class PassphraseUnfit(CarpusFault):
-    """What was typed cannot seal a file: ``detail`` says why."""
-
-    happened = phrase("This passphrase cannot be taken: {detail}.")
-    safe = _UNCHANGED
-    do = phrase("Choose {count} signs or more, best four words.", count=10)
-
-
-class SealRefused(CarpusFault):
-    happened = phrase("{subject} does not open: the passphrase is another one, or the file is damaged.")
-    safe = _FILE_UNCHANGED
-    do = phrase("Type the passphrase again, capitals and blanks as they were.")
-
-
-class TooLargeToSeal(CarpusFault):
-    """More than can be sealed as one file; ``detail`` says how much."""
-
-    happened = phrase("This is too much to be sealed as one file: {detail} GB.")
-    safe = _UNCHANGED
-    do = phrase("Back up to a folder on an encrypted disk, or seal single sessions.")
-
-
 class BackupUnequal(CarpusFault):
     """What is read back of a back-up is not what was written; ``subject`` begins the name of its content."""
 

@@ -1,4 +1,4 @@
-"""What a person may type: pseudonyms, names and passphrases by one rule for window, commands, store and files, with
+"""What a person may type: pseudonyms and names by one rule for window, commands, store and files, with
 what is told of one that nobody knows; least and largest numbers; and where what is known of cameras lies, by serial
 number."""
 
@@ -13,8 +13,6 @@ from carpus.core.errors import NameUnsuited, SettingsInvalid
 from carpus.core.phrase import phrase
 
 MOST_CHARACTERS = 100
-LEAST_OF_PASSPHRASE = 10
-"""Signs: a sealed file can be carried away and tried as often as a computer can."""
 _UNSEEN = {"\u034f", "\u115f", "\u1160", "\u2800", "\u3164", "\uffa0", *map(chr, range(0xFE00, 0xFE10))}
 """Fillers, joiners and selectors, which count as letters or marks and show nothing."""
 
@@ -40,11 +38,6 @@ def name_of(text: str) -> str:
 def folded(text: str) -> str:
     """A name as it is compared: capitals and kinds of the same letter do not count."""
     return unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", text).casefold()).strip()
-
-
-def is_passphrase(text: str) -> bool:
-    """Whether it is long enough to keep a file closed that others can try as often as they like."""
-    return len(text) >= LEAST_OF_PASSPHRASE
 
 
 MOST_LISTED = 24

@@ -195,29 +195,6 @@ def open_desktop(qapp: QApplication, qtbot: QtBot, tmp_path: Path) -> Iterator[C
     qtbot.waitUntil(lambda: not any(desktop.journey.background.busy for desktop in opened))
 
 
-@pytest.fixture
-def quick_age(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A passphrase stands for a key made here, without the second that the library spends on each so that guessing
-    takes long; another passphrase does not open it."""
-    import pyrage
-
-    keys: dict[str, pyrage.x25519.Identity] = {}
-
-    def key(passphrase: str) -> pyrage.x25519.Identity:
-        return keys.setdefault(passphrase, pyrage.x25519.Identity.generate())
-
-    class Passphrases:
-        @staticmethod
-        def encrypt(content: bytes, passphrase: str) -> bytes:
-            return bytes(pyrage.encrypt(content, [key(passphrase).to_public()]))
-
-        @staticmethod
-        def decrypt(sealed: bytes, passphrase: str) -> bytes:
-            return bytes(pyrage.decrypt(sealed, [key(passphrase)]))
-
-    monkeypatch.setattr(pyrage, "passphrase", Passphrases)
-
-
 @pytest.fixture(autouse=True)
 def no_niceness_left(monkeypatch: pytest.MonkeyPatch) -> None:
     """A command run in this process gives way to others for good: all later tests would be slower for it."""

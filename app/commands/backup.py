@@ -8,23 +8,17 @@ from datetime import datetime
 from pathlib import Path
 
 from carpus import __version__
-from carpus.app.command_line import ask_passphrase, bar, tell
-from carpus.app.of_file import initials, note_in
+from carpus.app.command_line import bar, tell
+from carpus.app.of_file import initials
 from carpus.app.settings import load_sound_settings, sessions_folder, settings_folder
-from carpus.core.errors import BackupMissing, CarpusFault, OutputExists
+from carpus.core.errors import BackupMissing, CarpusFault
 
 EXAMPLE = """carpus backup /media/backup
-carpus backup /media/stick/carpus.tar.age --sealed
 carpus backup /media/backup --list"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("place", type=Path, metavar="FOLDER", help="for back-ups, on another disk; made if need be")
-    parser.add_argument(
-        "--sealed", action="store_true",
-        help="FOLDER is a new file, closed with a passphrase that is asked for (or the first line that comes in); "
-        "“age --decrypt FILE | tar --extract” opens it too",
-    )  # fmt: skip
     parser.add_argument("--data-folder", type=Path, metavar="FOLDER", help="patients and sessions (default: your own)")
     parser.add_argument("--list", action="store_true", help="only say which back-ups there are")
     parser.add_argument("--compare", action="store_true", help="only read the newest back-up and compare")
@@ -53,8 +47,6 @@ def run(arguments: argparse.Namespace) -> int:
     folder: Path = arguments.data_folder or settings.data_folder
     share = sessions_folder(settings) if folder == settings.data_folder else None
     os.nice(5) if hasattr(os, "nice") else None
-    if arguments.sealed:
-        return _sealed(folder, share, place)
     with bar("backing up", "byte") as progress:
         made = back_up(
             folder,
@@ -74,27 +66,4 @@ def run(arguments: argparse.Namespace) -> int:
     if made.running:
         print(f"Not in it: {made.running} recordings that are running.")
     thin_out(place, settings.backup.keep, settings.backup.months, datetime.now().astimezone())
-    return 0
-
-
-def _sealed(folder: Path, share: Path | None, path: Path) -> int:
-    from carpus.core.names import LEAST_OF_PASSPHRASE
-    from carpus.core.records.sealed import seal_backup
-
-    if path.exists():
-        raise OutputExists(path)
-    passphrase = ask_passphrase(least_signs=LEAST_OF_PASSPHRASE)
-    with bar("sealing", "byte") as progress:
-        made = seal_backup(
-            folder,
-            path,
-            passphrase,
-            software_version=__version__,
-            sessions=share,
-            settings_folder=settings_folder(),
-            progress=progress,
-        )
-    note_in(folder, "backed_up", "everything", sessions=made.sessions, sealed=1)
-    print(f"{path}: {made.sessions} sessions, {made.size_bytes / 1e6:.1f} MB, opened again and compared: all equal.")
-    print("Without the passphrase nobody can open it, nor can we.")
     return 0

@@ -3,23 +3,16 @@
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
 
 from carpus import __version__
-from carpus.app.command_line import ask_passphrase, bar, tell
+from carpus.app.command_line import bar, tell
 from carpus.app.of_file import note_exported
-from carpus.core.errors import OutputExists, SessionsMissing
+from carpus.core.errors import SessionsMissing
 from carpus.core.formats.formats import FORMATS
 from carpus.core.names import known_names
 
-if TYPE_CHECKING:
-    from carpus.core.formats.formats import Exported
-
-EXAMPLE = """carpus export session.h5 --format csv,c3d --output out/export
-carpus export session.h5 --output out/export.tar.age --sealed"""
+EXAMPLE = "carpus export session.h5 --format csv,c3d --output out/export"
 ALL = "all"
 
 
@@ -44,10 +37,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--output", type=Path, required=True, metavar="FOLDER", help="files in it are not overwritten")
     parser.add_argument(
-        "--sealed", action="store_true",
-        help="FOLDER is one new file, closed with a passphrase that is asked for (or the first line that comes in)",
-    )  # fmt: skip
-    parser.add_argument(
         "--deidentified",
         action="store_true",
         help="new random names, days counted from each patient's first session, no texts, nothing of the device",
@@ -55,28 +44,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    paths = session_files(arguments.sessions)
-    if arguments.sealed:
-        return _sealed(arguments, paths)
-    done = _exported(arguments, paths, arguments.output)
-    note_exported(done, deidentified=arguments.deidentified)
-    for path in done.files if len(paths) == 1 else ():
-        print(f"Written: {path}")
-    count = len(done.files)
-    if len(paths) > 1 and count:
-        print(f"Written: {count} files of {len(paths) - len(done.refused)} sessions into {arguments.output}")
-    return 1 if done.refused else 0
-
-
-def _exported(arguments: argparse.Namespace, paths: list[Path], folder: Path) -> Exported:
-    """The files in a folder; what was refused is said."""
     from carpus.app.of_file import read_choices
     from carpus.core.formats.formats import Wanted, export_sessions
 
+    paths = session_files(arguments.sessions)
     with bar("exporting", "file") as progress:
         done = export_sessions(
             [Wanted.stored(path, read_choices) for path in paths],
-            folder,
+            arguments.output,
             arguments.format,
             software_version=__version__,
             deidentified=arguments.deidentified,
@@ -84,25 +59,13 @@ def _exported(arguments: argparse.Namespace, paths: list[Path], folder: Path) ->
         )
     for refused in done.refused:
         tell(refused.fault)
-    return done
-
-
-def _sealed(arguments: argparse.Namespace, paths: list[Path]) -> int:
-    from carpus.core.names import LEAST_OF_PASSPHRASE
-    from carpus.core.records.sealed import seal_files
-
-    output: Path = arguments.output
-    if output.exists():
-        raise OutputExists(output)
-    passphrase = ask_passphrase(least_signs=LEAST_OF_PASSPHRASE)
-    with TemporaryDirectory() as name:  # for its owner only, and gone in the end
-        done = _exported(arguments, paths, Path(name))
-        if done.files:
-            seal_files([(one.relative_to(name).as_posix(), one) for one in done.files], output, passphrase)
-            note_exported(replace(done, files=(output,), parts=dict.fromkeys(done.parts, (output,))),
-                          deidentified=arguments.deidentified)  # fmt: skip
-            print(f"Written: {output}, {len(done.files)} files. Without the passphrase nobody can open it.")
-    return 1 if done.refused or not done.files else 0
+    note_exported(done, deidentified=arguments.deidentified)
+    for path in done.files if len(paths) == 1 else ():
+        print(f"Written: {path}")
+    count = len(done.files)
+    if len(paths) > 1 and count:
+        print(f"Written: {count} files of {len(paths) - len(done.refused)} sessions into {arguments.output}")
+    return 1 if done.refused else 0
 
 
 def session_files(named: list[Path]) -> list[Path]:

@@ -7,7 +7,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carpus.app.command_line import ask_passphrase, bar, misused, say
+from carpus.app.command_line import bar, misused, say
 from carpus.app.of_file import note_in
 from carpus.app.settings import settings_folder
 from carpus.core.errors import BackupMissing
@@ -16,12 +16,11 @@ from carpus.core.names import known_names
 if TYPE_CHECKING:
     from carpus.core.records.backup import Backup, Content
 
-EXAMPLE = """carpus restore /media/backup --into carpus-data
-carpus restore carpus.tar.age --into carpus-data"""
+EXAMPLE = "carpus restore /media/backup --into carpus-data"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("place", type=Path, metavar="FOLDER", help="that holds the back-ups, or a sealed file")
+    parser.add_argument("place", type=Path, metavar="FOLDER", help="that holds the back-ups")
     parser.add_argument(
         "--name", metavar="BACKUP", help="which back-up, as “carpus backup --list” says (default: the newest)"
     )
@@ -58,10 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _chosen(place: Path, name: str | None) -> tuple[Backup, Content] | None:
     """A back-up and its contents; None for a name that none has, which is said."""
     from carpus.core.records.backup import backups, content_of
-    from carpus.core.records.sealed import is_sealed, open_sealed
 
-    if is_sealed(place):
-        return open_sealed(place, ask_passphrase())
     there = {one.name: one for one in backups(place)}
     if not there:
         raise BackupMissing(place)

@@ -7252,16 +7252,8 @@
         <translation>Halte unterwegs, Mittel</translation>
     </message>
     <message>
-        <source>Choose {count} signs or more, best four words.</source>
-        <translation>Wählen Sie mindestens {count} Zeichen, am besten vier Wörter.</translation>
-    </message>
-    <message>
         <source>Everything else is in it.</source>
         <translation>Alles andere ist darin.</translation>
-    </message>
-    <message>
-        <source>Back up to a folder on an encrypted disk, or seal single sessions.</source>
-        <translation>Sichern Sie in einen Ordner auf einem verschlüsselten Datenträger, oder versiegeln Sie einzelne Sitzungen.</translation>
     </message>
     <message>
         <source>Bring the folder of the sessions back or its disk, and back up again; or erase these sessions.</source>
@@ -7270,30 +7262,6 @@
     <message>
         <source>The back-up lacks files: {subject} is missing or cannot be read; {detail} in all.</source>
         <translation>Der Sicherung fehlen Dateien: {subject} ist nicht da oder nicht lesbar; {detail} insgesamt.</translation>
-    </message>
-    <message>
-        <source>This is too much to be sealed as one file: {detail} GB.</source>
-        <translation>Das ist zu viel, um es als eine Datei zu versiegeln: {detail} GB.</translation>
-    </message>
-    <message>
-        <source>This passphrase cannot be taken: {detail}.</source>
-        <translation>Diese Passphrase geht nicht: {detail}.</translation>
-    </message>
-    <message>
-        <source>Type the passphrase again, capitals and blanks as they were.</source>
-        <translation>Geben Sie die Passphrase noch einmal ein, mit Großbuchstaben und Leerzeichen wie zuvor.</translation>
-    </message>
-    <message>
-        <source>the two are not the same</source>
-        <translation>die beiden sind nicht gleich</translation>
-    </message>
-    <message>
-        <source>too few signs</source>
-        <translation>zu wenige Zeichen</translation>
-    </message>
-    <message>
-        <source>{subject} does not open: the passphrase is another one, or the file is damaged.</source>
-        <translation>{subject} lässt sich nicht öffnen: Die Passphrase ist eine andere, oder die Datei ist beschädigt.</translation>
     </message>
     <message>
         <source>No change proven since {day}.</source>
@@ -7730,28 +7698,12 @@
         <translation>So lassen</translation>
     </message>
     <message>
-        <source>Sealed: {name}, {size} MB. Whoever has the passphrase can open it.</source>
-        <translation>Versiegelt: {name}, {size} MB. Wer die Passphrase hat, kann sie öffnen.</translation>
-    </message>
-    <message>
-        <source>Sealed back-up</source>
-        <translation>Versiegelte Sicherung</translation>
-    </message>
-    <message>
-        <source>Sealed files (*.age)</source>
-        <translation>Versiegelte Dateien (*.age)</translation>
-    </message>
-    <message>
         <source>Restore the back-up of {when}? Session files added: {come}, changed: {change}, taken away: {go}.</source>
         <translation>Sicherung vom {when} wiederherstellen? Sitzungsdateien hinzugefügt: {come}, geändert: {change}, entfernt: {go}.</translation>
     </message>
     <message>
         <source>The folder of what is here now is kept beside the new one.</source>
         <translation>Der Ordner mit dem, was jetzt hier ist, bleibt neben dem neuen erhalten.</translation>
-    </message>
-    <message>
-        <source>Seal into one file</source>
-        <translation>In eine Datei versiegeln</translation>
     </message>
 </context>
 <context>
@@ -7813,14 +7765,6 @@
         <translation>Behalten</translation>
     </message>
     <message>
-        <source>To carry away or send</source>
-        <translation>Mitnehmen, senden</translation>
-    </message>
-    <message>
-        <source>One file with everything, closed with a passphrase.</source>
-        <translation>Eine Datei mit allem, mit einer Passphrase verschlossen.</translation>
-    </message>
-    <message>
         <source>none</source>
         <translation>keiner</translation>
     </message>
@@ -7829,12 +7773,8 @@
         <translation>{percent} %</translation>
     </message>
     <message>
-        <source>&amp;Seal into one file…</source>
-        <translation>In eine Datei &amp;versiegeln…</translation>
-    </message>
-    <message>
-        <source>Back from a sealed file…</source>
-        <translation>Aus versiegelter Datei zurück…</translation>
+        <source>Whoever has the backup disk can read it: use an encrypted disk.</source>
+        <translation>Wer den Datenträger mit den Sicherungen hat, kann sie lesen: einen verschlüsselten Datenträger verwenden.</translation>
     </message>
 </context>
 <context>
@@ -10486,49 +10426,6 @@ Umschalt+F8 von der Seite</translation>
     </message>
 </context>
 <context>
-    <name>PassphraseSheet</name>
-    <message>
-        <source>The same &amp;again</source>
-        <translation>&amp;Noch einmal</translation>
-    </message>
-    <message>
-        <source>&amp;Passphrase</source>
-        <translation>&amp;Passphrase</translation>
-    </message>
-    <message>
-        <source>Seal into one file</source>
-        <translation>In eine Datei versiegeln</translation>
-    </message>
-    <message>
-        <source>Open the sealed file</source>
-        <translation>Versiegelte Datei öffnen</translation>
-    </message>
-    <message>
-        <source>Seal it</source>
-        <translation>Versiegeln</translation>
-    </message>
-    <message>
-        <source>Open it</source>
-        <translation>Öffnen</translation>
-    </message>
-    <message>
-        <source>Ten signs or more, best four words. Write it down: without it nobody can open the file.</source>
-        <translation>Mindestens zehn Zeichen, am besten vier Wörter. Schreiben Sie sie auf: Ohne sie kann niemand die Datei öffnen.</translation>
-    </message>
-    <message>
-        <source>As it was typed when the file was sealed.</source>
-        <translation>So, wie sie beim Versiegeln eingegeben wurde.</translation>
-    </message>
-    <message>
-        <source>A passphrase has ten signs or more.</source>
-        <translation>Eine Passphrase hat mindestens zehn Zeichen.</translation>
-    </message>
-    <message>
-        <source>The two are not the same.</source>
-        <translation>Die beiden sind nicht gleich.</translation>
-    </message>
-</context>
-<context>
     <name>PathView</name>
     <message>
         <source>Path of the wrist</source>
@@ -11269,10 +11166,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>nobody was there</source>
         <translation>niemand war da</translation>
-    </message>
-    <message>
-        <source>sealed</source>
-        <translation>versiegelt</translation>
     </message>
     <message>
         <source>without what identifies</source>

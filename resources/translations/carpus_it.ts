@@ -7252,16 +7252,8 @@
         <translation>Soste durante il movimento, media</translation>
     </message>
     <message>
-        <source>Choose {count} signs or more, best four words.</source>
-        <translation>Scelga almeno {count} segni, meglio quattro parole.</translation>
-    </message>
-    <message>
         <source>Everything else is in it.</source>
         <translation>Tutto il resto c’è.</translation>
-    </message>
-    <message>
-        <source>Back up to a folder on an encrypted disk, or seal single sessions.</source>
-        <translation>Faccia la copia in una cartella su un disco cifrato, o sigilli singole sessioni.</translation>
     </message>
     <message>
         <source>Bring the folder of the sessions back or its disk, and back up again; or erase these sessions.</source>
@@ -7270,30 +7262,6 @@
     <message>
         <source>The back-up lacks files: {subject} is missing or cannot be read; {detail} in all.</source>
         <translation>Alla copia di sicurezza mancano file: {subject} non c’è o non si può leggere; {detail} in tutto.</translation>
-    </message>
-    <message>
-        <source>This is too much to be sealed as one file: {detail} GB.</source>
-        <translation>È troppo per essere sigillato in un solo file: {detail} GB.</translation>
-    </message>
-    <message>
-        <source>This passphrase cannot be taken: {detail}.</source>
-        <translation>Questa passphrase non va bene: {detail}.</translation>
-    </message>
-    <message>
-        <source>Type the passphrase again, capitals and blanks as they were.</source>
-        <translation>Scriva di nuovo la passphrase, con maiuscole e spazi com’erano.</translation>
-    </message>
-    <message>
-        <source>the two are not the same</source>
-        <translation>le due non sono uguali</translation>
-    </message>
-    <message>
-        <source>too few signs</source>
-        <translation>troppo pochi segni</translation>
-    </message>
-    <message>
-        <source>{subject} does not open: the passphrase is another one, or the file is damaged.</source>
-        <translation>{subject} non si apre: la passphrase è un’altra, o il file è danneggiato.</translation>
     </message>
     <message>
         <source>No change proven since {day}.</source>
@@ -7730,28 +7698,12 @@
         <translation>Lascia così</translation>
     </message>
     <message>
-        <source>Sealed: {name}, {size} MB. Whoever has the passphrase can open it.</source>
-        <translation>Sigillato: {name}, {size} MB. Chi ha la passphrase può aprirlo.</translation>
-    </message>
-    <message>
-        <source>Sealed back-up</source>
-        <translation>Copia sigillata</translation>
-    </message>
-    <message>
-        <source>Sealed files (*.age)</source>
-        <translation>File sigillati (*.age)</translation>
-    </message>
-    <message>
         <source>Restore the back-up of {when}? Session files added: {come}, changed: {change}, taken away: {go}.</source>
         <translation>Ripristinare la copia del {when}? File di sedute aggiunti: {come}, cambiati: {change}, tolti: {go}.</translation>
     </message>
     <message>
         <source>The folder of what is here now is kept beside the new one.</source>
         <translation>La cartella con ciò che c’è ora resta accanto a quella nuova.</translation>
-    </message>
-    <message>
-        <source>Seal into one file</source>
-        <translation>Sigillare in un solo file</translation>
     </message>
 </context>
 <context>
@@ -7813,14 +7765,6 @@
         <translation>Conservare</translation>
     </message>
     <message>
-        <source>To carry away or send</source>
-        <translation>Da portare o inviare</translation>
-    </message>
-    <message>
-        <source>One file with everything, closed with a passphrase.</source>
-        <translation>Un solo file con tutto, chiuso da una passphrase.</translation>
-    </message>
-    <message>
         <source>none</source>
         <translation>nessuna</translation>
     </message>
@@ -7829,12 +7773,8 @@
         <translation>{percent} %</translation>
     </message>
     <message>
-        <source>&amp;Seal into one file…</source>
-        <translation>&amp;Sigillare in un solo file…</translation>
-    </message>
-    <message>
-        <source>Back from a sealed file…</source>
-        <translation>Ripristino da un file sigillato…</translation>
+        <source>Whoever has the backup disk can read it: use an encrypted disk.</source>
+        <translation>Chi ha il disco con le copie di sicurezza può leggerle: usare un disco cifrato.</translation>
     </message>
 </context>
 <context>
@@ -10486,49 +10426,6 @@ Maiusc+F8 di lato</translation>
     </message>
 </context>
 <context>
-    <name>PassphraseSheet</name>
-    <message>
-        <source>The same &amp;again</source>
-        <translation>&amp;Ancora una volta</translation>
-    </message>
-    <message>
-        <source>&amp;Passphrase</source>
-        <translation>&amp;Passphrase</translation>
-    </message>
-    <message>
-        <source>Seal into one file</source>
-        <translation>Sigillare in un solo file</translation>
-    </message>
-    <message>
-        <source>Open the sealed file</source>
-        <translation>Aprire il file sigillato</translation>
-    </message>
-    <message>
-        <source>Seal it</source>
-        <translation>Sigilla</translation>
-    </message>
-    <message>
-        <source>Open it</source>
-        <translation>Apri</translation>
-    </message>
-    <message>
-        <source>Ten signs or more, best four words. Write it down: without it nobody can open the file.</source>
-        <translation>Almeno dieci segni, meglio quattro parole. La annoti: senza nessuno può aprire il file.</translation>
-    </message>
-    <message>
-        <source>As it was typed when the file was sealed.</source>
-        <translation>Com’è stata scritta quando il file è stato sigillato.</translation>
-    </message>
-    <message>
-        <source>A passphrase has ten signs or more.</source>
-        <translation>Una passphrase ha almeno dieci segni.</translation>
-    </message>
-    <message>
-        <source>The two are not the same.</source>
-        <translation>Le due non sono uguali.</translation>
-    </message>
-</context>
-<context>
     <name>PathView</name>
     <message>
         <source>Path of the wrist</source>
@@ -11269,10 +11166,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>nobody was there</source>
         <translation>nessuno era presente</translation>
-    </message>
-    <message>
-        <source>sealed</source>
-        <translation>sigillato</translation>
     </message>
     <message>
         <source>without what identifies</source>

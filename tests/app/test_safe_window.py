@@ -390,32 +390,6 @@ def test_lists_of_records_and_the_log(qtbot: QtBot, opened: Open, data: Path) ->
     assert lists.log_sheet.title.text() == f"Log: {table.rowCount()} lines"
 
 
-@pytest.mark.usefixtures("quick_age")
-def test_everything_is_sealed_into_one_file_and_comes_back_from_it(
-    qtbot: QtBot, opened: Open, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    path, words = tmp_path / "out.tar.age", "four words of mine"
-    desktop = opened()
-    backing, sheet = desktop.safe.backing_up, desktop.safe.backing_up.passphrase
-    monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getSaveFileName", lambda *_: (str(tmp_path / "out"), ""))
-    monkeypatch.setattr("PySide6.QtWidgets.QFileDialog.getOpenFileName", lambda *_: (str(path), ""))
-    backing.card.seal_button.click()
-    for first, again, said in (("short", "short", "ten signs"), (words, f"{words}s", "not the same")):
-        sheet.first.setText(first)
-        sheet.again.setText(again)
-        sheet.go.click()
-        assert said in sheet.said.text()
-    sheet.again.setText(words)
-    sheet.go.click()
-    qtbot.waitUntil(lambda: path.exists() and not backing._running, timeout=60_000)
-    assert "out.tar.age" in backing.card.sealed.text(), "its ending comes by itself, and it is said where it is"
-    backing.card.unseal_button.click()
-    assert sheet.again.isHidden() or not sheet.again.isVisible()
-    sheet.first.setText("another one")
-    sheet.go.click()
-    qtbot.waitUntil(lambda: any("does not open" in word for word in visible_words(desktop.shell)), timeout=60_000)
-
-
 def test_a_start_leaves_the_collector_aside_until_the_first_picture_is_there(opened: Open, qtbot: QtBot) -> None:
     frozen = gc.get_freeze_count()
     gc.disable()

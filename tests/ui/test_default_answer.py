@@ -46,7 +46,6 @@ from carpus.ui.markers.guidance import StartAngleSheet
 from carpus.ui.messages.messages import Answer, StopCard
 from carpus.ui.patients.entry import PatientForm
 from carpus.ui.ports import ReferenceChoice
-from carpus.ui.records.backing_up import PassphraseSheet
 from carpus.ui.records.erasing import EraseSheet
 from carpus.ui.records.lists import ListedRecord, LogSheet, RecordsSheet
 from carpus.ui.records.locking import LockSheet, PinSheet
@@ -117,7 +116,6 @@ SHEETS: dict[type[Sheet], Callable[[QWidget, Theme], Opened]] = {
     EraseSheet: _opened(EraseSheet, "Archive instead", ERASED_SESSION),
     RecordsSheet: _opened(RecordsSheet, "Done", "Archive", "", [ListedRecord("a", "Heron 17", "1 session", True)]),
     LogSheet: _opened(LogSheet, "Done", []),
-    PassphraseSheet: _opened(PassphraseSheet, "Seal it", print, seals=True),
     LockSheet: _opened(LockSheet, "Unlock", "", stored=True),
     PinSheet: _opened(PinSheet, "Keep this PIN", is_set=True),
     HomeSheet: _home,

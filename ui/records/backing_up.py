@@ -9,12 +9,11 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
-from PySide6.QtCore import QObject, QStandardPaths, QTimer, Signal
-from PySide6.QtWidgets import QFileDialog, QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtWidgets import QFileDialog, QVBoxLayout
 
 from carpus.core.disks import on_same_disk
 from carpus.core.errors import BackupMissing
-from carpus.core.names import is_passphrase
 from carpus.core.records.backup import (
     Backup,
     Content,
@@ -28,21 +27,14 @@ from carpus.core.records.backup import (
     thin_out,
 )
 from carpus.core.records.of_clinic import LastBackup, last_backup, note_backup
-from carpus.core.records.sealed import ENDING, open_sealed, seal_backup
 from carpus.core.records.staging import Staged
 from carpus.core.records.values import BackupSettings
 from carpus.core.words import Words
 from carpus.ui import numbers
 from carpus.ui.background import Background
-from carpus.ui.controls.button import Button
-from carpus.ui.controls.field import Labelled
-from carpus.ui.controls.layouts import fill
-from carpus.ui.controls.sheet import Sheet
-from carpus.ui.controls.text import SEMIBOLD, Text
 from carpus.ui.flow import ScreenContext
 from carpus.ui.messages.messages import Answer
 from carpus.ui.records.cards import BackupCard, BackupFacts
-from carpus.ui.theme import Theme
 from carpus.ui.translate import tr
 
 LOOK_MS = 60_000
@@ -73,9 +65,6 @@ class BackingUp(QObject):
         self.card = BackupCard(context.theme, settings.hour)
         self.card.now_button.clicked.connect(self.back_up)
         self.card.restore_button.clicked.connect(self.ask_restore)
-        self.card.seal_button.clicked.connect(self.seal)
-        self.card.unseal_button.clicked.connect(self.ask_restore_sealed)
-        self.passphrase = PassphraseSheet(context.shell.stage, context.theme)
         self.card.place_button.clicked.connect(self._choose_place)
         self.card.hours.chosen.connect(lambda hour: self._change(BackupSettings(self._settings.folder, hour)))
         self.stepped.connect(self.card.show_progress)
@@ -195,13 +184,6 @@ class BackingUp(QObject):
         if folder:
             self._read(lambda: _newest(Path(folder)))
 
-    def ask_restore_sealed(self) -> None:
-        title = self.tr("Sealed back-up")
-        folder = str(_sealed_in(self._settings.folder))
-        name, _ = QFileDialog.getOpenFileName(self.card.window(), title, folder, self.tr("Sealed files (*.age)"))
-        if name:
-            self.passphrase.begin(lambda typed: self._read(lambda: open_sealed(Path(name), typed)), seals=False)
-
     def _read(self, found: Callable[[], tuple[Backup, Content]]) -> None:
         """A back-up, and what it would change; then it is asked about."""
 
@@ -242,40 +224,6 @@ class BackingUp(QObject):
             self._running = False
             self.restored = staged
             self._context.shell.close_surely()
-
-        self._begin(work, done)
-
-    # --- as one file --------------------------------------------------------------------------------------
-    def seal(self) -> None:
-        """Everything as one file with a passphrase, to be carried away."""
-        if self._running:
-            return
-        name = str(_sealed_in(self._settings.folder) / f"carpus-{_now():%Y-%m-%d}{ENDING}")
-        title = self.tr("Seal into one file")
-        chosen, _ = QFileDialog.getSaveFileName(self.card.window(), title, name, self.tr("Sealed files (*.age)"))
-        if chosen:
-            self.passphrase.begin(lambda typed: self._seal(Path(chosen), typed), seals=True)
-
-    def _seal(self, chosen: Path, passphrase: str) -> None:
-        path = chosen if chosen.suffix == Path(ENDING).suffix else chosen.with_name(f"{chosen.name}{ENDING}")
-        self.card.show_sealed("")
-
-        def work() -> Backup:
-            if path == chosen:
-                path.unlink(missing_ok=True)  # the dialog has asked
-            made = seal_backup(
-                self._library.folder, path, passphrase, software_version=self._context.version,
-                sessions=self._library.store.sessions_folder, settings_folder=self._settings_folder,
-                progress=self._step,
-            )  # fmt: skip
-            self._library.notes.program("backed_up", sessions=made.sessions, sealed=1)
-            return made
-
-        def done(made: Backup) -> None:
-            self._done(made)
-            words = self.tr("Sealed: {name}, {size} MB. Whoever has the passphrase can open it.")
-            size = numbers.fixed(path.stat().st_size / 1e6, 1)
-            self.card.show_sealed(words.format(name=path.name, size=size))
 
         self._begin(work, done)
 
@@ -336,57 +284,3 @@ def _newest(place: Path) -> tuple[Backup, Content]:
     if not there:
         raise BackupMissing(place)
     return there[0], content_of(place)
-
-
-def _sealed_in(folder: str) -> Path:
-    """Where a sealed file is looked for: beside the back-ups, else where a person keeps documents."""
-    documents = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
-    return Path(folder) if folder and Path(folder).is_dir() else Path(documents)
-
-
-class PassphraseSheet(Sheet):
-    """Asks, and hands what was typed to whoever asked."""
-
-    def __init__(self, host: QWidget, theme: Theme) -> None:
-        super().__init__(host, theme, 560)
-        self.head()
-        self.first, self.again = QLineEdit(), QLineEdit()
-        for line in (self.first, self.again):
-            line.setEchoMode(QLineEdit.EchoMode.Password)
-        self._again_row = Labelled(theme, self.tr("The same &again"), self.again)
-        self.said = Text(theme, "", 14, SEMIBOLD, "bad", wrap=True)
-        self.go = Button(theme, "", "primary")
-        self.go.clicked.connect(self._take)
-        fill(self.card.body, Labelled(theme, self.tr("&Passphrase"), self.first), self._again_row, self.said)
-        self.answer_row(self.go, gap=None)
-        self._chosen: Callable[[str], None] = lambda _: None
-        self._seals = True
-
-    def begin(self, chosen: Callable[[str], None], *, seals: bool) -> None:
-        self._chosen, self._seals = chosen, seals
-        self.title.setText(self.tr("Seal into one file") if seals else self.tr("Open the sealed file"))
-        self.go.set_face(self.tr("Seal it") if seals else self.tr("Open it"))
-        self.words.setText(
-            self.tr("Ten signs or more, best four words. Write it down: without it nobody can open the file.")
-            if seals
-            else self.tr("As it was typed when the file was sealed.")
-        )
-        self._again_row.setVisible(seals)
-        for line in (self.first, self.again):
-            line.clear()
-        self.said.hide()
-        self.open(self.first)
-
-    def _take(self) -> None:
-        typed = self.first.text()
-        words = ""
-        if self._seals and not is_passphrase(typed):
-            words = self.tr("A passphrase has ten signs or more.")
-        elif self._seals and typed != self.again.text():
-            words = self.tr("The two are not the same.")
-        self.said.say(words)
-        if not words and typed:
-            self.first.clear()
-            self.again.clear()
-            self.close_sheet()
-            self._chosen(typed)

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QHBoxLayout, QWidget
 from carpus.ui.controls.button import Button
 from carpus.ui.controls.card import Card, KeyCaps, Line
 from carpus.ui.controls.field import Choices
-from carpus.ui.controls.layouts import STRETCH, FlowLayout, fill, in_column, in_line
+from carpus.ui.controls.layouts import STRETCH, fill, in_column, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, SEMIBOLD, StateText, Text, caption
 from carpus.ui.icons import State
 from carpus.ui.theme import Theme
@@ -48,10 +48,6 @@ class BackupCard(Card):
         self.now_button = Button(theme, self.tr("&Back up now"), icon="archive")
         self.restore_button = Button(theme, self.tr("&Restore…"), icon="rotate-ccw")
         self.progress = caption(theme, self.tr("then read back and compared"), wrap=True)
-        self.seal_button = Button(theme, self.tr("&Seal into one file…"), icon="lock", height_px=40)
-        self.unseal_button = Button(theme, self.tr("Back from a sealed file…"), height_px=40)
-        self.sealed = Text(theme, "", 14, SEMIBOLD, "good", wrap=True)
-        self.sealed.hide()
         self.place = Text(theme, "", 14, MEDIUM, wrap=True)
         self.place_state = StateText(theme, 12, MEDIUM, 16)
         self.place_button = Button(theme, self.tr("Change…"), height_px=36)
@@ -68,11 +64,6 @@ class BackupCard(Card):
         shows = caption(theme, self.tr("shows first what changes"), wrap=True)
         acts = in_column(self.now_button, self.progress, STRETCH, gap=4)
         again = in_column(self.restore_button, shows, STRETCH, gap=4)
-        sealing = QWidget()
-        flow = FlowLayout(12)
-        sealing.setLayout(flow)
-        for button in (self.seal_button, self.unseal_button):
-            flow.addWidget(button)
         keep = Text(theme, self.tr("the last 14, and one of each month for 2 years"), 14)
         fill(
             self.body,
@@ -83,10 +74,7 @@ class BackupCard(Card):
             _row(theme, self.tr("By itself"), self.hours),
             Line(theme),
             _row(theme, self.tr("Keep"), keep),
-            Line(theme),
-            _row(theme, self.tr("To carry away or send"), sealing),
-            caption(theme, self.tr("One file with everything, closed with a passphrase."), wrap=True),
-            self.sealed,
+            caption(theme, self.tr("Whoever has the backup disk can read it: use an encrypted disk."), wrap=True),
         )
 
     def show_facts(self, facts: BackupFacts) -> None:
@@ -100,16 +88,11 @@ class BackupCard(Card):
         self.place_state.show_state(facts.place_state, facts.place_words)
         self.now_button.setEnabled(facts.can_back_up)
 
-    def show_sealed(self, words: str) -> None:
-        """Which file was sealed; empty while one is made."""
-        self.sealed.say(words)
-
     def show_progress(self, percent: int | None) -> None:
         """While it runs; None when it does not."""
         running = percent is not None
         self.now_button.setEnabled(not running)
-        for button in (self.restore_button, self.seal_button, self.unseal_button):
-            button.setEnabled(not running)
+        self.restore_button.setEnabled(not running)
         words = self.tr("{percent} %").format(percent=percent) if running else self.tr("then read back and compared")
         self.progress.setText(words)
 

@@ -161,7 +161,6 @@ class RecordLists(QObject):
             "left": (self.tr("1 left"), self.tr("{n} left")),
             "limits": (self.tr("1 study"), self.tr("{n} studies")),
             "idle": (self.tr("nobody was there"), ""),
-            "sealed": (self.tr("sealed"), ""),
             "deidentified": (self.tr("without what identifies"), ""),
             "late": (self.tr("finished later"), ""),
             "set": (self.tr("with a PIN"), ""),
