@@ -47,7 +47,7 @@ fresh:                          ## `make run` and `make test` in clean roots of 
 package:                        ## archive and .deb with their own Python, into dist/; on a Debian 12 for it and Ubuntu 24.04
 	$(PACKAGE_PY) installer/package/build.py
 
-package-test:                   ## the .deb in clean roots: install, start, measure, upgrade, remove; as root, long
+package-test: setup-test        ## the .deb in clean roots: install, start, measure, upgrade, remove; as root, long
 	installer/package/clean_root.sh $(SUITES)
 
 windows-test:                   ## the Windows installer around a stand-in, its handling of files under Wine

@@ -17,10 +17,9 @@ from carpus.core.phrase import phrase
 if TYPE_CHECKING:
     from carpus.app.settings import Settings
 
-COLOR_LIST, RECORDING_FILE = "rgb.txt", "recording.oni"
-REALSENSE_SUFFIXES = (".db3", ".bag")
-KINECT_SUFFIX = ".mkv"
-FILE_SUFFIXES = (".oni", ".carpusraw", *REALSENSE_SUFFIXES, KINECT_SUFFIX)
+COLOR_LIST = "rgb.txt"
+REALSENSE_SUFFIX = ".db3"
+FILE_SUFFIXES = (".oni", ".carpusraw", REALSENSE_SUFFIX)
 """What recordings that are one file are called; a raw recording is known whatever its name."""
 
 
@@ -115,7 +114,7 @@ def _raw(path: Path, how: _How) -> FrameSource:
 
 
 def _is_realsense(path: Path) -> bool:
-    return path.suffix.lower() in REALSENSE_SUFFIXES
+    return path.suffix.lower() == REALSENSE_SUFFIX
 
 
 def _realsense(path: Path, _how: _How) -> FrameSource:
@@ -124,21 +123,10 @@ def _realsense(path: Path, _how: _How) -> FrameSource:
     return RealSenseRecording(path)
 
 
-def _is_kinect(path: Path) -> bool:
-    return path.suffix.lower() == KINECT_SUFFIX
-
-
-def _kinect(path: Path, how: _How) -> FrameSource:
-    from carpus.core.capture.files.kinect_recording import KinectRecording
-
-    return KinectRecording(path, notice=how.notice)
-
-
 RECORDINGS: tuple[tuple[Callable[[Path], bool], Callable[[Path, _How], FrameSource]], ...] = (
     (Path.is_dir, _tum_folder),
     (_is_oni, _oni),
     (_is_realsense, _realsense),
-    (_is_kinect, _kinect),
     (_is_raw, _raw),
 )
 """Every kind: whether a path is of it, and how it is opened; the first that is it counts."""
@@ -157,9 +145,6 @@ def tell_assumed(source: FrameSource, path: Path, notice: Notice) -> None:
 def _opened(path: Path, how: _How) -> FrameSource:
     if not path.exists():
         raise RecordingMissing(path)
-    rendered = path / RECORDING_FILE
-    if path.is_dir() and rendered.is_file() and not (path / COLOR_LIST).exists():
-        path = rendered  # what "carpus simulate --format oni" makes
     for is_it, opened in RECORDINGS:
         if is_it(path):
             return opened(path, how)
@@ -185,7 +170,7 @@ class TrackingInput:
 def is_recording(path: Path) -> bool:
     """Whether a path looks like one recording or session, and not like a folder of many."""
     if path.is_dir():
-        return (path / COLOR_LIST).exists() or (path / RECORDING_FILE).exists()
+        return (path / COLOR_LIST).exists()
     return path.suffix.lower() in (*FILE_SUFFIXES, SESSION_SUFFIX)
 
 
@@ -243,5 +228,4 @@ def clicks_of(recording: Path) -> Path | None:
         return recording / CLICKS_FILE
     if recording.suffix.lower() == SESSION_SUFFIX:
         return None
-    beside = recording.with_name(f"{recording.stem}.{CLICKS_FILE}")
-    return recording.with_name(CLICKS_FILE) if recording.name == RECORDING_FILE and not beside.exists() else beside
+    return recording.with_name(f"{recording.stem}.{CLICKS_FILE}")

@@ -213,7 +213,7 @@ PRIMESENSE = DepthSensor(
     baseline_m=0.075,
     focal_px=575.0,
 )
-"""Asus Xtion, Kinect for Xbox 360, Orbbec Astra: half a step of 1/8 pixel in disparity (Khoshelham and Elberink 2012,
+"""Asus Xtion, Kinect for Xbox 360: half a step of 1/8 pixel in disparity (Khoshelham and Elberink 2012,
 clinical reference 7.2). Neighbours share the step that they are rounded to: they do not average."""
 
 D415 = _stereo("RealSense D415", 0.055, 1004.0, 0.45, 6.0)

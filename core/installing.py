@@ -24,8 +24,7 @@ class Finding:
 
 CAMERAS_EXTRA = "carpus-cameras-extra"
 """The second Debian package."""
-IN_CAMERAS_EXTRA = ("av", "pyorbbecsdk2")
-ALONE = ("pyorbbecsdk2",)
+IN_CAMERAS_EXTRA = ALONE = ("pyorbbecsdk2",)
 """Its own requirements (an older NumPy, a second OpenCV, Open3D, a window library) are those of its examples. With them
 it would take the place of what Carpus runs on: for that reason there is no extra for it."""
 

@@ -20,7 +20,7 @@ pytestmark = SOURCES
 OWN = ("carpus",)
 PROGRAM = ("app", "core", "ui")
 """What runs at the user's; ``resources`` also keeps the scripts that made its files."""
-EXTRAS = ("cluster", "tables", "stream", "realsense", "mkv")
+EXTRAS = ("cluster", "tables", "stream", "realsense")
 """What is installed only when asked for; the code that needs it says so where it is missing."""
 BROUGHT_BY = {
     "_cffi_backend": "cffi",

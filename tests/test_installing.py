@@ -24,8 +24,8 @@ def missing(name: str) -> str:
 
 
 def test_from_source_the_line_can_be_pasted() -> None:
-    line = how_to_install("av").removeprefix("Run “").removesuffix("”.")
-    assert shlex.split(line) == [sys.executable, "-m", "pip", "install", "av"]
+    line = how_to_install("pylsl").removeprefix("Run “").removesuffix("”.")
+    assert shlex.split(line) == [sys.executable, "-m", "pip", "install", "pylsl"]
     assert "--no-deps" in how_to_install("pyorbbecsdk2"), "its own needs would break what Carpus runs on"
 
 
@@ -33,7 +33,7 @@ def test_the_packed_program_never_says_pip(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(sys, "frozen", True, raising=False)
     monkeypatch.setattr("importlib.metadata.version", missing)
     monkeypatch.setattr(doctor, "version", missing)
-    said = [one_sentence(ExtraMissing(name)) for name in ("av", "pyarrow", "pylsl", "distributed")]
+    said = [one_sentence(ExtraMissing(name)) for name in ("pyorbbecsdk2", "pyarrow", "pylsl", "distributed")]
     findings = [kind.driver(False, True) for kind in (realsense.KIND, orbbec.KIND)]
     findings += [doctor.packages_finding(), doctor.window_finding()]
     said += [finding.remedy for finding in findings if finding is not None]

@@ -154,7 +154,7 @@ def test_metadata_says_licences_extras_and_what_starts_it_and_no_address_that_no
     for path in told.get_all("License-File", []):
         assert f"{folder}/licenses/{path}" in names
     assert len(told.get_all("License-File", [])) == 3
-    assert set(told.get_all("Provides-Extra", [])) == {"cluster", "tables", "stream", "mkv", "realsense"}
+    assert set(told.get_all("Provides-Extra", [])) == {"cluster", "tables", "stream", "realsense"}
     assert "[console_scripts]\ncarpus =" in scripts
     assert "[gui_scripts]\ncarpus-window =" in scripts
     assert not [url for url in told.get_all("Project-URL", []) if "example" in url or "carpus" in url.lower()]
@@ -191,7 +191,7 @@ def test_install_lines_work_as_written(empty: Path) -> None:
     (line,) = (line for line in lines if "venv" in line)
     known = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
     asked = [extra for one in lines for extra in re.findall(r'pip install "\.\[([\w,]+)\]"$', one)]
-    assert {"realsense", "mkv"} <= {name for extra in asked for name in extra.split(",")} <= set(known)
+    assert {"realsense"} <= {name for extra in asked for name in extra.split(",")} <= set(known)
     assert len(asked) == len([one for one in lines if one != line and "pyorbbecsdk2" not in one])
     path = os.pathsep.join([f"{empty}/.venv/bin", str(Path(sys.executable).parent), os.environ["PATH"]])
     pip = {"PIP_NO_DEPS": "1", "PIP_NO_INDEX": "1", "PIP_NO_BUILD_ISOLATION": "0", "PIP_DISABLE_PIP_VERSION_CHECK": "1",

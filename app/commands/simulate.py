@@ -96,7 +96,6 @@ _SWITCHES = {
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     defaults = {field.name: field.default for field in fields(RecordingSpec)}
     parser.add_argument("--output", type=Path, required=True, metavar="FOLDER", help="made new, never overwritten")
-    parser.add_argument("--format", choices=("tum", "oni"), default="tum", help="default: tum, a folder of pictures")
     for name, options in _OPTIONS:
         default = defaults[name.replace("-", "_")]
         words = options.get("help", "")
@@ -125,11 +124,6 @@ def run(arguments: argparse.Namespace) -> int:
     from carpus.core.simulation.recording import simulate
 
     with bar("rendering") as progress:
-        if arguments.format == "tum":
-            simulate(spec_from(arguments), arguments.output, progress)
-        else:
-            from carpus.core.simulation.oni_writer import simulate_oni
-
-            simulate_oni(spec_from(arguments), arguments.output, progress)
+        simulate(spec_from(arguments), arguments.output, progress)
     print(f"Recording: {arguments.output}")
     return 0

@@ -264,7 +264,7 @@ NODE_PX = 8
 that goes between counts in 1/32: eighths are exact."""
 
 
-def straight_pixels(camera: Camera, shrink: int = 1) -> NDArray[np.float32]:
+def _straight_pixels(camera: Camera, shrink: int = 1) -> NDArray[np.float32]:
     """Where an ideal lens would show what this one shows at its pixels, (H, W, 2); ``shrink`` of its pixels, across
     and down, are one of the picture asked about, whose middle is meant."""
     width, height = camera.width_px // shrink, camera.height_px // shrink
@@ -283,7 +283,7 @@ class LensBending:
     def __init__(self, camera: Camera, shrink: int = 1) -> None:
         self._maps: tuple[NDArray[np.float32], NDArray[np.float32]] | None = None
         if camera.is_distorted or shrink > 1:
-            ideal = straight_pixels(camera, shrink)
+            ideal = _straight_pixels(camera, shrink)
             self._maps = np.ascontiguousarray(ideal[..., 0]), np.ascontiguousarray(ideal[..., 1])
 
     def bend(self, depth: NDArray[Any]) -> NDArray[Any]:

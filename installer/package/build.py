@@ -32,12 +32,11 @@ DIST = ROOT / "dist"
 WINDOWS = sys.platform == "win32"
 LARGEST_BYTES = 440_000_000
 """Of the first package, installed; a build that is larger fails."""
-EXTRA = ("av", "av.libs", "av-*.dist-info", "pyorbbecsdk", "pyorbbecsdk2-*.dist-info")
+EXTRA = ("pyorbbecsdk", "pyorbbecsdk2-*.dist-info")
 NOT_OF_EXTRA = ("examples", "shared", "*.pyi", "*.pxd", "__pycache__", "libOrbbecSDK.so", "libOrbbecSDK.so.2.?*")
 """The maker's package has its library three times."""
-EXTRA_NOTICE = """Libraries of their makers, unchanged: PyAV (BSD) with FFmpeg (it says: LGPL version 3 or
-later) and what that links, of which x264 and x265 are under the GNU General Public License, version 2 or later;
-pyorbbecsdk2 (Apache 2.0). The texts that are not below: /usr/share/common-licenses.
+EXTRA_NOTICE = """The maker's library, unchanged: pyorbbecsdk2 (Apache 2.0). What is not below:
+/usr/share/common-licenses.
 
 """
 sys.path.insert(0, str(HERE))

@@ -44,6 +44,7 @@ try() {
     cp "$extra" "$root/srv/extra.deb"
     cp "$here/in_the_root.sh" "$here/discs_on_screen.sh" "$root/srv/"
     older "$root"
+    .venv/bin/python -m tests.capture.oni_writer "$root/srv/oni" && chmod -R a+rX "$root/srv/oni"
     rm -rf "$out/$suite"
     mkdir -p "$root/srv/out"
     local code=0

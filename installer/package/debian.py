@@ -66,9 +66,7 @@ def extra_control(version: str, installed_bytes: int, architecture: str) -> str:
     """That of the second package; its libraries fit the Python of one version of the first."""
     needs = f"carpus (= {debian_version(version)})"
     return _control(CAMERAS_EXTRA, version, installed_bytes, architecture, needs) + (
-        "Description: Orbbec cameras and .mkv recordings for Carpus\n"
-        " The makers' libraries for Orbbec's Femto, Gemini and Astra 2 cameras, and those\n"
-        " for reading recordings of the Azure Kinect and the Femto.\n"
+        "Description: Orbbec cameras for Carpus\n The maker's library for Orbbec's Femto, Gemini and Astra 2 cameras.\n"
     )
 
 

@@ -4761,7 +4761,7 @@
     </message>
     <message>
         <source>Copy {file} from the folder OpenNI2/Drivers of Orbbec&apos;s OpenNI2 package into {into}.</source>
-        <translation>Kopieren Sie {file} aus dem Ordner OpenNI2/Drivers von Orbbecs OpenNI2-Paket nach {into}.</translation>
+        <translation type="vanished">Kopieren Sie {file} aus dem Ordner OpenNI2/Drivers von Orbbecs OpenNI2-Paket nach {into}.</translation>
     </message>
     <message>
         <source>Correct the file, or click the markers again.</source>
@@ -5249,7 +5249,7 @@
     </message>
     <message>
         <source>Astra driver</source>
-        <translation>Astra-Treiber</translation>
+        <translation type="vanished">Astra-Treiber</translation>
     </message>
     <message>
         <source>Carpus camera board: {name}. Glue it flat on a stiff board. Squares: {square}.</source>
@@ -5273,7 +5273,7 @@
     </message>
     <message>
         <source>It needs a USB 2 port.</source>
-        <translation>Sie braucht einen USB-2-Anschluss.</translation>
+        <translation type="vanished">Sie braucht einen USB-2-Anschluss.</translation>
     </message>
     <message>
         <source>It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware.</source>
@@ -6513,7 +6513,7 @@
     </message>
     <message>
         <source>{found}, without the maker&apos;s driver</source>
-        <translation>{found}, ohne Treiber des Herstellers</translation>
+        <translation type="vanished">{found}, ohne Treiber des Herstellers</translation>
     </message>
     <message>
         <source>{free} GB free, about {minutes} minutes with pictures</source>

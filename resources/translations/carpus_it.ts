@@ -4597,7 +4597,7 @@
     </message>
     <message>
         <source>Astra driver</source>
-        <translation>Driver Astra</translation>
+        <translation type="vanished">Driver Astra</translation>
     </message>
     <message>
         <source>Back up onto another disk now, and do not trust this one any more.</source>
@@ -4769,7 +4769,7 @@
     </message>
     <message>
         <source>Copy {file} from the folder OpenNI2/Drivers of Orbbec&apos;s OpenNI2 package into {into}.</source>
-        <translation>Copiare {file} dalla cartella OpenNI2/Drivers del pacchetto OpenNI2 di Orbbec in {into}.</translation>
+        <translation type="vanished">Copiare {file} dalla cartella OpenNI2/Drivers del pacchetto OpenNI2 di Orbbec in {into}.</translation>
     </message>
     <message>
         <source>Correct the file, or click the markers again.</source>
@@ -4913,7 +4913,7 @@
     </message>
     <message>
         <source>It needs a USB 2 port.</source>
-        <translation>Richiede una porta USB 2.</translation>
+        <translation type="vanished">Richiede una porta USB 2.</translation>
     </message>
     <message>
         <source>It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware.</source>
@@ -6501,7 +6501,7 @@
     </message>
     <message>
         <source>{found}, without the maker&apos;s driver</source>
-        <translation>{found}, senza il driver del produttore</translation>
+        <translation type="vanished">{found}, senza il driver del produttore</translation>
     </message>
     <message>
         <source>{free} GB free, about {minutes} minutes with pictures</source>

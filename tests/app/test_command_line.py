@@ -23,19 +23,18 @@ import pytest
 from tqdm import tqdm
 
 from carpus.app import command_line
-from carpus.app.sources import open_recording
 from carpus.core.capture.camera_info import CAMERA_FILE
 from carpus.core.capture.files.tum import COLOR_LIST, TumFolder, TumWriter
-from carpus.core.errors import DiskFull, RecordingEmpty
+from carpus.core.errors import DiskFull
 from carpus.core.hand.protocols import WRIST6
 from carpus.core.session.reader import read_session
 from carpus.core.session.recovery import interrupted_sessions
 from carpus.core.session.values import new_header
 from carpus.core.session.writer import SessionWriter
-from carpus.core.simulation.oni_writer import in_millimetres, write_oni
 from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import Frame
+from tests.capture.oni_writer import in_millimetres, write_oni
 from tests.commands import Command
 from tests.rendered import FLEXION, Rendered
 from tests.session.samples import CAMERA, make_calibration
@@ -265,16 +264,6 @@ def test_a_simulated_person_is_drawn_or_given(tmp_path: Path, command: Command) 
     assert command(*words, "--habit=grip+rolling_forearm").code == 0
     spec = RecordingSpec(**json.loads(str(read_session(tmp_path / "r" / TRUTH_FILE).header.parameters)))
     assert (spec.skin_glide_mm, spec.cupping, spec.habits) == (None, 0.5, ("grip", "rolling_forearm"))
-
-
-def test_the_folder_of_a_rendered_oni_file_opens_it(recording: Path, tmp_path: Path) -> None:
-    source = TumFolder(recording)
-    some = in_millimetres(islice(source.frames(), 3))
-    write_oni(tmp_path / "recording.oni", some, source.info.camera, fps=30, color="jpeg")
-    assert open_recording(tmp_path).info.frame_count == 3
-    (tmp_path / COLOR_LIST).write_text("")
-    with pytest.raises(RecordingEmpty):
-        open_recording(tmp_path)
 
 
 def test_info_says_that_a_raw_recording_was_cut_short(recording: Path, tmp_path: Path, command: Command) -> None:

@@ -72,7 +72,7 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
             for text in ("soon", "nan", "inf", "0", "-1", "1e9")
         ),
         ("--output {new} --lossless --format tum", 2, "--lossless is for --format raw"),
-        ("--output {new} --camera realsnse", 2, "did you mean “realsense”? There are: xtion, realsense, orbbec, astra"),
+        ("--output {new} --camera realsnse", 2, "did you mean “realsense”? There are: xtion, realsense, orbbec"),
     ],
     "simulate": [
         ("", 2, "--output"),
@@ -175,7 +175,7 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("{file} --card {new}.pdf", 2, "--card only prints"),
         ("--card {new}.pdf --paper a5", 2, "there are: a4, letter"),
     ],
-    "doctor": [("--camera foo", 2, "no kind of camera is called “foo”; there are: xtion, realsense, orbbec, astra")],
+    "doctor": [("--camera foo", 2, "no kind of camera is called “foo”; there are: xtion, realsense, orbbec")],
 }
 """Of each command the words after it, the exit code, and what stderr says (one of several, by |)."""
 

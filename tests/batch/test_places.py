@@ -22,17 +22,16 @@ def names(found) -> list[tuple[str, str]]:  # type: ignore[no-untyped-def]
 def test_a_folder_is_searched(tmp_path: Path) -> None:
     root = folder_of(
         tmp_path / "in", "b/rgb.txt", "b/depth.txt", "a/c/rgb.txt", "a/x.oni", "a/y.carpusraw", "a/old.h5",
-        "a/notes.txt", "sim/recording.oni", "sim/truth.h5", ".hidden/rgb.txt", "out/z.oni",
+        "a/notes.txt", "sim/truth.h5", ".hidden/rgb.txt", "out/z.oni",
     )  # fmt: skip
     found = places([root], root / "out")
     assert names(found) == [
-        ("c", "a/c.h5"), ("x.oni", "a/x.h5"), ("y.carpusraw", "a/y.h5"), ("b", "b.h5"), ("sim", "sim.h5"),
+        ("c", "a/c.h5"), ("x.oni", "a/x.h5"), ("y.carpusraw", "a/y.h5"), ("b", "b.h5"),
     ]  # fmt: skip
     assert [place.session for place in found] == [root / "out" / place.name for place in found]
     by_name = {place.name: place.clicks for place in found}
     assert by_name["a/c.h5"] == root / "a/c/calibration.json"
     assert by_name["a/x.h5"] == root / "a/x.calibration.json"
-    assert by_name["sim.h5"] == root / "sim/calibration.json"
 
 
 def test_what_is_named_counts_once_and_keeps_its_place(tmp_path: Path) -> None:
@@ -45,11 +44,6 @@ def test_what_is_named_counts_once_and_keeps_its_place(tmp_path: Path) -> None:
     ]  # fmt: skip
     assert found[3].clicks is None
     assert len({place.session for place in found}) == len(found)
-
-
-def test_clicks_of_a_file_called_recording(tmp_path: Path) -> None:
-    root = folder_of(tmp_path, "a/recording.oni", "a/calibration.json")
-    assert places([root / "a/recording.oni"], root / "out")[0].clicks == root / "a/calibration.json"
 
 
 def test_one_or_many(tmp_path: Path) -> None:

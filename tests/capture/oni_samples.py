@@ -11,8 +11,8 @@ import numpy as np
 
 from carpus.core.camera import Camera
 from carpus.core.capture.files.oni_format import RecordType
-from carpus.core.simulation.oni_writer import ColorCodec, DepthCodec, OniWriter
 from carpus.core.types import ByteImage, DepthImage
+from tests.capture.oni_writer import ColorCodec, DepthCodec, OniWriter
 
 WIDTH, HEIGHT = 64, 48
 CAMERA = Camera(52.5, 52.5, 31.5, 23.5, WIDTH, HEIGHT)

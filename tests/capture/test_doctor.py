@@ -11,7 +11,7 @@ import pytest
 
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.capture import doctor
-from carpus.core.capture.devices import astra, openni2_camera, realsense, xtion
+from carpus.core.capture.devices import openni2_camera, realsense, xtion
 from carpus.core.capture.devices.cameras import CameraKind, camera_kind
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.doctor import examine
@@ -101,7 +101,7 @@ def test_rules_of_the_system(tmp_path: Path) -> None:
     assert doctor.rules_finding(xtion.KIND, (tmp_path / "none", tmp_path)).state == "warning"
     (tmp_path / "60-camera.rules").write_text('SUBSYSTEM=="usb", ATTR{idVendor}=="1D27", MODE="0666"\n')
     assert doctor.rules_finding(xtion.KIND, (tmp_path,)).state == "good"
-    assert doctor.rules_finding(camera_kind("astra"), (tmp_path,)).state == "warning"
+    assert doctor.rules_finding(camera_kind("orbbec"), (tmp_path,)).state == "warning"
     (tmp_path / "70-graphics.rules").write_text('SUBSYSTEM=="drm", ATTRS{vendor}=="0x8086"\n')
     assert doctor.rules_finding(camera_kind("realsense"), (tmp_path,)).state == "warning"
 
@@ -165,18 +165,6 @@ def test_a_camera_that_cannot_be_opened(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr(doctor, "open_camera", busy)
     (finding,) = doctor.opened_findings("", 1.0)
     assert (finding.state, finding.remedy) == ("bad", "Close the other program that uses the camera.")
-
-
-def test_an_astra_without_its_makers_driver(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(astra, "driver_folders", lambda: [tmp_path / "none", tmp_path])
-    assert astra.driver_finding(False, False) is None
-    missing = astra.driver_finding(False, True)
-    assert missing is not None
-    assert (missing.state, str(tmp_path) in missing.remedy) == ("bad", True)
-    (tmp_path / "liborbbec.so").touch()
-    found = astra.driver_finding(False, True)
-    assert found is not None
-    assert found.state == "good"
 
 
 def test_a_camera_of_one_kind_excuses_what_another_lacks(monkeypatch: pytest.MonkeyPatch) -> None:

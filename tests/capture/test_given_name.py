@@ -35,10 +35,10 @@ def test_only_a_camera_without_a_number_takes_the_name_of_its_kind(tmp_path: Pat
     assert (named.serial, named.is_nameless) == ("room 3", True)
     assert with_given_name(numbered, tmp_path) is numbered
     assert not numbered.info.is_nameless
-    assert SERIAL not in with_given_name(Camera("Astra"), tmp_path).info.settings
-    assert keep_name(tmp_path, "Astra", "room\t 3") == "room 3 (Astra)"
-    of_both = [with_given_name(Camera(kind), tmp_path).info.serial for kind in ("Xtion", "Astra")]
-    assert of_both == ["room 3", "room 3 (Astra)"], "one would be seen through the other's calibration"
+    assert SERIAL not in with_given_name(Camera("Carmine"), tmp_path).info.settings
+    assert keep_name(tmp_path, "Carmine", "room\t 3") == "room 3 (Carmine)"
+    of_both = [with_given_name(Camera(kind), tmp_path).info.serial for kind in ("Xtion", "Carmine")]
+    assert of_both == ["room 3", "room 3 (Carmine)"], "one would be seen through the other's calibration"
 
 
 @pytest.mark.parametrize("content", ["", "[1]", '{"Xtion": 3}', '{"Xtion": "\\n"}', "\x00", "[" * 100_000])

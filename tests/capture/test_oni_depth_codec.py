@@ -10,7 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from carpus.core.capture.files.oni_format import Codec, decode_depth, encode_depth
+from carpus.core.capture.files.oni_format import Codec, decode_depth
+from tests.capture.oni_writer import encode_depth
 
 
 def decode(data: bytes, pixels: int) -> list[int]:

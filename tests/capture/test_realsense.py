@@ -94,11 +94,11 @@ def test_a_recording_is_tracked_as_the_folder_it_was_made_of(take: Path, folder:
     assert [frame.status for frame in tracked] == ["tracked"] * FRAMES
 
 
-@pytest.mark.parametrize(("name", "content"), [("a.db3", b"no database"), ("a.db3", b""), ("a.bag", b"#ROSBAG V2.0\n")])
-def test_what_is_no_recording_is_told(tmp_path: Path, name: str, content: bytes) -> None:
-    (tmp_path / name).write_bytes(content)
+@pytest.mark.parametrize("content", [b"no database", b""])
+def test_what_is_no_recording_is_told(tmp_path: Path, content: bytes) -> None:
+    (tmp_path / "a.db3").write_bytes(content)
     with pytest.raises(RecordingDamaged):
-        open_recording(tmp_path / name)
+        open_recording(tmp_path / "a.db3")
 
 
 def test_a_recording_cut_short_is_told(take: Path, tmp_path: Path) -> None:

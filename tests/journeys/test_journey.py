@@ -33,9 +33,9 @@ from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_session
 from carpus.core.session.writer import SessionWriter
-from carpus.core.simulation.oni_writer import in_millimetres, write_oni
 from carpus.ui.messages.messages import NoticeStrip, StopCard
 from carpus.ui.now_open import SourceChoice
+from tests.capture.oni_writer import in_millimetres, write_oni
 from tests.journeys.conftest import Open
 from tests.journeys.takes import RANGE_DEG, SPEC, SPEED, clicks_of
 from tests.session.samples import CAMERA, make_calibration, make_frame, make_header

@@ -18,7 +18,7 @@ from carpus.ui.theme import MARGIN_PX, Theme
 from carpus.ui.tour.bubble import BubbleView
 from carpus.ui.translate import say
 
-PATTERNS = "*.oni *.db3 *.bag *.mkv *.carpusraw"
+PATTERNS = "*.oni *.db3 *.carpusraw"
 
 
 class CameraScreen(QWidget):

@@ -136,7 +136,6 @@ CAMERAS = {
     "xtion": "xtion",
     "realsense": "realsense",
     "orbbec": "orbbec",
-    "astra": "astra",
 }
 """Module by kind; the first is the usual one."""
 

@@ -31,8 +31,6 @@ NODE_ADDED_FIELDS = struct.Struct("<I4sIQQQ")
 """After the name: node type, codec, pictures, least and greatest timestamp, position of the seek table."""
 NEW_DATA_FIELDS = struct.Struct("<QI")
 """timestamp (microseconds), picture number from 1."""
-DATA_BEGIN_FIELDS = struct.Struct("<IQ")
-SEEK_ENTRY = struct.Struct("<QIQ")
 
 
 class RecordType(IntEnum):
@@ -74,94 +72,23 @@ MAP_OUTPUT_MODE = "xnMapOutputMode"
 CROPPING = "xnCropping"
 PIXEL_FORMAT_1 = "xnPixelFormat"
 PIXEL_FORMAT_2 = "oniPixelFormat"
-FRAME_SIZE = "oniRequiredFrameSize"
 MIRROR = "xnMirror"
 FIELD_OF_VIEW = "xnFOV"
-MAX_DEPTH = "xnDeviceMaxDepth"
 
 
-MAX_VALUES = 0x8000
-"""An index written in full has 15 bits."""
 SMALL = 6
 """Differences up to this take half a byte."""
 MEDIUM = 63
 """Differences up to this take a byte after the escape."""
-UNCHANGED = 0x66
-"""Two pixels without change."""
-LONGEST_RUN = 15
 
 
-def encode_depth(depth_raw: DepthImage) -> bytes:
-    """Pack one depth picture (H, W) without loss.
+def decode_depth(data: bytes, codec: bytes, shape: tuple[int, int]) -> DepthImage | None:
+    """One depth picture (H, W), packed with a table of its values, without one, or not at all; None where damaged.
 
     Count and table of the values, first index, then for each pixel d = index before - index now: |d| <= 6 half a
     byte (d + 6), two pixels a byte; k times two unchanged pixels 0xE0 + k; else an escape (0xFF, or 0xF in the
     lower half of a begun byte) with 192 + d for |d| <= 63, or the index itself in two bytes, high byte first.
     """
-    flat = np.ascontiguousarray(depth_raw).ravel()
-    present = np.zeros(1 << 16, bool)
-    present[flat] = True
-    values = np.flatnonzero(present)
-    if len(values) > MAX_VALUES:
-        raise ValueError(f"{len(values)} different depths, at most {MAX_VALUES} can be packed")
-    place = np.zeros(1 << 16, np.int32)
-    place[values] = np.arange(len(values), dtype=np.int32)
-    index = place[flat]
-    head = struct.pack("<H", len(values)) + values.astype("<u2").tobytes() + struct.pack("<H", int(index[0]))
-    return head + _differences(index).tobytes()
-
-
-def _differences(index: NDArray[np.int32]) -> NDArray[np.uint8]:
-    """The coded stream after the first index (P,)."""
-    step = index[:-1] - index[1:]
-    count = len(step)
-    if count == 0:
-        return np.empty(0, np.uint8)
-    small = np.abs(step) <= SMALL
-    where = np.arange(count)
-    last_escape = np.maximum.accumulate(np.where(small, -1, where))
-    second = small & ((where - last_escape) % 2 == 0)
-    first = small & ~second
-    pair = np.flatnonzero(second)
-    alone = np.flatnonzero(first & ~np.append(second[1:], False))
-    escape = np.flatnonzero(~small)
-
-    # up to three bytes stand at each pixel; NONE marks those that are not written
-    none = np.int32(-1)
-    out = np.full((count, 3), none)
-    out[pair, 0] = ((step[pair - 1] + SMALL) << 4) | (step[pair] + SMALL)
-    begun = np.zeros(count, bool)
-    begun[escape] = np.append(False, first[:-1])[escape]
-    half = np.where(begun[escape], (step[escape - 1] + SMALL) << 4 | 0x0F, 0xFF)
-    out[escape, 0] = half
-    far = np.abs(step[escape]) > MEDIUM
-    out[escape, 1] = np.where(far, index[escape + 1] >> 8, 192 + step[escape])
-    out[escape, 2] = np.where(far, index[escape + 1] & 0xFF, none)
-    if len(alone) and alone[-1] == count - 1:
-        out[-1, 0] = ((step[-1] + SMALL) << 4) | 0x0D
-    stream = out[out >= 0]
-
-    return _pack_runs(stream, np.isin(np.flatnonzero(out.ravel() >= 0), pair * 3))
-
-
-def _pack_runs(stream: NDArray[np.int32], is_pair: NDArray[np.bool_]) -> NDArray[np.uint8]:
-    """Replace each run of unchanged pairs by its length, at most 15 at a time."""
-    still = is_pair & (stream == UNCHANGED)
-    if not still.any():
-        return stream.astype(np.uint8)
-    where = np.arange(len(stream))
-    before_run = np.maximum.accumulate(np.where(still, -1, where))
-    in_run = np.where(still, where - before_run, 0)
-    ends = still & ((in_run % LONGEST_RUN == 0) | ~np.append(still[1:], False))
-    length = (in_run - 1) % LONGEST_RUN + 1
-    coded = np.where(ends, 0xE0 + length, stream)
-    packed: NDArray[np.uint8] = coded[~still | ends].astype(np.uint8)
-    return packed
-
-
-def decode_depth(data: bytes, codec: bytes, shape: tuple[int, int]) -> DepthImage | None:
-    """One depth picture (H, W) as :func:`encode_depth` packs it, packed without a table, or not at all; None where it
-    is damaged."""
     count = shape[0] * shape[1]
     if codec == Codec.RAW:
         return np.frombuffer(data, "<u2").reshape(shape) if len(data) == 2 * count else None

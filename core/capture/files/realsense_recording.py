@@ -1,5 +1,4 @@
-"""A RealSense recording (``.db3``, older ones ``.bag``) as a source of frames, played by the maker's library in a
-process of its own."""
+"""A RealSense recording (``.db3``) as a source of frames, played by the maker's library in a process of its own."""
 
 from __future__ import annotations
 
@@ -140,7 +139,7 @@ class RealSenseRecording:
         assert opened.lens is not None
         camera = camera_of_lens((color.width_px, color.height_px), opened.lens)
         sensor = sensor_named(opened.settings, camera.fx_px)
-        settings = {"format": f"RealSense {self._path.suffix.lower()}", **opened.settings}
+        settings = {"format": "RealSense .db3", **opened.settings}
         has_depth = Sensor.DEPTH in opened.modes
         return SourceInfo(
             self._path.name, replace(camera, sensor=sensor), has_depth, self._count, float(color.fps), settings
@@ -148,12 +147,10 @@ class RealSenseRecording:
 
 
 def color_count(path: Path) -> int | None:
-    """How many colour pictures a ``.db3`` holds; None of another file. Raises :class:`RecordingDamaged`.
+    """How many colour pictures a ``.db3`` holds, None where it does not say. Raises :class:`RecordingDamaged`.
 
     The library takes any file for empty or waits on it for ever; what is no database is told here.
     """
-    if path.suffix.lower() != ".db3":
-        return None
     try:
         with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
             query = (

@@ -12,10 +12,10 @@ import pytest
 from carpus.core.capture.camera_info import read_camera_info, sidecar_path
 from carpus.core.capture.files.oni_source import OniSource, read_contents
 from carpus.core.capture.source import is_simulated
-from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable, RecordingDamaged
-from carpus.core.simulation.oni_writer import OniWriter, write_oni
+from carpus.core.errors import RecordingDamaged
 from carpus.core.types import Frame
 from tests.capture.oni_samples import CAMERA, PERIOD_S, color_picture, depth_picture, write_sample
+from tests.capture.oni_writer import OniWriter, write_oni
 
 ROOT = Path(__file__).parents[2]
 
@@ -108,59 +108,3 @@ def test_an_unfinished_file_is_seen_as_such(tmp_path: Path) -> None:
     with pytest.raises(RecordingDamaged) as caught:
         read_contents(path)
     assert "not finished" in caught.value.detail
-
-
-def test_nothing_is_overwritten(tmp_path: Path) -> None:
-    path = write_sample(tmp_path / "a.oni", 1)
-    before = path.read_bytes()
-    with pytest.raises(OutputExists):
-        OniWriter(path, CAMERA)
-    assert path.read_bytes() == before
-    sidecar_path(tmp_path / "b.oni").write_text("mine")
-    with pytest.raises(OutputExists):
-        write_oni(tmp_path / "b.oni", frames(1), CAMERA)
-    assert not (tmp_path / "b.oni").exists()
-
-
-def test_a_folder_that_is_not_there(tmp_path: Path) -> None:
-    with pytest.raises(OutputNotWritable):
-        OniWriter(tmp_path / "none" / "a.oni", CAMERA)
-
-
-@pytest.mark.parametrize("wrong", ["size", "kind", "time", "unit"])
-def test_misuse_is_refused(tmp_path: Path, wrong: str) -> None:
-    if wrong == "unit":
-        with pytest.raises(ValueError, match=r"0\.0002"):
-            OniWriter(tmp_path / "a.oni", CAMERA, depth_unit_m=0.0002)
-        return
-    with OniWriter(tmp_path / "a.oni", CAMERA) as writer:
-        writer.add_color(color_picture(1), 0.1)
-        picture, time_s = color_picture(2), 0.2
-        if wrong == "size":
-            picture = picture[:-1]
-        elif wrong == "kind":
-            picture = picture.astype(np.float32)  # type: ignore[assignment]
-        else:
-            time_s = 0.1
-        with pytest.raises(ValueError):
-            writer.add_color(picture, time_s)
-
-
-def test_a_full_disk_is_a_fault(tmp_path: Path) -> None:
-    """In a process whose files may not grow beyond 200 kB."""
-    program = """
-import resource, signal, sys
-from pathlib import Path
-from carpus.core.errors import DiskFull
-from tests.capture.oni_samples import write_sample
-signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))
-try:
-    write_sample(Path(sys.argv[1]), 200)
-except DiskFull as fault:
-    print(type(fault).__name__)
-"""
-    done = subprocess.run(
-        [sys.executable, "-c", program, str(tmp_path / "a.oni")], cwd=ROOT, capture_output=True, text=True, timeout=60
-    )
-    assert done.stdout.strip() == DiskFull.__name__, done.stderr

@@ -6,24 +6,24 @@ import dataclasses
 import math
 import shutil
 import struct
+import sys
 import tempfile
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import BinaryIO, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from carpus.core.camera import Camera
-from carpus.core.capture.camera_info import CAMERA_FILE, sidecar_path, write_camera_info
+from carpus.core.capture.camera_info import sidecar_path, write_camera_info
 from carpus.core.capture.files import oni_format as oni
-from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType, encode_depth
+from carpus.core.capture.files.oni_format import Codec, NodeType, RecordType
 from carpus.core.capture.files.pictures import encode_color
 from carpus.core.capture.files.tum import TumFolder
 from carpus.core.capture.video_mode import PixelFormat
-from carpus.core.durable import Writing, private
-from carpus.core.errors import DiskFull, OutputExists, OutputNotWritable
-from carpus.core.simulation.recording import CLICKS_FILE, TRUTH_FILE, simulate
+from carpus.core.durable import Writing
+from carpus.core.simulation.recording import CLICKS_FILE, simulate
 from carpus.core.simulation.spec import RecordingSpec
 from carpus.core.types import ByteImage, DepthImage, Frame
 
@@ -32,6 +32,14 @@ DepthCodec = Literal["table", "raw"]
 MAX_DEPTH = 10000
 NOT_KNOWN = 0xFFFFFFFFFFFFFFFF
 """A time that is not known yet: all ones, as the library's own recorder writes it."""
+_DATA_BEGIN_FIELDS = struct.Struct("<IQ")
+_SEEK_ENTRY = struct.Struct("<QIQ")
+_FRAME_SIZE, _MAX_DEPTH = "oniRequiredFrameSize", "xnDeviceMaxDepth"
+_MAX_VALUES = 0x8000
+"""An index written in full has 15 bits."""
+_UNCHANGED = 0x66
+"""Two pixels without change."""
+_LONGEST_RUN = 15
 _DEPTH_FORMATS = ((1e-3, PixelFormat.DEPTH_1_MM), (1e-4, PixelFormat.DEPTH_100_UM))
 
 
@@ -49,15 +57,7 @@ class _Stream:
 
 
 class OniWriter(Writing):
-    """Writes one recording. Use as a context manager; the file is whole only after :meth:`close`.
-
-    >>> import tempfile
-    >>> from carpus.core.camera import DEFAULT_CAMERA
-    >>> folder = tempfile.TemporaryDirectory()
-    >>> with folder, OniWriter(Path(folder.name) / "a.oni", DEFAULT_CAMERA) as writer:
-    ...     writer.add_color(np.zeros((480, 640, 3), np.uint8), 0.0)
-    ...     writer.add_depth(np.full((480, 640), 700, np.uint16), 0.0)
-    """
+    """Writes one recording. Use as a context manager; the file is whole only after :meth:`close`."""
 
     def __init__(
         self,
@@ -73,14 +73,13 @@ class OniWriter(Writing):
         formats = [code for unit_m, code in _DEPTH_FORMATS if math.isclose(unit_m, depth_unit_m)]
         if depth and not formats:
             raise ValueError(f"depth in steps of {depth_unit_m} m; an .oni file takes 1 mm or 0.1 mm")
-        self._path = path
         self._camera = camera
         self._fps = fps
         self._mirrored = mirrored
         self._streams: dict[NodeType, _Stream] = {}
         self._greatest_us = 0
         self._stream_count = 2 if depth else 1
-        self._file: BinaryIO | None = _create(path)
+        self._file: BinaryIO | None = path.open("xb")
         self._write(self._header(NOT_KNOWN))
         if depth:
             codec = Codec.DEPTH_TABLE if depth == "table" else Codec.RAW
@@ -90,7 +89,7 @@ class OniWriter(Writing):
         for stream in self._streams.values():
             self._record(RecordType.NODE_READY, stream.node)
         for stream in self._streams.values():
-            fields = oni.DATA_BEGIN_FIELDS.pack(0xFFFFFFFF, NOT_KNOWN)
+            fields = _DATA_BEGIN_FIELDS.pack(0xFFFFFFFF, NOT_KNOWN)
             self._record(RecordType.DATA_BEGIN, stream.node, fields)
 
     def add_color(self, color_rgb: ByteImage, timestamp_s: float) -> None:
@@ -120,7 +119,7 @@ class OniWriter(Writing):
             if stream.entries:
                 # entry 0 is never a picture; it points to the first one, where a failed search ends up
                 entries = [(0, stream.entries[0][1]), *stream.entries]
-                table = b"".join(oni.SEEK_ENTRY.pack(time_us, 0, position) for time_us, position in entries)
+                table = b"".join(_SEEK_ENTRY.pack(time_us, 0, position) for time_us, position in entries)
                 seek_at[stream.node] = self._record(RecordType.SEEK_TABLE, stream.node, payload=table)
         self._record(RecordType.END, 0)
         for stream in self._streams.values():
@@ -128,18 +127,13 @@ class OniWriter(Writing):
             self._write(self._added(stream, seek_at.get(stream.node, 0), len(stream.entries)))
         self._file.seek(0)
         self._write(self._header(self._greatest_us))
-        try:
-            self._file.close()
-        except OSError as cause:
-            raise DiskFull(self._path) from cause
-        finally:
-            self._file = None
+        self._file.close()
+        self._file = None
 
     def abandon(self) -> None:
         """Leave the file as it is: without its end, which every reader notices."""
         if self._file is not None:
-            with suppress(OSError):
-                self._file.close()
+            self._file.close()
             self._file = None
 
     def _picture(self, stream: _Stream, timestamp_s: float, payload: bytes) -> None:
@@ -158,10 +152,10 @@ class OniWriter(Writing):
         stream.added_at = self._tell()
         self._write(self._added(stream, 0, 0xFFFFFFFF))
         mode = struct.pack("<III", camera.width_px, camera.height_px, self._fps)
-        self._int(stream, oni.FRAME_SIZE, camera.width_px * camera.height_px * (2 if is_depth else 3))
+        self._int(stream, _FRAME_SIZE, camera.width_px * camera.height_px * (2 if is_depth else 3))
         self._int(stream, "xnIsGenerating", 1)
         if is_depth:
-            self._int(stream, oni.MAX_DEPTH, MAX_DEPTH)
+            self._int(stream, _MAX_DEPTH, MAX_DEPTH)
         self._int(stream, "xnSupportedMapOutputModesCount", 1)
         self._property(stream, "xnSupportedMapOutputModes", mode)
         self._property(stream, oni.MAP_OUTPUT_MODE, mode)
@@ -205,10 +199,7 @@ class OniWriter(Writing):
 
     def _write(self, data: bytes) -> None:
         assert self._file is not None, "the recording is closed"
-        try:
-            self._file.write(data)
-        except OSError as cause:
-            raise DiskFull(self._path) from cause
+        self._file.write(data)
 
 
 def write_oni(
@@ -227,8 +218,6 @@ def write_oni(
     pictures are said to be in the file beside, since the recording itself has no place for it.
     """
     sidecar = sidecar_path(path)
-    if sidecar.exists():
-        raise OutputExists(sidecar)
     written = 0
     writer: OniWriter | None = None
     unit_m = 1e-3
@@ -254,15 +243,6 @@ def write_oni(
     return written
 
 
-def _create(path: Path) -> BinaryIO:
-    try:
-        return open(path, "xb", opener=private)
-    except FileExistsError as cause:
-        raise OutputExists(path) from cause
-    except OSError as cause:
-        raise OutputNotWritable(path, cause.strerror or "") from cause
-
-
 def _string(text: str) -> bytes:
     raw = text.encode("ascii") + b"\0"
     return struct.pack("<I", len(raw)) + raw
@@ -273,28 +253,70 @@ def _record_bytes(kind: RecordType, node: int, fields: bytes, payload_size: int,
     return oni.RECORD_HEADER.pack(oni.RECORD_MAGIC, kind, node, size, payload_size, replaces) + fields
 
 
-RECORDING_FILE = "recording.oni"
+def encode_depth(depth_raw: DepthImage) -> bytes:
+    """Pack one depth picture (H, W) without loss, as :func:`oni_format.decode_depth` describes it."""
+    flat = np.ascontiguousarray(depth_raw).ravel()
+    present = np.zeros(1 << 16, bool)
+    present[flat] = True
+    values = np.flatnonzero(present)
+    if len(values) > _MAX_VALUES:
+        raise ValueError(f"{len(values)} different depths, at most {_MAX_VALUES} can be packed")
+    place = np.zeros(1 << 16, np.int32)
+    place[values] = np.arange(len(values), dtype=np.int32)
+    index = place[flat]
+    head = struct.pack("<H", len(values)) + values.astype("<u2").tobytes() + struct.pack("<H", int(index[0]))
+    return head + _differences(index).tobytes()
+
+
+def _differences(index: NDArray[np.int32]) -> NDArray[np.uint8]:
+    """The coded stream after the first index (P,)."""
+    step = index[:-1] - index[1:]
+    count = len(step)
+    if count == 0:
+        return np.empty(0, np.uint8)
+    small = np.abs(step) <= oni.SMALL
+    where = np.arange(count)
+    last_escape = np.maximum.accumulate(np.where(small, -1, where))
+    second = small & ((where - last_escape) % 2 == 0)
+    first = small & ~second
+    pair = np.flatnonzero(second)
+    alone = np.flatnonzero(first & ~np.append(second[1:], False))
+    escape = np.flatnonzero(~small)
+
+    # up to three bytes stand at each pixel; NONE marks those that are not written
+    none = np.int32(-1)
+    out = np.full((count, 3), none)
+    out[pair, 0] = ((step[pair - 1] + oni.SMALL) << 4) | (step[pair] + oni.SMALL)
+    begun = np.zeros(count, bool)
+    begun[escape] = np.append(False, first[:-1])[escape]
+    half = np.where(begun[escape], (step[escape - 1] + oni.SMALL) << 4 | 0x0F, 0xFF)
+    out[escape, 0] = half
+    far = np.abs(step[escape]) > oni.MEDIUM
+    out[escape, 1] = np.where(far, index[escape + 1] >> 8, 192 + step[escape])
+    out[escape, 2] = np.where(far, index[escape + 1] & 0xFF, none)
+    if len(alone) and alone[-1] == count - 1:
+        out[-1, 0] = ((step[-1] + oni.SMALL) << 4) | 0x0D
+    stream = out[out >= 0]
+
+    return _pack_runs(stream, np.isin(np.flatnonzero(out.ravel() >= 0), pair * 3))
+
+
+def _pack_runs(stream: NDArray[np.int32], is_pair: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    """Replace each run of unchanged pairs by its length, at most 15 at a time."""
+    still = is_pair & (stream == _UNCHANGED)
+    if not still.any():
+        return stream.astype(np.uint8)
+    where = np.arange(len(stream))
+    before_run = np.maximum.accumulate(np.where(still, -1, where))
+    in_run = np.where(still, where - before_run, 0)
+    ends = still & ((in_run % _LONGEST_RUN == 0) | ~np.append(still[1:], False))
+    length = (in_run - 1) % _LONGEST_RUN + 1
+    coded = np.where(ends, 0xE0 + length, stream)
+    packed: NDArray[np.uint8] = coded[~still | ends].astype(np.uint8)
+    return packed
+
+
 _MILLIMETRE = 1e-3
-
-
-def simulate_oni(spec: RecordingSpec, folder: Path, progress: Callable[[int, int], None] | None = None) -> Path:
-    """Make ``recording.oni`` with its sidecar, clicks and truth in ``folder``; the file's path.
-
-    Depth is in whole millimetres, as the device gives it.
-    """
-    target = folder / RECORDING_FILE
-    if target.exists():
-        raise OutputExists(target)
-    folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=".rendering.", dir=folder) as scratch:
-        pictures = Path(scratch) / "tum"
-        simulate(spec, pictures, progress)
-        source = TumFolder(pictures, read_ahead=4)
-        frames = in_millimetres(source.frames())
-        write_oni(target, frames, source.info.camera, fps=round(spec.fps), simulated=True)
-        for name in (CLICKS_FILE, TRUTH_FILE, CAMERA_FILE):
-            shutil.move(pictures / name, folder / name)
-    return target
 
 
 def in_millimetres(frames: Iterator[Frame]) -> Iterator[Frame]:
@@ -304,3 +326,19 @@ def in_millimetres(frames: Iterator[Frame]) -> Iterator[Frame]:
         if depth is not None:
             depth = np.rint(depth * (frame.depth_unit_m / _MILLIMETRE)).astype(np.uint16)
         yield dataclasses.replace(frame, depth_raw=depth, depth_unit_m=_MILLIMETRE)
+
+
+def main() -> None:
+    """Write a simulated hand of one second, with its clicks, into the folder that the command line names."""
+    folder = Path(sys.argv[1])
+    with tempfile.TemporaryDirectory() as scratch:
+        pictures = Path(scratch) / "tum"
+        simulate(RecordingSpec(seed=3, seconds=1.0), pictures)
+        source = TumFolder(pictures)
+        folder.mkdir(parents=True, exist_ok=True)
+        write_oni(folder / "recording.oni", in_millimetres(source.frames()), source.info.camera, simulated=True)
+        shutil.copy(pictures / CLICKS_FILE, folder)
+
+
+if __name__ == "__main__":
+    main()
