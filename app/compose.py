@@ -347,7 +347,9 @@ def compose(
     parts = Parts(library, lambda *given: sources().open(*given), CareCameras(settings, speed), settings, is_demo, day)
     shell = Shell(theme)
     journey = Journey(shell, theme, Keys(settings.screen.keys), parts)
-    keeper = PreferenceKeeper(journey, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen))
+    keeper = PreferenceKeeper(
+        journey, theme, settings, settings_folder, lambda chosen: theme_name(qt, chosen), is_demo=is_demo
+    )
     follows = qt.styleHints().colorSchemeChanged.connect(lambda _: keeper.follow_system())
     library.who = lambda: journey.settings.report.therapist
     library.angle_order = lambda: journey.settings.report.angle_order
@@ -444,11 +446,13 @@ def ask_for_folder(qt: QApplication, settings: Settings, fault: CarpusFault) -> 
 
 
 def with_kept_folder(settings: Settings, folder: Path) -> Settings:
-    """The settings with another data folder, also from the next start on."""
+    """The settings with another data folder; also from the next start on, unless this run had a folder of its own."""
+    if settings.run_folder is not None:
+        return replace(settings, run_folder=folder)
     os.environ.pop(DATA_VARIABLE, None)  # it would go over what was just chosen
     chosen = replace(settings, recording=replace(settings.recording, folder=str(folder)))
     with contextlib.suppress(CarpusFault):
-        keep_preferences(chosen)
+        keep_preferences(settings, chosen)
     return chosen
 
 
@@ -514,10 +518,12 @@ def write_log() -> None:
 
 
 def with_data_folder(settings: Settings, folder: Path | None) -> Settings:
-    """The settings with the data folder named on the command line."""
-    if folder is None:
+    """The settings with the data folder named on the command line: without the clinic's server, shared folder and daily
+    backup, which are those of its own data folder."""
+    if folder is None or folder.absolute() == settings.data_folder.absolute():
         return settings
-    return replace(settings, recording=replace(settings.recording, folder=str(folder)))
+    records, backup = replace(settings.records, url="", sessions=""), replace(settings.backup, hour=-1)
+    return replace(settings, run_folder=folder, records=records, backup=backup)
 
 
 class OpeningsLogged(QObject):

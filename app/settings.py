@@ -12,6 +12,7 @@ import tomllib
 import types
 import typing
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cached_property
 from importlib import resources
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
 SETTINGS_FILE, PREFERENCES_FILE = "settings.toml", "preferences.toml"
 """The first is written by people, the second by the window; the second goes over the first."""
+LAST_FOLDER_FILE = "last-data-folder.txt"
 
 TRACKING = ("detection", "calibration", "tracker")
 """Sections that decide how pictures become a session."""
@@ -153,6 +155,8 @@ class Settings:
     live: LiveSettings = field(default_factory=LiveSettings)
     tracking: Mapping[str, Values] = field(default_factory=dict, metadata={"in_file": False})
     """What a person's file says in the sections of :data:`TRACKING`."""
+    run_folder: Path | None = field(default=None, metadata={"in_file": False})
+    """The data folder that was named for this run alone."""
 
     @cached_property
     def track(self) -> TrackSettings:
@@ -164,7 +168,9 @@ class Settings:
 
     @property
     def data_folder(self) -> Path:
-        """Where patients and sessions are; ``CARPUS_DATA`` goes over the setting."""
+        """Where patients and sessions are: as named for this run, else by ``CARPUS_DATA``, else by the setting."""
+        if self.run_folder is not None:
+            return self.run_folder
         named = os.environ.get(DATA_VARIABLE) or self.recording.folder
         return _path(named) if named else default_data_folder()
 
@@ -233,7 +239,7 @@ def _own(path: Path) -> Values:
 
 
 _PREFERENCES = {
-    "screen": ("theme", "text_scale", "language", "research"),
+    "screen": ("theme", "text_scale", "language", "research", "keys"),
     "recording": ("folder",),
     "report": ("therapist", "angle_order", "agreement_limit_deg"),
     "backup": ("folder", "hour"),
@@ -245,28 +251,49 @@ _PREFERENCES = {
 }
 
 
-def keep_preferences(chosen: Settings, folder: Path | None = None) -> None:
-    """Store what the window lets a person choose. Raises :class:`OutputNotWritable`, :class:`DiskFull`."""
+def keep_preferences(before: Settings, chosen: Settings, folder: Path | None = None) -> None:
+    """Store what a person has changed in the window, and nothing else.
+
+    What was named for one run, or stands in the person's own file, is no choice made in the window. Raises
+    :class:`OutputNotWritable`, :class:`DiskFull`.
+    """
     path = (folder or settings_folder()) / PREFERENCES_FILE
-    lines = ["# Chosen in the window of Carpus."]
-    for section, names in _PREFERENCES.items():
-        values = {name: getattr(getattr(chosen, section), name) for name in names}
-        lines += [f"[{section}]", *(f"{name} = {_text(value)}" for name, value in values.items())]
-    lines += ["[screen.keys]", *(f"{name} = {_text(key)}" for name, key in sorted(chosen.screen.keys.items()))]
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        _keep_unusable(path)
+        kept = _usable(path)
     except OSError as cause:
         raise write_fault(path, cause) from cause
+    for section, names in _PREFERENCES.items():
+        for name in names:
+            value = getattr(getattr(chosen, section), name)
+            if value != getattr(getattr(before, section), name):
+                kept.setdefault(section, {})[name] = value
+    lines = ["# Chosen in the window of Carpus."]
+    for section, values in kept.items():
+        lines += [f"[{section}]", *(f"{name} = {_text(value)}" for name, value in values.items())]
     replace_text(path, "\n".join([*lines, ""]))
 
 
-def _keep_unusable(path: Path) -> None:
-    """A file that is about to be replaced and could not be used is kept under another name."""
+def _usable(path: Path) -> dict[str, dict[str, Any]]:
+    """What a file of preferences says; one that cannot be used is kept under another name."""
     try:
-        _own(path)
+        return {section: dict(values) for section, values in _own(path).items()}
     except SettingsInvalid:
         path.replace(path.with_name(f"{path.stem}.unusable{path.suffix}"))
+        return {}
+
+
+def note_data_folder(data_folder: Path, folder: Path | None = None) -> Path | None:
+    """Remember the data folder that a window opens; the one of the start before, where that was another."""
+    path = (folder or settings_folder()) / LAST_FOLDER_FILE
+    before = ""
+    with suppress(OSError, UnicodeError):
+        before = path.read_text(encoding="utf-8")
+    if before != str(data_folder):
+        with suppress(OSError, CarpusFault):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            replace_text(path, str(data_folder))
+    return Path(before) if before not in ("", str(data_folder)) else None
 
 
 def _path(named: str) -> Path:
@@ -279,6 +306,8 @@ def _path(named: str) -> Path:
 
 def _text(value: object) -> str:
     """As TOML writes it, which writes texts, numbers and truths as JSON does."""
+    if isinstance(value, Mapping):
+        return f"{{{', '.join(f'{name} = {_text(one)}' for name, one in sorted(value.items()))}}}"
     return json.dumps(value, ensure_ascii=False)
 
 

@@ -556,6 +556,14 @@ class NoDataFolder(CarpusFault):
     do = phrase("Name the folder that holds the patients; carpus doctor says which it is.")
 
 
+class DataFolderChanged(CarpusFault):
+    """Told at a start: ``subject`` is opened, ``detail`` is the folder of the start before, or of the settings."""
+
+    happened = phrase("Carpus shows another data folder: {subject}.")
+    safe = phrase("Before it was {detail}. Carpus has moved nothing out of it.")
+    do = phrase("If patients are missing here, choose the data folder in Settings.")
+
+
 class FolderInUse(CarpusFault):
     happened = phrase("Another Carpus is using the patients of {subject}.")
     safe = _UNCHANGED

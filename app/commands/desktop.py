@@ -11,9 +11,9 @@ from pathlib import Path
 
 from carpus.app.command_line import say, tell
 from carpus.app.of_file import note_in
-from carpus.app.settings import load_sound_settings
+from carpus.app.settings import load_sound_settings, note_data_folder
 from carpus.core.durable import make_private
-from carpus.core.errors import CarpusFault, FolderInUse
+from carpus.core.errors import CarpusFault, DataFolderChanged, FolderInUse
 from carpus.core.records.set_up import PRACTICE_PATIENT
 from carpus.core.records.staging import remove_left_behind
 
@@ -54,7 +54,11 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
                     say("it is open already, and has come to the front.")
                     return 0
                 raise FolderInUse(settings.data_folder)
-            desktop = compose.compose(qt, settings, is_demo=is_demo, told=told)
+            before = loaded.data_folder if settings.run_folder is not None else None
+            if before is None and not is_demo:
+                before = note_data_folder(settings.data_folder)
+            other = [] if before is None else [DataFolderChanged(settings.data_folder, str(before))]
+            desktop = compose.compose(qt, settings, is_demo=is_demo, told=[*other, *told])
         except CarpusFault as fault:
             alone.let_go()
             tell(fault)

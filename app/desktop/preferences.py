@@ -43,8 +43,12 @@ class PreferenceKeeper(QObject):
         settings: Settings,
         folder: Path | None,
         theme_of: Callable[[Settings], ThemeName],
+        *,
+        is_demo: bool = False,
     ) -> None:
+        """Of a demo nothing is stored: its settings are not those of the clinic."""
         super().__init__(journey)
+        self._is_demo = is_demo
         self._journey, self._theme, self._settings = journey, theme, settings
         self._folder, self._theme_of = folder, theme_of
         self.keeps_language: Callable[[], str] = str
@@ -88,8 +92,10 @@ class PreferenceKeeper(QObject):
         if other_language and (why := self.keeps_language()):
             self.screen.keep_language(self._settings.screen.language, why)
             return
-        recording = replace(self._settings.recording, start=chosen.start)
+        before = self._settings
+        recording = replace(before.recording, start=chosen.start)
         if chosen.data_folder != self._shown_folder:
+            self._shown_folder = chosen.data_folder
             recording = replace(recording, folder=chosen.data_folder)
         self._settings = replace(
             self._settings,
@@ -115,7 +121,7 @@ class PreferenceKeeper(QObject):
         )
         self._journey.context.report = self._settings.report
         self._journey.context.patient_sound = chosen.patient_sound
-        self._store()
+        self._store(before)
         if other_language:
             self.language_chosen.emit()
 
@@ -128,9 +134,11 @@ class PreferenceKeeper(QObject):
         """Whether what the first start offers was answered before."""
         return self._settings.first_start.answered
 
-    def _store(self) -> None:
+    def _store(self, before: Settings) -> None:
+        if self._is_demo:
+            return
         try:
-            keep_preferences(self._settings, self._folder)
+            keep_preferences(before, self._settings, self._folder)
         except CarpusFault as fault:
             self._journey.messages.fault(fault)
 
@@ -148,7 +156,7 @@ class PreferenceKeeper(QObject):
             now, backup=backup or now.backup, records=records or now.records, lock=lock or now.lock,
             first_start=first_start or now.first_start,
         )  # fmt: skip
-        self._store()
+        self._store(now)
 
     def follow_system(self) -> None:
         """The system changed between light and dark."""

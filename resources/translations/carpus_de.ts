@@ -7507,6 +7507,18 @@
         <source>progress</source>
         <translation>Verlauf</translation>
     </message>
+    <message>
+        <source>Before it was {detail}. Carpus has moved nothing out of it.</source>
+        <translation>Vorher war es {detail}. Carpus hat daraus nichts verschoben.</translation>
+    </message>
+    <message>
+        <source>Carpus shows another data folder: {subject}.</source>
+        <translation>Carpus zeigt einen anderen Datenordner: {subject}.</translation>
+    </message>
+    <message>
+        <source>If patients are missing here, choose the data folder in Settings.</source>
+        <translation>Fehlen hier Patienten, wählen Sie den Datenordner in den Einstellungen.</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>

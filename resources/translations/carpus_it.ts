@@ -7507,6 +7507,18 @@
         <source>progress</source>
         <translation>andamento</translation>
     </message>
+    <message>
+        <source>Before it was {detail}. Carpus has moved nothing out of it.</source>
+        <translation>Prima era {detail}. Carpus non ne ha spostato nulla.</translation>
+    </message>
+    <message>
+        <source>Carpus shows another data folder: {subject}.</source>
+        <translation>Carpus mostra un’altra cartella dei dati: {subject}.</translation>
+    </message>
+    <message>
+        <source>If patients are missing here, choose the data folder in Settings.</source>
+        <translation>Se qui mancano pazienti, scegliere la cartella dei dati nelle impostazioni.</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>

@@ -11,17 +11,20 @@ from typing import Any
 
 import pytest
 
+from carpus.app import compose
 from carpus.app.compose import Desktop
 from carpus.app.settings import (
     PREFERENCES_FILE,
     SETTINGS_FILE,
     TRACKING,
+    LockSettings,
     RecordingSettings,
     ScreenSettings,
     Settings,
     keep_preferences,
     load_settings,
     load_sound_settings,
+    note_data_folder,
     settings_folder,
 )
 from carpus.core.errors import SettingsInvalid
@@ -103,7 +106,7 @@ def test_what_the_window_keeps_is_read_again_and_goes_over_the_persons_file(tmp_
         recording=RecordingSettings(folder="/data of the clinic/é"),
         report=ReportSettings("M. R."),
     )
-    keep_preferences(chosen, tmp_path)
+    keep_preferences(Settings(), chosen, tmp_path)
     settings = load_settings(tmp_path)
     assert (settings.screen, settings.recording, settings.report) == (chosen.screen, chosen.recording, chosen.report)
     assert settings.track.tracker.profile == "brisk"
@@ -116,6 +119,44 @@ def test_the_data_folder_is_the_users_own_unless_named(own_folders: Path, monkey
     assert load_settings().data_folder == Path("/clinic")
     monkeypatch.setenv("CARPUS_DATA", "/elsewhere")
     assert load_settings().data_folder == Path("/elsewhere")
+
+
+def test_a_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
+    written(tmp_path / "settings", '[recording]\nfolder = "/clinic"\n[records]\nurl = "postgresql://a@b/c"\n')
+    settings = compose.with_data_folder(load_settings(tmp_path / "settings"), tmp_path / "of one run")
+    assert (settings.data_folder, settings.records.url, settings.backup.hour) == (tmp_path / "of one run", "", -1)
+    desktop = open_desktop(settings)
+    desktop.keeper.screen.patient_sound.buttons()[1].click()
+    desktop.keeper.keep(lock=LockSettings(5))
+    stored = load_settings(tmp_path / "settings")
+    assert (stored.data_folder, stored.backup.hour) == (Path("/clinic"), 18)
+    assert (stored.patient.sound, stored.lock.after_min) == (True, 5), "what was changed is stored"
+    assert "folder" not in (tmp_path / "settings" / PREFERENCES_FILE).read_text(encoding="utf-8")
+
+
+def test_a_demo_stores_no_setting(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
+    desktop = open_desktop(is_demo=True)
+    desktop.keeper.screen.patient_sound.buttons()[1].click()
+    assert not (tmp_path / "settings").exists()
+
+
+def test_a_data_folder_chosen_and_taken_back_is_the_one_of_before(
+    open_desktop: Callable[..., Desktop], tmp_path: Path
+) -> None:
+    keeper = open_desktop().keeper
+    shown = keeper.screen.preferences
+    keeper.take(dataclasses.replace(shown, data_folder="/another"))
+    assert load_settings(tmp_path / "settings").data_folder == Path("/another")
+    keeper.take(shown)
+    assert load_settings(tmp_path / "settings").data_folder == tmp_path / "data"
+
+
+def test_a_data_folder_that_changes_is_noticed_at_the_next_start(tmp_path: Path) -> None:
+    one, other = tmp_path / "one", tmp_path / "other"
+    assert note_data_folder(one, tmp_path) is None, "nobody knows of any before"
+    assert note_data_folder(one, tmp_path) is None
+    assert note_data_folder(other, tmp_path) == one
+    assert note_data_folder(other, tmp_path) is None
 
 
 def test_what_the_window_does_not_show_stays_as_a_file_said(open_desktop: Callable[..., Desktop]) -> None:
@@ -146,5 +187,5 @@ def test_settings_of_version_01_are_understood_name_by_name_and_survive_being_wr
     assert found.track.tracker.profile == "slow", "the file says something else than the defaults"
     assert (found.screen.theme, found.screen.text_scale, found.screen.keys) == ("dark", 1.25, {"play": "P"})
     assert (found.recording.folder, found.report.therapist) == ("/home/clinic/Carpus", "AB")
-    keep_preferences(found, tmp_path)
-    assert load_settings(tmp_path) == found
+    keep_preferences(found, dataclasses.replace(found, lock=LockSettings(5)), tmp_path)
+    assert load_settings(tmp_path) == dataclasses.replace(found, lock=LockSettings(5))

@@ -118,7 +118,7 @@ def test_a_recording_is_tracked_with_the_settings_of_the_person_and_streamed_whe
         assert chosen.tracker.profile == profile
     settings = load_settings(tmp_path)
     assert not settings.stream.on
-    keep_preferences(replace(settings, stream=StreamSettings(True)), tmp_path)
+    keep_preferences(settings, replace(settings, stream=StreamSettings(True)), tmp_path)
     assert load_settings(tmp_path).stream.on
 
 

@@ -15,7 +15,8 @@ from carpus.app import compose
 from carpus.app.commands import desktop
 from carpus.app.compose import NoFolder
 from carpus.app.desktop.alone import Alone
-from carpus.app.settings import load_settings
+from carpus.app.settings import load_settings, settings_folder
+from carpus.core.errors import CarpusFault, DataFolderChanged
 from carpus.core.words import Words
 from carpus.ui.theme import Theme
 
@@ -97,6 +98,22 @@ def test_the_window_opens_on_the_folder_that_was_chosen_instead(
     assert "blocked" in capsys.readouterr().err
     assert (good / "records.sqlite3").exists()
     assert load_settings().data_folder == good, "also from the next start on"
+
+
+@pytest.mark.usefixtures("quiet")
+@pytest.mark.parametrize("is_demo", [False, True])
+def test_a_folder_named_for_one_start_is_said_on_the_first_screen(
+    is_demo: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(QApplication, "exec", lambda *_: 0)
+    told: list[CarpusFault] = []
+    composed = compose.compose
+    monkeypatch.setattr(
+        compose, "compose", lambda *given, **named: told.extend(named["told"]) or composed(*given, **named)
+    )
+    assert desktop.open_window(tmp_path / "named", is_demo=is_demo) == 0
+    assert [(type(one), one.subject) for one in told] == [(DataFolderChanged, str(tmp_path / "named"))]
+    assert not settings_folder().exists(), "nothing of it is stored"
 
 
 @pytest.mark.usefixtures("quiet")

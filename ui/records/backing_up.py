@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable
+from dataclasses import replace
 from datetime import datetime
 from functools import partial
 from pathlib import Path
@@ -66,7 +67,7 @@ class BackingUp(QObject):
         self.card.now_button.clicked.connect(self.back_up)
         self.card.restore_button.clicked.connect(self.ask_restore)
         self.card.place_button.clicked.connect(self._choose_place)
-        self.card.hours.chosen.connect(lambda hour: self._change(BackupSettings(self._settings.folder, hour)))
+        self.card.hours.chosen.connect(lambda hour: self._change(replace(self._settings, hour=hour)))
         self.stepped.connect(self.card.show_progress)
         self._clock = QTimer(self, interval=LOOK_MS)
         self._clock.timeout.connect(self.look)
@@ -168,7 +169,7 @@ class BackingUp(QObject):
         title = self.tr("Folder for back-ups, on another disk")
         folder = QFileDialog.getExistingDirectory(self.card.window(), title, self._settings.folder)
         if folder:
-            self._change(BackupSettings(folder, self._settings.hour))
+            self._change(replace(self._settings, folder=folder))
         return bool(folder)
 
     def _change(self, settings: BackupSettings) -> None:
