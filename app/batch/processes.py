@@ -1,9 +1,5 @@
 """Tasks in processes of their own, here or beside the workers of a Dask scheduler (other machines that see the same
-folders and have Carpus installed): one that dies, hangs or grows takes nothing along.
-
-Not by :mod:`multiprocessing`: the workers of a cluster are often daemons, which it lets have no children, and those
-that track have some.
-"""
+folders and have Carpus installed): one that dies, hangs or grows takes nothing along."""
 
 from __future__ import annotations
 
@@ -12,20 +8,16 @@ import contextlib
 import hashlib
 import os
 import pickle
-import queue
 import signal
-import subprocess
-import sys
-import threading
-import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from typing import Any, BinaryIO, NoReturn
+from multiprocessing.connection import Connection
+from typing import Any, NoReturn
 
 from carpus.app.batch.work import Outcome, Task, clear_leftovers, fault_of, work
 from carpus.app.command_line import say
+from carpus.core.child_process import ChildProcess, end_with_owner
 from carpus.core.errors import CarpusFault, ExtraMissing, OutputBusy, SchedulerUnreachable
-from carpus.core.installing import is_packed
 from carpus.core.words import one_sentence
 
 Work = Callable[[Task], Outcome]
@@ -34,12 +26,9 @@ TRIES = 3
 LIMIT_S = 120.0 * 60.0
 DIED = "the process that tracked it ended without a word (memory, or someone ended it); track it again"
 LATE = "it was not done after {minutes:g} minutes and was given up; look at the recording, or set a longer --time-limit"
-FROZEN_WORD = "--batch-process"
-"""How the packaged program, which has no Python, is told to be one of these processes."""
 _MOST_TASKS = 25
 """Of one process, so that what a library forgets to free does not add up."""
 _GRACE_S = 15.0
-_ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def cores() -> int:
@@ -84,10 +73,10 @@ class Children:
             child = _Child()
         self._busy.add(child)
         if self.ended:
-            child.hang_up()
-        outcome = child.asked(task, do, limit_s)
+            child.terminate()
+        outcome = child.ask(task, do, limit_s)
         self._busy.discard(child)
-        if outcome is not None and child.tasks < _MOST_TASKS and not (self.ended or child.was_late):
+        if outcome is not None and child.tasks < _MOST_TASKS and not self.ended:
             self._idle.append(child)
             return outcome
         child.end()
@@ -107,98 +96,42 @@ class Children:
         self.ended = True
         all_of_them = [*self._idle, *self._busy]
         for child in all_of_them:
-            child.hang_up()
+            child.terminate()
         for child in all_of_them:
-            child.end()
+            child.kill(_GRACE_S)
 
 
-class _Child:
-    """The owner's side of one process. It hears by the end of its input that its owner is gone."""
+class _Child(ChildProcess):
+    """One process, and how many tasks it was given."""
 
     def __init__(self) -> None:
-        words = [sys.executable, FROZEN_WORD] if is_packed() else [sys.executable, "-m", __name__]
-        self._process = subprocess.Popen(
-            words,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            env=dict.fromkeys(_ONE_THREAD, "1") | dict(os.environ),
-            process_group=None if sys.platform == "win32" else 0,
-        )
-        assert self._process.stdin is not None
-        assert self._process.stdout is not None
-        self._to, self._from = self._process.stdin, self._process.stdout
+        super().__init__(serve, name="batch")
         self.tasks = 0
         self.was_late = False
 
-    def asked(self, task: Task, do: Work, limit_s: float) -> Outcome | None:
-        """What came of a task; None where the process ended before it answered."""
+    def ask(self, task: Task, do: Work, limit_s: float) -> Outcome | None:
+        """What came of a task; None where the process ended before it answered, or was late."""
         self.tasks += 1
-        timer = threading.Timer(limit_s, self._give_up)
-        timer.daemon = True
-        timer.start()
-        try:
-            pickle.dump((do, task), self._to)
-            self._to.flush()
-            outcome: Outcome = pickle.load(self._from)
-        except (EOFError, OSError, ValueError, pickle.UnpicklingError):
-            return None
-        else:
-            return outcome
-        finally:
-            timer.cancel()
-            timer.join()  # it may be giving up at this moment
-
-    def _give_up(self) -> None:
-        self.was_late = True
-        self._kill()
-
-    def _kill(self) -> None:
-        """With what it began itself, which may be what hangs."""
-        with contextlib.suppress(OSError):
-            if sys.platform != "win32":
-                os.killpg(self._process.pid, signal.SIGKILL)
-        self._process.kill()
-
-    def hang_up(self) -> None:
-        with contextlib.suppress(OSError):
-            self._to.close()
-
-    def end(self) -> None:
-        self.hang_up()
-        try:
-            self._process.wait(_GRACE_S)
-        except subprocess.TimeoutExpired:
-            self._kill()
-            self._process.wait()
-        self._from.close()
+        with contextlib.suppress(EOFError, OSError):
+            self.link.send((do, task))
+            self.was_late = not self.link.poll(limit_s)
+            if not self.was_late:
+                outcome: Outcome = self.link.recv()
+                return outcome
+        return None
 
 
-# --- in the process itself --------------------------------------------------------------------------------------
-def serve() -> NoReturn:
-    """Take tasks from the input and answer, until the owner hangs up."""
+def serve(link: Connection) -> NoReturn:
+    """Take tasks and answer, in the child, until the owner hangs up or asks it to end; what is under way is tidied."""
     os.umask(0o077)  # whatever is written is about a patient: for its owner only
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what a library prints is no answer
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the owner hears it and decides
+    os.dup2(2, 1)  # what a library prints is none of the command's output
     signal.signal(signal.SIGTERM, _interrupt)
-    waiting: queue.SimpleQueue[tuple[Work, Task] | None] = queue.SimpleQueue()
-    threading.Thread(target=_listen, args=(sys.stdin.buffer, waiting), daemon=True).start()
-    with contextlib.suppress(KeyboardInterrupt, BrokenPipeError):
-        while (asked := waiting.get()) is not None:
-            do, task = asked
-            pickle.dump(do(task), answers)
-            answers.flush()
-    os._exit(0)
-
-
-def _listen(questions: BinaryIO, waiting: queue.SimpleQueue) -> None:  # type: ignore[type-arg]
-    with contextlib.suppress(EOFError, OSError, pickle.UnpicklingError):
+    end_with_owner()
+    with contextlib.suppress(KeyboardInterrupt, EOFError, OSError):
         while True:
-            waiting.put(pickle.load(questions))
-    waiting.put(None)
-    os.kill(os.getpid(), signal.SIGTERM)  # whatever is under way is tidied
-    time.sleep(_GRACE_S / 2.0)
-    os._exit(1)
+            do, task = link.recv()
+            link.send(do(task))
+    os._exit(0)
 
 
 def _interrupt(*_: object) -> NoReturn:
@@ -270,9 +203,3 @@ def _why(future: Any) -> str:
     if cause is None:
         return "the scheduler ended or gave it up; track it again"
     return f"something unforeseen happened on a worker ({type(cause).__name__}: {cause})"
-
-
-if __name__ == "__main__":
-    from carpus.app.batch.processes import serve as serve_by_name
-
-    serve_by_name()  # not from __main__: what is pickled names its module

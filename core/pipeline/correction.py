@@ -9,18 +9,18 @@ from __future__ import annotations
 
 import glob
 import math
-import multiprocessing
 import threading
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from multiprocessing.connection import Connection
 from pathlib import Path
 
 import numpy as np
 
-from carpus.core import errors
+from carpus.core.child_process import ChildProcess, lower_priority
 from carpus.core.errors import CarpusFault, NotCorrectable, NotCorrected, OutputExists
 from carpus.core.phrase import phrase
-from carpus.core.pipeline.processes import track_again
 from carpus.core.pipeline.told_settings import settings_told
 from carpus.core.pipeline.track import (
     Progress,
@@ -223,7 +223,8 @@ def _nearest(blobs: Detections, places: FloatArray) -> BoolArray:
 
 
 LOOK_EVERY_S = 0.2
-KILLED_S = 2.0
+TELL_EVERY = 15
+"""Frames."""
 
 
 def correct_in_process(task: CorrectionTask, progress: Callable[[int, int], None], stopping: threading.Event) -> bool:
@@ -231,38 +232,42 @@ def correct_in_process(task: CorrectionTask, progress: Callable[[int, int], None
 
     Raises what went wrong there; :class:`NotCorrected` where the process died.
     """
-    context = multiprocessing.get_context("spawn")
-    link, theirs = context.Pipe()
-    process = context.Process(target=track_again, args=(theirs,), name="carpus-correcting", daemon=True)
+    child = ChildProcess(correct_as_child, task, name="correcting")
     try:
-        process.start()
-        theirs.close()
-        link.send(task)
         while not stopping.is_set():
-            if not link.poll(LOOK_EVERY_S):
+            if not child.link.poll(LOOK_EVERY_S):
                 continue
-            said, *rest = link.recv()
-            if said == "at":
-                progress(rest[0], rest[1])
-            elif said == "done":
+            said: tuple[int, int] | CarpusFault | None = child.link.recv()
+            if said is None:
                 return True
-            else:
-                raise _fault(*rest)
+            if isinstance(said, CarpusFault):
+                raise said
+            progress(*said)
         return False
     except (EOFError, BrokenPipeError, ConnectionResetError):
         raise NotCorrected(task.output.name, phrase("its process ended")) from None
     finally:
-        link.close()
-        process.kill()
-        process.join(KILLED_S)
+        child.end()
         _clear(task)
 
 
-def _fault(kind: str, subject: str, detail: str) -> CarpusFault:
-    known = getattr(errors, kind, None)
-    if isinstance(known, type) and issubclass(known, CarpusFault):
-        return known(subject, detail)
-    return NotCorrected(subject, f"{kind}: {detail}")
+def correct_as_child(link: Connection, task: CorrectionTask) -> None:
+    """Carry a task out in the child: frames done and in all are sent now and then, then None, or the fault."""
+    lower_priority()
+
+    def tell(done: int, total: int | None) -> None:
+        if done % TELL_EVERY == 0:
+            link.send((done, total or 0))
+
+    said: CarpusFault | None = None
+    try:
+        correct(task, tell)
+    except CarpusFault as fault:
+        said = fault
+    except Exception as cause:  # the one catch of this process: told, not printed
+        said = NotCorrected("", f"{type(cause).__name__}: {cause}")
+    with suppress(OSError):  # the owner may be gone, which may be the cause
+        link.send(said)
 
 
 def _clear(task: CorrectionTask) -> None:

@@ -1,15 +1,18 @@
 """Looking back at a session while it grows, piece by piece, so that neither memory nor the end grow with it; and the
-owner's end of the process that does it, which is handed the steps."""
+owner's end of the process that does it, which is handed the steps.
+
+In the process that tracks, draws and stores it would hold the interpreter's lock, and frames would be lost.
+"""
 
 from __future__ import annotations
 
 import math
-import multiprocessing
-import signal
 import threading
 from bisect import bisect_right
 from collections import deque
 from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from multiprocessing.connection import Connection
 
@@ -17,9 +20,9 @@ import numpy as np
 
 from carpus.core.calibration.result import Calibration
 from carpus.core.camera import Camera
+from carpus.core.child_process import KILLED_S, ChildProcess, lower_priority
 from carpus.core.errors import NotLookedBack
 from carpus.core.phrase import phrase
-from carpus.core.pipeline.processes import look_back
 from carpus.core.session.values import Motion, motion_of
 from carpus.core.tracking.settings import TrackerSettings
 from carpus.core.tracking.smoother_record import KeptSteps
@@ -93,7 +96,6 @@ ANSWER_S = 60.0
 END_S = 30.0
 """A finished recording waits so long for what is left to look back at: the last 11 s, a second's work, or more where a
 busy computer is behind."""
-KILLED_S = 2.0
 
 
 class LookingBack:
@@ -110,16 +112,14 @@ class LookingBack:
         self._begun = False
         self._trouble = ""
         self._ending = threading.Event()
-        context = multiprocessing.get_context("spawn")
-        self._link, theirs = context.Pipe()
-        self._process = context.Process(target=look_back, args=(theirs,), name="carpus-looking-back", daemon=True)
-        self._thread = threading.Thread(target=self._run, args=(theirs,), name="looking-back", daemon=True)
+        self._child: ChildProcess | None = None
+        self._thread = threading.Thread(target=self._run, name="looking-back", daemon=True)
         self._thread.start()
 
     @property
     def pid(self) -> int | None:
         """The process's number, None before it runs."""
-        return self._process.pid
+        return None if self._child is None else self._child.pid
 
     def take(self, kept: KeptSteps) -> None:
         """Take the steps of some frames, in order; never waits and never fails."""
@@ -182,57 +182,44 @@ class LookingBack:
         self._kill()
 
     def _kill(self) -> None:
-        if self._process.pid is not None:
-            self._process.kill()
+        if self._child is not None:
+            self._child.kill()
 
     # --- the thread ---------------------------------------------------------------------------------------
-    def _run(self, theirs: Connection) -> None:
+    def _run(self) -> None:
         try:
-            with self._link:
-                try:
-                    self._process.start()
-                finally:
-                    theirs.close()
-                self._talk()
+            self._child = ChildProcess(look_back, self._hand, self._piece_s, self._lag_s, name="smoothing")
+            self._talk(self._child.link)
         except (EOFError, BrokenPipeError, ConnectionResetError):
-            self._give_up(self._death())
+            self._give_up("" if self._child is None else self._child.describe_death())
         except Exception as cause:  # the one catch at the top of this thread
             self._give_up(f"{type(cause).__name__}: {cause}")
         finally:
-            self._kill()
-            if self._process.pid is not None:
-                self._process.join(KILLED_S)
+            if self._child is not None:
+                self._child.end()
 
-    def _talk(self) -> None:
-        self._link.send((self._hand, self._piece_s, self._lag_s))
+    def _talk(self, link: Connection) -> None:
         while not self._ending.wait(SEND_EVERY_S):
             while self._waiting and not (self._trouble or self._ending.is_set()):
-                self._hand_on()
-        self._link.send(None)
+                self._hand_on(link)
+        link.send(None)
         while self._waiting and not self._trouble:
-            self._hand_on()
-        self._link.send(None)
-        self._hear()
+            self._hand_on(link)
+        link.send(None)
+        self._hear(link)
 
-    def _hand_on(self) -> None:
+    def _hand_on(self, link: Connection) -> None:
         count = min(len(self._waiting), FRAMES_AT_ONCE)
-        self._link.send([self._waiting.popleft() for _ in range(count)])
-        self._hear()
+        link.send([self._waiting.popleft() for _ in range(count)])
+        self._hear(link)
 
-    def _hear(self) -> None:
-        if not self._link.poll(ANSWER_S):
+    def _hear(self, link: Connection) -> None:
+        if not link.poll(ANSWER_S):
             raise TimeoutError(f"no answer for {ANSWER_S:g} s")
-        answer: list[Piece] | str = self._link.recv()
+        answer: list[Piece] | str = link.recv()
         if isinstance(answer, str):
             raise RuntimeError(answer)
         self._pieces += answer
-
-    def _death(self) -> str:
-        self._process.join(KILLED_S)
-        code = self._process.exitcode
-        if code is not None and code < 0:
-            return f"its process died of {signal.Signals(-code).name}"
-        return f"its process ended with {code}"
 
 
 def _motion_at(pieces: Iterable[Piece], timestamp_s: Sequence[float]) -> Motion | None:
@@ -249,3 +236,27 @@ def _motion_at(pieces: Iterable[Piece], timestamp_s: Sequence[float]) -> Motion 
             for field in fields(Motion)
         }
     )
+
+
+# --- in the child -----------------------------------------------------------------------------------------
+def look_back(link: Connection, hand: TrackedHand, piece_s: float, lag_s: float) -> None:
+    """Look back at lists of steps, as often as they come while a recording runs, then at those that are left.
+
+    Both end with None. After each list the pieces that came due are sent (often none), after the last None the rest; a
+    text in their place says why it cannot go on.
+    """
+    try:
+        pieces = PieceByPiece(hand, piece_s, lag_s)
+        with ThreadPoolExecutor(1, initializer=lower_priority) as meanwhile:
+            meanwhile.submit(_take, link, pieces).result()
+        _take(link, pieces)  # somebody waits now: this thread gives way to nobody
+        link.send(pieces.rest())
+    except Exception as cause:  # the one catch of this process: told, not printed
+        with suppress(OSError):  # the owner may be gone, which may be the cause
+            link.send(f"{type(cause).__name__}: {cause}")
+
+
+def _take(link: Connection, pieces: PieceByPiece) -> None:
+    """Answer lists of steps until None comes."""
+    for frames in iter(link.recv, None):
+        link.send([piece for kept in frames for piece in pieces.take(kept)])

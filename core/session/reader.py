@@ -9,21 +9,19 @@ from __future__ import annotations
 
 import contextlib
 import io
-import multiprocessing
 import os
 import pickle
 import sys
 import threading
-import types
 from collections.abc import Iterator
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any, cast
 
 from carpus.core import errors
+from carpus.core.child_process import ChildProcess
 from carpus.core.errors import CarpusFault, SessionUnreadable
 from carpus.core.phrase import phrase
-from carpus.core.session import reading_process
 from carpus.core.session.values import DetectionTable, RawPictures, Session, SessionOutline, Verified
 
 PATIENCE_S, BYTES_PER_S = 20.0, 2e6
@@ -95,8 +93,7 @@ class ReadingProcess:
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._process: Any = None
-        self._link: Connection | None = None
+        self._child: ChildProcess | None = None
         self._owner = os.getpid()
 
     def ask(self, name: str, path: Path, *arguments: object) -> Any:
@@ -142,32 +139,18 @@ class ReadingProcess:
             self._end()
 
     def _started(self) -> Connection:
-        if self._link is not None and self._owner == os.getpid() and self._process.is_alive():
-            return self._link
-        if self._owner == os.getpid():
+        if self._owner != os.getpid():  # a copy of the process that it answers
+            self._child = None
+        if self._child is None or not self._child.is_alive:
             self._end()
-        link, theirs = multiprocessing.Pipe()
-        if _may_fork():
-            of_a_kind: Any = multiprocessing.get_context("fork")
-            target = _run_forked
-        else:
-            of_a_kind, target = multiprocessing.get_context("spawn"), reading_process.run
-        process = of_a_kind.Process(target=target, args=(theirs,), name="carpus-reading", daemon=True)
-        with _nobodys_main():
-            process.start()
-        theirs.close()
-        self._link, self._process, self._owner = link, process, os.getpid()
-        return link
+            work = "carpus.core.session.reading_process:run"
+            self._child, self._owner = ChildProcess(work, name="reading", is_forked=_may_fork()), os.getpid()
+        return self._child.link
 
     def _end(self) -> None:
-        if self._link is not None:
-            self._link.close()
-            self._link = None
-        if self._process is not None:
-            self._process.kill()
-            self._process.join()
-            self._process.close()
-            self._process = None
+        if self._child is not None:
+            self._child.end()
+            self._child = None
 
 
 READING = ReadingProcess()
@@ -192,26 +175,6 @@ def _may_fork() -> bool:
 
     # An HDF5 file that is open here would be the same open file there.
     return bool(h5py.h5f.get_obj_count(h5py.h5f.OBJ_ALL, h5py.h5f.OBJ_ALL) == 0)
-
-
-@contextlib.contextmanager
-def _nobodys_main() -> Iterator[None]:
-    """A new process would run the main script again, which need not be written for that: here it need not be."""
-    main = sys.modules["__main__"]
-    sys.modules["__main__"] = types.ModuleType("__main__")
-    try:
-        yield
-    finally:
-        sys.modules["__main__"] = main
-
-
-def _run_forked(link: Connection) -> None:
-    """Let go of everything that the copy would hold open, our end of the pipe above all."""
-    kept = link.fileno()
-    os.closerange(3, kept)
-    os.closerange(kept + 1, 4096)
-    reading_process.run(link)
-    os._exit(0)
 
 
 def _size(path: Path) -> int:

@@ -2,8 +2,7 @@
 
 HDF5 trusts what it reads. A file with two blocks exchanged keeps it in one call for ever, deaf to every signal that
 Python would hear of; such a process is ended from outside, and the program goes on. The process answers one question
-after the other and opens nothing but the file it is asked about. This module loads no HDF5 before its signals are
-settled.
+after the other and opens nothing but the file it is asked about.
 """
 
 from __future__ import annotations
@@ -17,12 +16,27 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
+from carpus.core.errors import CarpusFault
+from carpus.core.session import opened, rewriting
+
 CPU_S, BYTES_PER_CPU_S = 1.2, 20e6
 """A question may take so much of a processor's time, and a second more for so many bytes of the file."""
 MEMORY_BYTES, MEMORY_PER_BYTE = 700_000_000, 3
 """Room for an answer, and so much more for each byte of the file, up to :data:`MOST_MEMORY_BYTES`."""
 MOST_MEMORY_BYTES = 6_000_000_000
 
+QUESTIONS: dict[str, Callable[..., Any]] = {
+    "session": opened.read_session,
+    "outline": opened.read_outline,
+    "detections": opened.read_detections,
+    "has_raw": opened.has_raw,
+    "raw_depth_unit_m": opened.raw_depth_unit_m,
+    "raw_some": opened.read_raw_some,
+    "raw_color": opened.read_raw_color,
+    "recover": rewriting.finish_part,
+    "verify": opened.verify,
+    "write_anew": rewriting.write_anew,
+}
 Answer = tuple[str, Any]
 """``done`` and the value, or the name of a fault with its subject and detail."""
 
@@ -37,11 +51,8 @@ def run(link: Connection) -> None:
 
     An answer is sent as several messages: a count, the pickled answer, then the buffers of its arrays.
     """
-    for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGPROF"):
-        number = getattr(signal, name, None)
-        if number is not None:
-            signal.signal(number, signal.SIG_IGN if name == "SIGINT" else signal.SIG_DFL)
-    questions = _questions()
+    if sys.platform != "win32":
+        signal.signal(signal.SIGPROF, signal.SIG_DFL)  # ends it, whatever it was begun with
     while True:
         try:
             name, path, arguments = link.recv()
@@ -49,7 +60,7 @@ def run(link: Connection) -> None:
             return
         size = _size(path)
         _limit(size)
-        answer = _answered(questions[name], Path(path), arguments)
+        answer = _answered(QUESTIONS[name], Path(path), arguments)
         _limit_no_more()
         try:
             _send(link, answer)
@@ -57,26 +68,7 @@ def run(link: Connection) -> None:
             return
 
 
-def _questions() -> dict[str, Callable[..., Any]]:
-    from carpus.core.session import opened, rewriting
-
-    return {
-        "session": opened.read_session,
-        "outline": opened.read_outline,
-        "detections": opened.read_detections,
-        "has_raw": opened.has_raw,
-        "raw_depth_unit_m": opened.raw_depth_unit_m,
-        "raw_some": opened.read_raw_some,
-        "raw_color": opened.read_raw_color,
-        "recover": rewriting.finish_part,
-        "verify": opened.verify,
-        "write_anew": rewriting.write_anew,
-    }
-
-
 def _answered(question: Callable[..., Any], path: Path, arguments: tuple[Any, ...]) -> Answer:
-    from carpus.core.errors import CarpusFault
-
     try:
         return "done", question(path, *arguments)
     except CarpusFault as fault:

@@ -28,10 +28,6 @@ def without_opengl() -> None:
 
 if __name__ == "__main__":
     multiprocessing.freeze_support()
-    if sys.argv[1:] == ["--batch-process"]:
-        from carpus.app.batch.processes import serve
-
-        serve()
     without_opengl()
     from carpus.app.__main__ import main
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import os
+import multiprocessing
 import threading
 import time
 from dataclasses import replace
@@ -13,7 +13,7 @@ import pytest
 
 from carpus.app.batch import processes, work
 from carpus.app.batch.processes import DIED, cores, outcomes
-from carpus.app.batch.work import Outcome, Task
+from carpus.app.batch.work import Task
 from carpus.app.sources import TrackingInput
 from carpus.core.errors import OutputBusy, OutputExists
 from carpus.core.pipeline.track import TrackSettings
@@ -25,14 +25,6 @@ from tests.records.samples import record
 
 def task(folder: Path, name: str, kind: str = "") -> Task:
     return Task(TrackingInput(folder / name, None, folder / f"{name}.h5", f"{name}.h5"), TrackSettings(), kind)
-
-
-def _children() -> list[int]:
-    """Processes of a batch that this one began and that live."""
-    own = f"/proc/{os.getpid()}/task"
-    told = " ".join((thread / "children").read_text() for thread in Path(own).iterdir())
-    lines = {number: Path(f"/proc/{number}/cmdline") for number in map(int, told.split())}
-    return [number for number, line in lines.items() if line.exists() and b"app.batch.processes" in line.read_bytes()]
 
 
 def test_only_what_kills_its_process_is_a_fault(tmp_path: Path) -> None:
@@ -59,24 +51,12 @@ def test_what_somebody_is_still_writing_is_the_fault_of_its_recording(
         raise OutputBusy(session)
 
     monkeypatch.setattr(processes, "clear_leftovers", busy)
-    monkeypatch.setattr(processes._Child, "asked", lambda *_: None)
+    monkeypatch.setattr(processes._Child, "ask", lambda *_: None)
     children = processes.Children()
     outcome = children.outcome(task(tmp_path, "r0"), 60.0, deadly)
     children.end()
     assert (outcome.result, outcome.may_pass) == ("fault", True)
     assert "r0.h5" in outcome.said[0]
-
-
-def test_a_child_given_up_as_it_answers_takes_nothing_more(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def late(child: processes._Child, one: Task, *_: object) -> Outcome:
-        child._give_up()
-        return Outcome(one.place, "tracked")
-
-    monkeypatch.setattr(processes._Child, "asked", late)
-    children = processes.Children()
-    assert children.outcome(task(tmp_path, "r0"), 60.0, deadly).result == "tracked"
-    assert not children._idle
-    children.end()
 
 
 def test_only_what_may_pass_is_tried_again(tmp_path: Path) -> None:
@@ -132,7 +112,7 @@ def test_who_stops_looking_leaves_no_process_behind(tmp_path: Path) -> None:
         time.sleep(0.02)
     coming.close()  # type: ignore[attr-defined]
     assert not list(tmp_path.glob("r*.h5")), "what was under way was tidied"
-    assert not _children()
+    assert "carpus-batch" not in {child.name for child in multiprocessing.active_children()}
 
 
 def test_there_is_a_core() -> None:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 import signal
-import subprocess
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -17,10 +15,10 @@ import numpy as np
 import pytest
 
 from carpus.core.calibration.settings import CalibrationSettings
+from carpus.core.child_process import NICENESS, ChildProcess
 from carpus.core.errors import NotLookedBack
 from carpus.core.pipeline import looking_back
-from carpus.core.pipeline.looking_back import LookingBack, PieceByPiece, TrackedHand
-from carpus.core.pipeline.processes import NICER, look_back
+from carpus.core.pipeline.looking_back import LookingBack, PieceByPiece, TrackedHand, look_back
 from carpus.core.pipeline.track import from_neutral, learnt_from
 from carpus.core.session.values import Motion, motion_of
 from carpus.core.simulation.spec import RecordingSpec
@@ -133,7 +131,7 @@ def test_the_process_gives_what_looking_back_here_gives() -> None:
             return [os.getpriority(os.PRIO_PROCESS, int(task.name)) for task in Path(f"/proc/{pid}/task").iterdir()]
 
         if sys.platform.startswith("linux"):  # only here a thread has a niceness of its own
-            wait_until(lambda: max(niceness()) == min(own + NICER, 19))
+            wait_until(lambda: max(niceness()) == min(own + NICENESS, 19))
             assert os.getpriority(os.PRIO_PROCESS, pid) == own, "the thread that does what is left at the end"
         for kept in steps():
             running.take(kept)
@@ -228,27 +226,8 @@ def test_a_fault_over_there_is_told_in_one_line(capfd: pytest.CaptureFixture[str
 
 
 def test_the_process_ends_with_its_owner(capfd: pytest.CaptureFixture[str]) -> None:
-    context = multiprocessing.get_context("spawn")
-    link, theirs = context.Pipe()
-    process = context.Process(target=look_back, args=(theirs,), daemon=True)
-    process.start()
-    theirs.close()
-    link.send((tracked_hand(), PIECE_S, LAG_S))
-    link.send(list(steps()[:40]))
-    link.close()
-    process.join(60.0)
-    assert process.exitcode == 0
+    child = ChildProcess(look_back, tracked_hand(), PIECE_S, LAG_S, name="orphan")
+    child.link.send(list(steps()[:40]))
+    child.link.close()
+    assert child.describe_death(60.0) == "its process ended with 0"
     assert capfd.readouterr().err == ""
-
-
-def test_the_process_loads_no_window_and_no_numpy_before_its_threads_are_settled() -> None:
-    code = (
-        "import sys\n"
-        "import carpus.core.pipeline.processes\n"
-        "assert 'numpy' not in sys.modules\n"
-        "import carpus.core.pipeline.looking_back\n"
-        "loaded = {name.split('.')[0] for name in sys.modules}\n"
-        "assert not loaded & {'PySide6', 'shiboken6', 'pyqtgraph', 'carpus.app', 'carpus.ui', 'h5py'}, sorted(loaded)\n"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
-    assert done.returncode == 0, done.stderr

@@ -48,16 +48,13 @@ def library_finding(name: str, package: str, load: Callable[[], None], *, asks: 
 
 def _load_trouble(load: Callable[[], None]) -> str:
     """Why the library cannot be loaded; empty when it can. Only who asks loads what starts processes."""
-    import multiprocessing
-    from concurrent.futures import ProcessPoolExecutor
-    from concurrent.futures.process import BrokenProcessPool
+    from carpus.core.child_process import ChildDied, call_in_child
 
     try:
-        with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as other:
-            other.submit(load).result()
+        call_in_child(load)
     except DriverMissing as fault:
         return fault.detail
-    except BrokenProcessPool:
+    except ChildDied:
         return "it ends its process"
     return ""
 

@@ -1,8 +1,8 @@
 """The capture process: owns a camera's driver, so that whatever kills or hangs it does not take Carpus along.
 
-One thread makes every call of the driver. A second one only listens to the owner; when the owner is gone it ends
-the process at once, even from within a call. Pictures are copied once into a shared ring and announced through the
-pipe, by which process and owner tell each other everything else. This module loads no NumPy: the process starts fast.
+One thread makes every call of the driver. A second one only listens to the owner; when the owner is gone the process
+ends at once, even from within a call. Pictures are copied once into a shared ring and announced through the
+pipe, by which process and owner tell each other everything else.
 
 Ring: bounded. A recording waits for a free slot, so nothing is lost. A camera does not wait: with no slot free the
 picture is dropped, and its number is missing.
@@ -12,10 +12,10 @@ from __future__ import annotations
 
 import os
 import queue
-import signal
 import threading
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from multiprocessing.shared_memory import SharedMemory
@@ -23,6 +23,7 @@ from typing import Any
 
 from carpus.core.capture.devices.usb_devices import UsbCamera
 from carpus.core.capture.video_mode import Lens, Sensor, VideoMode
+from carpus.core.child_process import end_with_owner
 from carpus.core.errors import (
     CameraBusy,
     CameraLost,
@@ -246,10 +247,9 @@ Serve = Callable[[Outlet, Any], None]
 
 def run(link: Connection, serve: Serve, plan: object, ring: Ring) -> None:
     """Entry of the process: serve ``plan`` until its end, a :class:`Stop`, or the death of the owner."""
-    # an interrupt from the keyboard reaches both processes; the owner decides what it means
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    end_with_owner()
     commands: queue.SimpleQueue[Command] = queue.SimpleQueue()
-    threading.Thread(target=_listen, args=(link, commands), name="owner", daemon=True).start()
+    threading.Thread(target=_listen, args=(link, commands), name="commands", daemon=True).start()
     link.send(Alive())
     report: Report = Ended()
     outlet = Outlet(link, commands, ring)
@@ -270,11 +270,9 @@ def run(link: Connection, serve: Serve, plan: object, ring: Ring) -> None:
 
 
 def _listen(link: Connection, commands: queue.SimpleQueue[Command]) -> None:
-    try:
+    with suppress(EOFError, OSError):
         while True:
             commands.put(link.recv())
-    except (EOFError, OSError):
-        os._exit(0)
 
 
 _BUSY = ("busy", "in use", "errno=16")

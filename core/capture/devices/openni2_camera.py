@@ -5,12 +5,9 @@ from __future__ import annotations
 
 import ctypes
 import math
-import multiprocessing
 import sys
 import threading
 from collections.abc import Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 
 from carpus.core.camera import Camera
 from carpus.core.capture.devices.capture_process import (
@@ -37,6 +34,7 @@ from carpus.core.capture.devices.process_camera import SIZE_PX, ProcessCamera
 from carpus.core.capture.devices.usb_devices import UsbCamera, usb_cameras
 from carpus.core.capture.source import Notice, ignore
 from carpus.core.capture.video_mode import PixelFormat, Sensor, VideoMode
+from carpus.core.child_process import ChildDied, call_in_child
 from carpus.core.depth_sensor import PRIMESENSE
 from carpus.core.errors import CameraBusy, CameraMissing, CameraPermission, CameraUnsuited, DriverFailed, DriverMissing
 from carpus.core.installing import Finding
@@ -253,14 +251,12 @@ def driver_finding(asks_version: bool = True, _wanted: bool = True) -> Finding:
     if not asks_version:
         return Finding(phrase("Driver"), "good", phrase("OpenNI2"))
     try:
-        with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as other:
-            return Finding(
-                phrase("Driver"), "good", phrase("OpenNI2 {value}", value=other.submit(library_version).result())
-            )
-    except BrokenProcessPool:
+        version = call_in_child(library_version)
+    except ChildDied:
         return Finding(
             phrase("Driver"),
             "bad",
             phrase("OpenNI2 ends when it is asked for its version"),
             phrase("Install it again."),
         )
+    return Finding(phrase("Driver"), "good", phrase("OpenNI2 {value}", value=version))

@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 import math
-import multiprocessing
-import signal
 import threading
 import time
 from collections import deque
@@ -38,6 +36,7 @@ from carpus.core.capture.devices.capture_process import (
 from carpus.core.capture.frame_assembly import Assembler, Layout, camera_of_lens, camera_of_view
 from carpus.core.capture.source import Notice, SourceInfo, ignore
 from carpus.core.capture.video_mode import Sensor, VideoMode
+from carpus.core.child_process import ChildProcess
 from carpus.core.depth_sensor import DepthSensor
 from carpus.core.errors import (
     CameraBusy,
@@ -82,24 +81,18 @@ class CaptureProcess:
         self._memory = SharedMemory(create=True, size=slots * slot_bytes)
         self._slot_bytes = slot_bytes
         self._kept: deque[Report] = deque()
-        context = multiprocessing.get_context("spawn")
-        self._link, theirs = context.Pipe()
-        ring = Ring(self._memory.name, slots, slot_bytes)
-        self._process = context.Process(
-            target=run, args=(theirs, serve, plan, ring), name="carpus-capture", daemon=True
-        )
         self._closed = False
+        ring = Ring(self._memory.name, slots, slot_bytes)
         try:
-            self._process.start()
+            self._child = ChildProcess(run, serve, plan, ring, name="capture")
         except BaseException:
             self._release()
             raise
-        finally:
-            theirs.close()
+        self._link = self._child.link
 
     @property
-    def pid(self) -> int | None:
-        return self._process.pid
+    def pid(self) -> int:
+        return self._child.pid
 
     def wait_open(self, closing: threading.Event, open_s: float) -> Opened | None:
         """What was opened, at most ``open_s`` after the process is up; None when ``closing``."""
@@ -123,7 +116,7 @@ class CaptureProcess:
                         raise report.fault(self._subject, report.detail)
                     return report
             except (EOFError, OSError) as cause:
-                raise DriverFailed(self._subject, self._death()) from cause
+                raise DriverFailed(self._subject, self._child.describe_death()) from cause
             if time.monotonic() > deadline:
                 raise DriverFailed(self._subject, phrase("no answer for {patience_s} s", patience_s=f"{patience_s:g}"))
         return None
@@ -153,11 +146,10 @@ class CaptureProcess:
         if gently:
             self.tell(Stop())
             deadline = time.monotonic() + STOP_S
-            while self._process.is_alive() and time.monotonic() < deadline:
+            while self._child.is_alive and time.monotonic() < deadline:
                 self._drain()
-                self._process.join(0.02)
-        self._process.kill()
-        self._process.join(STOP_S)
+                time.sleep(0.02)
+        self._child.end()
         self._release()
 
     def discard(self) -> None:
@@ -180,16 +172,8 @@ class CaptureProcess:
         except (EOFError, OSError):
             return
 
-    def _death(self) -> str:
-        self._process.join(STOP_S)
-        code = self._process.exitcode
-        if code is None or code >= 0:
-            return f"the process ended with {code}"
-        return f"the process died of {signal.Signals(-code).name}"
-
     def _release(self) -> None:
         self._closed = True
-        self._link.close()
         self._memory.close()
         self._memory.unlink()
 

@@ -1,0 +1,213 @@
+"""Child processes: started, settled and ended in one way.
+
+What may crash, hang, grow without end or hold the interpreter's lock runs in a child process: a camera's driver, HDF5
+on files that nobody vouches for, smoothing, tracking of stored sessions. The work is named ``"module:function"`` and
+resolved in the child, after its threads and signals are settled. This module loads no NumPy.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import pickle
+import signal
+import sys
+import threading
+import time
+import types
+from collections.abc import Callable, Iterator
+from importlib import import_module
+from multiprocessing.connection import Connection
+from typing import Any
+
+BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+NICENESS = 5
+"""Whoever tracks, draws and stores comes first, three times, until they wait for the child."""
+TIDY_S = 7.5
+"""A child whose owner is gone may take so long to tidy what it was at."""
+KILLED_S = 3.0
+"""The system takes a killed process away within this time, unless a disk or a device holds it."""
+_STARTING = threading.Lock()
+
+
+class ChildDied(Exception):
+    """The child ended, or was ended, before it answered."""
+
+
+class ChildProcess:
+    """A function in a process of its own, and the owner's end of the pipe to it.
+
+    Raises :class:`OSError` where the system starts no further process. A child that nobody holds any more is ended;
+    it hears of that, and of its owner's death, by the end of its pipe.
+
+    Parameters
+    ----------
+    work
+        A function of a module, or its name as ``"module:function"`` where the owner need not load it. Called with the
+        child's end of the pipe and then the arguments.
+    arguments
+        Values that can be pickled.
+    name
+        What the process is called, after ``carpus-``.
+    is_forked
+        Copy this process in place of starting an interpreter. Only where no thread, window or open HDF5 file would be
+        copied too.
+    """
+
+    def __init__(
+        self, work: str | Callable[..., object], *arguments: object, name: str, is_forked: bool = False
+    ) -> None:
+        self.link, theirs = multiprocessing.Pipe()
+        if not isinstance(work, str):
+            work = f"{work.__module__}:{work.__qualname__}"
+        context: Any = multiprocessing.get_context("fork" if is_forked else "spawn")
+        packed = pickle.dumps(arguments)
+        self._process = context.Process(
+            target=_begin, args=(theirs, work, packed, is_forked), name=f"carpus-{name}", daemon=True
+        )
+        try:
+            with _STARTING, _allowed_children(), _hidden_main():
+                self._process.start()
+        except BaseException:
+            self.link.close()
+            raise
+        finally:
+            theirs.close()
+
+    @property
+    def pid(self) -> int:
+        """Number of the process."""
+        pid: int = self._process.pid
+        return pid
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether the process runs."""
+        return bool(self._process.is_alive())
+
+    def terminate(self) -> None:
+        """Ask the process to end (SIGTERM), without waiting."""
+        self._process.terminate()
+
+    def kill(self, grace_s: float = 0.0) -> None:
+        """End the process for certain once ``grace_s`` is over; from any thread, as often as wanted."""
+        self._process.join(grace_s)
+        self._process.kill()
+        self._process.join(KILLED_S)
+
+    def end(self, grace_s: float = 0.0) -> None:
+        """Kill the process and close the pipe."""
+        self.kill(grace_s)
+        self.link.close()
+
+    def describe_death(self, patience_s: float = KILLED_S) -> str:
+        """What a process whose pipe has ended died of."""
+        self._process.join(patience_s)
+        code = self._process.exitcode
+        if code is None or code >= 0:
+            return f"its process ended with {code}"
+        return f"its process died of {signal.Signals(-code).name}"
+
+
+def call_in_child(function: Callable[..., Any], *arguments: object, limit_s: float = 60.0) -> Any:
+    """Return what a function returns in a process of its own.
+
+    Raises
+    ------
+    ChildDied
+        The process ended, or did not answer in time.
+    Exception
+        What the function raised.
+    """
+    child = ChildProcess(_answer, function, arguments, name="call")
+    try:
+        if not child.link.poll(limit_s):
+            raise ChildDied(f"no answer for {limit_s:g} s")
+        value, fault = child.link.recv()
+    except (EOFError, OSError):
+        raise ChildDied(child.describe_death()) from None
+    finally:
+        child.end()
+    if fault is not None:
+        raise fault
+    return value
+
+
+@contextlib.contextmanager
+def _allowed_children() -> Iterator[None]:
+    """Let a daemon start a child: a worker of Dask or of a pool is one, and this child does not outlive its owner."""
+    own: Any = multiprocessing.current_process()
+    is_daemon = own.daemon
+    if is_daemon:
+        own.daemon = False
+    try:
+        yield
+    finally:
+        if is_daemon:
+            own.daemon = True
+
+
+@contextlib.contextmanager
+def _hidden_main() -> Iterator[None]:
+    """Hide the main script, which a child would run again: as researchers write them they are not made for that."""
+    main = sys.modules["__main__"]
+    sys.modules["__main__"] = types.ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = main
+
+
+# --- in the child -------------------------------------------------------------------------------------------------
+def _begin(link: Connection, work: str, arguments: bytes, is_forked: bool) -> None:
+    if is_forked:
+        _close_copied_files(link)
+    for number in signal.valid_signals():
+        if callable(signal.getsignal(number)):
+            signal.signal(number, signal.SIG_DFL)
+    # an interrupt from the keyboard reaches owner and child; the owner decides what it means
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for name in BLAS_THREADS:
+        os.environ.setdefault(name, "1")
+    module, _, function = work.partition(":")
+    getattr(import_module(module), function)(link, *pickle.loads(arguments))
+    if is_forked:
+        os._exit(0)  # what the owner registered for its own end is not the copy's
+
+
+def _close_copied_files(link: Connection) -> None:
+    """Let go of all that a copy would hold open, the owner's end of the pipe above all."""
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    kept = sorted((2, link.fileno(), parent.sentinel))
+    for low, high in zip(kept, [*kept[1:], 4096], strict=True):
+        os.closerange(low + 1, high)
+
+
+def _answer(link: Connection, function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
+    try:
+        link.send((function(*arguments), None))
+    except Exception as fault:  # the one catch of this process: told, not printed
+        link.send((None, fault))
+
+
+def end_with_owner() -> None:
+    """End this child when its owner is gone, also from within a call that does not return: by SIGTERM, which work may
+    hear as a wish to tidy, and after :data:`TIDY_S` in any case."""
+    threading.Thread(target=_wait_for_owner, name="owner", daemon=True).start()
+
+
+def _wait_for_owner() -> None:
+    owner = multiprocessing.parent_process()
+    assert owner is not None
+    owner.join()
+    os.kill(os.getpid(), signal.SIGTERM)
+    time.sleep(TIDY_S)
+    os._exit(1)
+
+
+def lower_priority() -> None:
+    """Let the owner come first: under Linux this thread alone gives way."""
+    if hasattr(os, "nice"):
+        os.nice(NICENESS)
