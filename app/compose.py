@@ -33,7 +33,6 @@ from carpus.app.settings import settings_folder as own_settings_folder
 from carpus.core.capture.source import FrameSource
 from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, OutputNotWritable
-from carpus.core.formats.film import UNFINISHED
 from carpus.core.records.keeping import Records
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import Recovered, recover
@@ -330,8 +329,6 @@ def compose(
     library.angle_order = lambda: settings.report.angle_order
     LINES.names = library.pseudonyms
     recovered, faults = recover(library)
-    with contextlib.suppress(OSError):  # of a program that was killed
-        (library.folder / UNFINISHED).unlink(missing_ok=True)
 
     @cache
     def sources() -> Sources:

@@ -7,6 +7,7 @@ Each section is declared beside the code it configures; an unknown key or a valu
 from __future__ import annotations
 
 import json
+import logging
 import os
 import tomllib
 import types
@@ -40,7 +41,10 @@ TRACKING = ("detection", "calibration", "tracker")
 """Sections that decide how pictures become a session."""
 MOST_NUMBER = 1e15
 DATA_VARIABLE = "CARPUS_DATA"
+GONE = {"report.retest_days"}
+"""Settings of earlier versions: accepted and ignored."""
 
+logger = logging.getLogger(__name__)
 T = TypeVar("T")
 Values = Mapping[str, Any]
 
@@ -231,11 +235,23 @@ def _settings(values: Values, file: str) -> Settings:
 def _own(path: Path) -> Values:
     """What a person's file says, sound as far as it goes; nothing where there is no file."""
     try:
-        own = _read(str(path), path.read_bytes()) if path.exists() else {}
+        own = _without_gone(_read(str(path), path.read_bytes()), path) if path.exists() else {}
     except OSError as cause:
         raise SettingsInvalid(path, cause.strerror or phrase("cannot be read")) from cause
     _settings(own, str(path))  # faults name the file they are in
     return own
+
+
+def _without_gone(values: Values, path: Path, where: str = "") -> Values:
+    """Drop settings of earlier versions, with a line in the log."""
+    kept: dict[str, Any] = {}
+    for name, value in values.items():
+        place = f"{where}{name}"
+        if place in GONE:
+            logger.info("The setting %s in %s is not used any more", place, path)
+        else:
+            kept[name] = _without_gone(value, path, f"{place}.") if isinstance(value, Mapping) else value
+    return kept
 
 
 _PREFERENCES = {

@@ -1,7 +1,7 @@
 """Brings resources/translations up to date with the sources, by Qt's own tools, and says what is missing.
 
 ``make translations`` runs it: ``lupdate`` over the windows and the texts of core, keeping what is there; ``lrelease``
-over the result, which refuses a file that is none. What was translated and is no longer said is kept as vanished.
+over the result, which refuses a file that is none. What is no longer said goes.
 """
 
 from __future__ import annotations
@@ -80,14 +80,14 @@ def phrase_calls(tree: ast.AST) -> list[tuple[str, ast.Call]]:
 
 
 def update(kept: Path, language: str) -> None:
-    """Let ``lupdate`` add what is new to one file, and mark what is gone."""
+    """Let ``lupdate`` add what is new to one file, and take out what is gone."""
     with TemporaryDirectory() as folder:
         core = Path(folder) / "core_texts.py"
         core.write_text(further_source(), encoding="utf-8")
         sources = [str(path) for path in (*windows_sources(), core)]
         _run("lupdate", *sources, "-locations", "none", "-target-language", language,
              "-source-language", "en_GB",
-             "-disable-heuristic", "similartext", "-silent", "-ts", str(kept))  # fmt: skip
+             "-disable-heuristic", "similartext", "-no-obsolete", "-silent", "-ts", str(kept))  # fmt: skip
 
 
 def release(kept: Path, compiled: Path) -> None:

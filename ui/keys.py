@@ -29,7 +29,7 @@ DEFAULT_KEYS = {
     "point_open": "Return",
     "correct": "Shift+F10", "correct_back": ",", "correct_on": ".", "correct_hide": "H", "correct_undo": "Z",
     "correct_doubtful": "D",
-    "angle": "A", "film": "F",
+    "angle": "A", "hand_picture": "F",
     "tick": "Space", "compare_ticked": "C", "beside": "B", "mirror": "M",
 }  # fmt: skip
 """While measuring only the space bar, a pedal's key and function keys: no keyboard layout or language matters."""
@@ -122,7 +122,7 @@ def action_words(name: str) -> str:
         "correct": tr("Put a marker right"), "correct_back": tr("Previous picture to put right"),
         "correct_on": tr("Next picture to put right"), "correct_hide": tr("Marker not to be seen here"),
         "correct_undo": tr("Take a step back"), "correct_doubtful": tr("Next doubtful picture"),
-        "angle": tr("The angle drawn on the picture"), "film": tr("This repetition as a film"),
+        "angle": tr("The angle drawn on the picture"), "hand_picture": tr("This picture with the hand alone"),
             "tick": tr("Tick a session to be compared"), "compare_ticked": tr("Compare the two that are ticked"),
         "beside": tr("Beside the other hand, or another day"),
         "mirror": tr("Mirror the left hand"),

@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from carpus.ui.by_hand.flow import ByHandFlow
     from carpus.ui.camera_calibration.flow import BoardFlow
     from carpus.ui.check_card.flow import CardFlow
-    from carpus.ui.clinic.flow import ClinicFlow
     from carpus.ui.correct.flow import CorrectFlow
     from carpus.ui.help.flow import HelpFlow
     from carpus.ui.live.flow import LiveFlow
@@ -202,7 +201,6 @@ CORE = (
     "carpus.core.agreement.retest",
     "carpus.core.calibration.camera.calibrate",
     "carpus.core.calibration.card.measure",
-    "carpus.core.formats.film",
     "carpus.core.results.side_by_side",
 )
 """What takes longest to load of what screens use, and has nothing of Qt in it: for whatever thread."""
@@ -238,7 +236,6 @@ class Journey(QObject):
     agreement: Place[AgreementFlow] = Place("agreement.AgreementFlow")
     beside: Place[BesideFlow] = Place("beside.BesideFlow")
     retest: Place[RetestFlow] = Place("retest.RetestFlow")
-    clinic: Place[ClinicFlow] = Place("clinic.ClinicFlow")
     board: Place[BoardFlow] = Place("camera_calibration.BoardFlow")
     card: Place[CardFlow] = Place("check_card.CardFlow")
     help: Place[HelpFlow] = Place("help.HelpFlow")

@@ -1,35 +1,27 @@
 """What belongs to the clinic and to no patient: its form of reports, to whom letters are written, the diagnoses to
-choose from, the back-ups that were made, and where on this computer things were last opened and saved.
-
-And what its head asks: sessions by day and therapist, and who is due for a re-test. Counts and dates alone: no measured
-value is read. A recording counts once, however often it was tracked; what was archived, simulated or practised does
-not."""
+choose from, the back-ups that were made, and where on this computer things were last opened and saved."""
 
 from __future__ import annotations
 
 import base64
 import json
-import math
-import statistics
 import time
 import uuid
 from collections import Counter
-from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import UTC, date, datetime, timedelta
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import Row, delete, func, insert, select
+from sqlalchemy import Row, delete, insert, select
 
 from carpus.core.errors import ChangedMeanwhile
 from carpus.core.names import folded
-from carpus.core.records.changes import PRACTICE, changed, dropped, kept, new
+from carpus.core.records.changes import changed, dropped, kept, new
 from carpus.core.records.schema import BACKUP, DIAGNOSIS, OWN, PATIENT, RECIPIENT, REPORT_FORM, SESSION
 from carpus.core.records.store import Store, is_kept_in, new_id, reading
-from carpus.core.records.values import WEEKS, ClinicWeek, Counted, DueTest, moment
+from carpus.core.records.values import moment
 from carpus.core.results.report_form import Letterhead, Paper, ReportForm
-from carpus.core.types import Side
 
 MOST_RECIPIENTS = 50
 PLACE = "place "
@@ -149,86 +141,3 @@ def _form(row: Row[Any]) -> ReportForm:
         Letterhead(row.name, tuple(json.loads(row.address)), base64.b64decode(row.logo)), row.paper,
         frozenset(json.loads(row.left_out)), tuple(json.loads(row.sentences)),
     )  # fmt: skip
-
-
-FEWEST_WEEKS = 4
-"""With fewer weeks before nothing is called usual."""
-SOON_DAYS = 7
-GONE_DAYS = 182
-"""Who was not here for half a year has finished, and is nobody's to remind of."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Seen:
-    day: date
-    by: str
-    patient_id: str
-    pseudonym: str
-    exercise: str
-    hand: Side
-
-
-def clinic_week(store: Store, day: date, today: date, after_days: int) -> ClinicWeek:
-    """The week that has ``day`` in it; a re-test is due ``after_days`` after the last session, as of ``today``."""
-    monday = day - timedelta(days=day.weekday())
-    since = min(monday - timedelta(weeks=WEEKS - 1), today - timedelta(days=GONE_DAYS))
-    seen = _seen(store, since)
-    joined = select(SESSION.c.by, func.min(SESSION.c.recorded_s).label("first_s")).group_by(SESSION.c.by)
-    names = [row.by for row in sorted(store.rows(joined), key=lambda row: (row.first_s, row.by))]
-    of_week = [one for one in seen if monday <= one.day < monday + timedelta(days=7)]
-    every = (_counted(name, [one for one in seen if one.by == name], monday) for name in names)
-    return ClinicWeek(
-        monday,
-        _counted("", seen, monday),
-        tuple(one for one in every if any(one.weeks)),
-        len({one.patient_id for one in of_week}),
-        _due(seen, today, after_days),
-    )
-
-
-def _seen(store: Store, since: date) -> list[_Seen]:
-    """Every recording since a day that counts, in order of time."""
-    # Days are those of the place where it was recorded.
-    day = since - timedelta(days=1)
-    since_s = datetime(day.year, day.month, day.day, tzinfo=UTC).timestamp()
-    wanted = (
-        SESSION.c.recording_id, SESSION.c.recorded, SESSION.c.recorded_s, SESSION.c.by, SESSION.c.exercise,
-        SESSION.c.hand, PATIENT.c.id, PATIENT.c.pseudonym,
-    )  # fmt: skip
-    query = (
-        select(*wanted)
-        .join(PATIENT, PATIENT.c.id == SESSION.c.patient_id)
-        .where(SESSION.c.archived == "", SESSION.c.erasing == 0, SESSION.c.simulated == 0)
-        .where(SESSION.c.recorded_s >= since_s)
-        .where(PATIENT.c.id != PRACTICE, PATIENT.c.archived == "", PATIENT.c.erasing == 0)
-        .order_by(SESSION.c.recorded_s, SESSION.c.created_s)
-    )
-    first: dict[str, Row[Any]] = {}
-    for row in store.rows(query):
-        first.setdefault(row.recording_id, row)
-    return [
-        _Seen(moment(row.recorded, row.recorded_s).date(), row.by, row.id, row.pseudonym, row.exercise, row.hand)
-        for row in first.values()
-    ]
-
-
-def _counted(by: str, seen: Sequence[_Seen], monday: date) -> Counted:
-    days = Counter((one.day - monday).days for one in seen)
-    weeks = Counter((one.day - monday).days // 7 for one in seen)
-    last = tuple(weeks[number] for number in range(1 - WEEKS, 1))
-    here = [count for count in last[:-1] if count]  # a week away is no usual week
-    usual = float(statistics.median(here)) if len(here) >= FEWEST_WEEKS else math.nan
-    return Counted(by, tuple(days[day] for day in range(7)), last, usual)
-
-
-def _due(seen: Sequence[_Seen], today: date, after_days: int) -> tuple[DueTest, ...]:
-    newest = {one.patient_id: one for one in seen}
-    due = [
-        DueTest(
-            one.patient_id, one.pseudonym, one.exercise, one.hand, one.day, one.by,
-            (today - one.day).days - after_days,
-        )
-        for one in newest.values()
-        if (today - one.day).days <= GONE_DAYS
-    ]  # fmt: skip
-    return tuple(sorted((one for one in due if one.overdue_days >= -SOON_DAYS), key=lambda one: -one.overdue_days))

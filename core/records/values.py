@@ -20,8 +20,6 @@ Onset = Literal["", "operation", "injury"]
 SIDES: tuple[AffectedSide, ...] = ("both", "right", "left")
 ONSETS: tuple[Onset, ...] = ("", "operation", "injury")
 DOMINANCES: tuple[Dominance, ...] = ("unknown", "right", "left", "both")
-WEEKS = 8
-"""So many weeks of the clinic beside each other, the one asked for last."""
 AGE_BANDS = ("", "0-9", "10-19", "20-29", "30-39", "40-49", "50-59", "60-69", "70-79", "80 and over")
 
 
@@ -146,41 +144,6 @@ def entry_of(path: Path, outline: SessionOutline) -> SessionEntry:
         header.session_id, path, header.when, datetime.fromisoformat(header.created), header.recording_id,
         header.exercise, header.hand, outline.frames, outline.duration_s, outline.complete, header.simulated,
     )  # fmt: skip
-
-
-@dataclass(frozen=True, slots=True)
-class Counted:
-    """Sessions of one therapist, by initials, empty for nobody's: ``days`` Monday to Sunday of the week, ``weeks`` of
-    the last ones, the week asked for at the end; ``usual`` the median of those before, NaN where there are too few."""
-
-    by: str
-    days: tuple[int, ...]
-    weeks: tuple[int, ...]
-    usual: float
-
-
-@dataclass(frozen=True, slots=True)
-class DueTest:
-    """A patient's newest exercise and hand; ``overdue_days`` below 0 where there is time left."""
-
-    patient_id: str
-    pseudonym: str
-    exercise: str
-    hand: Side
-    last: date
-    by: str
-    overdue_days: int
-
-
-@dataclass(frozen=True, slots=True)
-class ClinicWeek:
-    """One week; ``therapists`` in the order in which they joined, never by how much they did. ``due`` longest first."""
-
-    monday: date
-    everybody: Counted
-    therapists: tuple[Counted, ...]
-    patients: int
-    due: tuple[DueTest, ...]
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,6 @@ one flat grey; where the hand was lost nothing is shown.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -37,6 +36,15 @@ class DrawnAngle:
     vertex: FloatArray
     zero: FloatArray
     hand: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class CutOut:
+    """The part of a frame that holds the hand; ``left_px`` and ``top_px`` are where it lay in the frame."""
+
+    image: ByteImage
+    left_px: int
+    top_px: int
 
 
 def discs_px(session: Session, row: int) -> FloatArray:
@@ -70,36 +78,21 @@ def _outline(session: Session, row: int) -> tuple[FloatArray, float] | None:
     return np.array(points), MARGIN_M * float(session.camera.matrix[0, 0]) / float(np.nanmedian(depth))
 
 
-def box_of(session: Session, rows: Sequence[int]) -> tuple[int, int, int, int]:
-    """Left, top, right and lower edge that hold the hand throughout, even sizes; all 0 where it was never seen."""
-    low, high = np.full(2, np.inf), np.full(2, -np.inf)
-    for row in rows:
-        if (found := _outline(session, row)) is not None:
-            points, margin = found
-            low, high = np.minimum(low, points.min(axis=0) - margin), np.maximum(high, points.max(axis=0) + margin)
-    if not np.isfinite(low).all():
-        return 0, 0, 0, 0
-    size = np.array([session.camera.width_px, session.camera.height_px])
-    left, top = np.clip(np.floor(low), 0, size).astype(int)
-    right, foot = np.clip(np.ceil(high), 0, size).astype(int)
-    return int(left), int(top), int(right - (right - left) % 2), int(foot - (foot - top) % 2)
-
-
-def cut_out(picture: ByteImage, session: Session, row: int, box: tuple[int, int, int, int]) -> ByteImage:
-    """The part of a picture in a box, with nothing in it but the hand of that row."""
-    left, top, right, foot = box
-    out = np.full((foot - top, right - left, 3), FLAT, np.uint8)
+def cut_out(frame: ByteImage, session: Session, row: int) -> CutOut | None:
+    """Cut the hand of a row out of its frame, with nothing else in it; None where the hand was lost or is outside."""
     found = _outline(session, row)
     if found is None:
-        return out
+        return None
     points, margin = found
-    mask = np.zeros(picture.shape[:2], np.uint8)
+    mask = np.zeros(frame.shape[:2], np.uint8)
     hull = cv2.convexHull(points.astype(np.float32)).astype(np.int32)
     cv2.fillConvexPoly(mask, hull, 1)
     cv2.polylines(mask, [hull], True, 1, thickness=max(2 * round(margin), 1))
-    inside = mask[top:foot, left:right].astype(bool)
-    out[inside] = picture[top:foot, left:right][inside]
-    return out
+    left, top, width, height = cv2.boundingRect(mask)
+    if not width:
+        return None
+    part = np.s_[top : top + height, left : left + width]
+    return CutOut(np.where(mask[part][..., None] > 0, frame[part], np.uint8(FLAT)), left, top)
 
 
 def drawn_angle(session: Session, row: int, exercise: Exercise) -> DrawnAngle | None:

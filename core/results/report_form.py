@@ -25,13 +25,11 @@ MOST_NAME, MOST_ADDRESS_LINES, MOST_ADDRESS = 60, 4, 80
 @dataclass(frozen=True, slots=True)
 class ReportSettings:
     """``therapist`` initials that are printed on reports; ``angle_order`` of the wrist's angles in the window and on
-    reports: the papers' ``zyx`` or ``isb``; ``agreement_limit_deg`` what two measurements may differ by, 0 for none;
-    ``retest_days`` after a session the next one is due on the clinic's page."""
+    reports: the papers' ``zyx`` or ``isb``; ``agreement_limit_deg`` what two measurements may differ by, 0 for none."""
 
     therapist: str = ""
     angle_order: AngleOrder = "zyx"
     agreement_limit_deg: float = 0.0
-    retest_days: int = 28
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,9 +1,9 @@
 """Takes out of a packed folder what OpenCV links against and Carpus never calls (Linux).
 
-OpenCV's libraries are bound to the AV1 codec, an old TLS library and a second OpenBLAS: code that nobody here looks
-after. Carpus reads single pictures, and writes films in MPEG-4 into files: those codecs stay. In place of the rest come
-libraries of a few kilobytes with the same names: that of AV1 refuses; those of TLS end the program if they were ever
-called; that of OpenBLAS hands every call to SciPy's OpenBLAS, whose functions are the same with a prefix.
+OpenCV's libraries are bound to FFmpeg, the AV1 codec, an old TLS library and a second OpenBLAS: code that nobody here
+looks after. Carpus reads and writes single pictures, and no film. In place of what OpenCV names come libraries of a few
+kilobytes with the same names: that of AV1 refuses; those of FFmpeg end the program if they were ever called; that of
+OpenBLAS hands every call to SciPy's OpenBLAS, whose functions are the same with a prefix.
 """
 
 from __future__ import annotations
@@ -15,13 +15,15 @@ from collections import defaultdict
 from pathlib import Path
 
 CODECS = {
-    "libssl": "opencv_python_headless.libs/libavformat-*",
-    "libcrypto": "opencv_python_headless.libs/libav[fu]*",
+    "libavcodec": "cv2/cv2.abi3.so",
+    "libavformat": "cv2/cv2.abi3.so",
+    "libavutil": "cv2/cv2.abi3.so",
+    "libswscale": "cv2/cv2.abi3.so",
     "libaom": "opencv_python_headless.libs/libavif-*",
 }
 """And who names them. libavif stays: every picture is shown to it; where one is its own it finds no decoder."""
-BEHIND = ("libgfortran", "libquadmath")
-"""What only its OpenBLAS names."""
+BEHIND = ("libgfortran", "libquadmath", "libswresample", "libvpx", "libdrm", "libssl", "libcrypto")
+"""What only its OpenBLAS and its FFmpeg name."""
 REFUSING = ("aom_codec_dec_init_ver", "aom_codec_enc_init_ver")
 """Asked when somebody hands in an AVIF picture: the answer is an error, not the end of the program."""
 

@@ -1772,10 +1772,6 @@
         <translation>Der Winkel ins Bild gezeichnet</translation>
     </message>
     <message>
-        <source>This repetition as a film</source>
-        <translation>Diese Wiederholung als Film</translation>
-    </message>
-    <message>
         <source>Tick a session to be compared</source>
         <translation>Sitzung zum Vergleichen ankreuzen</translation>
     </message>
@@ -2804,116 +2800,8 @@
         <translation>Vorher (Hersteller)</translation>
     </message>
     <message>
-        <source>{first} to {last}</source>
-        <translation>{first} bis {last}</translation>
-    </message>
-    <message>
-        <source>No session this week</source>
-        <translation>Keine Sitzung in dieser Woche</translation>
-    </message>
-    <message>
-        <source>1 session</source>
-        <translation>1 Sitzung</translation>
-    </message>
-    <message>
-        <source>{count} sessions</source>
-        <translation>{count} Sitzungen</translation>
-    </message>
-    <message>
-        <source>1 patient</source>
-        <translation>1 Patient</translation>
-    </message>
-    <message>
-        <source>{count} patients</source>
-        <translation>{count} Patienten</translation>
-    </message>
-    <message>
-        <source>{sessions} of {patients}</source>
-        <translation>{sessions} mit {patients}</translation>
-    </message>
-    <message>
-        <source>{count} weeks before</source>
-        <translation>{count} Wochen davor</translation>
-    </message>
-    <message>
-        <source>Week</source>
-        <translation>Woche</translation>
-    </message>
-    <message>
-        <source>Usual</source>
-        <translation>Üblich</translation>
-    </message>
-    <message>
-        <source>All</source>
-        <translation>Alle</translation>
-    </message>
-    <message>
-        <source>no initials</source>
-        <translation>ohne Kürzel</translation>
-    </message>
-    <message>
         <source>What</source>
         <translation>Was</translation>
-    </message>
-    <message>
-        <source>Patient</source>
-        <translation>Patient</translation>
-    </message>
-    <message>
-        <source>Last test</source>
-        <translation>Letzte Messung</translation>
-    </message>
-    <message>
-        <source>With</source>
-        <translation>Bei</translation>
-    </message>
-    <message>
-        <source>Overdue</source>
-        <translation>Überfällig</translation>
-    </message>
-    <message>
-        <source>in 1 day</source>
-        <translation>in 1 Tag</translation>
-    </message>
-    <message>
-        <source>in {count} days</source>
-        <translation>in {count} Tagen</translation>
-    </message>
-    <message>
-        <source>1 day overdue</source>
-        <translation>seit 1 Tag fällig</translation>
-    </message>
-    <message>
-        <source>{count} days overdue</source>
-        <translation>seit {count} Tagen fällig</translation>
-    </message>
-    <message>
-        <source>Carpus clinic</source>
-        <translation>Carpus Klinik</translation>
-    </message>
-    <message>
-        <source>Counts and dates only, without simulated sessions</source>
-        <translation>Nur Anzahl und Datum, ohne simulierte Sitzungen</translation>
-    </message>
-    <message>
-        <source>The clinic</source>
-        <translation>Die Klinik</translation>
-    </message>
-    <message>
-        <source>Due for a re-test</source>
-        <translation>Zur Nachmessung fällig</translation>
-    </message>
-    <message>
-        <source>Nobody is overdue</source>
-        <translation>Niemand ist überfällig</translation>
-    </message>
-    <message>
-        <source>1 more on the screen</source>
-        <translation>1 weiterer auf dem Bildschirm</translation>
-    </message>
-    <message>
-        <source>{count} more on the screen</source>
-        <translation>{count} weitere auf dem Bildschirm</translation>
     </message>
     <message>
         <source>Now</source>
@@ -6256,10 +6144,6 @@
         <translation>kein Punkt der Handfläche und kein Winkel von Handgelenk oder Fingern ist darin</translation>
     </message>
     <message>
-        <source>no film can be written on this computer</source>
-        <translation>auf diesem Computer kann kein Film geschrieben werden</translation>
-    </message>
-    <message>
         <source>no intrinsics for pictures of {size}</source>
         <translation>keine Kamerawerte für Bilder mit {size}</translation>
     </message>
@@ -6458,10 +6342,6 @@
     <message>
         <source>the wedge’s side with two discs here</source>
         <translation>Keilseite mit zwei Punkten hier</translation>
-    </message>
-    <message>
-        <source>there is no picture of it</source>
-        <translation>es gibt kein Bild davon</translation>
     </message>
     <message>
         <source>there is no such file</source>
@@ -7518,6 +7398,10 @@
     <message>
         <source>If patients are missing here, choose the data folder in Settings.</source>
         <translation>Fehlen hier Patienten, wählen Sie den Datenordner in den Einstellungen.</translation>
+    </message>
+    <message>
+        <source>This picture with the hand alone</source>
+        <translation>Dieses Bild nur mit der Hand</translation>
     </message>
 </context>
 <context>
@@ -8651,48 +8535,6 @@
     </message>
 </context>
 <context>
-    <name>ClinicFlow</name>
-    <message>
-        <source>Clinic</source>
-        <translation>Klinik</translation>
-    </message>
-    <message>
-        <source>Save page</source>
-        <translation>Seite speichern</translation>
-    </message>
-</context>
-<context>
-    <name>ClinicScreen</name>
-    <message>
-        <source>The clinic</source>
-        <translation>Die Klinik</translation>
-    </message>
-    <message>
-        <source>Week &amp;before</source>
-        <translation>Woche &amp;davor</translation>
-    </message>
-    <message>
-        <source>Week &amp;after</source>
-        <translation>Woche da&amp;nach</translation>
-    </message>
-    <message>
-        <source>&amp;Save page…</source>
-        <translation>&amp;Seite speichern…</translation>
-    </message>
-    <message>
-        <source>Counts and dates only, without simulated sessions: no measured value leaves a patient’s own record. Therapists stand in the order in which they joined and are never ranked.</source>
-        <translation>Nur Anzahl und Datum, ohne simulierte Sitzungen: Kein Messwert verlässt die Akte eines Patienten. Therapeuten stehen in der Reihenfolge, in der sie dazukamen, nie nach einer Zahl geordnet.</translation>
-    </message>
-    <message>
-        <source>Due for a re-test: {count}</source>
-        <translation>Zur Nachmessung fällig: {count}</translation>
-    </message>
-    <message>
-        <source>Nobody is overdue</source>
-        <translation>Niemand ist überfällig</translation>
-    </message>
-</context>
-<context>
     <name>ColumnsSheet</name>
     <message>
         <source>As the file says</source>
@@ -9343,41 +9185,6 @@
     <message>
         <source>Where the board has been</source>
         <translation>Wo die Tafel war</translation>
-    </message>
-</context>
-<context>
-    <name>FilmSheet</name>
-    <message>
-        <source>The hand alone, with its angle: face and room are cut away, there is no sound and no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
-        <translation>Die Hand allein, mit ihrem Winkel: Gesicht und Raum sind weggeschnitten, ohne Ton und Namen. Wo die Bewegung nicht in der Bildebene liegt, steht der Winkel nur in Worten.</translation>
-    </message>
-    <message>
-        <source>Speed</source>
-        <translation>Geschwindigkeit</translation>
-    </message>
-    <message>
-        <source>This picture only</source>
-        <translation>Nur dieses Bild</translation>
-    </message>
-    <message>
-        <source>Whoever has the file can watch it: Carpus cannot protect it there. It is noted in the log.</source>
-        <translation>Wer die Datei hat, kann sie ansehen: Dort kann Carpus sie nicht schützen. Es steht im Protokoll.</translation>
-    </message>
-    <message>
-        <source>Part of it is doubtful: another repetition ([ and ]) makes a film.</source>
-        <translation>Ein Teil davon ist zweifelhaft: Eine andere Wiederholung ([ und ]) ergibt einen Film.</translation>
-    </message>
-    <message>
-        <source>The patient has agreed</source>
-        <translation>Der Patient hat zugestimmt</translation>
-    </message>
-    <message>
-        <source>Save…</source>
-        <translation>Speichern…</translation>
-    </message>
-    <message>
-        <source>Film of repetition {number}</source>
-        <translation>Film der Wiederholung {number}</translation>
     </message>
 </context>
 <context>
@@ -10726,14 +10533,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Strg+N</translation>
     </message>
     <message>
-        <source>&amp;Clinic…</source>
-        <translation>&amp;Klinik…</translation>
-    </message>
-    <message>
-        <source>Sessions by day and therapist, and who is due for a re-test</source>
-        <translation>Sitzungen je Tag und Therapeut, und wer zur Nachmessung fällig ist</translation>
-    </message>
-    <message>
         <source>Patients</source>
         <translation>Patienten</translation>
     </message>
@@ -11897,12 +11696,12 @@ Umschalt+F8 von der Seite</translation>
         <translation>Weiter</translation>
     </message>
     <message>
-        <source>Save film</source>
-        <translation>Film speichern</translation>
-    </message>
-    <message>
         <source>Save picture</source>
         <translation>Bild speichern</translation>
+    </message>
+    <message>
+        <source>there is no picture of it</source>
+        <translation>es gibt kein Bild davon</translation>
     </message>
 </context>
 <context>
@@ -11924,14 +11723,6 @@ Umschalt+F8 von der Seite</translation>
         <translation>Der Winkel ins Bild gezeichnet (A)</translation>
     </message>
     <message>
-        <source>Film…</source>
-        <translation>Film…</translation>
-    </message>
-    <message>
-        <source>This repetition as a film, or this picture, of the hand alone (F)</source>
-        <translation>Diese Wiederholung als Film, oder dieses Bild, nur mit der Hand (F)</translation>
-    </message>
-    <message>
         <source>Put right…</source>
         <translation>Berichtigen…</translation>
     </message>
@@ -11946,6 +11737,14 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>Repetition {number} of {count} · {time}</source>
         <translation>Wiederholung {number} von {count} · {time}</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Speichern…</translation>
+    </message>
+    <message>
+        <source>This picture with the hand alone (F)</source>
+        <translation>Dieses Bild nur mit der Hand (F)</translation>
     </message>
 </context>
 <context>
@@ -12696,6 +12495,33 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
+    </message>
+</context>
+<context>
+    <name>HandPictureSheet</name>
+    <message>
+        <source>The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
+        <translation>Die Hand allein mit ihrem Winkel: Gesicht und Raum sind weggeschnitten, es steht kein Name dabei. Wo die Bewegung nicht in der Bildebene liegt, steht der Winkel nur in Worten da.</translation>
+    </message>
+    <message>
+        <source>Picture of the hand</source>
+        <translation>Bild der Hand</translation>
+    </message>
+    <message>
+        <source>Whoever has the file can look at it: Carpus cannot protect it there. It is noted in the log.</source>
+        <translation>Wer die Datei hat, kann sie ansehen: Carpus kann sie dort nicht schützen. Im Protokoll wird es vermerkt.</translation>
+    </message>
+    <message>
+        <source>The hand is not visible here, or its marker labels are doubtful. Choose another moment.</source>
+        <translation>Die Hand ist hier nicht sichtbar, oder die Zuordnung ihrer Marker ist zweifelhaft. Wählen Sie einen anderen Zeitpunkt.</translation>
+    </message>
+    <message>
+        <source>The patient has agreed</source>
+        <translation>Der Patient hat zugestimmt</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Speichern…</translation>
     </message>
 </context>
 </TS>

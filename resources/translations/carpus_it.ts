@@ -1772,10 +1772,6 @@
         <translation>L’angolo disegnato sull’immagine</translation>
     </message>
     <message>
-        <source>This repetition as a film</source>
-        <translation>Questa ripetizione come filmato</translation>
-    </message>
-    <message>
         <source>Tick a session to be compared</source>
         <translation>Seleziona una seduta da confrontare</translation>
     </message>
@@ -2804,116 +2800,8 @@
         <translation>Prima (produttore)</translation>
     </message>
     <message>
-        <source>{first} to {last}</source>
-        <translation>da {first} a {last}</translation>
-    </message>
-    <message>
-        <source>No session this week</source>
-        <translation>Nessuna seduta questa settimana</translation>
-    </message>
-    <message>
-        <source>1 session</source>
-        <translation>1 seduta</translation>
-    </message>
-    <message>
-        <source>{count} sessions</source>
-        <translation>{count} sedute</translation>
-    </message>
-    <message>
-        <source>1 patient</source>
-        <translation>1 paziente</translation>
-    </message>
-    <message>
-        <source>{count} patients</source>
-        <translation>{count} pazienti</translation>
-    </message>
-    <message>
-        <source>{sessions} of {patients}</source>
-        <translation>{sessions} di {patients}</translation>
-    </message>
-    <message>
-        <source>{count} weeks before</source>
-        <translation>{count} settimane prima</translation>
-    </message>
-    <message>
-        <source>Week</source>
-        <translation>Settimana</translation>
-    </message>
-    <message>
-        <source>Usual</source>
-        <translation>Abituale</translation>
-    </message>
-    <message>
-        <source>All</source>
-        <translation>Tutti</translation>
-    </message>
-    <message>
-        <source>no initials</source>
-        <translation>senza sigla</translation>
-    </message>
-    <message>
         <source>What</source>
         <translation>Che cosa</translation>
-    </message>
-    <message>
-        <source>Patient</source>
-        <translation>Paziente</translation>
-    </message>
-    <message>
-        <source>Last test</source>
-        <translation>Ultima misura</translation>
-    </message>
-    <message>
-        <source>With</source>
-        <translation>Con</translation>
-    </message>
-    <message>
-        <source>Overdue</source>
-        <translation>In ritardo</translation>
-    </message>
-    <message>
-        <source>in 1 day</source>
-        <translation>tra 1 giorno</translation>
-    </message>
-    <message>
-        <source>in {count} days</source>
-        <translation>tra {count} giorni</translation>
-    </message>
-    <message>
-        <source>1 day overdue</source>
-        <translation>da 1 giorno</translation>
-    </message>
-    <message>
-        <source>{count} days overdue</source>
-        <translation>da {count} giorni</translation>
-    </message>
-    <message>
-        <source>Carpus clinic</source>
-        <translation>Carpus clinica</translation>
-    </message>
-    <message>
-        <source>Counts and dates only, without simulated sessions</source>
-        <translation>Solo numeri e date, senza sedute simulate</translation>
-    </message>
-    <message>
-        <source>The clinic</source>
-        <translation>La clinica</translation>
-    </message>
-    <message>
-        <source>Due for a re-test</source>
-        <translation>Da rimisurare</translation>
-    </message>
-    <message>
-        <source>Nobody is overdue</source>
-        <translation>Nessuno è in ritardo</translation>
-    </message>
-    <message>
-        <source>1 more on the screen</source>
-        <translation>1 altro sullo schermo</translation>
-    </message>
-    <message>
-        <source>{count} more on the screen</source>
-        <translation>Altri {count} sullo schermo</translation>
     </message>
     <message>
         <source>Now</source>
@@ -6244,10 +6132,6 @@
         <translation>non contiene dischetti del palmo né angoli del polso o delle dita</translation>
     </message>
     <message>
-        <source>no film can be written on this computer</source>
-        <translation>su questo computer non si può scrivere un filmato</translation>
-    </message>
-    <message>
         <source>no intrinsics for pictures of {size}</source>
         <translation>nessun valore interno della telecamera per immagini di {size}</translation>
     </message>
@@ -6446,10 +6330,6 @@
     <message>
         <source>the wedge’s side with two discs here</source>
         <translation>qui il lato del cuneo con due dischetti</translation>
-    </message>
-    <message>
-        <source>there is no picture of it</source>
-        <translation>non ce n’è nessuna immagine</translation>
     </message>
     <message>
         <source>there is no such file</source>
@@ -7518,6 +7398,10 @@
     <message>
         <source>If patients are missing here, choose the data folder in Settings.</source>
         <translation>Se qui mancano pazienti, scegliere la cartella dei dati nelle impostazioni.</translation>
+    </message>
+    <message>
+        <source>This picture with the hand alone</source>
+        <translation>Questa immagine con la sola mano</translation>
     </message>
 </context>
 <context>
@@ -8651,48 +8535,6 @@
     </message>
 </context>
 <context>
-    <name>ClinicFlow</name>
-    <message>
-        <source>Clinic</source>
-        <translation>Clinica</translation>
-    </message>
-    <message>
-        <source>Save page</source>
-        <translation>Salva pagina</translation>
-    </message>
-</context>
-<context>
-    <name>ClinicScreen</name>
-    <message>
-        <source>The clinic</source>
-        <translation>La clinica</translation>
-    </message>
-    <message>
-        <source>Week &amp;before</source>
-        <translation>Settimana &amp;prima</translation>
-    </message>
-    <message>
-        <source>Week &amp;after</source>
-        <translation>Settimana &amp;dopo</translation>
-    </message>
-    <message>
-        <source>&amp;Save page…</source>
-        <translation>&amp;Salva pagina…</translation>
-    </message>
-    <message>
-        <source>Counts and dates only, without simulated sessions: no measured value leaves a patient’s own record. Therapists stand in the order in which they joined and are never ranked.</source>
-        <translation>Solo numeri e date, senza sedute simulate: nessun valore misurato lascia la cartella del paziente. I terapisti stanno nell’ordine in cui sono arrivati, e non sono mai classificati.</translation>
-    </message>
-    <message>
-        <source>Due for a re-test: {count}</source>
-        <translation>Da rimisurare: {count}</translation>
-    </message>
-    <message>
-        <source>Nobody is overdue</source>
-        <translation>Nessuno è in ritardo</translation>
-    </message>
-</context>
-<context>
     <name>ColumnsSheet</name>
     <message>
         <source>As the file says</source>
@@ -9343,41 +9185,6 @@
     <message>
         <source>Where the board has been</source>
         <translation>Dove è stata la tavola</translation>
-    </message>
-</context>
-<context>
-    <name>FilmSheet</name>
-    <message>
-        <source>The hand alone, with its angle: face and room are cut away, there is no sound and no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
-        <translation>Solo la mano, con il suo angolo: viso e stanza sono tagliati via, senza suono né nome. Dove il movimento non giace nell’immagine, l’angolo è detto solo a parole.</translation>
-    </message>
-    <message>
-        <source>Speed</source>
-        <translation>Velocità</translation>
-    </message>
-    <message>
-        <source>This picture only</source>
-        <translation>Solo questa immagine</translation>
-    </message>
-    <message>
-        <source>Whoever has the file can watch it: Carpus cannot protect it there. It is noted in the log.</source>
-        <translation>Chi ha il file può vederlo: lì Carpus non può proteggerlo. È annotato nel registro.</translation>
-    </message>
-    <message>
-        <source>Part of it is doubtful: another repetition ([ and ]) makes a film.</source>
-        <translation>Una parte è dubbia: un’altra ripetizione ([ e ]) dà un filmato.</translation>
-    </message>
-    <message>
-        <source>The patient has agreed</source>
-        <translation>Il paziente ha acconsentito</translation>
-    </message>
-    <message>
-        <source>Save…</source>
-        <translation>Salva…</translation>
-    </message>
-    <message>
-        <source>Film of repetition {number}</source>
-        <translation>Filmato della ripetizione {number}</translation>
     </message>
 </context>
 <context>
@@ -10726,14 +10533,6 @@ Maiusc+F8 di lato</translation>
         <translation>Ctrl+N</translation>
     </message>
     <message>
-        <source>&amp;Clinic…</source>
-        <translation>C&amp;linica…</translation>
-    </message>
-    <message>
-        <source>Sessions by day and therapist, and who is due for a re-test</source>
-        <translation>Sedute per giorno e terapista, e chi deve ripetere la misura</translation>
-    </message>
-    <message>
         <source>Patients</source>
         <translation>Pazienti</translation>
     </message>
@@ -11897,12 +11696,12 @@ Maiusc+F8 di lato</translation>
         <translation>Continua</translation>
     </message>
     <message>
-        <source>Save film</source>
-        <translation>Salva filmato</translation>
-    </message>
-    <message>
         <source>Save picture</source>
         <translation>Salva immagine</translation>
+    </message>
+    <message>
+        <source>there is no picture of it</source>
+        <translation>non ce n’è alcuna immagine</translation>
     </message>
 </context>
 <context>
@@ -11924,14 +11723,6 @@ Maiusc+F8 di lato</translation>
         <translation>L’angolo disegnato sull’immagine (A)</translation>
     </message>
     <message>
-        <source>Film…</source>
-        <translation>Filmato…</translation>
-    </message>
-    <message>
-        <source>This repetition as a film, or this picture, of the hand alone (F)</source>
-        <translation>Questa ripetizione come filmato, o questa immagine, con la sola mano (F)</translation>
-    </message>
-    <message>
         <source>Put right…</source>
         <translation>Correggi…</translation>
     </message>
@@ -11946,6 +11737,14 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>Repetition {number} of {count} · {time}</source>
         <translation>Ripetizione {number} di {count} · {time}</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Salva…</translation>
+    </message>
+    <message>
+        <source>This picture with the hand alone (F)</source>
+        <translation>Questa immagine con la sola mano (F)</translation>
     </message>
 </context>
 <context>
@@ -12696,6 +12495,33 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Ancora nessun paziente. Aggiungere il primo, o provare tutto con il paziente di prova.</translation>
+    </message>
+</context>
+<context>
+    <name>HandPictureSheet</name>
+    <message>
+        <source>The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
+        <translation>La sola mano con il suo angolo: viso e stanza sono tagliati via, non c’è alcun nome. Dove il movimento non giace nel piano dell’immagine, l’angolo è detto solo a parole.</translation>
+    </message>
+    <message>
+        <source>Picture of the hand</source>
+        <translation>Immagine della mano</translation>
+    </message>
+    <message>
+        <source>Whoever has the file can look at it: Carpus cannot protect it there. It is noted in the log.</source>
+        <translation>Chi ha il file può guardarlo: lì Carpus non può proteggerlo. Viene annotato nel registro.</translation>
+    </message>
+    <message>
+        <source>The hand is not visible here, or its marker labels are doubtful. Choose another moment.</source>
+        <translation>Qui la mano non è visibile, o i nomi dei suoi marcatori sono dubbi. Scegliere un altro momento.</translation>
+    </message>
+    <message>
+        <source>The patient has agreed</source>
+        <translation>Il paziente ha acconsentito</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Salva…</translation>
     </message>
 </context>
 </TS>

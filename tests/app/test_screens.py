@@ -21,7 +21,6 @@ from carpus.app import compose
 from carpus.app.compose import Desktop
 from carpus.app.desktop.journey import CORE, SCREENS, load
 from carpus.app.settings import ScreenSettings, Settings
-from carpus.core.formats.film import UNFINISHED
 from carpus.ui import language
 from carpus.ui.flow import ASIDE, STEPS, TABS
 from carpus.ui.help import guide
@@ -97,9 +96,6 @@ def test_a_start_makes_no_screen_but_the_first_and_loads_the_others_in_the_windo
     open_desktop: Callable[..., Desktop], qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """Two threads that name classes of Qt for the first time at once end the process."""
-    left = tmp_path / "data" / UNFINISHED
-    left.parent.mkdir()
-    left.write_bytes(b"a hand")
     loaded: dict[str, threading.Thread] = {}
 
     def noted(modules: Sequence[str]) -> Iterator[str]:
@@ -110,7 +106,6 @@ def test_a_start_makes_no_screen_but_the_first_and_loads_the_others_in_the_windo
     monkeypatch.setattr(compose, "load", noted)
     desktop = open_desktop()
     assert set(desktop.journey.way.flows) == {"patients"}
-    assert not left.exists(), "a film that a killed program left goes"
     desktop._load()
     qtbot.waitUntil(lambda: {*CORE, *SCREENS} <= set(loaded))
     assert {loaded[module] for module in SCREENS} == {threading.main_thread()}

@@ -14,6 +14,7 @@ import pytest
 from carpus.app import compose
 from carpus.app.compose import Desktop
 from carpus.app.settings import (
+    GONE,
     PREFERENCES_FILE,
     SETTINGS_FILE,
     TRACKING,
@@ -113,6 +114,17 @@ def test_what_the_window_keeps_is_read_again_and_goes_over_the_persons_file(tmp_
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted([SETTINGS_FILE, PREFERENCES_FILE])
 
 
+def test_settings_of_earlier_versions_that_are_gone_are_ignored_with_a_line_in_the_log(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level("INFO")
+    for place in GONE:
+        section, _, name = place.rpartition(".")
+        caplog.clear()
+        assert load_settings(written(tmp_path, f"[{section}]\n{name} = 3\n")) == load_settings(tmp_path / "none")
+        assert place in caplog.text
+
+
 def test_the_data_folder_is_the_users_own_unless_named(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert load_settings().data_folder.is_relative_to(own_folders)
     written(settings_folder(), '[recording]\nfolder = "/clinic"\n')
@@ -160,10 +172,10 @@ def test_a_data_folder_that_changes_is_noticed_at_the_next_start(tmp_path: Path)
 
 
 def test_what_the_window_does_not_show_stays_as_a_file_said(open_desktop: Callable[..., Desktop]) -> None:
-    desktop = open_desktop(Settings(screen=ScreenSettings("light"), report=ReportSettings("AB", retest_days=14)))
+    desktop = open_desktop(Settings(screen=ScreenSettings("light"), report=ReportSettings("AB", "isb")))
     desktop.keeper.screen.patient_sound.buttons()[1].click()
     assert desktop.journey.context.patient_sound
-    assert desktop.journey.context.report == ReportSettings("AB", retest_days=14)
+    assert desktop.journey.context.report == ReportSettings("AB", "isb")
 
 
 GOLDEN = Path(__file__).parent / "golden"

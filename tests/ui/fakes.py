@@ -25,7 +25,7 @@ from carpus.core.measures.change import DEFAULT_LIMITS, ErrorLimits
 from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedView
 from carpus.core.records.corrections import Corrections
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
-from carpus.core.records.values import ClinicWeek, Counted, DueTest, PatientEntry, SessionEntry
+from carpus.core.records.values import PatientEntry, SessionEntry
 from carpus.core.results.camera_said import CameraSaid, camera_said
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.progress import Comparison
@@ -631,23 +631,6 @@ def home_report(language: str = "", side: Side = "right", names: Sequence[str] =
     tasks = tuple(HomeTask(exercise_named(name), 10, 3) for name in names)
     way = OwnWay((date(2026, 10, 2), date(2026, 11, 6), NOW.date()), (25.0, 36.0, 47.0), 60.0, True)
     return HomeReport(made, tasks, NOW.date(), date(2026, 11, 27), "11:30", "", way, language)
-
-
-def clinic() -> ClinicWeek:
-    """A week of four therapists, with some who are overdue."""
-    everybody = Counted("", (12, 9, 11, 8, 7, 0, 0), (32, 35, 38, 30, 31, 41, 41, 47), 35.0)
-    therapists = tuple(
-        Counted(by, (days, 3, 2, 2, 1, 0, 0), (9, 10, 0, 8, 8, 11, 11, days + 8), 9.0)
-        for by, days in (("M. K.", 7), ("A. B.", 5), ("R. S.", 0), ("L. T.", 1))
-    )
-    due = tuple(
-        DueTest(f"p{number}", name, exercise, "right", NOW.date() - timedelta(days=28 + over), "M. K.", over)
-        for number, (name, exercise, over) in enumerate(
-            (("Finch 21", "FIST_COMPOSITE", 16), ("Basalt 12", "FOREARM_PS", 9), ("Plover 03", "WRIST_FE", 0),
-             ("Juniper 31", "WRIST_RU", -4))
-        )
-    )  # fmt: skip
-    return ClinicWeek(NOW.date() - timedelta(days=NOW.weekday()), everybody, therapists, 29, due)
 
 
 def hand_values_today() -> list[HandValue]:

@@ -39,7 +39,6 @@ from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.by_hand.screen import ByHandScreen, HandRecord
 from carpus.ui.camera_calibration.screen import BoardScreen
 from carpus.ui.check_card.screen import CardScreen
-from carpus.ui.clinic.screen import ClinicScreen
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.correct.flow import difference_words
 from carpus.ui.correct.results_sheet import BothResults, ResultsSheet
@@ -93,7 +92,6 @@ from tests.ui.fakes import (
     FakeSessions,
     FakeStore,
     LateFeed,
-    clinic,
     compared,
     hand_values,
     hand_values_today,
@@ -531,10 +529,10 @@ class Gallery(GalleryWindow):
     review_reason = _then("review", lambda screen: screen.reason.begin(4))
     review_angle = _then("review", lambda screen: screen.picture.angle_button.click())
 
-    def review_film(self) -> None:
+    def review_hand_picture(self) -> None:
         screen = self.review()
-        screen.film_sheet.begin(4)
-        screen.film_sheet.agreed.click()
+        screen.hand_picture.begin()
+        screen.hand_picture.agreed.click()
 
     review_path = partialmethod(_review, view="path")
     review_speeds = partialmethod(_review, view="place")
@@ -741,9 +739,6 @@ class Gallery(GalleryWindow):
     def home_sheet(self) -> None:
         self.report_own()
         self.sheet(HomeSheet).begin(session_report(self.sessions.session("session-7")), TODAY)
-
-    def clinic(self) -> None:
-        self.show(ClinicScreen(self.theme, self.keys), where="").show_week(clinic())
 
     def settings(self) -> SettingsScreen:
         chosen = Preferences(

@@ -51,7 +51,7 @@ from carpus.ui.records.lists import ListedRecord, LogSheet, RecordsSheet
 from carpus.ui.records.locking import LockSheet, PinSheet
 from carpus.ui.report.sheets import HomeSheet, LetterSheet
 from carpus.ui.retest.flow import PeopleSheet
-from carpus.ui.review.film import FilmSheet
+from carpus.ui.review.hand_picture import HandPictureSheet
 from carpus.ui.review.screen import ReasonSheet
 from carpus.ui.sessions.sheets import ChooseSheet, SetAsideSheet
 from carpus.ui.setup.set_sheet import SetSheet
@@ -121,7 +121,7 @@ SHEETS: dict[type[Sheet], Callable[[QWidget, Theme], Opened]] = {
     HomeSheet: _home,
     LetterSheet: _opened(LetterSheet, "Show the letter", ["Dr A"], has_name=True),
     PeopleSheet: _opened(PeopleSheet, "These take part", [("a", "P01", 2)], []),
-    FilmSheet: _opened(FilmSheet, "Cancel", 4),
+    HandPictureSheet: _opened(HandPictureSheet, "Cancel"),
     ReasonSheet: _opened(ReasonSheet, "Keep it in", 3),
     SetAsideSheet: _opened(SetAsideSheet, "Let it count"),
     ChooseSheet: _opened(ChooseSheet, "Leave it as it is", "To whom?", "", "Move it there", [("a", "Heron 17")]),

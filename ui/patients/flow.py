@@ -42,7 +42,6 @@ class PatientsFlow(Flow):
         screen.review.connect(lambda patient_id: way.show("review", "", patient_id))
         screen.progress.connect(lambda patient_id: way.show("progress", patient_id))
         screen.sessions.connect(lambda patient_id: way.show("sessions", patient_id))
-        screen.clinic_button.clicked.connect(lambda: way.show("clinic"))
         context.shell.key.connect(self._take_key)
 
     def show(self, choose: str = "") -> None:

@@ -63,8 +63,6 @@ class PatientsScreen(QWidget):
         self.notice_place = QVBoxLayout()
         self.welcome: WelcomePanel | None = None
         self._nobody = _Nobody(theme)
-        self.clinic_button = Button(theme, self.tr("&Clinic…"), "quiet", height_px=36)
-        self.clinic_button.setToolTip(self.tr("Sessions by day and therapist, and who is due for a re-test"))
         self.archive_button = Button(theme, "", "quiet", icon="archive", height_px=36)
         self.archive_button.hide()
         self._archived: tuple[str, ...] = ()
@@ -83,8 +81,6 @@ class PatientsScreen(QWidget):
             in_line(
                 heading(theme, self.tr("Patients")),
                 STRETCH,
-                (self.clinic_button, 0, foot_line),
-                8,
                 (self.day, 0, foot_line),
             ),
             8,

@@ -1,17 +1,18 @@
-"""The flow of the review: which session, where one goes on from it, a repetition as a film."""
+"""The flow of the review: which session, where one goes on from it, a frame as a picture of the hand."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from carpus.core.formats.film import write_film, write_picture
+from carpus.core.durable import replace_file
+from carpus.core.errors import OutputNotWritable
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.records.corrections import Corrections
 from carpus.core.words import Words
 from carpus.ui.export.flow import Exporting
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.messages import Answer
-from carpus.ui.review.film import FilmWanted, film_pictures
+from carpus.ui.review.hand_picture import HandPicture, draw_hand_picture
 from carpus.ui.review.screen import ReviewScreen
 from carpus.ui.words.camera_standing import unsure_words
 
@@ -29,7 +30,7 @@ class ReviewFlow(Flow):
         screen.told.connect(context.messages.fault)
         screen.report.connect(lambda session_id: way.show("report", session_id))
         screen.export.connect(self.exporting.ask)
-        screen.film.connect(self.save_film)
+        screen.hand_picture_wanted.connect(self.save_hand_picture)
         screen.beside.connect(lambda one, other: way.show("beside", one, other, screen.charts.number))
         screen.correct.connect(lambda *where: way.show("correct", *where))
         screen.result.connect(self.show)
@@ -94,24 +95,27 @@ class ReviewFlow(Flow):
         self.screen.player.show_research(on=on)
         self.exporting.formats.show_research(on=on)
 
-    def save_film(self, wanted: FilmWanted) -> None:
-        session_id, library = wanted.session_id, self.context.library
-        head = wanted.session.header
+    def save_hand_picture(self, wanted: HandPicture) -> None:
+        """Ask where, and write it; the name does not say whose hand it is."""
+        library, head = self.context.library, wanted.session.header
         what = f"{head.exercise.lower().replace('_', '-')}_{head.hand}"
-        suffix = ".mp4" if wanted.rate_hz else ".png"
-        name = f"carpus_{head.when:%Y-%m-%d_%H-%M}_{what}_{wanted.number}{suffix}"  # of whom it does not say
-        title, kinds = self.tr("Save film"), "MP4 (*.mp4)"
-        if not wanted.rate_hz:
-            title, kinds = self.tr("Save picture"), "PNG (*.png)"
-        path = self.ask_where_to_save("exports", name, title, kinds)
+        name = f"carpus_{head.when:%Y-%m-%d_%H-%M}_{what}_{wanted.row}.png"
+        path = self.ask_where_to_save("exports", name, self.tr("Save picture"), "PNG (*.png)")
         if path is None:
             return
-        target = path if path.suffix.lower() == suffix else path.with_name(f"{path.name}{suffix}")
+        target = path if path.suffix.lower() == ".png" else path.with_name(f"{path.name}.png")
 
         def write() -> Path:
-            pictures = film_pictures(self.context.theme, wanted, lambda row: library.picture(session_id, row))
-            if not wanted.rate_hz:
-                return write_picture(target, next(pictures))
-            return write_film(target, pictures, wanted.rate_hz, library.folder)
+            frame = library.picture(head.session_id, wanted.row)
+            image = None if frame is None else draw_hand_picture(self.context.theme, wanted, frame)
+            if image is None:
+                raise OutputNotWritable(target, self.tr("there is no picture of it"))
 
-        self.run(write, lambda done: self.tell_made([done], [session_id]))
+            def save(part: Path) -> None:
+                if not image.save(str(part), b"PNG"):
+                    raise OutputNotWritable(target)
+
+            replace_file(target, save)
+            return target
+
+        self.run(write, lambda done: self.tell_made([done], [head.session_id]))

@@ -18,7 +18,7 @@ from carpus.ui.controls.field import ChoiceButton
 from carpus.ui.picture.photo import label_size, paint_label
 from carpus.ui.picture.view import PictureView
 from carpus.ui.playback.pictures import SessionPicture, paint_trails
-from carpus.ui.review.film import paint_angle
+from carpus.ui.review.hand_picture import paint_angle
 from carpus.ui.review.reviewed import Reviewed
 from carpus.ui.theme import Theme
 
@@ -43,9 +43,9 @@ class ReviewPicture(SessionPicture):
         self.angle_button.setToolTip(self.tr("The angle drawn on the picture (A)"))
         self.angle_button.toggled.connect(lambda _: self.update())
         self.angle_button.toggled.connect(lambda _: self._place_buttons())
-        self.film_button = Button(theme, self.tr("Film…"), "plain", height_px=36)
-        self.film_button.setToolTip(self.tr("This repetition as a film, or this picture, of the hand alone (F)"))
-        for button in (self.correct_button, self.angle_button, self.film_button):
+        self.save_button = Button(theme, self.tr("Save…"), "plain", height_px=36)
+        self.save_button.setToolTip(self.tr("This picture with the hand alone (F)"))
+        for button in (self.correct_button, self.angle_button, self.save_button):
             button.setParent(self)
             button.setProperty("floats", True)
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
@@ -58,7 +58,7 @@ class ReviewPicture(SessionPicture):
         self.set_hand_area(session.calibration.clicks.pixel)
         self.correct_button.show()
         self.angle_button.show()
-        self.film_button.hide()  # until there is a picture of it
+        self.save_button.hide()  # until there is a picture of it
         self._place_buttons()
 
     def show_repetition(self, reviewed: Reviewed, current: int, finger: int) -> None:
@@ -73,7 +73,7 @@ class ReviewPicture(SessionPicture):
 
     def show_stored(self, picture: ByteImage | None) -> None:
         if picture is not None:
-            self.film_button.show()
+            self.save_button.show()
         super().show_stored(picture)
 
     def _place_soon(self) -> None:
@@ -81,7 +81,7 @@ class ReviewPicture(SessionPicture):
 
     def _place_buttons(self) -> None:
         """In a row at the foot of the picture, the hand above it."""
-        buttons = (self.correct_button, self.angle_button, self.film_button)
+        buttons = (self.correct_button, self.angle_button, self.save_button)
         room = self.width() - 24
         words = self.tr("Put markers right…")
         shorter = self.tr("Put right…")

@@ -83,14 +83,6 @@ class Reviewed:
     def under(self, time_s: float) -> list[int]:
         return [n for n, one in enumerate(self.figures.repetitions) if one.start_s - 1e-6 <= time_s <= one.end_s + 1e-6]
 
-    def rows_of(self, number: int) -> range:
-        """Rows of a repetition; none of -1."""
-        if number < 0:
-            return range(0)
-        one = self.figures.repetitions[number]
-        first, last = np.searchsorted(self.curves.time_s, (one.start_s, one.end_s))
-        return range(int(first), int(last))
-
     # --- what is said of a moment -------------------------------------------------------------------------
     def angle_words(self, row: int) -> str:
         """``Flexion 24° ± 2°``: the trained angle of a row that was measured, else nothing."""

@@ -23,7 +23,7 @@ from carpus.ui.playback.transport import Playing
 from carpus.ui.plot.session import row_at
 from carpus.ui.review.card import ReviewCard
 from carpus.ui.review.charts import Player, ReviewCharts
-from carpus.ui.review.film import FilmSheet, FilmWanted, film_of
+from carpus.ui.review.hand_picture import HandPicture, HandPictureSheet, hand_picture
 from carpus.ui.review.picture import ReviewPicture
 from carpus.ui.review.reviewed import Reviewed
 from carpus.ui.theme import GAP_PX, MARGIN_PX, Theme, is_tight
@@ -39,7 +39,8 @@ class ReviewScreen(Fitted):
     """``report`` and ``export`` carry the session's identity, ``beside`` with it that of the session to be held against
     it; ``told`` a fault; ``again`` asks for another set; ``arrived`` when a session is on the screen; ``correct``
     carries the session and the row whose markers are to be put right, ``result`` another result of the recording,
-    ``result_wanted`` one that is to count again, ``film`` a repetition to be written as a film."""
+    ``result_wanted`` one that is to count again, ``hand_picture_wanted`` a frame to be saved as a
+    picture."""
 
     report = Signal(str)
     beside = Signal(str, str)
@@ -48,7 +49,7 @@ class ReviewScreen(Fitted):
     correct = Signal(str, object, int)
     result = Signal(str)
     result_wanted = Signal(str)
-    film = Signal(FilmWanted)
+    hand_picture_wanted = Signal(HandPicture)
     told = Signal(object)
     arrived = Signal()
 
@@ -67,7 +68,7 @@ class ReviewScreen(Fitted):
         self.card = ReviewCard(theme)
         self.bubble = BubbleView(theme, wide=True)
         self.reason = ReasonSheet(self, theme)
-        self.film_sheet = FilmSheet(self, theme)
+        self.hand_picture = HandPictureSheet(self, theme)
         self._column = in_column(
             (in_line((self.picture, 480), (self.charts, 736), gap=GAP_PX), 1),
             self.player,
@@ -99,7 +100,7 @@ class ReviewScreen(Fitted):
         self.playing.moved.connect(self._show_time)
         self.picture.failed.connect(self.told)
         self.picture.correct.connect(self.correct_here)
-        self.picture.film_button.clicked.connect(self.ask_film)
+        self.picture.save_button.clicked.connect(self.ask_hand_picture)
         curves.cursor_moved.connect(self.playing.seek)
         curves.edges_moved.connect(lambda *edges: self._choose(lambda one: one.with_edges(*edges)))
         curves.menu.told.connect(self.told)
@@ -108,7 +109,7 @@ class ReviewScreen(Fitted):
         self.player.view_chosen.connect(lambda _: self._refresh())
         self.player.repetition_wanted.connect(self.toggle_left_out)
         self.reason.kept.connect(self._leave_out)
-        self.film_sheet.wanted.connect(self._film)
+        self.hand_picture.accepted.connect(self._save_hand_picture)
         card.report_button.clicked.connect(lambda: self.report.emit(self._session_id))
         card.export_button.clicked.connect(lambda: self.export.emit(self._session_id))
         card.again_button.clicked.connect(self.again)
@@ -127,7 +128,8 @@ class ReviewScreen(Fitted):
             "edge_back": lambda: self.nudge_edge(-EDGE_STEP_S), "edge_on": lambda: self.nudge_edge(EDGE_STEP_S),
             "report": card.report_button.click, "export": card.export_button.click, "plot_in": curves.zoom_in,
             "plot_out": curves.zoom_out, "plot_all": curves.show_all, "correct": self.correct_here,
-            "beside": card.beside_button.click, "angle": self.picture.angle_button.click, "film": self.ask_film,
+            "beside": card.beside_button.click, "angle": self.picture.angle_button.click,
+            "hand_picture": self.ask_hand_picture,
         }  # fmt: skip
         bind_screen(self, keys, actions)
 
@@ -138,7 +140,7 @@ class ReviewScreen(Fitted):
         """Read a session in the background, then show it. ``whole_hand`` where that is known: then everything has its
         place at once."""
         self._session_id, self.reviewed = session_id, None
-        for sheet in (self.reason, self.film_sheet):
+        for sheet in (self.reason, self.hand_picture):
             sheet.close_sheet()  # what they ask about was of the session before
         self.playing.open(-1.0)
         self.charts.curves.clear()
@@ -181,7 +183,7 @@ class ReviewScreen(Fitted):
         self.card.tables.results.show_results(reviewed.results, self._session_id)
         all_of_them = reviewed.figures.repetitions
         counted = (n for n, repetition in enumerate(all_of_them) if repetition.counts)
-        self.current = next(counted, 0 if all_of_them else -1)  # also where all are passive: they have films too
+        self.current = next(counted, 0 if all_of_them else -1)  # also where all are passive
         self._refresh()
         self.playing.seek(all_of_them[self.current].start_s if all_of_them else 0.0)
         self.arrived.emit()
@@ -224,19 +226,19 @@ class ReviewScreen(Fitted):
             self.playing.stop()
             self.correct.emit(self._session_id, self.reviewed.session, self.picture.row)
 
-    # --- film ---------------------------------------------------------------------------------------------
-    def ask_film(self) -> None:
-        """Whether, and how fast, the current repetition becomes a film; only where its pictures were kept."""
+    # --- picture of the hand ------------------------------------------------------------------------------
+    def ask_hand_picture(self) -> None:
+        """Ask whether this frame becomes a picture; only where frames were kept."""
         reviewed = self.reviewed
-        if reviewed is None or not (rows := reviewed.rows_of(self.current)) or self.picture.film_button.isHidden():
+        if reviewed is None or self.picture.save_button.isHidden():
             return
         self.playing.stop()
-        doubtful = bool((reviewed.curves.status[rows.start : rows.stop] == TrackStatus.DOUBTFUL).any())
-        self.film_sheet.begin(self.current + 1, doubtful=doubtful)
+        status = reviewed.curves.status[self.picture.row]
+        self.hand_picture.begin(refused=status in (TrackStatus.LOST, TrackStatus.DOUBTFUL))
 
-    def _film(self, factor: float) -> None:
-        if self.reviewed is not None and self.reviewed.rows_of(self.current):
-            self.film.emit(film_of(self.reviewed, self.current, self.picture.row, factor))
+    def _save_hand_picture(self) -> None:
+        if self.reviewed is not None:
+            self.hand_picture_wanted.emit(hand_picture(self.reviewed, self.picture.row, self.playing.time_s))
 
     # --- corrections --------------------------------------------------------------------------------------
     def toggle_left_out(self) -> None:

@@ -1,0 +1,148 @@
+"""A frame as a picture of the hand alone, opened by another reader; the angle where it lies in the image plane."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import cv2
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from carpus.core.errors import OutputNotWritable
+from carpus.core.hand.exercises import exercise_named
+from carpus.core.results.hand_cutout import FLAT, cut_out, drawn_angle
+from carpus.core.results.repetition_rows import PASSIVE
+from carpus.core.session.values import Session
+from carpus.core.types import SIMULATED, ByteImage, TrackStatus
+from carpus.ui.background import Background
+from carpus.ui.review.flow import ReviewFlow
+from carpus.ui.review.hand_picture import HandPicture, hand_picture
+from carpus.ui.theme import Theme
+from tests.ui.conftest import Reviewing
+from tests.ui.contexts import Told, a_context
+from tests.ui.fakes import FakeSessions, session
+
+ROWS = range(30, 90)
+FACE = (255, 0, 255)
+
+
+def room(_: int = 0) -> ByteImage:
+    """A picture that is a face all over, so that whatever of it stays is seen."""
+    return np.full((480, 640, 3), FACE, np.uint8)
+
+
+@pytest.fixture(scope="module")
+def side() -> Session:
+    return session(exercise="WRIST_RU", motion="deviation", seconds=20.0, speed_hz=0.16)
+
+
+def test_only_what_is_near_the_hand_stays(side: Session) -> None:
+    for row in ROWS[::10]:
+        alone = cut_out(room(), side, row)
+        left, top = alone.left_px, alone.top_px
+        kept = (alone.image == FACE).all(axis=2)
+        assert (alone.image[~kept] == FLAT).all()
+        discs = np.round(side.markers.measured_px[row] - (left, top)).astype(int)
+        assert kept[discs[:, 1], discs[:, 0]].all(), "the hand is there"
+        far = np.argwhere(kept)[:, ::-1] + (left, top)
+        reach = np.linalg.norm(far[:, None] - side.markers.measured_px[row][None], axis=2).min(axis=1)
+        palm = float(np.linalg.norm(side.markers.measured_px[row][3] - side.markers.measured_px[row][0]))
+        assert reach.max() < 2.2 * palm, "no more of the room than fingers may reach"
+        assert kept.sum() < 0.5 * room().shape[0] * room().shape[1]
+    status = np.array(side.status)
+    status[ROWS[0]] = TrackStatus.LOST
+    assert cut_out(room(), replace(side, status=status), ROWS[0]) is None, "a lost hand shows nothing"
+
+
+def test_the_angle_on_the_picture_is_the_one_that_was_measured(side: Session) -> None:
+    exercise = exercise_named("WRIST_RU")
+    for row in ROWS[::7]:
+        drawn = drawn_angle(side, row, exercise)
+        zero, hand = drawn.zero - drawn.vertex, drawn.hand - drawn.vertex
+        shown = math.degrees(math.atan2(zero[0] * hand[1] - zero[1] * hand[0], float(zero @ hand)))
+        assert abs(abs(shown) - abs(math.degrees(side.motion.angles_rad[row][0]))) < 4.0
+    bending = session(seconds=20.0, speed_hz=0.16)
+    assert drawn_angle(bending, 60, exercise_named("WRIST_FE")) is None, "towards the camera it would look too small"
+
+
+def test_without_agreement_or_frames_no_picture_is_saved(qtbot: QtBot, review: Reviewing) -> None:
+    screen = review(FakeSessions(pictures=False), "session-7")
+    assert screen.picture.save_button.isHidden()
+    screen.ask_hand_picture()
+    assert not screen.hand_picture.isVisible()
+    screen = review(FakeSessions(), "session-7")
+    wanted: list[HandPicture] = []
+    screen.hand_picture_wanted.connect(wanted.append)
+    screen.go_to_repetition(3)
+    qtbot.mouseClick(screen.picture.save_button, Qt.MouseButton.LeftButton)
+    sheet = screen.hand_picture
+    assert sheet.isVisible()
+    assert not sheet.take.isEnabled()
+    qtbot.keyClick(sheet, Qt.Key.Key_Return)
+    assert not wanted
+    screen.ask_hand_picture()
+    qtbot.mouseClick(sheet.agreed, Qt.MouseButton.LeftButton)
+    qtbot.keyClick(sheet, Qt.Key.Key_Return)
+    assert wanted[0].row == screen.picture.row
+    assert wanted[0].words.endswith("°")
+    screen.ask_hand_picture()
+    assert not sheet.agreed.isChecked(), "agreement is given each time"
+    sheet.begin(refused=True)
+    assert not sheet.agreed.isEnabled()
+
+
+def test_words_on_a_picture_say_where_the_angle_is_not_the_patients_own(qtbot: QtBot, review: Reviewing) -> None:
+    screen = review(FakeSessions(), "session-7")
+    screen.go_to_repetition(3)
+    row, time_s = screen.picture.row, screen.playing.time_s
+    screen._leave_out(screen.current + 1, PASSIVE, and_after=False)
+    reviewed = screen.reviewed
+    assert hand_picture(reviewed, row, time_s).words.endswith("°, passive")
+    header = replace(reviewed.session.header, parameters=json.dumps({"source": {SIMULATED: "yes"}}))
+    simulated = replace(reviewed, session=replace(reviewed.session, header=header))
+    assert hand_picture(simulated, row, time_s).words.endswith("°, passive · Simulated hand")
+
+
+def test_a_saved_picture_shows_the_hand_alone_is_told_and_noted(
+    qtbot: QtBot, theme: Theme, host: QWidget, background: Background, side: Session, tmp_path: Path
+) -> None:
+    made: list[tuple[str, object]] = []
+    frames: dict[int, ByteImage] = {ROWS[0]: room()}
+
+    class Pictures:
+        @staticmethod
+        def picture(session_id: str, row: int) -> ByteImage | None:
+            return frames.get(row)
+
+        @staticmethod
+        def made(paths: list[Path], kind: str, sessions: list[str]) -> None:
+            assert kind == "export"
+            made.extend((str(path), sessions) for path in paths)
+
+    asked: list[tuple[object, ...]] = []
+    places = SimpleNamespace(ask_where_to_save=lambda *given: asked.append(given) or tmp_path / "x")
+    told = Told()
+    flow = ReviewFlow(a_context(theme, host, told, background, library=Pictures(), places=places))
+    qtbot.addWidget(flow.screen)
+    flow.save_hand_picture(HandPicture(side, ROWS[0], exercise_named("WRIST_RU"), "24°"))
+    qtbot.waitUntil(lambda: bool(made))
+    assert re.search(r"_\d{4}-\d\d-\d\d_\d\d-\d\d_wrist-ru_right_30.png$", str(asked[0][2]))
+    assert made == [(str(tmp_path / "x.png"), [side.header.session_id])]
+    assert told.asked
+    picture = cv2.imread(str(tmp_path / "x.png"))
+    assert (picture == FLAT).all(axis=2).mean() > 0.2, "room is cut away"
+    assert max(picture.shape) > 320, "a small hand is shown larger"
+    assert (tmp_path / "x.png").stat().st_mode & 0o077 == 0
+    (tmp_path / "x.png").unlink()
+    flow.save_hand_picture(HandPicture(side, ROWS[1], exercise_named("WRIST_RU"), ""))
+    qtbot.waitUntil(lambda: bool(told.faults))
+    assert isinstance(told.faults[0], OutputNotWritable)
+    assert not list(tmp_path.iterdir())

@@ -1,1 +1,0 @@
-"""For the head of a clinic: how many sessions, by whom, and who is due for a re-test."""
