@@ -72,7 +72,7 @@ class Flow(QObject):
     """One screen: where it stands, and what is done on it. Made once, it enters itself into the table of places."""
 
     place: str
-    """Its name for the others: ``context.way.show("clinic")``."""
+    """Its name for the others: ``context.way.show("progress")``."""
     guide: str = "session"
     """The page of the guide that F1 opens on it."""
     tab: str = ""
