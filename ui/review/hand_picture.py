@@ -40,7 +40,7 @@ class HandPicture:
 
 
 def hand_picture(reviewed: Reviewed, row: int, time_s: float) -> HandPicture:
-    """The picture of a row that is shown at a time, with its angle in words; they say so where the angle is not the patient's own."""
+    """The picture of a row at a time; its words say so where the angle is not the patient's own."""
     words, figures = reviewed.angle_words(row), reviewed.figures
     if words and any(figures.repetitions[number].helped for number in reviewed.under(time_s)):
         words = tr("{angle}, passive").format(angle=words)
