@@ -112,7 +112,7 @@ class ReviewFlow(Flow):
                 raise OutputNotWritable(target, self.tr("there is no picture of it"))
 
             def save(part: Path) -> None:
-                if not image.save(str(part), b"PNG"):
+                if not image.save(str(part), "PNG"):  # type: ignore[call-overload]
                     raise OutputNotWritable(target)
 
             replace_file(target, save)
