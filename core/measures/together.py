@@ -76,6 +76,8 @@ LEAST_SD_RAD = math.radians(2.0)
 LONGEST_LAG_S = 0.5
 TREMOR_BAND_HZ = (3.0, 12.0)
 TREMOR_WINDOW_S, TREMOR_LEAST_S = 2.0, 6.0
+TREMOR_LEAST_FPS = 2.0 * TREMOR_BAND_HZ[1]
+"""Below it a tremor of the band looks like a slower one, or like none (Nyquist)."""
 TREMOR_TIMES_NOISE = 3.0
 DRIFT_HZ = 1.0
 HELD_RAD_S = math.radians(6.0)
@@ -128,11 +130,12 @@ def enslaving_share(instructed: FloatArray, other: FloatArray) -> float:
 @dataclass(frozen=True, slots=True)
 class Tremor:
     """``rms_rad`` between 3 and 12 Hz in the steadiest stretch, ``peak_hz`` where it is strongest. ``is_tremor``: three
-    times what the tracker's own noise would show, or more."""
+    times what the tracker's own noise would show, or more. ``has_few_frames``: held, but the band is not seen."""
 
     rms_rad: float
     peak_hz: float
     is_tremor: bool
+    has_few_frames: bool = False
 
 
 def _held(angle: Signal) -> BoolArray:
@@ -144,13 +147,15 @@ def _held(angle: Signal) -> BoolArray:
 
 def tremor(angle: Signal, noise_rms_rad: float) -> Tremor:
     """Of an angle (rad, not low-passed) held for 6 s or longer; ``noise_rms_rad`` of the same band without a hand's
-    tremor. NaN where nothing was held for so long. Above half the frame rate nothing is seen."""
+    tremor. NaN where nothing was held for so long, and below :data:`TREMOR_LEAST_FPS`."""
     from scipy import signal as sps  # half a second to load
 
     longest = max(stretches(_held(angle)), key=lambda part: part.stop - part.start, default=slice(0, 0))
     value = angle.value[longest]
     if not len(value) >= TREMOR_LEAST_S * angle.rate_hz:  # nor where the rate is unknown
         return Tremor(math.nan, math.nan, False)
+    if angle.rate_hz < TREMOR_LEAST_FPS:
+        return Tremor(math.nan, math.nan, False, has_few_frames=True)
     part = Signal(angle.time_s[longest], value, angle.rate_hz, 1.0, np.empty((0, 2)))
     shaken = value - low_pass(part, DRIFT_HZ).value
     frequency, power = sps.welch(shaken, angle.rate_hz, nperseg=round(TREMOR_WINDOW_S * angle.rate_hz))

@@ -27,7 +27,7 @@ from carpus.core.measures.repetitions import Uncounted, what_was_not_counted
 from carpus.core.measures.signals import even_signal, low_pass
 from carpus.core.measures.speed import StrokeMeasures
 from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said, with_checks
-from carpus.core.results.further_measures import FurtherMeasure, further_measures
+from carpus.core.results.further_measures import Attempts, FurtherMeasure, further_measures
 from carpus.core.results.norms import GradedTotal, graded_totals
 from carpus.core.results.ranges import RangeRow, joint_rows, trick_deg, wrist_rows
 from carpus.core.results.repetition_rows import (
@@ -136,6 +136,11 @@ class Quality:
     centre_mm: tuple[float, float, float] = (math.nan,) * 3
     centre_residual_mm: float = math.nan
     """Where the wrist turns, from the WRIST disc in the hand's axes, and how well that fits."""
+
+    @classmethod
+    def unknown(cls, frames: int) -> Quality:
+        """Of a session of which nothing of this could be computed."""
+        return cls(frames, math.nan, math.nan, 0, *(math.nan,) * 5)
 
     @property
     def forearm_moved(self) -> bool:
@@ -274,19 +279,26 @@ def session_figures(
     session: Session, choices: RepetitionChoices | None = None, error_limits: ErrorLimits = DEFAULT_LIMITS
 ) -> SessionFigures:
     """All figures of one session, with a person's corrections to its repetitions."""
-    choices, header = choices or RepetitionChoices(), session.header
+    choices, header, attempts = choices or RepetitionChoices(), session.header, Attempts()
     seen = SeenSession.of(session)
-    trained = trained_angle(seen)
-    measured = measured_repetitions(trained, choices) if trained is not None else ()
+    trained = attempts.compute("repetitions", lambda: trained_angle(seen), None)
+    measured: tuple[Measured, ...] = ()
+    if trained is not None:
+        measured = attempts.compute("repetitions", lambda: measured_repetitions(trained, choices), ())
     repetitions = shown_repetitions(measured)
     counted = tuple(one.window for one in measured if one.row.counted)
     active = without_passive(session, measured)
     own = seen if active is session else SeenSession.of(active)
     over = seen if counted else own
-    rows, joints = wrist_rows(over, counted), joint_rows(over.tracks, counted, over.exercise)
+    rows = attempts.compute("ranges", lambda: wrist_rows(over, counted), ())
+    joints = attempts.compute("ranges of joints", lambda: joint_rows(over.tracks, counted, over.exercise), ())
     if not counted and any(one.is_whole for one in repetitions):
         rows, joints = (), ()  # all were left out: nothing is measured, least of all the whole recording
     strokes = [stroke for one in measured if one.row.counted for stroke in one.strokes if not stroke.stroke.half]
+    trick = attempts.compute("other movements", lambda: trick_deg(own), np.full(3, math.nan))
+    speed = attempts.compute("speed", lambda: SpeedFigures.of(strokes), SpeedFigures.of(()))
+    quality = attempts.compute("quality", lambda: quality_of(seen, repetitions), Quality.unknown(len(session)))
+    grades = attempts.compute("grades", lambda: graded_totals(joints, seen.exercise), ())
     pains = [(time_s, int(text)) for time_s, text in _told(session, "pain") if text.isdigit()]
     return SessionFigures(
         session_id=header.session_id,
@@ -304,12 +316,12 @@ def session_figures(
         repetitions=repetitions,
         rows=rows,
         joint_rows=joints,
-        trick_deg=trick_deg(own),
-        speed=SpeedFigures.of(strokes),
-        quality=quality_of(seen, repetitions),
-        further=further_measures(own),
-        grades=graded_totals(joints, seen.exercise),
-        uncounted=_why_none(seen, trained),
+        trick_deg=trick,
+        speed=speed,
+        quality=quality,
+        further=(*further_measures(own), *attempts.as_measures()),
+        grades=grades,
+        uncounted=attempts.compute("repetitions", lambda: _why_none(seen, trained), None),
         unseen_s=sum(end - start for start, end in trained.found.unseen_s) if trained is not None else 0.0,
         pain=tuple(score for _, score in pains),
         pain_s=tuple(time_s for time_s, _ in pains),

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import logging
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal, TypeVar
 
 import numpy as np
 
@@ -40,9 +41,9 @@ class FurtherMeasure:
     of: str
     unit: str
     values: tuple[float, ...]
-    unknown: Literal["", "too_slow", "hidden"] = ""
-    """Why nothing is known: every movement was so slow that the tracker's noise hides it, or the camera did not see
-    what decides it."""
+    unknown: Literal["", "too_slow", "hidden", "few_frames", "failed"] = ""
+    """Why nothing is known: every movement was so slow that the tracker's noise hides it, the camera did not see what
+    decides it or gave too few frames a second for it, or it could not be computed."""
 
     @property
     def count(self) -> int:
@@ -61,33 +62,57 @@ class FurtherMeasure:
         return float(np.std(known, ddof=1)) if len(known) >= 3 else math.nan
 
 
+T = TypeVar("T")
+U = TypeVar("U")
+
+
+@dataclass(frozen=True, slots=True)
+class Attempts:
+    """Computes each figure for itself: one that fails takes no other with it, and is ``failed`` by its name."""
+
+    failed: list[str] = field(default_factory=list)
+
+    def compute(self, name: str, compute: Callable[[], T], otherwise: U) -> T | U:
+        """What ``compute`` returns, or ``otherwise`` where it fails, whatever the reason."""
+        try:
+            return compute()
+        except Exception:
+            logging.getLogger(__name__).exception("%s could not be computed", name)
+            self.failed.append(name)
+            return otherwise
+
+    def as_measures(self) -> tuple[FurtherMeasure, ...]:
+        """A line for each that failed."""
+        return tuple(FurtherMeasure(name, "session", "", (math.nan,), "failed") for name in self.failed)
+
+
 def further_measures(seen: SeenSession) -> tuple[FurtherMeasure, ...]:
     """What an exercise has beside its ranges, a held angle's tremor last; nothing that its discs do not show."""
+    session, wanted, attempts = seen.session, seen.exercise.further, Attempts()
+    reaches: tuple[Reach, ...] = ()
+    if "reaches" in wanted:
+        reaches = attempts.compute("reaches", lambda: session_reaches(session, seen.view), ())
+    groups: list[tuple[str, Callable[[], Sequence[FurtherMeasure]]]] = [("reaches", lambda: reach_measures(reaches))]
+    if seen.tracks:
+        tips = _tips_m(session, best_motion(session))
+        has_tip = [digit in session.header.protocol.digits for digit in DIGITS]
+        if has_tip[0] and has_tip[1]:
+            aperture_m = distance_m(tips[:, 0], tips[:, 1])
+            groups.append(("largest aperture", lambda: _aperture_measures(session, aperture_m, reaches)))
+        if "spans" in wanted:
+            spans = [("hand span", 0, 4), *(("tip span", k - 1, k) for k in range(1, 5))]
+            there = [(name, a, b) for name, a, b in spans if has_tip[a] and has_tip[b]]
+            groups.append(("hand span", lambda: [_span(session, name, a, b, tips) for name, a, b in there]))
+        if "touches" in wanted and all(has_tip):
+            groups.append(("opposition", lambda: opposition_measures(session, tips)))
+        if "thumb beside" in wanted and has_tip[0]:
+            groups.append(("thumb hidden", lambda: thumb_coherence(session)))
+        if "together" in wanted:
+            groups.append(("synergy", lambda: _together(seen.tracks)))
     angle = 1 if seen.exercise.angle is None else seen.exercise.angle
-    shaken = held_tremor(seen.session, angle, TREMOR_NOISE_RAD)
-    return (*_of_exercise(seen), *([] if shaken is None else [shaken]))
-
-
-def _of_exercise(seen: SeenSession) -> list[FurtherMeasure]:
-    session, wanted = seen.session, seen.exercise.further
-    reaches = session_reaches(session, seen.view) if "reaches" in wanted else ()
-    out = reach_measures(reaches)
-    if not seen.tracks:
-        return out
-    tips = _tips_m(session, best_motion(session))
-    has_tip = [digit in session.header.protocol.digits for digit in DIGITS]
-    if has_tip[0] and has_tip[1]:
-        out += _aperture_measures(session, distance_m(tips[:, 0], tips[:, 1]), reaches)
-    if "spans" in wanted:
-        spans = [("hand span", 0, 4), *(("tip span", k - 1, k) for k in range(1, 5))]
-        out += [_span(session, name, a, b, tips) for name, a, b in spans if has_tip[a] and has_tip[b]]
-    if "touches" in wanted and all(has_tip):
-        out += opposition_measures(session, tips)
-    if "thumb beside" in wanted and has_tip[0]:
-        out += thumb_coherence(session)
-    if "together" in wanted:
-        out += _together(seen.tracks)
-    return out
+    groups.append((TREMOR, lambda: held_tremor(session, angle, TREMOR_NOISE_RAD)))
+    found = [one for name, compute in groups for one in attempts.compute(name, compute, ())]
+    return (*found, *attempts.as_measures())
 
 
 def session_reaches(session: Session, view: BoolArray) -> tuple[Reach, ...]:
@@ -239,15 +264,20 @@ def _in_the_hand(motion: Motion, joint: int) -> FloatArray:
     return np.asarray(np.einsum("nji,nj->ni", turned, motion.joint_position_m[:, joint] - motion.position_m))
 
 
-def held_tremor(session: Session, angle: int, noise_rms_rad: float) -> FurtherMeasure | None:
-    """Tremor of a wrist angle that was held; None where nothing was held for six seconds."""
+TREMOR = "tremor 3-12 Hz"
+
+
+def held_tremor(session: Session, angle: int, noise_rms_rad: float) -> Sequence[FurtherMeasure]:
+    """Tremor of a wrist angle that was held; nothing where none was held for six seconds."""
     time_s = session.timestamp_s - session.timestamp_s[:1]
     if len(time_s) < 2:
-        return None
+        return ()
     found = tremor(
         even_signal(time_s, best_motion(session).angles_rad[:, angle], np.asarray(session.status) == 0), noise_rms_rad
     )
-    return FurtherMeasure("tremor 3-12 Hz", "rms", "deg", (math.degrees(found.rms_rad),)) if found.is_tremor else None
+    if found.has_few_frames:
+        return (FurtherMeasure(TREMOR, "rms", "deg", (math.nan,), "few_frames"),)
+    return (FurtherMeasure(TREMOR, "rms", "deg", (math.degrees(found.rms_rad),)),) if found.is_tremor else ()
 
 
 def _aperture_measures(session: Session, aperture_m: FloatArray, reaches: Sequence[Reach]) -> list[FurtherMeasure]:

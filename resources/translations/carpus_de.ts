@@ -7403,6 +7403,46 @@
         <source>This picture with the hand alone</source>
         <translation>Dieses Bild nur mit der Hand</translation>
     </message>
+    <message>
+        <source>Repetitions</source>
+        <translation>Wiederholungen</translation>
+    </message>
+    <message>
+        <source>Range of motion, fingers</source>
+        <translation>Bewegungsumfang, Finger</translation>
+    </message>
+    <message>
+        <source>Movement of the other angles</source>
+        <translation>Bewegung der übrigen Winkel</translation>
+    </message>
+    <message>
+        <source>Speed and smoothness</source>
+        <translation>Geschwindigkeit und Gleichmäßigkeit</translation>
+    </message>
+    <message>
+        <source>Quality of the recording</source>
+        <translation>Qualität der Aufnahme</translation>
+    </message>
+    <message>
+        <source>Grades</source>
+        <translation>Bewertungen</translation>
+    </message>
+    <message>
+        <source>Reaching movements</source>
+        <translation>Greifbewegungen</translation>
+    </message>
+    <message>
+        <source>Thumb opposition</source>
+        <translation>Daumenopposition</translation>
+    </message>
+    <message>
+        <source>not available: fewer than {count} frames a second</source>
+        <translation>nicht verfügbar: weniger als {count} Bilder pro Sekunde</translation>
+    </message>
+    <message>
+        <source>not available: it could not be computed</source>
+        <translation>nicht verfügbar: Berechnung nicht möglich</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>

@@ -7403,6 +7403,46 @@
         <source>This picture with the hand alone</source>
         <translation>Questa immagine con la sola mano</translation>
     </message>
+    <message>
+        <source>Repetitions</source>
+        <translation>Ripetizioni</translation>
+    </message>
+    <message>
+        <source>Range of motion, fingers</source>
+        <translation>Escursione articolare, dita</translation>
+    </message>
+    <message>
+        <source>Movement of the other angles</source>
+        <translation>Movimento degli altri angoli</translation>
+    </message>
+    <message>
+        <source>Speed and smoothness</source>
+        <translation>Velocità e fluidità</translation>
+    </message>
+    <message>
+        <source>Quality of the recording</source>
+        <translation>Qualità della registrazione</translation>
+    </message>
+    <message>
+        <source>Grades</source>
+        <translation>Valutazioni</translation>
+    </message>
+    <message>
+        <source>Reaching movements</source>
+        <translation>Movimenti di raggiungimento</translation>
+    </message>
+    <message>
+        <source>Thumb opposition</source>
+        <translation>Opposizione del pollice</translation>
+    </message>
+    <message>
+        <source>not available: fewer than {count} frames a second</source>
+        <translation>non disponibile: meno di {count} immagini al secondo</translation>
+    </message>
+    <message>
+        <source>not available: it could not be computed</source>
+        <translation>non disponibile: calcolo non riuscito</translation>
+    </message>
 </context>
 <context>
     <name>AgreementChart</name>

@@ -149,3 +149,11 @@ def test_a_brisk_exercise_is_no_tremor(hz: float) -> None:
     assert found.is_tremor, "held for seven seconds after it"
     assert math.degrees(found.rms_rad) == pytest.approx(2.0 / math.sqrt(2.0), rel=0.15)
     assert found.peak_hz == pytest.approx(5.0, abs=0.5)
+
+
+@pytest.mark.parametrize("fps", [1.5, 5.0, 20.0])
+def test_tremor_of_too_few_frames_a_second_is_not_available(fps: float) -> None:
+    t = np.arange(0.0, 40.0, 1.0 / fps)
+    found = tremor(even_signal(t, np.full(len(t), 0.3)), math.radians(0.25))
+    assert (found.has_few_frames, found.is_tremor) == (True, False)
+    assert math.isnan(found.rms_rad)

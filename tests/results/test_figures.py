@@ -12,11 +12,12 @@ import pytest
 
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.hand.exercises import Movement, exercise_named
-from carpus.core.results.figures import SessionFigures, data_digest
+from carpus.core.results.figures import SessionFigures, data_digest, session_figures
 from carpus.core.results.norms import total_norm, wrist_norm
 from carpus.core.results.progress import compare, other_hand_of, previous_of, progress, unfair_reasons
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.values import Event
+from carpus.ui.report.further_rows import measure_name, value_words
 from tests.results.days import days_ago
 from tests.ui.fakes import NOW, figures_once, session
 
@@ -231,3 +232,29 @@ def test_of_the_other_hand_too_a_recording_counts_by_its_newest_result() -> None
     assert first.recording_id == again.recording_id
     for history in ([first, again], [again, first]):
         assert other_hand_of(history, mine) is again
+
+
+@pytest.mark.parametrize("fps", [5.0, 1.5])
+def test_a_session_of_few_frames_a_second_has_its_figures(fps: float) -> None:
+    stored = session()
+    few = replace(stored, timestamp_s=stored.timestamp_s[0] + np.arange(len(stored)) / fps, repetitions=())
+    found = session_figures(few)
+    assert {row.movement for row in found.rows} >= {"flexion", "extension", "arc"}
+    assert found.quality.frames == len(stored)
+    assert not [one.name for one in found.further if one.unknown == "failed"]
+
+
+@pytest.mark.parametrize("broken", ["further_measures.held_tremor", "figures.trick_deg", "figures.quality_of"])
+def test_a_figure_that_fails_is_not_available_and_takes_no_other_with_it(
+    broken: str, figures: SessionFigures, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(f"carpus.core.results.{broken}", fail)
+    found = session_figures(session())
+    assert found.rows == figures.rows
+    assert found.speed == figures.speed
+    (missing,) = (one for one in found.further if one.unknown == "failed")
+    assert value_words(missing) == "not available: it could not be computed"
+    assert measure_name(missing)[0].isupper()

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from carpus.core.measures.together import TREMOR_LEAST_FPS
 from carpus.core.results.figures import SessionFigures
 from carpus.core.results.further_measures import FurtherMeasure
 from carpus.ui import numbers
@@ -83,6 +84,15 @@ def measure_name(item: FurtherMeasure) -> str:
         "jump when seen again": tr("Jump when seen again"),
         "synergy": tr("All fingers as one movement"),
         "tremor 3-12 Hz": tr("Tremor, 3 to 12 Hz (rms)"),
+        "repetitions": tr("Repetitions"),
+        "ranges": tr("Range of motion"),
+        "ranges of joints": tr("Range of motion, fingers"),
+        "other movements": tr("Movement of the other angles"),
+        "speed": tr("Speed and smoothness"),
+        "quality": tr("Quality of the recording"),
+        "grades": tr("Grades"),
+        "reaches": tr("Reaching movements"),
+        "opposition": tr("Thumb opposition"),
     }.get(item.name, item.name)
     if way is not None:
         return way.format(name=name)
@@ -108,7 +118,11 @@ def _of_two(item: FurtherMeasure) -> str:
 def value_words(item: FurtherMeasure) -> str:
     """``0.87 ± 0.05 s``: the mean, and the spread of three or more; single values have none."""
     if item.unknown:
-        return tr("too slow to judge") if item.unknown == "too_slow" else tr("hidden from the camera")
+        return {
+            "too_slow": tr("too slow to judge"),
+            "hidden": tr("hidden from the camera"),
+            "few_frames": tr("not available: fewer than {count} frames a second").format(count=round(TREMOR_LEAST_FPS)),
+        }.get(item.unknown, tr("not available: it could not be computed"))
     shown = _value(item, item.mean)
     if not math.isfinite(item.sd) or item.unit in ("share", "deg"):
         return shown
