@@ -54,7 +54,7 @@ from carpus.ui.shell import Shell
 from carpus.ui.style import apply_style
 from carpus.ui.theme import Theme, ThemeName
 from carpus.ui.translate import tr
-from carpus.ui.words.camera_standing import card_words
+from carpus.ui.words.camera_check import camera_words
 
 if TYPE_CHECKING:
     from carpus.app.desktop.sources import Sources
@@ -388,8 +388,8 @@ def _connect_settings(screen: SettingsScreen, journey: Journey, theme: Theme) ->
     card = CameraCard(theme)
     card.calibrate_button.clicked.connect(lambda: way.show("board"))
     card.check_button.clicked.connect(lambda: way.show("card"))
-    camera.changed.connect(lambda: card.show_standing(*card_words(camera.standing)))
-    card.show_standing(*card_words(camera.standing))
+    camera.changed.connect(lambda: card.show_status(*camera_words(camera.status)))
+    card.show_status(*camera_words(camera.status))
     screen.add_cards("camera", card)
     screen.add_cards("report", journey.report.forms.card)
 

@@ -36,7 +36,6 @@ from carpus.core.hand.exercises import EXERCISES
 from carpus.core.hand.protocols import SITES, protocol_named
 from carpus.core.papers.chain import PaperSettings
 from carpus.core.pipeline.track import TrackSettings, begin_tracking, track_recording
-from carpus.core.results.camera_said import camera_of
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.measures_table import measure_rows
 from carpus.core.session import reader
@@ -147,7 +146,7 @@ class OpenedSession(Session):
         return measure_rows(self._figures(), self.path.stem)
 
     def _figures(self) -> SessionFigures:
-        return replace(session_figures(self, read_choices(self.path)), camera=camera_of(self))
+        return session_figures(self, read_choices(self.path))
 
     def provenance(self) -> Mapping[str, Any]:
         """Of what, by what and with what it was made."""

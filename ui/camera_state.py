@@ -1,4 +1,4 @@
-"""The camera as the window knows it: whether it is plugged in, and how far it is to be trusted."""
+"""The camera as the window knows it: whether it is plugged in, and what its last check said."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Protocol
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from carpus.core.calibration.camera.board import Board
-from carpus.core.calibration.card.standing import Standing
+from carpus.core.calibration.card.checks import CheckStatus
 from carpus.core.pipeline.live import LiveSession
 from carpus.ui.background import Background
 
@@ -29,7 +29,7 @@ class Cameras(Protocol):
         """The camera that looks at the board, as it says itself, without what was calibrated before."""
         ...
 
-    def for_card(self, *, practice: bool) -> LiveSession:
+    def for_card(self) -> LiveSession:
         """The camera that looks at the card, as a session would have it."""
         ...
 
@@ -53,13 +53,13 @@ class Cameras(Protocol):
         """What cameras of a kind that tell no number are called from now on: the name as it is kept."""
         ...
 
-    def standing(self, now: datetime) -> Standing:
+    def status(self, now: datetime) -> CheckStatus:
         """What is known of the camera; reads the disk."""
         ...
 
 
 class CameraState(QObject):
-    """``looked`` when it was looked whether one is there; ``changed`` when something else is known of it."""
+    """``looked`` when it was looked whether one is there; ``changed`` when it was read what is known of it."""
 
     looked = Signal()
     changed = Signal()
@@ -72,7 +72,7 @@ class CameraState(QObject):
         super().__init__(parent)
         self._cameras, self._background, self._now, self._is_demo = cameras, background, now, is_demo
         self.there, self.name = False, ""
-        self.standing = Standing("")
+        self.status = CheckStatus("")
         self._timer = QTimer(self, interval=LOOK_EVERY_MS)
         self._timer.timeout.connect(self.look)
 
@@ -96,14 +96,13 @@ class CameraState(QObject):
     def read(self) -> None:
         """Read anew what is kept of the camera; a disk that does not answer keeps nobody waiting."""
         cameras, now = self._cameras, self._now()
-        self._background.run(lambda: cameras.standing(now), self._take, lambda _: None, self)
+        self._background.run(lambda: cameras.status(now), self._take, lambda _: None, self)
 
     def met(self, serial: str) -> None:
         """A camera was opened: from now on it is the one that is spoken of."""
         self._cameras.met(serial)
         self.read()
 
-    def _take(self, standing: Standing) -> None:
-        if standing != self.standing:
-            self.standing = standing
-            self.changed.emit()
+    def _take(self, status: CheckStatus) -> None:
+        self.status = status
+        self.changed.emit()

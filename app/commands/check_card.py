@@ -1,4 +1,4 @@
-"""``carpus check-card``: 30 seconds of a printed card say how far off a camera measures, and whether that is usual."""
+"""``carpus check-card``: 30 seconds of a printed card say how far off a camera measures."""
 
 from __future__ import annotations
 
@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING
 from carpus.app.command_line import bar, misused, say, tell
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator
 
     from carpus.core.calibration.card.card import CardReading
-    from carpus.core.calibration.card.chart import CardCheck
     from carpus.core.capture.source import FrameSource
     from carpus.core.types import Frame
 
@@ -31,16 +30,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--card", type=Path, metavar="CARD.pdf", help="write the card to print, and do nothing else")
     parser.add_argument("--paper", choices=("a4", "letter"), default="a4", help="of the card to print")
-    parser.add_argument("--output", type=Path, metavar="RESULT.pdf", help="the result as one page; never overwritten")
     parser.add_argument("--serial", metavar="SERIAL", help="which camera it was, where the recording does not say")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from carpus.core.errors import OutputExists
-
     if arguments.card is not None:
-        if arguments.recording is not None or arguments.output is not None:
-            return misused("check-card", "--card only prints; leave out the recording and --output.")
+        if arguments.recording is not None:
+            return misused("check-card", "--card only prints; leave out the recording.")
+        from carpus.core.errors import OutputExists
+
         if arguments.card.exists():
             raise OutputExists(arguments.card)
         from carpus.core.calibration.card.card import card_sheets
@@ -49,23 +47,14 @@ def run(arguments: argparse.Namespace) -> int:
         write_sheets(arguments.card, card_sheets(arguments.paper), "Carpus check card")
         print(f"Card: {arguments.card} (two pages: print at 100 % and check the rulers)")
         return 0
-    if arguments.output is not None and arguments.output.exists():
-        raise OutputExists(arguments.output)
     return _check(arguments)
 
 
 def _check(arguments: argparse.Namespace) -> int:
     from carpus.app.settings import load_settings
     from carpus.app.sources import open_card
-    from carpus.core.calibration.card.chart import (
-        add_check,
-        before,
-        chart_path,
-        check_of,
-        read_checks,
-        sentence_of,
-        verdict_of,
-    )
+    from carpus.core.calibration.card.card import verdict_sentence
+    from carpus.core.calibration.card.checks import CardCheck, add_check, checks_path, read_checks
     from carpus.core.calibration.card.measure import measure_card
     from carpus.core.capture.calibrated import keep_name
     from carpus.core.dates import is_moment, iso
@@ -82,28 +71,22 @@ def _check(arguments: argparse.Namespace) -> int:
     serial = arguments.serial or info.serial
     if arguments.recording is None and arguments.serial and info.is_nameless:
         serial = keep_name(data_folder, info.name, serial)
-    check = check_of(reading, serial, when, info.settings.get("calibrated", ""))
-    path = chart_path(data_folder, serial)
-    kept = read_checks(path) if serial else []
-    earlier = before(kept, check)
+    path = checks_path(data_folder, serial)
     _print_figures(reading)
-    verdict = verdict_of(earlier, check)
-    print(sentence_of(check, verdict))
-    if verdict == "out":
+    print(verdict_sentence(reading))
+    if not reading.holds:
         say(
             "warning: check once more (card flat, 60 cm, its ruler 100 mm), then calibrate the camera; still "
             "out: do not measure with it."
         )
-    if any(one.when == check.when for one in kept):
+    if serial and any(one.when == when for one in read_checks(path)):
         print(f"Kept for camera {serial} already: {path}")
     elif serial:
-        add_check(path, check)
+        add_check(path, CardCheck(when, serial, reading, info.settings.get("calibrated", "")))
         print(f"Kept for camera {serial}: {path}")
     else:
         say("nobody says which camera this was, so the check is not kept; --serial names it.")
-    if arguments.output is not None:
-        _write_page(arguments.output, f"{info.name} {serial}".strip(), check, earlier, reading)
-    return 1 if verdict == "out" else 0
+    return 0 if reading.holds else 1
 
 
 def _print_figures(reading: CardReading) -> None:
@@ -114,20 +97,6 @@ def _print_figures(reading: CardReading) -> None:
         print(f"{figure.name:<20} {measured:7.2f} ± {sd:.2f}{unit}, off by {off:+.2f}{unit}")
     share = 100.0 * (reading.scale - 1.0)
     print(f"{'All distances':<20} {share:+.2f} %; {reading.pictures} pictures, {reading.distance_m * 100:.0f} cm away")
-
-
-def _write_page(path: Path, camera: str, check: CardCheck, earlier: Sequence[CardCheck], reading: CardReading) -> None:
-    from carpus.ui.report.check_page import CheckResult, write_check_report
-    from carpus.ui.report.pdf import ensure_application
-
-    application = ensure_application()
-    asides = [
-        ("Calibrated", check.calibrated[:10] or "not with a board"),
-        ("Distance", f"{reading.distance_m * 100:.0f} cm"),
-        ("Pictures", str(reading.pictures)),
-    ]
-    print(f"Result: {write_check_report(path, CheckResult(camera, check, earlier, asides))}")
-    del application
 
 
 def _shown(source: FrameSource) -> Iterator[Frame]:

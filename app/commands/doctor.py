@@ -10,7 +10,7 @@ from pathlib import Path
 from carpus import __version__
 from carpus.app.command_line import CAMERA_HELP, camera_address
 from carpus.app.settings import Settings, load_settings
-from carpus.core.calibration.card.standing import camera_ages
+from carpus.core.calibration.card.checks import examine_cameras
 from carpus.core.capture.doctor import examine
 from carpus.core.errors import CarpusFault
 from carpus.core.words import one_sentence
@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.for_support:
         print(f"Carpus {__version__}, {datetime.now(UTC):%Y-%m-%d}")
     wanted = settings.camera.uri if arguments.camera is None else arguments.camera
-    for finding in chain(examine(folder, camera_uri=wanted or None), camera_ages(folder, datetime.now(UTC))):
+    for finding in chain(examine(folder, camera_uri=wanted or None), examine_cameras(folder, datetime.now(UTC))):
         print(f"{_MARK[finding.state]}  {finding.name}: {said(finding.found)}")
         if finding.remedy:
             print(f"         {said(finding.remedy)}")

@@ -129,8 +129,7 @@ def _listed(subject: str, folder: Path) -> tuple[list[tuple[Path, SessionFigures
 def _carrying(subject: str, place: Path, limits: ErrorLimits) -> tuple[list[tuple[Path, SessionFigures]], list[str]]:
     """Of files that lie in no data folder, or are named one by one; and every pseudonym that they carry."""
     from carpus.app.of_file import read_choices, sessions_in
-    from carpus.core.results.camera_said import folder_with_checks
-    from carpus.core.results.figures import session_figures, with_trust
+    from carpus.core.results.figures import session_figures
     from carpus.core.session.reader import read_outline, read_session
 
     out = []
@@ -140,8 +139,7 @@ def _carrying(subject: str, place: Path, limits: ErrorLimits) -> tuple[list[tupl
             said = read_outline(path).header.subject_id
             known.append(said)
             if subject == EVERYBODY or said.casefold() == subject.strip().casefold():
-                figures = session_figures(read_session(path), read_choices(path), limits)
-                out.append((path, with_trust(figures, folder_with_checks(path))))
+                out.append((path, session_figures(read_session(path), read_choices(path), limits)))
         except CarpusFault as fault:
             tell(fault)
     return out, known

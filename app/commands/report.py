@@ -51,29 +51,23 @@ def run(arguments: argparse.Namespace) -> int:
     # Qt is loaded only now: a wrong file is told without it.
     from carpus.app.of_file import read_choices, read_comment
     from carpus.core.agreement.limits_file import read_limits
-    from carpus.core.results.camera_said import camera_of, folder_with_checks
     from carpus.core.results.figures import session_figures
     from carpus.core.results.progress import newest_results
     from carpus.ui.report.pdf import ensure_application, write_progress_report, write_session_report
 
     choices = [read_choices(one.path) for one in sessions]
-    cameras = [camera_of(one, folder_with_checks(one.path) or settings.data_folder) for one in sessions]
     application = ensure_application()
     if len(sessions) == 1:
         write_session_report(
             sessions[0],
             arguments.output,
             choices=choices[0],
-            camera=cameras[0],
             comment=read_comment(sessions[0].path),
             **look,
         )
     else:
         limits = read_limits(settings.data_folder)
-        figures = [
-            replace(session_figures(session, chosen, limits), camera=camera)
-            for session, chosen, camera in zip(sessions, choices, cameras, strict=True)
-        ]
+        figures = [session_figures(*one, limits) for one in zip(sessions, choices, strict=True)]
         for older in {one.session_id for one in figures} - {one.session_id for one in newest_results(figures)}:
             say(f"session {older} is left out: a newer result of its recording counts.")
         write_progress_report(figures, arguments.output, software_version=__version__, **look)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from carpus.app.settings import Settings
 from carpus.core.calibration.camera.board import Board
-from carpus.core.calibration.card.standing import Standing, known_serials, standing_of
+from carpus.core.calibration.card.checks import CheckStatus, check_status, known_serials
 from carpus.core.capture.calibrated import keep_name, stored_calibration, with_given_name, with_stored_calibration
 from carpus.core.capture.camera_info import read_camera_info
 from carpus.core.capture.devices.cameras import name_to_open, open_camera
@@ -45,12 +45,8 @@ class CareCameras:
         uri = self._settings.camera.uri
         return session_of(lambda notice: with_given_name(open_camera(uri, notice=notice), folder))
 
-    def for_card(self, *, practice: bool) -> LiveSession:
+    def for_card(self) -> LiveSession:
         """As a session would have it, with what was calibrated."""
-        if practice:
-            from carpus.core.simulation.practice_camera import card_camera
-
-            return LiveSession(with_stored_calibration(card_camera(self._speed), self.folder(practice=True)))
         return session_of(self.live)
 
     def live(self, notice: Notice) -> FrameSource:
@@ -85,9 +81,9 @@ class CareCameras:
         """The name as it is kept."""
         return keep_name(self.folder(practice=practice), kind, name)
 
-    def standing(self, now: datetime) -> Standing:
+    def status(self, now: datetime) -> CheckStatus:
         """What is known of the camera; reads the disk."""
-        return standing_of(self._settings.data_folder, self.serial(practice=False), now)
+        return check_status(self._settings.data_folder, self.serial(practice=False), now)
 
 
 def session_of(camera: Callable[[Notice], FrameSource]) -> LiveSession:

@@ -59,7 +59,6 @@ from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.pipeline.live_values import LiveCounters
 from carpus.ui import numbers, terms
 from carpus.ui.fault_words import finding_words, shortened
-from carpus.ui.words.camera_standing import bar_words
 
 if TYPE_CHECKING:
     from carpus.ui.review.screen import ReviewScreen
@@ -79,7 +78,6 @@ class Bar(QObject):
         self._again = (-1, 0)
         self._way.arrived.connect(lambda _: self.show())
         self._way.changed.connect(self.show)
-        self._camera.changed.connect(self.show)
         self._camera.looked.connect(self.show_camera)
 
     def show(self) -> None:
@@ -144,8 +142,6 @@ class Bar(QObject):
             camera.show_state("good", self.tr("Recording {name}").format(name=shortened(name, MOST_NAME)))
         elif self._is_demo or (now.kind == "practice" and (now.source is not None or place in STEPS)):
             camera.show_state("good", self.tr("Simulated camera"))
-        elif self._camera.there and (said := bar_words(self._camera.standing)) is not None and place != "card":
-            camera.show_state(*said)
         elif self._camera.there:
             camera.show_state("good", self.tr("Camera ready"))
         else:

@@ -20,7 +20,6 @@ from carpus.core.formats.new_output import new_text
 from carpus.core.formats.provenance import LEGAL, Deidentification, provenance
 from carpus.core.formats.take import Take
 from carpus.core.measures.by_hand import HandValue, of_session
-from carpus.core.results.camera_said import camera_of
 from carpus.core.results.figures import session_figures
 from carpus.core.results.repetition_rows import PASSIVE, RepetitionChoices
 from carpus.core.session.values import Session
@@ -181,7 +180,7 @@ def _nobody(sessions: Iterable[Wanted]) -> Deidentification:
 def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version: str) -> Take:
     session, choices = one.read()
     # Before anybody's days are moved.
-    day, camera = session.header.when.date(), camera_of(session)
+    day = session.header.when.date()
     name = one.path.stem
     if nobody is not None:
         session = nobody.session(session)
@@ -195,7 +194,7 @@ def _take(one: Wanted, nobody: Deidentification | None, names: set[str], version
         name = f"{base}-{number}"
     names.add(name)
     said = provenance(session, version, deidentified=nobody is not None)
-    figures = replace(session_figures(session, choices), camera=camera)
+    figures = session_figures(session, choices)
     by_hand = of_session(one.by_hand, figures.side, day)
     if nobody is not None:  # day, place and initials are a person's own
         by_hand = tuple(replace(value, day=date.min, where="", by="", entered=None) for value in by_hand)

@@ -17,7 +17,7 @@ from carpus.core.results.norms import Norm, total_norm, wrist_norm
 
 _OF_THE_SESSION = (
     "session", "session_id", "recording_id", "subject_id", "recorded", "simulated", "hand", "protocol", "exercise",
-    "duration_s", "frames", "tracked_share", "repetitions", "camera_not_sure",
+    "duration_s", "frames", "tracked_share", "repetitions",
 )  # fmt: skip
 
 
@@ -62,7 +62,6 @@ def content(take: Take) -> dict[str, Any]:
         ],
         "entered_by_hand": [dict(zip(COLUMNS, row, strict=True)) for row in rows_of(take.by_hand)],
         "doubtful_at_calibration": [finding.kind for finding in figures.findings],
-        "camera_not_sure": figures.camera.not_sure,
         "provenance": take.provenance,
     }
 

@@ -35,8 +35,7 @@ from carpus.core.records.session_list import ListedSessions
 from carpus.core.records.set_up import MARKERS_SUFFIX, PRACTICE_PATIENT, SetUp
 from carpus.core.records.store import Store, reading
 from carpus.core.records.values import SessionEntry, entry_of, newest_results
-from carpus.core.results.camera_said import CameraSaid, camera_of
-from carpus.core.results.figures import SessionFigures, session_figures, with_trust
+from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.ranges import in_order
 from carpus.core.results.repetition_rows import RepetitionChoices
 from carpus.core.session.reader import has_raw, read_outline, read_raw_color, read_session
@@ -258,18 +257,14 @@ class Library:
             self.notes.session("changed", session_id)
 
     def figures(self, entry: SessionEntry) -> SessionFigures:
-        """Figures of a session with its choices, computed once, and with what is known of its camera by now."""
+        """Figures of a session with its choices, computed once."""
         choices, order = of_sessions.choices(self.store, entry.session_id)[0], self.angle_order()
         known = self._figures.get(entry.path)
         if known is None or known[0] != choices or known[1].angle_order != order:
             session = in_order(as_listed(read_session(entry.path), entry), order)
             known = (choices, session_figures(session, choices, self.error_limits))
             self._figures[entry.path] = known
-        return with_trust(known[1], self.folder)
-
-    def camera(self, session: Session) -> CameraSaid:
-        """What a session and the checks since say of its camera."""
-        return camera_of(session, self.folder)
+        return known[1]
 
     def figures_of(self, session_id: str) -> SessionFigures:
         """As :meth:`figures`, by the session's identity."""

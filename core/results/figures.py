@@ -13,7 +13,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
-from pathlib import Path
 
 import numpy as np
 
@@ -26,7 +25,7 @@ from carpus.core.measures.motion_range import FEWEST_FOR_SPREAD
 from carpus.core.measures.repetitions import Uncounted, what_was_not_counted
 from carpus.core.measures.signals import even_signal, low_pass
 from carpus.core.measures.speed import StrokeMeasures
-from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said, with_checks
+from carpus.core.results.camera_said import UNKNOWN_CAMERA, CameraSaid, camera_said
 from carpus.core.results.further_measures import Attempts, FurtherMeasure, further_measures
 from carpus.core.results.norms import GradedTotal, graded_totals
 from carpus.core.results.ranges import RangeRow, joint_rows, trick_deg, wrist_rows
@@ -376,11 +375,3 @@ def _why_none(seen: SeenSession, trained: Trained | None) -> Uncounted | None:
     if trained is not None:
         return what_was_not_counted(trained.seen, trained.found)
     return "nothing_seen" if seen.exercise.angle is not None or seen.exercise.joint in seen.tracks else None
-
-
-def with_trust(figures: SessionFigures, data_folder: Path | None) -> SessionFigures:
-    """The same figures with what the checks say of their camera."""
-    if figures.simulated:
-        return figures
-    camera = with_checks(figures.camera, figures.when, data_folder)
-    return figures if camera == figures.camera else replace(figures, camera=camera)

@@ -17,8 +17,7 @@ class SessionFigure:
     ``positive`` what a larger figure means, the same in every column of the row; ``estimate`` filter or smoother;
     ``mean``, ``sd`` between repetitions, ``best``, ``measurement_sd`` of one value, over ``count`` of them;
     ``at_least`` where the camera's view limits it; ``seen_share`` of the frames; ``inferred`` where an end joint that
-    no disc measures is part of it. ``camera_not_sure``: ``lengths``, ``angles`` or both where a check of the camera
-    near the session was out. Unknown is NaN."""
+    no disc measures is part of it. Unknown is NaN."""
 
     session: str
     session_id: str
@@ -44,18 +43,14 @@ class SessionFigure:
     at_least: bool = False
     seen_share: float = math.nan
     inferred: bool = False
-    camera_not_sure: str = ""
     positive: str = ""
     estimate: str = ""
 
 
 def measure_rows(figures: SessionFigures, session: str) -> tuple[SessionFigure, ...]:
     """All measures of a session whose file is called ``session``."""
-    unsure, estimate = figures.camera.not_sure, "smoother" if figures.smoothed else "filter"
-    return tuple(
-        replace(row, camera_not_sure=unsure, estimate=estimate, positive=_positive(row))
-        for row in _rows(figures, session)
-    )
+    estimate = "smoother" if figures.smoothed else "filter"
+    return tuple(replace(row, estimate=estimate, positive=_positive(row)) for row in _rows(figures, session))
 
 
 MEASURE_COLUMNS = {
@@ -73,7 +68,6 @@ MEASURE_COLUMNS = {
     "at_least": "yes where the camera's view limits it: a lower bound",
     "seen_share": "share of the frames in which it was seen, of joints; empty for the wrist",
     "inferred": "yes where an end joint that no disc measures is part of it",
-    "camera_not_sure": "lengths, angles or both where a check of the camera near the session was out",
 }
 
 _JOINT_MEASURES = {"flexion": "largest", "extension": "smallest"}

@@ -18,7 +18,7 @@ from carpus.core.depth_sensor import ASSUMED, DepthSensor
 from carpus.core.hand.exercises import SIDES
 from carpus.core.hand.protocols import WRIST_ANGLES
 from carpus.core.provenance import said_in
-from carpus.core.results.camera_said import camera_of, camera_said
+from carpus.core.results.camera_said import camera_said
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.ranges import is_total
 from carpus.core.results.repetition_rows import RepetitionChoices
@@ -277,11 +277,10 @@ def _calibration(session: Session) -> list[str]:
 def _provenance(session: Session) -> list[str]:
     """By which revision, of which recording, with which settings; what an older session does not say is left out."""
     said, source = (said_in(session.header.parameters, part) for part in ("provenance", "source"))
-    camera = camera_of(session)
+    camera = camera_said(session.header.parameters)
     calibrated = camera.calibrated and f"{camera.calibrated}, {camera.age_days:.0f} days before"
     facts = (
         ("Calibrated", calibrated or (camera.serial and "not with a board")),
-        ("Not sure", camera.not_sure and f"{camera.not_sure}: a check of this camera near this session was out"),
         ("Revision", said.get("revision")),
         ("Of", source.get("sha256") and f"a recording with SHA-256 {source['sha256']}"),
         ("Set", said.get("settings_sha256") and f"by settings with SHA-256 {said['settings_sha256']}"),

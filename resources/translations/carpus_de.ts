@@ -1072,80 +1072,8 @@
         <translation>Aufbewahrt für diese Kamera, Nummer {serial}, anstelle {before}. Früher gemessene Sitzungen behalten ihre Werte und sagen es.</translation>
     </message>
     <message>
-        <source>Camera out: check it</source>
-        <translation>Kamera misst falsch: prüfen</translation>
-    </message>
-    <message>
-        <source>Camera unusual: check it</source>
-        <translation>Kamera ungewöhnlich: prüfen</translation>
-    </message>
-    <message>
-        <source>Check {days} days old</source>
-        <translation>Prüfung {days} Tage alt</translation>
-    </message>
-    <message>
-        <source>This camera was out at its last check: lengths {share} % too long. Angles hold. Check once more.</source>
-        <translation>Diese Kamera maß bei der letzten Prüfung falsch: Längen {share} % zu groß. Winkel stimmen. Prüfen Sie noch einmal.</translation>
-    </message>
-    <message>
-        <source>This camera was out at its last check: lengths {share} % too short. Angles hold. Check once more.</source>
-        <translation>Diese Kamera maß bei der letzten Prüfung falsch: Längen {share} % zu klein. Winkel stimmen. Prüfen Sie noch einmal.</translation>
-    </message>
-    <message>
-        <source>This camera was out at its last check: angles {angle}° off. Check it once more, or calibrate it.</source>
-        <translation>Diese Kamera maß bei der letzten Prüfung falsch: Winkel {angle}° daneben. Prüfen Sie noch einmal, oder kalibrieren Sie.</translation>
-    </message>
-    <message>
-        <source>Angles not sure: a check of this camera near this session was out.</source>
-        <translation>Winkel unsicher: Eine Prüfung dieser Kamera nahe dieser Sitzung war nicht in Ordnung.</translation>
-    </message>
-    <message>
-        <source>Lengths not sure: a check of this camera near this session was out; angles hold.</source>
-        <translation>Längen unsicher: Eine Prüfung dieser Kamera nahe dieser Sitzung war nicht in Ordnung; Winkel stimmen.</translation>
-    </message>
-    <message>
-        <source>angles not sure</source>
-        <translation>Winkel unsicher</translation>
-    </message>
-    <message>
-        <source>lengths not sure</source>
-        <translation>Längen unsicher</translation>
-    </message>
-    <message>
         <source>Not calibrated and not checked yet.</source>
         <translation>Noch nicht kalibriert und nicht geprüft.</translation>
-    </message>
-    <message>
-        <source>Never calibrated.</source>
-        <translation>Nie kalibriert.</translation>
-    </message>
-    <message>
-        <source>Calibrated {ago}.</source>
-        <translation>Kalibriert {ago}.</translation>
-    </message>
-    <message>
-        <source>Never checked.</source>
-        <translation>Nie geprüft.</translation>
-    </message>
-    <message>
-        <source>out of its limits</source>
-        <translation>außerhalb der Grenzen</translation>
-    </message>
-    <message>
-        <source>otherwise than usual</source>
-        <translation>anders als sonst</translation>
-    </message>
-    <message>
-        <source>it measured right</source>
-        <translation>misst richtig</translation>
-    </message>
-    <message>
-        <source>Checked {ago}: {found}.</source>
-        <translation>Geprüft {ago}: {found}.</translation>
-    </message>
-    <message>
-        <source>Camera {serial}: {calibrated} {checked}</source>
-        <translation>Kamera {serial}: {calibrated} {checked}</translation>
     </message>
     <message>
         <source>Check it again: it was calibrated since.</source>
@@ -1166,122 +1094,6 @@
     <message>
         <source>This camera has not been checked yet.</source>
         <translation>Diese Kamera ist noch nicht geprüft.</translation>
-    </message>
-    <message>
-        <source>Print the card, lay it under the camera, and look at it for 30 seconds.</source>
-        <translation>Drucken Sie die Karte, legen Sie sie unter die Kamera, und warten Sie 30 Sekunden.</translation>
-    </message>
-    <message>
-        <source>the limits are {angle}° and {length} mm</source>
-        <translation>die Grenzen sind {angle}° und {length} mm</translation>
-    </message>
-    <message>
-        <source>{angle}° and {length} mm off at most</source>
-        <translation>höchstens {angle}° und {length} mm Abweichung</translation>
-    </message>
-    <message>
-        <source>Check of {day}: {off}; {limits}.</source>
-        <translation>Prüfung vom {day}: {off}; {limits}.</translation>
-    </message>
-    <message>
-        <source>Calibrated since the last check.</source>
-        <translation>Seit der letzten Prüfung neu kalibriert.</translation>
-    </message>
-    <message>
-        <source>{basis} Check it now: that check was with the values before.</source>
-        <translation>{basis} Prüfen Sie jetzt: Die Prüfung galt den Werten davor.</translation>
-    </message>
-    <message>
-        <source>The camera measures otherwise than usual.</source>
-        <translation>Die Kamera misst anders als sonst.</translation>
-    </message>
-    <message>
-        <source>Within the limits: check once more.</source>
-        <translation>Innerhalb der Grenzen: Prüfen Sie noch einmal.</translation>
-    </message>
-    <message>
-        <source>The last check is {days} days old.</source>
-        <translation>Die letzte Prüfung ist {days} Tage alt.</translation>
-    </message>
-    <message>
-        <source>It measured right then.</source>
-        <translation>Damals maß die Kamera richtig.</translation>
-    </message>
-    <message>
-        <source>The camera measures right.</source>
-        <translation>Die Kamera misst richtig.</translation>
-    </message>
-    <message>
-        <source>The camera is out: lengths and angles are wrong.</source>
-        <translation>Die Kamera misst falsch: Längen und Winkel stimmen nicht.</translation>
-    </message>
-    <message>
-        <source>The camera is out: angles are {angle}° off.</source>
-        <translation>Die Kamera misst falsch: Winkel sind {angle}° daneben.</translation>
-    </message>
-    <message>
-        <source>The camera is out: lengths are {share} % too long.</source>
-        <translation>Die Kamera misst falsch: Längen sind {share} % zu groß.</translation>
-    </message>
-    <message>
-        <source>The camera is out: lengths are {share} % too short.</source>
-        <translation>Die Kamera misst falsch: Längen sind {share} % zu klein.</translation>
-    </message>
-    <message>
-        <source>The camera is out: a length is {length} mm off.</source>
-        <translation>Die Kamera misst falsch: Eine Länge ist {length} mm daneben.</translation>
-    </message>
-    <message>
-        <source>Angles still hold.</source>
-        <translation>Winkel stimmen noch.</translation>
-    </message>
-    <message>
-        <source>All distances</source>
-        <translation>Alle Abstände</translation>
-    </message>
-    <message>
-        <source>Wedge 30°</source>
-        <translation>Keil 30°</translation>
-    </message>
-    <message>
-        <source>Over the ridge 50°</source>
-        <translation>Über den First 50°</translation>
-    </message>
-    <message>
-        <source>Flat 90°</source>
-        <translation>Flach 90°</translation>
-    </message>
-    <message>
-        <source>80 mm across</source>
-        <translation>80 mm quer</translation>
-    </message>
-    <message>
-        <source>120 mm along</source>
-        <translation>120 mm längs</translation>
-    </message>
-    <message>
-        <source>25 mm high</source>
-        <translation>25 mm hoch</translation>
-    </message>
-    <message>
-        <source>All about {share} % long: the depth, or a card not printed at 100 %; its ruler says which.</source>
-        <translation>Alles etwa {share} % zu lang: Es liegt an der Tiefe oder an einer Karte, die nicht mit 100 % gedruckt ist; ihr Lineal zeigt, woran.</translation>
-    </message>
-    <message>
-        <source>All about {share} % short: the depth, or a card not printed at 100 %; its ruler says which.</source>
-        <translation>Alles etwa {share} % zu kurz: Es liegt an der Tiefe oder an einer Karte, die nicht mit 100 % gedruckt ist; ihr Lineal zeigt, woran.</translation>
-    </message>
-    <message>
-        <source>Calibrated {day}.</source>
-        <translation>Kalibriert am {day}.</translation>
-    </message>
-    <message>
-        <source>Not calibrated yet.</source>
-        <translation>Noch nicht kalibriert.</translation>
-    </message>
-    <message>
-        <source>Next check by {day}. {calibrated}</source>
-        <translation>Bis {day} wieder prüfen. {calibrated}</translation>
     </message>
     <message>
         <source>Lay the card flat under the camera, all of it in the picture, about 60 cm away.</source>
@@ -2520,26 +2332,6 @@
         <translation>war {angle}</translation>
     </message>
     <message>
-        <source>Angles: largest error of three</source>
-        <translation>Winkel: größter Fehler von dreien</translation>
-    </message>
-    <message>
-        <source>Lengths: largest error of three</source>
-        <translation>Längen: größter Fehler von dreien</translation>
-    </message>
-    <message>
-        <source>newest {value}</source>
-        <translation>neueste {value}</translation>
-    </message>
-    <message>
-        <source>usual, up to {value}</source>
-        <translation>üblich, bis {value}</translation>
-    </message>
-    <message>
-        <source>calibrated</source>
-        <translation>kalibriert</translation>
-    </message>
-    <message>
         <source>Usual, adults {span}</source>
         <translation>Üblich, Erwachsene {span}</translation>
     </message>
@@ -2742,10 +2534,6 @@
     <message>
         <source>{change}, error {limit}</source>
         <translation>{change}, Fehler {limit}</translation>
-    </message>
-    <message>
-        <source>{day}: {warning}</source>
-        <translation>{day}: {warning}</translation>
     </message>
     <message>
         <source>{day}: measured although doubtful. {findings}</source>
@@ -4648,10 +4436,6 @@
         <translation>Kopieren Sie die Aufnahme noch einmal, wenn es viele sind.</translation>
     </message>
     <message>
-        <source>Copy {file} from the folder OpenNI2/Drivers of Orbbec&apos;s OpenNI2 package into {into}.</source>
-        <translation type="vanished">Kopieren Sie {file} aus dem Ordner OpenNI2/Drivers von Orbbecs OpenNI2-Paket nach {into}.</translation>
-    </message>
-    <message>
         <source>Correct the file, or click the markers again.</source>
         <translation>Berichtigen Sie die Datei, oder klicken Sie die Marker neu an.</translation>
     </message>
@@ -5136,10 +4920,6 @@
         <translation>Als root in {file} schreiben: {rule}. Ausführen: udevadm control --reload. Dann die Kamera neu anschließen.</translation>
     </message>
     <message>
-        <source>Astra driver</source>
-        <translation type="vanished">Astra-Treiber</translation>
-    </message>
-    <message>
         <source>Carpus camera board: {name}. Glue it flat on a stiff board. Squares: {square}.</source>
         <translation>Kalibriertafel für Carpus: {name}. Flach auf eine steife Platte kleben. Felder: {square}.</translation>
     </message>
@@ -5158,10 +4938,6 @@
     <message>
         <source>Install Carpus anew.</source>
         <translation>Carpus neu installieren.</translation>
-    </message>
-    <message>
-        <source>It needs a USB 2 port.</source>
-        <translation type="vanished">Sie braucht einen USB-2-Anschluss.</translation>
     </message>
     <message>
         <source>It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware.</source>
@@ -5214,10 +4990,6 @@
     <message>
         <source>The camera measures no depth at the {markers}.</source>
         <translation>Die Kamera misst hier keine Tiefe: {markers}.</translation>
-    </message>
-    <message>
-        <source>The camera measures otherwise than usual: {angle}° and {length} mm off at most; the limits are {most_angle}° and {most_length} mm. Check once more.</source>
-        <translation>Die Kamera misst anders als sonst: höchstens {angle}° und {length} mm Abweichung; die Grenzen sind {most_angle}° und {most_length} mm. Prüfen Sie noch einmal.</translation>
     </message>
     <message>
         <source>The camera measures right: {angle}° and {length} mm off at most; the limits are {most_angle}° and {most_length} mm.</source>
@@ -6392,10 +6164,6 @@
         <translation>{found}, lässt sich nicht laden: {trouble}</translation>
     </message>
     <message>
-        <source>{found}, without the maker&apos;s driver</source>
-        <translation type="vanished">{found}, ohne Treiber des Herstellers</translation>
-    </message>
-    <message>
         <source>{free} GB free, about {minutes} minutes with pictures</source>
         <translation>{free} GB frei, etwa {minutes} Minuten mit Bildern</translation>
     </message>
@@ -6442,10 +6210,6 @@
     <message>
         <source>Hidden joints do not count.</source>
         <translation>Verdeckte Gelenke zählen nicht.</translation>
-    </message>
-    <message>
-        <source>Nothing is lost; sessions near this check say that they are not sure.</source>
-        <translation>Nichts ist verloren; Sitzungen nahe dieser Prüfung sagen, dass sie unsicher sind.</translation>
     </message>
     <message>
         <source>The last back-up is of {day}.</source>
@@ -6682,34 +6446,6 @@
     <message>
         <source>I have read it</source>
         <translation>Ich habe es gelesen</translation>
-    </message>
-    <message>
-        <source>Carpus camera check</source>
-        <translation>Kameraprüfung für Carpus</translation>
-    </message>
-    <message>
-        <source>Limits are fixed, wider only for a sensor that cannot do better. Usual: mean of the first {count} checks after a calibration, ± 3 sd. ± in the table is the sd of one picture. All lengths off by one share: the depth, or a card that was not printed at 100 % (its ruler says which). If it is out: check once more, then calibrate; still out: do not measure with it.</source>
-        <translation>Grenzen sind fest, weiter nur bei einem Sensor, der es nicht besser kann. Üblich: Mittel der ersten {count} Prüfungen nach einer Kalibrierung, ± 3 SD. ± in der Tabelle ist die SD eines Bildes. Alle Längen um denselben Anteil daneben: die Tiefe, oder eine Karte, die nicht mit 100 % gedruckt ist (ihr Lineal sagt, was davon). Misst sie falsch: noch einmal prüfen, dann kalibrieren; immer noch falsch: nicht mit ihr messen.</translation>
-    </message>
-    <message>
-        <source>On the card</source>
-        <translation>Auf der Karte</translation>
-    </message>
-    <message>
-        <source>True</source>
-        <translation>Sollwert</translation>
-    </message>
-    <message>
-        <source>Measured</source>
-        <translation>Gemessen</translation>
-    </message>
-    <message>
-        <source>Off by</source>
-        <translation>Abweichung</translation>
-    </message>
-    <message>
-        <source>All distances together</source>
-        <translation>Alle Abstände zusammen</translation>
     </message>
     <message>
         <source>Exercise</source>
@@ -7324,34 +7060,6 @@
         <translation>Seite · {finger}</translation>
     </message>
     <message>
-        <source>If it is out</source>
-        <translation>Wenn sie falsch misst</translation>
-    </message>
-    <message>
-        <source>Check once more</source>
-        <translation>Noch einmal prüfen</translation>
-    </message>
-    <message>
-        <source>card flat, 60 cm away, its ruler 100 mm long</source>
-        <translation>Karte flach, 60 cm entfernt, ihr Lineal 100 mm lang</translation>
-    </message>
-    <message>
-        <source>Calibrate the camera again</source>
-        <translation>Kamera neu kalibrieren</translation>
-    </message>
-    <message>
-        <source>with the board, five minutes</source>
-        <translation>mit der Tafel, fünf Minuten</translation>
-    </message>
-    <message>
-        <source>Still out: do not measure</source>
-        <translation>Weiter falsch: nicht messen</translation>
-    </message>
-    <message>
-        <source>sessions near this check say that they are not sure</source>
-        <translation>Sitzungen nahe dieser Prüfung sagen, dass sie unsicher sind</translation>
-    </message>
-    <message>
         <source>{time} of {whole}</source>
         <translation>{time} von {whole}</translation>
     </message>
@@ -7442,6 +7150,30 @@
     <message>
         <source>not available: it could not be computed</source>
         <translation>nicht verfügbar: Berechnung nicht möglich</translation>
+    </message>
+    <message>
+        <source>{verdict} Checked {day}.</source>
+        <translation>{verdict} Geprüft am {day}.</translation>
+    </message>
+    <message>
+        <source>Check once more, then calibrate the camera. Still out: do not measure with it.</source>
+        <translation>Noch einmal prüfen, dann die Kamera kalibrieren. Immer noch falsch: nicht mit ihr messen.</translation>
+    </message>
+    <message>
+        <source>never calibrated</source>
+        <translation>nie kalibriert</translation>
+    </message>
+    <message>
+        <source>calibrated {ago}</source>
+        <translation>{ago} kalibriert</translation>
+    </message>
+    <message>
+        <source>Camera {serial}: {calibrated}. {words}</source>
+        <translation>Kamera {serial}: {calibrated}. {words}</translation>
+    </message>
+    <message>
+        <source>Check it again: once a week.</source>
+        <translation>Erneut prüfen: einmal in der Woche.</translation>
     </message>
 </context>
 <context>
@@ -8273,16 +8005,16 @@
         <translation>Kamera</translation>
     </message>
     <message>
-        <source>A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 seconds whether it still measures right. Both can be tried with a simulated camera.</source>
-        <translation>Eine gedruckte Tafel zeigt, wie die Kamera sieht und wie weit ihre Tiefe daneben liegt; eine gedruckte Karte zeigt in 30 Sekunden, ob sie noch richtig misst. Beides lässt sich mit einer simulierten Kamera ausprobieren.</translation>
-    </message>
-    <message>
         <source>Chec&amp;k card…</source>
         <translation>Prüf&amp;karte…</translation>
     </message>
     <message>
         <source>Cali&amp;brate the camera…</source>
         <translation>Kamera kali&amp;brieren…</translation>
+    </message>
+    <message>
+        <source>A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 seconds whether it still measures right.</source>
+        <translation>Eine gedruckte Tafel zeigt, wie die Kamera sieht und wie weit ihre Tiefe daneben liegt; eine gedruckte Karte zeigt in 30 Sekunden, ob sie noch richtig misst.</translation>
     </message>
 </context>
 <context>
@@ -8444,40 +8176,12 @@
         <source>Save the card to print</source>
         <translation>Karte zum Drucken speichern</translation>
     </message>
-    <message>
-        <source>not with a board</source>
-        <translation>nicht mit einer Tafel</translation>
-    </message>
-    <message>
-        <source>Calibrated</source>
-        <translation>Kalibriert</translation>
-    </message>
-    <message>
-        <source>Checks</source>
-        <translation>Prüfungen</translation>
-    </message>
-    <message>
-        <source>Save one page</source>
-        <translation>Eine Seite speichern</translation>
-    </message>
 </context>
 <context>
     <name>CardScreen</name>
     <message>
-        <source>The camera</source>
-        <translation>Die Kamera</translation>
-    </message>
-    <message>
-        <source>Simulated camera</source>
-        <translation>Simulierte Kamera</translation>
-    </message>
-    <message>
         <source>Print &amp;card…</source>
         <translation>Karte &amp;drucken…</translation>
-    </message>
-    <message>
-        <source>One page…</source>
-        <translation>Eine Seite…</translation>
     </message>
     <message>
         <source>Cali&amp;brate the camera…</source>
@@ -8496,26 +8200,6 @@
         <translation>Esc</translation>
     </message>
     <message>
-        <source>Usual: mean of the first 7 checks after a calibration, + 3 sd. Limits are fixed.</source>
-        <translation>Üblich: Mittel der ersten 7 Prüfungen nach einer Kalibrierung, + 3 SD. Grenzen sind fest.</translation>
-    </message>
-    <message>
-        <source>Checking</source>
-        <translation>Prüfung läuft</translation>
-    </message>
-    <message>
-        <source>Its ruler must be 100 mm long, the wedge glued onto the dashed field. Nothing is held.</source>
-        <translation>Ihr Lineal muss 100 mm lang sein, der Keil auf dem gestrichelten Feld kleben. Nichts wird gehalten.</translation>
-    </message>
-    <message>
-        <source>Each check is a point here: a camera that drifts is seen before it is out.</source>
-        <translation>Jede Prüfung ist hier ein Punkt: Eine Kamera, die abdriftet, fällt auf, bevor sie falsch misst.</translation>
-    </message>
-    <message>
-        <source>Check once more</source>
-        <translation>Noch einmal prüfen</translation>
-    </message>
-    <message>
         <source>Check now, 30 seconds</source>
         <translation>Jetzt prüfen, 30 Sekunden</translation>
     </message>
@@ -8532,20 +8216,28 @@
         <translation>{seconds} s</translation>
     </message>
     <message>
-        <source>On the card</source>
-        <translation>Auf der Karte</translation>
+        <source>Print both pages at 100 %: each ruler must be 100 mm long. Glue the first flat onto stiff card, fold the wedge and glue it onto the dashed field.</source>
+        <translation>Drucken Sie beide Seiten mit 100 %: Jedes Lineal muss 100 mm lang sein. Kleben Sie die erste flach auf steifen Karton, falten Sie den Keil, und kleben Sie ihn auf das gestrichelte Feld.</translation>
     </message>
     <message>
-        <source>Measured</source>
-        <translation>Gemessen</translation>
+        <source>A check is good for a week. All lengths off by one share: the depth, or the print’s size.</source>
+        <translation>Eine Prüfung gilt eine Woche. Alle Längen um denselben Anteil daneben: die Tiefe oder die Größe des Drucks.</translation>
     </message>
     <message>
-        <source>Off by</source>
-        <translation>Abweichung</translation>
+        <source>Right</source>
+        <translation>Misst richtig</translation>
     </message>
     <message>
-        <source>Simulated camera and card</source>
-        <translation>Simulierte Kamera und Karte</translation>
+        <source>Check it again</source>
+        <translation>Erneut prüfen</translation>
+    </message>
+    <message>
+        <source>Out</source>
+        <translation>Misst falsch</translation>
+    </message>
+    <message>
+        <source>Not checked yet</source>
+        <translation>Noch nicht geprüft</translation>
     </message>
 </context>
 <context>
@@ -8615,13 +8307,6 @@
     <message>
         <source>other sign</source>
         <translation>anderes Vorzeichen</translation>
-    </message>
-</context>
-<context>
-    <name>ControlCharts</name>
-    <message>
-        <source>Checks of this camera</source>
-        <translation>Prüfungen dieser Kamera</translation>
     </message>
 </context>
 <context>
@@ -9421,6 +9106,33 @@ von oben</translation>
 Shift+F8 from the side</source>
         <translation>F2 Gelenk · F3 Finger
 Umschalt+F8 von der Seite</translation>
+    </message>
+</context>
+<context>
+    <name>HandPictureSheet</name>
+    <message>
+        <source>The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
+        <translation>Die Hand allein mit ihrem Winkel: Gesicht und Raum sind weggeschnitten, es steht kein Name dabei. Wo die Bewegung nicht in der Bildebene liegt, steht der Winkel nur in Worten da.</translation>
+    </message>
+    <message>
+        <source>Picture of the hand</source>
+        <translation>Bild der Hand</translation>
+    </message>
+    <message>
+        <source>Whoever has the file can look at it: Carpus cannot protect it there. It is noted in the log.</source>
+        <translation>Wer die Datei hat, kann sie ansehen: Carpus kann sie dort nicht schützen. Im Protokoll wird es vermerkt.</translation>
+    </message>
+    <message>
+        <source>The hand is not visible here, or its marker labels are doubtful. Choose another moment.</source>
+        <translation>Die Hand ist hier nicht sichtbar, oder die Zuordnung ihrer Marker ist zweifelhaft. Wählen Sie einen anderen Zeitpunkt.</translation>
+    </message>
+    <message>
+        <source>The patient has agreed</source>
+        <translation>Der Patient hat zugestimmt</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Speichern…</translation>
     </message>
 </context>
 <context>
@@ -12535,33 +12247,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Noch keine Patienten. Legen Sie den ersten an, oder probieren Sie alles mit dem Probepatienten.</translation>
-    </message>
-</context>
-<context>
-    <name>HandPictureSheet</name>
-    <message>
-        <source>The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
-        <translation>Die Hand allein mit ihrem Winkel: Gesicht und Raum sind weggeschnitten, es steht kein Name dabei. Wo die Bewegung nicht in der Bildebene liegt, steht der Winkel nur in Worten da.</translation>
-    </message>
-    <message>
-        <source>Picture of the hand</source>
-        <translation>Bild der Hand</translation>
-    </message>
-    <message>
-        <source>Whoever has the file can look at it: Carpus cannot protect it there. It is noted in the log.</source>
-        <translation>Wer die Datei hat, kann sie ansehen: Carpus kann sie dort nicht schützen. Im Protokoll wird es vermerkt.</translation>
-    </message>
-    <message>
-        <source>The hand is not visible here, or its marker labels are doubtful. Choose another moment.</source>
-        <translation>Die Hand ist hier nicht sichtbar, oder die Zuordnung ihrer Marker ist zweifelhaft. Wählen Sie einen anderen Zeitpunkt.</translation>
-    </message>
-    <message>
-        <source>The patient has agreed</source>
-        <translation>Der Patient hat zugestimmt</translation>
-    </message>
-    <message>
-        <source>Save…</source>
-        <translation>Speichern…</translation>
     </message>
 </context>
 </TS>

@@ -1072,80 +1072,8 @@
         <translation>Salvata per questa telecamera, numero {serial}, al posto di: {before}. Le sedute misurate prima mantengono i loro valori e lo dicono.</translation>
     </message>
     <message>
-        <source>Camera out: check it</source>
-        <translation>Telecamera fuori limite: controllarla</translation>
-    </message>
-    <message>
-        <source>Camera unusual: check it</source>
-        <translation>Telecamera insolita: controllarla</translation>
-    </message>
-    <message>
-        <source>Check {days} days old</source>
-        <translation>Controllo di {days} giorni fa</translation>
-    </message>
-    <message>
-        <source>This camera was out at its last check: lengths {share} % too long. Angles hold. Check once more.</source>
-        <translation>Telecamera fuori limite all’ultimo controllo: lunghezze maggiori del {share} %. Gli angoli sono validi. Ripetere il controllo.</translation>
-    </message>
-    <message>
-        <source>This camera was out at its last check: lengths {share} % too short. Angles hold. Check once more.</source>
-        <translation>Telecamera fuori limite all’ultimo controllo: lunghezze minori del {share} %. Gli angoli sono validi. Ripetere il controllo.</translation>
-    </message>
-    <message>
-        <source>This camera was out at its last check: angles {angle}° off. Check it once more, or calibrate it.</source>
-        <translation>Telecamera fuori limite all’ultimo controllo: angoli sbagliati di {angle}°. Ripetere il controllo o calibrarla.</translation>
-    </message>
-    <message>
-        <source>Angles not sure: a check of this camera near this session was out.</source>
-        <translation>Angoli non sicuri: un controllo di questa telecamera vicino a questa seduta era fuori limite.</translation>
-    </message>
-    <message>
-        <source>Lengths not sure: a check of this camera near this session was out; angles hold.</source>
-        <translation>Lunghezze non sicure: un controllo di questa telecamera vicino a questa seduta era fuori limite; gli angoli sono validi.</translation>
-    </message>
-    <message>
-        <source>angles not sure</source>
-        <translation>angoli non sicuri</translation>
-    </message>
-    <message>
-        <source>lengths not sure</source>
-        <translation>lunghezze non sicure</translation>
-    </message>
-    <message>
         <source>Not calibrated and not checked yet.</source>
         <translation>Non ancora calibrata né controllata.</translation>
-    </message>
-    <message>
-        <source>Never calibrated.</source>
-        <translation>Mai calibrata.</translation>
-    </message>
-    <message>
-        <source>Calibrated {ago}.</source>
-        <translation>Calibrata {ago}.</translation>
-    </message>
-    <message>
-        <source>Never checked.</source>
-        <translation>Mai controllata.</translation>
-    </message>
-    <message>
-        <source>out of its limits</source>
-        <translation>fuori limite</translation>
-    </message>
-    <message>
-        <source>otherwise than usual</source>
-        <translation>diversa dal solito</translation>
-    </message>
-    <message>
-        <source>it measured right</source>
-        <translation>misurava bene</translation>
-    </message>
-    <message>
-        <source>Checked {ago}: {found}.</source>
-        <translation>Controllata {ago}: {found}.</translation>
-    </message>
-    <message>
-        <source>Camera {serial}: {calibrated} {checked}</source>
-        <translation>Telecamera {serial}: {calibrated} {checked}</translation>
     </message>
     <message>
         <source>Check it again: it was calibrated since.</source>
@@ -1166,122 +1094,6 @@
     <message>
         <source>This camera has not been checked yet.</source>
         <translation>Questa telecamera non è ancora stata controllata.</translation>
-    </message>
-    <message>
-        <source>Print the card, lay it under the camera, and look at it for 30 seconds.</source>
-        <translation>Stampare il cartoncino, metterlo sotto la telecamera e lasciarlo inquadrato per 30 secondi.</translation>
-    </message>
-    <message>
-        <source>the limits are {angle}° and {length} mm</source>
-        <translation>i limiti sono {angle}° e {length} mm</translation>
-    </message>
-    <message>
-        <source>{angle}° and {length} mm off at most</source>
-        <translation>scarto massimo {angle}° e {length} mm</translation>
-    </message>
-    <message>
-        <source>Check of {day}: {off}; {limits}.</source>
-        <translation>Controllo, {day}: {off}; {limits}.</translation>
-    </message>
-    <message>
-        <source>Calibrated since the last check.</source>
-        <translation>Calibrata dopo l’ultimo controllo.</translation>
-    </message>
-    <message>
-        <source>{basis} Check it now: that check was with the values before.</source>
-        <translation>{basis} Controllarla ora: quel controllo valeva per i valori di prima.</translation>
-    </message>
-    <message>
-        <source>The camera measures otherwise than usual.</source>
-        <translation>La telecamera misura diversamente dal solito.</translation>
-    </message>
-    <message>
-        <source>Within the limits: check once more.</source>
-        <translation>Entro i limiti: ripetere il controllo.</translation>
-    </message>
-    <message>
-        <source>The last check is {days} days old.</source>
-        <translation>L’ultimo controllo risale a {days} giorni fa.</translation>
-    </message>
-    <message>
-        <source>It measured right then.</source>
-        <translation>In quel momento misurava bene.</translation>
-    </message>
-    <message>
-        <source>The camera measures right.</source>
-        <translation>La telecamera misura bene.</translation>
-    </message>
-    <message>
-        <source>The camera is out: lengths and angles are wrong.</source>
-        <translation>Telecamera fuori limite: lunghezze e angoli sono sbagliati.</translation>
-    </message>
-    <message>
-        <source>The camera is out: angles are {angle}° off.</source>
-        <translation>Telecamera fuori limite: angoli sbagliati di {angle}°.</translation>
-    </message>
-    <message>
-        <source>The camera is out: lengths are {share} % too long.</source>
-        <translation>Telecamera fuori limite: lunghezze maggiori del {share} %.</translation>
-    </message>
-    <message>
-        <source>The camera is out: lengths are {share} % too short.</source>
-        <translation>Telecamera fuori limite: lunghezze minori del {share} %.</translation>
-    </message>
-    <message>
-        <source>The camera is out: a length is {length} mm off.</source>
-        <translation>Telecamera fuori limite: una lunghezza sbagliata di {length} mm.</translation>
-    </message>
-    <message>
-        <source>Angles still hold.</source>
-        <translation>Gli angoli restano validi.</translation>
-    </message>
-    <message>
-        <source>All distances</source>
-        <translation>Tutte le distanze</translation>
-    </message>
-    <message>
-        <source>Wedge 30°</source>
-        <translation>Cuneo 30°</translation>
-    </message>
-    <message>
-        <source>Over the ridge 50°</source>
-        <translation>Sullo spigolo 50°</translation>
-    </message>
-    <message>
-        <source>Flat 90°</source>
-        <translation>Piano 90°</translation>
-    </message>
-    <message>
-        <source>80 mm across</source>
-        <translation>largo 80 mm</translation>
-    </message>
-    <message>
-        <source>120 mm along</source>
-        <translation>lungo 120 mm</translation>
-    </message>
-    <message>
-        <source>25 mm high</source>
-        <translation>alto 25 mm</translation>
-    </message>
-    <message>
-        <source>All about {share} % long: the depth, or a card not printed at 100 %; its ruler says which.</source>
-        <translation>Tutto circa {share} % più lungo: la profondità, o un cartoncino non stampato al 100 %; lo dice il suo righello.</translation>
-    </message>
-    <message>
-        <source>All about {share} % short: the depth, or a card not printed at 100 %; its ruler says which.</source>
-        <translation>Tutto circa {share} % più corto: la profondità, o un cartoncino non stampato al 100 %; lo dice il suo righello.</translation>
-    </message>
-    <message>
-        <source>Calibrated {day}.</source>
-        <translation>Calibrata: {day}.</translation>
-    </message>
-    <message>
-        <source>Not calibrated yet.</source>
-        <translation>Non ancora calibrata.</translation>
-    </message>
-    <message>
-        <source>Next check by {day}. {calibrated}</source>
-        <translation>Prossimo controllo entro: {day}. {calibrated}</translation>
     </message>
     <message>
         <source>Lay the card flat under the camera, all of it in the picture, about 60 cm away.</source>
@@ -2520,26 +2332,6 @@
         <translation>era {angle}</translation>
     </message>
     <message>
-        <source>Angles: largest error of three</source>
-        <translation>Angoli: errore massimo dei tre</translation>
-    </message>
-    <message>
-        <source>Lengths: largest error of three</source>
-        <translation>Lunghezze: errore massimo delle tre</translation>
-    </message>
-    <message>
-        <source>newest {value}</source>
-        <translation>ultimo {value}</translation>
-    </message>
-    <message>
-        <source>usual, up to {value}</source>
-        <translation>usuale, fino a {value}</translation>
-    </message>
-    <message>
-        <source>calibrated</source>
-        <translation>calibrata</translation>
-    </message>
-    <message>
         <source>Usual, adults {span}</source>
         <translation>Usuale, adulti {span}</translation>
     </message>
@@ -2742,10 +2534,6 @@
     <message>
         <source>{change}, error {limit}</source>
         <translation>{change}, errore {limit}</translation>
-    </message>
-    <message>
-        <source>{day}: {warning}</source>
-        <translation>{day}: {warning}</translation>
     </message>
     <message>
         <source>{day}: measured although doubtful. {findings}</source>
@@ -4484,10 +4272,6 @@
         <translation>Come root, scrivere in {file}: {rule}. Eseguire: udevadm control --reload. Poi ricollegare la telecamera.</translation>
     </message>
     <message>
-        <source>Astra driver</source>
-        <translation type="vanished">Driver Astra</translation>
-    </message>
-    <message>
         <source>Back up onto another disk now, and do not trust this one any more.</source>
         <translation>Fare ora una copia su un altro disco, e non fidarsi più di questo.</translation>
     </message>
@@ -4656,10 +4440,6 @@
         <translation>Se sono molte, copiare di nuovo la registrazione.</translation>
     </message>
     <message>
-        <source>Copy {file} from the folder OpenNI2/Drivers of Orbbec&apos;s OpenNI2 package into {into}.</source>
-        <translation type="vanished">Copiare {file} dalla cartella OpenNI2/Drivers del pacchetto OpenNI2 di Orbbec in {into}.</translation>
-    </message>
-    <message>
         <source>Correct the file, or click the markers again.</source>
         <translation>Correggere il file, o rifare i clic sui marcatori.</translation>
     </message>
@@ -4798,10 +4578,6 @@
     <message>
         <source>It is left to that program.</source>
         <translation>È lasciato a quel programma.</translation>
-    </message>
-    <message>
-        <source>It needs a USB 2 port.</source>
-        <translation type="vanished">Richiede una porta USB 2.</translation>
     </message>
     <message>
         <source>It needs a USB 2 port; some USB 3 ports refuse cameras with old firmware.</source>
@@ -5202,10 +4978,6 @@
     <message>
         <source>The camera measures no depth at the {markers}.</source>
         <translation>La telecamera non misura la profondità di: {markers}.</translation>
-    </message>
-    <message>
-        <source>The camera measures otherwise than usual: {angle}° and {length} mm off at most; the limits are {most_angle}° and {most_length} mm. Check once more.</source>
-        <translation>La telecamera misura diversamente dal solito: scarto massimo {angle}° e {length} mm; i limiti sono {most_angle}° e {most_length} mm. Ripetere il controllo.</translation>
     </message>
     <message>
         <source>The camera measures right: {angle}° and {length} mm off at most; the limits are {most_angle}° and {most_length} mm.</source>
@@ -6380,10 +6152,6 @@
         <translation>{found}, non si può caricare: {trouble}</translation>
     </message>
     <message>
-        <source>{found}, without the maker&apos;s driver</source>
-        <translation type="vanished">{found}, senza il driver del produttore</translation>
-    </message>
-    <message>
         <source>{free} GB free, about {minutes} minutes with pictures</source>
         <translation>{free} GB liberi, circa {minutes} minuti con immagini</translation>
     </message>
@@ -6430,10 +6198,6 @@
     <message>
         <source>Hidden joints do not count.</source>
         <translation>Le articolazioni nascoste non contano.</translation>
-    </message>
-    <message>
-        <source>Nothing is lost; sessions near this check say that they are not sure.</source>
-        <translation>Nulla è perso; le sedute vicine a questo controllo dicono di non essere sicure.</translation>
     </message>
     <message>
         <source>The last back-up is of {day}.</source>
@@ -6670,34 +6434,6 @@
     <message>
         <source>I have read it</source>
         <translation>L’ho letto</translation>
-    </message>
-    <message>
-        <source>Carpus camera check</source>
-        <translation>Controllo della telecamera di Carpus</translation>
-    </message>
-    <message>
-        <source>Limits are fixed, wider only for a sensor that cannot do better. Usual: mean of the first {count} checks after a calibration, ± 3 sd. ± in the table is the sd of one picture. All lengths off by one share: the depth, or a card that was not printed at 100 % (its ruler says which). If it is out: check once more, then calibrate; still out: do not measure with it.</source>
-        <translation>I limiti sono fissi, più ampi solo per un sensore che non può fare meglio. Usuale: media dei primi {count} controlli dopo una calibrazione, ± 3 DS. ± nella tabella è la DS di una sola immagine. Tutte le lunghezze sbagliate della stessa quota: la profondità, o un cartoncino non stampato al 100 % (lo dice il suo righello). Se è fuori limite: ripetere il controllo, poi calibrare; se lo è ancora: non misurare con questa telecamera.</translation>
-    </message>
-    <message>
-        <source>On the card</source>
-        <translation>Sul cartoncino</translation>
-    </message>
-    <message>
-        <source>True</source>
-        <translation>Vero</translation>
-    </message>
-    <message>
-        <source>Measured</source>
-        <translation>Misurato</translation>
-    </message>
-    <message>
-        <source>Off by</source>
-        <translation>Scarto</translation>
-    </message>
-    <message>
-        <source>All distances together</source>
-        <translation>Tutte le distanze insieme</translation>
     </message>
     <message>
         <source>Exercise</source>
@@ -7324,34 +7060,6 @@
         <translation>Di lato · {finger}</translation>
     </message>
     <message>
-        <source>If it is out</source>
-        <translation>Se è fuori limite</translation>
-    </message>
-    <message>
-        <source>Check once more</source>
-        <translation>Ripeti il controllo</translation>
-    </message>
-    <message>
-        <source>card flat, 60 cm away, its ruler 100 mm long</source>
-        <translation>cartoncino piatto, a 60 cm, righello di 100 mm</translation>
-    </message>
-    <message>
-        <source>Calibrate the camera again</source>
-        <translation>Calibrare di nuovo la telecamera</translation>
-    </message>
-    <message>
-        <source>with the board, five minutes</source>
-        <translation>con la tavola, cinque minuti</translation>
-    </message>
-    <message>
-        <source>Still out: do not measure</source>
-        <translation>Ancora fuori limite: non misurare</translation>
-    </message>
-    <message>
-        <source>sessions near this check say that they are not sure</source>
-        <translation>le sedute vicine a questo controllo dicono di non essere sicure</translation>
-    </message>
-    <message>
         <source>{time} of {whole}</source>
         <translation>{time} di {whole}</translation>
     </message>
@@ -7442,6 +7150,30 @@
     <message>
         <source>not available: it could not be computed</source>
         <translation>non disponibile: calcolo non riuscito</translation>
+    </message>
+    <message>
+        <source>{verdict} Checked {day}.</source>
+        <translation>{verdict} Controllata il {day}.</translation>
+    </message>
+    <message>
+        <source>Check once more, then calibrate the camera. Still out: do not measure with it.</source>
+        <translation>Ripetere il controllo, poi calibrare la telecamera. Se è ancora fuori limite, non misurare con essa.</translation>
+    </message>
+    <message>
+        <source>never calibrated</source>
+        <translation>mai calibrata</translation>
+    </message>
+    <message>
+        <source>calibrated {ago}</source>
+        <translation>calibrata {ago}</translation>
+    </message>
+    <message>
+        <source>Camera {serial}: {calibrated}. {words}</source>
+        <translation>Telecamera {serial}: {calibrated}. {words}</translation>
+    </message>
+    <message>
+        <source>Check it again: once a week.</source>
+        <translation>Controllarla di nuovo: una volta alla settimana.</translation>
     </message>
 </context>
 <context>
@@ -8273,16 +8005,16 @@
         <translation>Telecamera</translation>
     </message>
     <message>
-        <source>A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 seconds whether it still measures right. Both can be tried with a simulated camera.</source>
-        <translation>Una tavola stampata mostra come vede la telecamera e di quanto sbaglia la profondità; un cartoncino stampato mostra in 30 secondi se misura ancora bene. Entrambi si possono provare con una telecamera simulata.</translation>
-    </message>
-    <message>
         <source>Chec&amp;k card…</source>
         <translation>Cartoncino di con&amp;trollo…</translation>
     </message>
     <message>
         <source>Cali&amp;brate the camera…</source>
         <translation>Cali&amp;bra la telecamera…</translation>
+    </message>
+    <message>
+        <source>A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 seconds whether it still measures right.</source>
+        <translation>Una tavola stampata mostra come vede la telecamera e di quanto sbaglia la profondità; un cartoncino stampato mostra in 30 secondi se misura ancora bene.</translation>
     </message>
 </context>
 <context>
@@ -8444,40 +8176,12 @@
         <source>Save the card to print</source>
         <translation>Salva il cartoncino da stampare</translation>
     </message>
-    <message>
-        <source>not with a board</source>
-        <translation>non con una tavola</translation>
-    </message>
-    <message>
-        <source>Calibrated</source>
-        <translation>Calibrata</translation>
-    </message>
-    <message>
-        <source>Checks</source>
-        <translation>Controlli</translation>
-    </message>
-    <message>
-        <source>Save one page</source>
-        <translation>Salva una pagina</translation>
-    </message>
 </context>
 <context>
     <name>CardScreen</name>
     <message>
-        <source>The camera</source>
-        <translation>La telecamera</translation>
-    </message>
-    <message>
-        <source>Simulated camera</source>
-        <translation>Telecamera simulata</translation>
-    </message>
-    <message>
         <source>Print &amp;card…</source>
         <translation>&amp;Stampa…</translation>
-    </message>
-    <message>
-        <source>One page…</source>
-        <translation>Una pagina…</translation>
     </message>
     <message>
         <source>Cali&amp;brate the camera…</source>
@@ -8496,26 +8200,6 @@
         <translation>Esc</translation>
     </message>
     <message>
-        <source>Usual: mean of the first 7 checks after a calibration, + 3 sd. Limits are fixed.</source>
-        <translation>Usuale: media dei primi 7 controlli dopo una calibrazione, + 3 DS. I limiti sono fissi.</translation>
-    </message>
-    <message>
-        <source>Checking</source>
-        <translation>Controllo in corso</translation>
-    </message>
-    <message>
-        <source>Its ruler must be 100 mm long, the wedge glued onto the dashed field. Nothing is held.</source>
-        <translation>Il suo righello deve misurare 100 mm, il cuneo incollato sul campo tratteggiato. Non si tiene in mano nulla.</translation>
-    </message>
-    <message>
-        <source>Each check is a point here: a camera that drifts is seen before it is out.</source>
-        <translation>Ogni controllo è qui un punto: una telecamera che deriva si vede prima che sia fuori limite.</translation>
-    </message>
-    <message>
-        <source>Check once more</source>
-        <translation>Ripeti il controllo</translation>
-    </message>
-    <message>
         <source>Check now, 30 seconds</source>
         <translation>Controlla ora, 30 secondi</translation>
     </message>
@@ -8532,20 +8216,28 @@
         <translation>{seconds} s</translation>
     </message>
     <message>
-        <source>On the card</source>
-        <translation>Sul cartoncino</translation>
+        <source>Print both pages at 100 %: each ruler must be 100 mm long. Glue the first flat onto stiff card, fold the wedge and glue it onto the dashed field.</source>
+        <translation>Stampare le due pagine al 100 %: ogni righello deve misurare 100 mm. Incollare la prima ben piana su cartone rigido, piegare il cuneo e incollarlo sul campo tratteggiato.</translation>
     </message>
     <message>
-        <source>Measured</source>
-        <translation>Misurato</translation>
+        <source>A check is good for a week. All lengths off by one share: the depth, or the print’s size.</source>
+        <translation>Un controllo vale una settimana. Tutte le lunghezze sbagliate della stessa quota: la profondità, o la dimensione della stampa.</translation>
     </message>
     <message>
-        <source>Off by</source>
-        <translation>Scarto</translation>
+        <source>Right</source>
+        <translation>Misura bene</translation>
     </message>
     <message>
-        <source>Simulated camera and card</source>
-        <translation>Telecamera e cartoncino simulati</translation>
+        <source>Check it again</source>
+        <translation>Controllare di nuovo</translation>
+    </message>
+    <message>
+        <source>Out</source>
+        <translation>Fuori limite</translation>
+    </message>
+    <message>
+        <source>Not checked yet</source>
+        <translation>Non ancora controllata</translation>
     </message>
 </context>
 <context>
@@ -8615,13 +8307,6 @@
     <message>
         <source>other sign</source>
         <translation>segno opposto</translation>
-    </message>
-</context>
-<context>
-    <name>ControlCharts</name>
-    <message>
-        <source>Checks of this camera</source>
-        <translation>Controlli di questa telecamera</translation>
     </message>
 </context>
 <context>
@@ -9421,6 +9106,33 @@ dall’alto</translation>
 Shift+F8 from the side</source>
         <translation>F2 articolazione · F3 dito
 Maiusc+F8 di lato</translation>
+    </message>
+</context>
+<context>
+    <name>HandPictureSheet</name>
+    <message>
+        <source>The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
+        <translation>La sola mano con il suo angolo: viso e stanza sono tagliati via, non c’è alcun nome. Dove il movimento non giace nel piano dell’immagine, l’angolo è detto solo a parole.</translation>
+    </message>
+    <message>
+        <source>Picture of the hand</source>
+        <translation>Immagine della mano</translation>
+    </message>
+    <message>
+        <source>Whoever has the file can look at it: Carpus cannot protect it there. It is noted in the log.</source>
+        <translation>Chi ha il file può guardarlo: lì Carpus non può proteggerlo. Viene annotato nel registro.</translation>
+    </message>
+    <message>
+        <source>The hand is not visible here, or its marker labels are doubtful. Choose another moment.</source>
+        <translation>Qui la mano non è visibile, o i nomi dei suoi marcatori sono dubbi. Scegliere un altro momento.</translation>
+    </message>
+    <message>
+        <source>The patient has agreed</source>
+        <translation>Il paziente ha acconsentito</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Salva…</translation>
     </message>
 </context>
 <context>
@@ -12535,33 +12247,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>No patients yet. Add the first one, or try everything with the practice patient.</source>
         <translation>Ancora nessun paziente. Aggiungere il primo, o provare tutto con il paziente di prova.</translation>
-    </message>
-</context>
-<context>
-    <name>HandPictureSheet</name>
-    <message>
-        <source>The hand alone, with its angle: face and room are cut away, there is no name. Where the movement does not lie in the picture, the angle is said in words only.</source>
-        <translation>La sola mano con il suo angolo: viso e stanza sono tagliati via, non c’è alcun nome. Dove il movimento non giace nel piano dell’immagine, l’angolo è detto solo a parole.</translation>
-    </message>
-    <message>
-        <source>Picture of the hand</source>
-        <translation>Immagine della mano</translation>
-    </message>
-    <message>
-        <source>Whoever has the file can look at it: Carpus cannot protect it there. It is noted in the log.</source>
-        <translation>Chi ha il file può guardarlo: lì Carpus non può proteggerlo. Viene annotato nel registro.</translation>
-    </message>
-    <message>
-        <source>The hand is not visible here, or its marker labels are doubtful. Choose another moment.</source>
-        <translation>Qui la mano non è visibile, o i nomi dei suoi marcatori sono dubbi. Scegliere un altro momento.</translation>
-    </message>
-    <message>
-        <source>The patient has agreed</source>
-        <translation>Il paziente ha acconsentito</translation>
-    </message>
-    <message>
-        <source>Save…</source>
-        <translation>Salva…</translation>
     </message>
 </context>
 </TS>

@@ -18,7 +18,7 @@ from carpus.app.compose import Desktop
 from carpus.app.desktop import care_cameras
 from carpus.core.calibration.camera import views
 from carpus.core.calibration.card import measure
-from carpus.core.calibration.card.chart import add_check, chart_path, read_checks
+from carpus.core.calibration.card.checks import add_check, checks_path, read_checks
 from carpus.core.camera import Camera
 from carpus.core.capture.calibrated import stored_calibration
 from carpus.core.capture.source import FrameSource, Notice
@@ -27,7 +27,7 @@ from carpus.core.simulation import practice_camera
 from carpus.ui.camera_calibration import flow
 from carpus.ui.messages.messages import StopCard
 from carpus.ui.settings.camera_card import CameraCard
-from tests.ui.camera_fakes import board_result, camera_checks
+from tests.ui.camera_fakes import board_result, checked
 
 FEW = 12
 pytestmark = pytest.mark.timeout(600)
@@ -64,10 +64,10 @@ def press(qtbot: QtBot, key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.Keyboard
     qtbot.keyClick(at, key, modifier)
 
 
-def test_from_the_settings_over_board_and_card_to_their_pages(
+def test_from_the_settings_over_the_board_to_its_page(
     qtbot: QtBot, desktop: Desktop, data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    journey, board, card = desktop.journey, desktop.journey.board.screen, desktop.journey.card.screen
+    journey, board = desktop.journey, desktop.journey.board.screen
     practice = data / "practice"
 
     def saved_as(name: str) -> Path:
@@ -105,22 +105,7 @@ def test_from_the_settings_over_board_and_card_to_their_pages(
     kept = stored_calibration(practice, practice_camera.PRACTICE_SERIAL)
     assert kept is not None
     assert not (data / "cameras").exists(), "a simulated camera is never kept among real ones"
-    assert card.checks.simulated
-    card.check_button.click()
-    qtbot.waitUntil(lambda: card.progress is not None and card.progress.pixel is not None)
-    qtbot.waitUntil(lambda: card.checks.newest is not None and not card.is_measuring)
-    assert card.answer.text() == "The camera measures right."
-    page = saved_as("check.pdf")
-    card.page_button.click()
-    qtbot.waitUntil(page.exists)
-    card.check_button.click()
-    qtbot.waitUntil(lambda: journey.card.hand._session is not None)
-    journey.card.hand.failed.emit(CameraLost("simulated"))
-    assert not card.is_measuring
-    told = [one for one in desktop.shell.findChildren(StopCard) if one.isVisible()]
-    assert told
     desktop.close()
-    assert len(read_checks(chart_path(practice, practice_camera.PRACTICE_SERIAL))) == 1
 
 
 def test_who_left_while_a_calibration_is_written_is_not_sent_to_the_card(
@@ -139,58 +124,52 @@ def test_who_left_while_a_calibration_is_written_is_not_sent_to_the_card(
     assert journey.place == "patients"
 
 
-def test_the_top_bar_and_the_settings_say_that_the_camera_was_out(
-    qtbot: QtBot, desktop: Desktop, data: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    journey = desktop.journey
-    monkeypatch.setattr(journey.context.cameras, "name", lambda: "Xtion PRO LIVE")
-    journey.camera_state.look()
-    last = camera_checks(out=True).checks[-1]
-    add_check(chart_path(data, "77"), replace(last, serial="77", when=datetime.now().astimezone().isoformat()))
-    journey.camera_state.read()
-    qtbot.waitUntil(lambda: journey.camera_state.standing.is_out)
-    assert desktop.shell.bar.camera.text() == "Camera out: check it"
-    journey.way.show("settings")
-    card = desktop.shell.findChild(CameraCard)
-    assert "out of its limits" in card._state.text()
-    disk, answers = care_cameras.known_serials, threading.Event()
-    monkeypatch.setattr(care_cameras, "known_serials", lambda folder: disk(folder) if answers.wait(600) else set())
-    journey.card.show()
-    assert (journey.place, journey.card.screen.checks.newest) == ("card", None), (
-        "a disk that hangs does not hold the window"
-    )
-    answers.set()
-    qtbot.waitUntil(lambda: journey.card.screen.checks.verdict == "out")
-    assert journey.card.screen.check_button.text() == "Check once more"
+@pytest.fixture
+def card_camera(desktop: Desktop, monkeypatch: pytest.MonkeyPatch) -> list[Notice]:
+    """A camera is plugged in that looks at the card and tells no number; what hears of it being away."""
     heard: list[Notice] = []
 
     def opened(_uri: str, *, camera: Camera | None = None, notice: Notice) -> FrameSource:
         heard.append(notice)
-        return practice_camera.card_camera(20.0)
-
-    monkeypatch.setattr(care_cameras, "open_camera", opened)
-    journey.card.screen.check_button.click()
-    qtbot.waitUntil(lambda: journey.card.hand._session is not None)
-    told: list[object] = []
-    journey.card.hand.lost.connect(told.append)
-    heard[0](CameraLost("Xtion PRO LIVE", "unplugged"))
-    qtbot.waitUntil(lambda: bool(told))
-
-
-def test_a_camera_without_a_number_is_asked_for_its_name_before_the_check(
-    qtbot: QtBot, desktop: Desktop, data: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    journey, card = desktop.journey, desktop.journey.card.screen
-    monkeypatch.setattr(journey.context.cameras, "name", lambda: "Xtion PRO LIVE")
-    journey.camera_state.look()
-
-    def opened(_uri: str, *, camera: Camera | None = None, notice: Notice) -> FrameSource:
         made = practice_camera.card_camera(20.0)
         made.info = replace(made.info, name="Xtion", settings={})
         return made
 
     monkeypatch.setattr(care_cameras, "open_camera", opened)
+    monkeypatch.setattr(desktop.journey.context.cameras, "name", lambda: "Xtion PRO LIVE")
+    desktop.journey.camera_state.look()
+    return heard
+
+
+def test_settings_of_a_camera_that_was_out_say_so_with_the_date(qtbot: QtBot, desktop: Desktop, data: Path) -> None:
+    journey, last = desktop.journey, checked(out=True).check
+    assert last is not None
+    when = datetime.now().astimezone().isoformat()
+    add_check(checks_path(data, "77"), replace(last, serial="77", when=when))
+    journey.way.show("settings")
+    card = desktop.shell.findChild(CameraCard)
+    disk, answers = care_cameras.known_serials, threading.Event()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(care_cameras, "known_serials", lambda folder: disk(folder) if answers.wait(600) else set())
+        card.check_button.click()
+        assert journey.place == "card", "a disk that hangs does not hold the window"
+        assert "not been checked" in journey.card.screen.words.text()
+        answers.set()
+        qtbot.waitUntil(lambda: journey.camera_state.status.is_out)
+    assert "all lengths are 2.6 % too long" in journey.card.screen.words.text()
+    assert "Checked" in card._state.text()
+    assert "2.6 % too long" in card._state.text()
+
+
+def test_a_check_of_a_camera_without_a_number_is_kept_under_its_name(
+    qtbot: QtBot, desktop: Desktop, data: Path, tmp_path: Path, card_camera: list[Notice],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    journey, card = desktop.journey, desktop.journey.card.screen
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "card.pdf"), ""))
     journey.card.show()
+    card.print_button.click()
+    qtbot.waitUntil((tmp_path / "card.pdf").exists)
     card.check_button.click()
     qtbot.waitUntil(card.name_sheet.isVisible)
     assert not card.name_sheet.take.isEnabled()
@@ -208,13 +187,22 @@ def test_a_camera_without_a_number_is_asked_for_its_name_before_the_check(
     assert card.progress is None
     qtbot.keyClicks(card.name_sheet.line, "room 3")
     press(qtbot, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: card.checks.newest is not None, timeout=240_000)
-    assert [one.serial for one in read_checks(chart_path(data, "room 3"))] == ["room 3"]
+    qtbot.waitUntil(lambda: card.progress is not None and card.progress.pixel is not None)
+    told: list[object] = []
+    journey.card.hand.lost.connect(told.append)
+    card_camera[-1](CameraLost("Xtion PRO LIVE", "unplugged"))
+    qtbot.waitUntil(lambda: bool(told))
+    qtbot.waitUntil(lambda: journey.camera_state.status.check is not None, timeout=240_000)
+    assert [one.serial for one in read_checks(checks_path(data, "room 3"))] == ["room 3"]
+    assert "too long" in card.words.text(), "its depth is off, and it was never calibrated"
+    assert not card.is_measuring
     card.check_button.click()
     qtbot.waitUntil(card.name_sheet.isVisible)
     assert card.name_sheet.line.text() == "room 3"
     assert "room 3" in card.name_sheet.title.text()
     press(qtbot, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: card.progress is not None and card.progress.pixel is not None)
-    journey.card.back()
+    qtbot.waitUntil(lambda: journey.card.hand._session is not None)
+    journey.card.hand.failed.emit(CameraLost("simulated"))
+    assert not card.is_measuring
+    assert [one for one in desktop.shell.findChildren(StopCard) if one.isVisible()]
     desktop.close()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from datetime import timedelta
 from functools import cache
 
 import numpy as np
@@ -12,14 +11,14 @@ from carpus.core.calibration.camera.board import CHESSBOARD, board_sheet
 from carpus.core.calibration.camera.calibrate import CameraCalibration, DepthCheck, Intrinsics
 from carpus.core.calibration.camera.effect import CELLS, Effect
 from carpus.core.calibration.camera.views import FIELDS, Gathering, Judgement, next_step, target_outline
-from carpus.core.calibration.card.card import FIGURES
-from carpus.core.calibration.card.chart import CardCheck, verdict_of
+from carpus.core.calibration.card.card import FIGURES, CardReading
+from carpus.core.calibration.card.checks import CardCheck, CheckStatus
 from carpus.core.calibration.card.measure import CardWatch
 from carpus.core.camera import DEFAULT_CAMERA
 from carpus.core.simulation.practice_camera import LENS, Studio, card_scene, poses, texture_of
 from carpus.core.types import Frame
 from carpus.ui.words.camera_calibration import BoardProgress, BoardResult
-from carpus.ui.words.check_card import CameraChecks, CardProgress
+from carpus.ui.words.camera_check import CardProgress
 from tests.ui.fakes import NOW
 
 
@@ -51,23 +50,12 @@ def board_result(*, poor: bool = False) -> BoardResult:
     return BoardResult(made, Effect(off, 0.92, 10.4, 0.2, -0.8), "Xtion PRO LIVE", "1210130114", "18 Apr 2026")
 
 
-def camera_checks(*, out: bool = False) -> CameraChecks:
-    """Three months of a camera: an odd check, a calibration, and now."""
-    rng = np.random.default_rng(8)
-    checks: list[CardCheck] = []
-    for k in range(12):
-        when = (NOW - timedelta(days=7 * (11 - k))).isoformat()
-        angle, length = 0.6 + 0.1 * float(rng.normal()), 0.8 + 0.1 * float(rng.normal())
-        if k == 6:
-            angle, length = 1.7, 3.4
-        scale = 1.0 + (0.026 if out and k == 11 else 0.0)
-        if out and k == 11:
-            length = 3.3
-        measured = [one.true * (scale if one.kind == "length" else 1.0) + 0.3 for one in FIGURES]
-        calibrated = (NOW - timedelta(days=200 if k < 7 else 31)).isoformat()
-        checks.append(CardCheck(when, "1210130114", angle, length, scale, tuple(measured), (0.2,) * 6, calibrated))
-    verdict = verdict_of(checks[:-1], checks[-1])
-    return CameraChecks("Xtion PRO LIVE", "1210130114", checks, verdict, 0.1, "20 Oct 2026")
+def checked(*, out: bool = False) -> CheckStatus:
+    """A camera that was checked today; with ``out`` its depth is 2.6 % off since."""
+    scale = 1.026 if out else 1.0
+    measured = np.array([one.true * (scale if one.kind == "length" else 1.0) + 0.3 for one in FIGURES])
+    reading = CardReading(measured, np.full(6, 0.2), scale, 0.6, 30, 30)
+    return CheckStatus("1210130114", 31.0, 0.1, CardCheck(NOW.isoformat(), "1210130114", reading))
 
 
 @cache

@@ -26,7 +26,6 @@ from carpus.core.pipeline.live_values import LiveCounters, LiveEvent, TrackedVie
 from carpus.core.records.corrections import Corrections
 from carpus.core.records.set_up import PRACTICE_PATIENT, SetUp
 from carpus.core.records.values import PatientEntry, SessionEntry
-from carpus.core.results.camera_said import CameraSaid, camera_said
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.progress import Comparison
 from carpus.core.results.repetition_rows import RepetitionChoices
@@ -612,9 +611,6 @@ class FakeSessions:
 
     def keep_choices(self, session_id: str, choices: RepetitionChoices) -> None:
         self.kept[session_id] = choices
-
-    def camera(self, session: Session) -> CameraSaid:
-        return camera_said(session.header.parameters)
 
     def history(self, patient_id: str) -> list[SessionFigures]:
         return [figures_once(stored, self.choices(key)) for key, stored in self.sessions.items()]

@@ -19,6 +19,7 @@ from PySide6.QtCore import QEvent, QLocale
 from PySide6.QtWidgets import QApplication, QWidget
 
 from carpus.core.agreement.reference import ReferenceOutline
+from carpus.core.calibration.card.checks import CheckStatus
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.errors import DiskFull
 from carpus.core.hand.protocols import WRIST_ANGLES
@@ -79,9 +80,9 @@ from carpus.ui.theme import Theme, ThemeName
 from carpus.ui.tour.bubble import BubbleView
 from carpus.ui.tour.order import Bubble
 from carpus.ui.welcome.panel import Check, WelcomePanel
-from carpus.ui.words.check_card import CameraChecks
+from carpus.ui.words.camera_check import camera_words
 from tests.moments import with_moment
-from tests.ui.camera_fakes import board_progress, board_result, camera_checks, card_progress
+from tests.ui.camera_fakes import board_progress, board_result, card_progress, checked
 from tests.ui.fake_stored_sessions import FakeStoredSessions
 from tests.ui.fakes import (
     NOW,
@@ -805,9 +806,7 @@ class Gallery(GalleryWindow):
 
     def board(self) -> None:
         screen = self._board()
-        screen.beginning.show_standing(
-            "Camera 1210130114: calibrated 214 days ago. Checked 9 days ago: it measured right.", camera_there=True
-        )
+        screen.beginning.show_standing(camera_words(checked())[1], camera_there=True)
         screen.show_beginning()
 
     def board_showing(self) -> None:
@@ -821,22 +820,21 @@ class Gallery(GalleryWindow):
     board_result = _then("_board", lambda screen: screen.show_result(board_result()))
     board_poor = _then("_board", lambda screen: screen.show_result(board_result(poor=True)))
 
-    def _card(self, checks: CameraChecks) -> CardScreen:
+    def _card(self, status: CheckStatus) -> CardScreen:
         self.place(where="")
         self.shell.bar.show_place("Check card", "")
-        screen = CardScreen(self.theme, self.keys)
+        screen = CardScreen(self.theme)
         screen.set_camera_there(True)
-        self.show(screen).show_checks(checks)
+        self.show(screen).show_status(status)
         self.settle()
         return screen
 
-    card = partialmethod(_card, camera_checks())
-    card_out = partialmethod(_card, camera_checks(out=True))
-    card_none = partialmethod(_card, CameraChecks("", ""))
+    card = partialmethod(_card, checked())
+    card_out = partialmethod(_card, checked(out=True))
+    card_none = partialmethod(_card, CheckStatus(""))
 
     def card_measuring(self) -> None:
-        screen = self._card(CameraChecks("", "", simulated=True))
-        self.shell.sign.show_lines(["Simulated camera: nothing here is of a real one."])
+        screen = self._card(CheckStatus(""))
         screen.begin_measuring()
         frame, progress = card_progress()
         screen.show_frame(frame.color_rgb)

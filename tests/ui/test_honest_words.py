@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import json
 import math
 from dataclasses import replace
 from datetime import timedelta
@@ -17,7 +16,6 @@ from pytestqt.qtbot import QtBot
 
 from carpus.core import so3
 from carpus.core.agreement.limits_file import LIMITS_FILE, store_limits
-from carpus.core.calibration.card.chart import CardCheck, add_check, chart_path
 from carpus.core.errors import SessionUnreadable, SettingsInvalid
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.hand.protocols import WRIST6
@@ -25,9 +23,7 @@ from carpus.core.measures.change import ErrorLimits, MeasuredLimit, RetestStudy
 from carpus.core.measures.repetitions import Uncounted
 from carpus.core.records.library import Library
 from carpus.core.records.new_sessions import recover
-from carpus.core.results.camera_said import camera_of
-from carpus.core.results.figures import SessionFigures, StrokeSpread, with_trust
-from carpus.core.results.measures_table import measure_rows
+from carpus.core.results.figures import SessionFigures, StrokeSpread
 from carpus.core.results.progress import progress
 from carpus.core.results.seen import joint_curves, session_curves
 from carpus.core.types import TrackedFrame
@@ -47,14 +43,12 @@ from carpus.ui.report.hand_rows import column_heads, compared_figures, limits_wo
 from carpus.ui.report.pdf import session_report
 from carpus.ui.report.screen import suggested_name
 from carpus.ui.report.tables import repetition_words, table_rows
-from carpus.ui.report.words import method, other_lines, warnings
-from carpus.ui.sessions.listing import SessionLine, cells
+from carpus.ui.report.words import method, other_lines
 from carpus.ui.settings.limits import limit_lines
 from carpus.ui.settings.screen import SettingsScreen
 from carpus.ui.theme import Theme
 from carpus.ui.verdicts import change_since_first, difference, limit_words, no_change_words, verdict_word
-from carpus.ui.words.camera_standing import unsure_name
-from carpus.ui.words.progress import before_after, doubt_words
+from carpus.ui.words.progress import before_after
 from tests.moments import with_moment
 from tests.sources import SOURCES, modules, nodes
 from tests.ui.fakes import NOW, FakeFeed, FakeSessions, FakeStore, figures_once, session
@@ -77,34 +71,6 @@ def not_reaching(figures_deg: tuple[float, float] = (20.0, 60.0), **header: obje
     span = figures_deg[1] - figures_deg[0]
     angles[:, 1] = np.radians(figures_deg[0] + (angles[:, 1] - low) / (high - low) * span)
     return figures_once(replace(made, motion=replace(made.motion, angles_rad=angles)))
-
-
-# --- a camera that was out --------------------------------------------------------------------------------
-@pytest.mark.parametrize(
-    ("angle_deg", "scale", "not_sure"), [(0.5, 1.0, ""), (0.5, 1.02, "lengths"), (2.6, 1.0, "angles")]
-)
-def test_a_session_of_a_camera_that_was_out_says_so_everywhere(
-    tmp_path: Path, angle_deg: float, scale: float, not_sure: str
-) -> None:
-    after = (NOW + timedelta(days=2)).isoformat()
-    add_check(chart_path(tmp_path, "77"), CardCheck(after, "77", angle_deg, 0.5, scale, (0.0,) * 6, (0.1,) * 6))
-    made = session(exercise="WRIST_FE")
-    source = {"source": {"serial": "77"}}
-    made = replace(made, header=replace(made.header, parameters=json.dumps(source)), path=tmp_path / "p" / "s.h5")
-    camera = camera_of(made)
-    assert camera.not_sure == not_sure
-    figures = figures_once(made)
-    assert repr(with_trust(figures, tmp_path).camera) == repr(camera)  # an unknown age is equal to nothing
-    assert with_trust(replace(figures, simulated=True), tmp_path).camera.not_sure == ""
-    figures = with_trust(figures, tmp_path)
-    lines = [words for words in warnings(figures) if "not sure" in words]
-    assert [words.split()[0].lower() for words in lines] == ([not_sure] if not_sure else [])
-    assert lines == [words for words in warnings(session_report(made, camera=camera).figures) if "not sure" in words]
-    course = progress([figures])
-    assert ("not sure" in doubt_words(course.points[0], course)) is bool(not_sure)
-    assert {row.camera_not_sure for row in measure_rows(figures, "s")} == {not_sure}
-    line = SessionLine("s", NOW, "WRIST_FE", "right", 60.0, True, not_sure=unsure_name(camera))
-    assert cells(line)[-1] == (f"{not_sure} not sure" if not_sure else "")
 
 
 # --- a recording counts once ------------------------------------------------------------------------------

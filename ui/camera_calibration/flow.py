@@ -20,7 +20,7 @@ from carpus.ui.flow import ScreenContext
 from carpus.ui.report.calibration_page import write_calibration_page
 from carpus.ui.report.pdf import write_sheets
 from carpus.ui.words.camera_calibration import BoardChoice, BoardProgress, BoardResult
-from carpus.ui.words.camera_standing import card_words
+from carpus.ui.words.camera_check import camera_words
 
 
 class BoardFlow(AtCameraFlow):
@@ -62,7 +62,7 @@ class BoardFlow(AtCameraFlow):
         self.close_patient()
         self.leave()
         camera = self.context.camera
-        self.screen.beginning.show_standing(card_words(camera.standing)[1], camera_there=camera.there)
+        self.screen.beginning.show_standing(camera_words(camera.status)[1], camera_there=camera.there)
         self.screen.show_beginning()
         self.context.way.go("board")
 
@@ -183,6 +183,6 @@ class BoardFlow(AtCameraFlow):
         def kept(_: object) -> None:
             self.context.camera.read()
             if self.context.way.behind == self.place:  # who has left while the disk was written stays where they are
-                self.context.way.show("card", result.simulated)  # it shows at once whether the camera is right now
+                self.context.way.show("card")  # it shows at once whether the camera is right now
 
         self.run(lambda: keep_calibration(folder, result.made, stored), kept)

@@ -1,1 +1,1 @@
-"""The camera checked with a printed card: the history as control charts, half a minute of looking, the result."""
+"""The camera checked with a printed card: half a minute of looking, and the verdict."""

@@ -1,26 +1,22 @@
-"""The flow of the check card: its history, a check of 30 seconds, and the papers of both."""
+"""The flow of the check card: print it, look at it for 30 seconds, and keep the verdict."""
 
 from __future__ import annotations
 
 from datetime import datetime
-from pathlib import Path
 
 from carpus.core.calibration.camera.sheet import PAPER_MM
 from carpus.core.calibration.card.card import card_sheets
-from carpus.core.calibration.card.chart import add_check, chart_path, check_of, read_checks
+from carpus.core.calibration.card.checks import CardCheck, add_check, checks_path
 from carpus.core.calibration.card.measure import CardWatch
-from carpus.core.calibration.card.standing import standing_of
-from carpus.core.dates import is_moment, iso
+from carpus.core.dates import iso
 from carpus.core.pipeline.channels import Newest
 from carpus.core.pipeline.live import LiveSession
 from carpus.core.types import Frame
-from carpus.ui import numbers
 from carpus.ui.camera_at_hand import AtCameraFlow, Look
 from carpus.ui.check_card.screen import CardScreen
 from carpus.ui.flow import ScreenContext
-from carpus.ui.report.check_page import CheckResult, write_check_report
 from carpus.ui.report.pdf import write_sheets
-from carpus.ui.words.check_card import CameraChecks, CardProgress
+from carpus.ui.words.camera_check import CardProgress
 
 
 class CardFlow(AtCameraFlow):
@@ -30,36 +26,32 @@ class CardFlow(AtCameraFlow):
     screen: CardScreen
 
     def __init__(self, context: ScreenContext) -> None:
-        screen = CardScreen(context.theme, context.keys)
+        screen, camera = CardScreen(context.theme), context.camera
         super().__init__(context, screen)
         self._newest: Newest[CardProgress] = Newest()
         self._measured: tuple[LiveSession, CardWatch] | None = None
-        self._asked, self._unread = 0, False
         self.hand.opened.connect(self._opened)
         self.hand.pulled.connect(self._pulled)
         self.hand.lost.connect(screen.show_lost)
-        context.camera.when_looked(lambda: screen.set_camera_there(context.camera.there))
-        screen.camera.setHidden(context.is_demo)
-        screen.camera.chosen.connect(self._choose_camera)
+        camera.when_looked(lambda: screen.set_camera_there(camera.there))
+        camera.changed.connect(lambda: screen.show_status(camera.status))
         screen.check_button.clicked.connect(self.begin)
-        screen.leave_button.clicked.connect(self.back)
+        screen.stop_button.clicked.connect(self.back)
         screen.print_button.clicked.connect(self._print_card)
-        screen.page_button.clicked.connect(self._write_page)
         screen.calibrate_button.clicked.connect(lambda: context.way.show("board"))
 
-    # --- the way ------------------------------------------------------------------------------------------
     def title(self) -> str:
         return self.tr("Check card")
 
-    def show(self, practice: bool | None = None) -> None:
-        """What the checks say so far, ``practice`` of the simulated camera."""
+    def show(self) -> None:
+        """What the last check said; read anew in the background, since a disk may keep anybody waiting."""
         self.close_patient()
-        self.leave()
-        self._choose_camera(self.practice if practice is None else practice)
+        self.back()
+        self.context.camera.read()
         self.context.way.go("card")
 
     def up(self) -> None:
-        """From a check to the history, and from there to the patients."""
+        """From a check to its beginning, and from there to the patients."""
         if self.screen.is_measuring:
             self.back()
         else:
@@ -67,40 +59,18 @@ class CardFlow(AtCameraFlow):
 
     def back(self) -> None:
         self.leave()
-        self.screen.show_checks(self.screen.checks)
-        if self._unread:
-            self._choose_camera(self.practice)
+        self.screen.show_status(self.context.camera.status)
+        self.screen.end_measuring()
 
     def leave(self) -> None:
         """Let the camera go; a check that has not ended is forgotten."""
         super().leave()
         self._measured = None
 
-    def _choose_camera(self, practice: bool) -> None:
-        """Read which camera it is and its checks in the background: the disk may keep anybody waiting."""
-        now, cameras = datetime.now().astimezone(), self.context.cameras
-        self.practice = practice
-        self._asked += 1
-        asked, self._unread = self._asked, True
-
-        def read() -> CameraChecks:
-            serial = cameras.serial(practice=practice)
-            return checks_of(cameras.folder(practice=practice), serial, now, simulated=practice)
-
-        def shown(checks: CameraChecks) -> None:
-            if asked == self._asked and not self.screen.is_measuring:
-                self._unread = False
-                self.screen.show_checks(checks)
-
-        self.screen.show_checks(CameraChecks("", "", simulated=practice))
-        self.run(read, shown)
-
-    # --- a check ------------------------------------------------------------------------------------------
     def begin(self) -> None:
         self.leave()
         newest = self._newest = Newest()
-        practice, known, cameras = self.practice, self._known, self.context.cameras
-        self._asked += 1
+        known, cameras = self._known, self.context.cameras
         self.screen.begin_measuring()
 
         def looker(session: LiveSession) -> Look:
@@ -114,7 +84,7 @@ class CardFlow(AtCameraFlow):
 
             return look
 
-        self.hand.open(lambda: cameras.for_card(practice=practice), looker)
+        self.hand.open(cameras.for_card, looker)
 
     def _opened(self, session: LiveSession) -> None:
         self.screen.show_progress(None)
@@ -132,52 +102,21 @@ class CardFlow(AtCameraFlow):
             self._keep(session, watch)
 
     def _keep(self, session: LiveSession, watch: CardWatch) -> None:
-        practice, info, now, camera = self.practice, session.info, datetime.now().astimezone(), self.context.camera
-        folder, serial = self.context.cameras.folder(practice=practice), info.serial
+        info, when, camera = session.info, iso(datetime.now().astimezone()), self.context.camera
+        path = checks_path(self.context.cameras.folder(practice=False), info.serial)
 
-        def keep() -> CameraChecks:
+        def keep() -> None:
             reading = watch.reading(info.name)
-            check = check_of(reading, serial, iso(now), info.settings.get("calibrated", ""))
-            add_check(chart_path(folder, serial), check)
-            return checks_of(folder, serial, now, info.name, simulated=practice)
+            add_check(path, CardCheck(when, info.serial, reading, info.settings.get("calibrated", "")))
 
-        def kept(checks: CameraChecks) -> None:
-            if not practice:
-                self.context.cameras.met(serial)
-            self._unread = False
-            self.screen.show_checks(checks)
-            camera.read()
+        def kept(_: object) -> None:
+            camera.met(info.serial)
+            self.screen.end_measuring()
 
         self.run(keep, kept, self._failed)
 
-    # --- paper --------------------------------------------------------------------------------------------
     def _print_card(self) -> None:
         paper = self.screen.paper.value()
         sheets = card_sheets(next(one for one in PAPER_MM if one == paper))
         name, title = f"carpus-check-card-{paper}.pdf", self.tr("Save the card to print")
         self.save_page(name, title, lambda part: write_sheets(part, sheets, "Carpus check card"))
-
-    def _write_page(self) -> None:
-        checks = self.screen.checks
-        last = checks.newest
-        if last is None:
-            return
-        calibrated = last.calibrated[:10] or self.tr("not with a board")
-        asides = [(self.tr("Calibrated"), calibrated), (self.tr("Checks"), str(len(checks.checks)))]
-        camera = f"{checks.camera} {checks.serial}".strip()
-        result = CheckResult(camera, last, list(checks.checks[:-1]), asides)
-        name, title = "carpus-camera-check.pdf", self.tr("Save one page")
-        self.save_page(name, title, lambda part: write_check_report(part, result))
-
-
-def checks_of(folder: Path, serial: str, now: datetime, camera: str = "", *, simulated: bool) -> CameraChecks:
-    """All that is known of a camera's checks."""
-    if not serial:
-        return CameraChecks(camera, "", simulated=simulated)
-    standing = standing_of(folder, serial, now)
-    checks = [one for one in read_checks(chart_path(folder, serial)) if one.serial == serial]
-    calibrated = checks[-1].calibrated if checks else ""
-    day = numbers.day_of_year(datetime.fromisoformat(calibrated)) if is_moment(calibrated) else ""
-    return CameraChecks(
-        camera, serial, checks, standing.verdict, standing.checked_days, day, standing.recalibrated, simulated
-    )

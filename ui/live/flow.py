@@ -13,7 +13,6 @@ from carpus.ui.live.course import CourseRun
 from carpus.ui.live.screen import LiveScreen
 from carpus.ui.messages.messages import Answer
 from carpus.ui.patient.viewing import PatientViewing
-from carpus.ui.words.camera_standing import session_lines
 
 log = logging.getLogger(__name__)
 
@@ -56,9 +55,6 @@ class LiveFlow(Flow):
 
     def up(self) -> None:
         self.context.way.show("camera")
-
-    def sign_lines(self) -> list[str]:
-        return session_lines(self.context.camera.standing) if self.context.now.kind == "camera" else []
 
     def show_research(self, *, on: bool) -> None:
         self.screen.show_research(on=on)

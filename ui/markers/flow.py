@@ -11,7 +11,6 @@ from carpus.ui import numbers
 from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.markers.screen import MarkersScreen
 from carpus.ui.messages.messages import Answer
-from carpus.ui.words.camera_standing import session_lines
 
 
 class MarkersFlow(Flow):
@@ -61,9 +60,6 @@ class MarkersFlow(Flow):
         self.screen.end()
 
     close = leave
-
-    def sign_lines(self) -> list[str]:
-        return session_lines(self.context.camera.standing) if self.context.now.kind == "camera" else []
 
     def check_registration(self, verdict: Verdict) -> None:
         """Nothing said whether depth lies on colour, so it was taken to; the calibration has measured otherwise."""

@@ -18,7 +18,6 @@ from carpus.core.results.ranges import RangeRow, RowKey, is_total
 from carpus.ui import numbers, terms
 from carpus.ui.figures import figure_of
 from carpus.ui.fonts import SEMIBOLD, font
-from carpus.ui.icons import triangle
 from carpus.ui.plot.axes import Panel, Scale
 from carpus.ui.plot.by_hand import Key, Squares, day_s, paint_at_least
 from carpus.ui.plot.marks import Across, EndLabels, Level, Mark, Scales, Times
@@ -260,10 +259,7 @@ class Points:
             painter.setPen(QPen(color, 2 * unit) if not is_fair else Qt.PenStyle.NoPen)
             painter.setBrush(style.color("surface") if not is_fair else color)
             reach = DOT_RADIUS * unit
-            if is_fair and self.progress.points[number].figures.camera.not_sure:
-                painter.drawPolygon(triangle(QPointF(x, middle), 1.6 * reach))
-            else:
-                painter.drawEllipse(QPointF(x, middle), reach, reach)
+            painter.drawEllipse(QPointF(x, middle), reach, reach)
             if joint and row.limited:
                 paint_at_least(painter, x, top - 4 * unit, unit)
             if number == self.chosen:

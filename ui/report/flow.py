@@ -90,7 +90,6 @@ class ReportFlow(Flow):
                 dominance=row.dominance,
                 therapist=self.context.report.therapist,
                 by_hand=stored.by_hand(row.patient_id),
-                camera=stored.camera(session),
                 comment=stored.comment(session_id),
                 form=self.forms.form,
             )

@@ -14,7 +14,6 @@ from carpus.core.calibration.camera.sheet import Disc, PrintedSheet, SheetBox, S
 from carpus.core.formats.new_output import look_for_folder, new_bytes
 from carpus.core.measures.by_hand import HandValue, of_session
 from carpus.core.provenance import said_in, with_revision
-from carpus.core.results.camera_said import CameraSaid
 from carpus.core.results.figures import SessionFigures, data_digest, session_figures
 from carpus.core.results.motion_curves import motion_curves
 from carpus.core.results.progress import limits_of, newest_results, other_hand_of, previous_of, progress
@@ -57,18 +56,17 @@ def session_report(
     dominance: str = "unknown",
     therapist: str = "",
     by_hand: Sequence[HandValue] = (),
-    camera: CameraSaid | None = None,
     comment: str = "",
     form: ReportForm | None = None,
     language: str = "",
 ) -> SessionReport:
     """What the page of a session says; ``history`` figures of the patient's other sessions, in any order, ``by_hand``
-    all that was ever measured by hand: what counts of the session's day and hand is told; ``camera`` what its checks
-    say of it besides; ``language`` of the page, empty for the window's."""
+    all that was ever measured by hand: what counts of the session's day and hand is told; ``language`` of the page,
+    empty for the window's."""
     figures = session_figures(session, choices, limits_of(history))
     known = next((other for other in history if other.session_id == figures.session_id), figures)
     older = all(one is not figures for one in newest_results((*history, figures)))
-    figures = replace(figures, earlier_results=known.earlier_results, older=older, camera=camera or figures.camera)
+    figures = replace(figures, earlier_results=known.earlier_results, older=older)
     earlier = [other for other in history if other.when < figures.when]
     alike = [other for other in earlier if (other.exercise.id, other.side) == (figures.exercise.id, figures.side)]
     fair = [point.figures for point in progress(alike).points if point.fair]

@@ -14,7 +14,6 @@ from carpus.ui.fault_words import finding_words
 from carpus.ui.report.tables import is_deficit, prints_spread, too_slow
 from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import counted_once_words, limit_words, reason_words
-from carpus.ui.words.camera_standing import unsure_words
 
 
 def summary(figures: SessionFigures, previous: SessionFigures | None, first: SessionFigures | None) -> str:
@@ -156,8 +155,6 @@ def warnings(figures: SessionFigures) -> list[str]:
         lines.append(tr("An older result: there is a newer one of the same recording."))
     if not figures.complete or figures.recovered:
         lines.append(tr("This recording was cut short and recovered."))
-    if said := unsure_words(figures.camera):
-        lines.append(said)
     return lines
 
 

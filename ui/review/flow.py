@@ -14,7 +14,6 @@ from carpus.ui.flow import Flow, ScreenContext
 from carpus.ui.messages.messages import Answer
 from carpus.ui.review.hand_picture import HandPicture, draw_hand_picture
 from carpus.ui.review.screen import ReviewScreen
-from carpus.ui.words.camera_standing import unsure_words
 
 
 class ReviewFlow(Flow):
@@ -78,11 +77,6 @@ class ReviewFlow(Flow):
             show(session_id)  # it may be asked for once more
 
         self.run(lambda: Corrections(self.context.library).use_again(session_id), done, failed)
-
-    def sign_lines(self) -> list[str]:
-        figures = self.screen.figures
-        words = unsure_words(figures.camera) if figures is not None else ""
-        return [words] if words else []
 
     def leave(self) -> None:
         self.screen.playing.stop()

@@ -13,7 +13,6 @@ import numpy as np
 from carpus.core.hand.exercises import FLEXION, SIDES
 from carpus.core.measures.by_hand import HandValue, of_session
 from carpus.core.records.values import SessionEntry
-from carpus.core.results.camera_said import CameraSaid
 from carpus.core.results.figures import SessionFigures, session_figures
 from carpus.core.results.motion_curves import MotionCurves, motion_curves
 from carpus.core.results.progress import limits_of
@@ -39,7 +38,6 @@ class Reviewed:
     session: Session
     choices: RepetitionChoices
     history: Sequence[SessionFigures]
-    camera: CameraSaid
     results: Sequence[SessionEntry]
     by_hand: Sequence[HandValue]
     curves: ReportCurves
@@ -52,16 +50,16 @@ class Reviewed:
     def read(cls, store: Library, patient_id: str, session_id: str) -> Reviewed:
         """All of it, in the background."""
         session, choices = store.session(session_id), store.choices(session_id)
-        history, camera = store.history(patient_id), store.camera(session)
+        history = store.history(patient_id)
         by_hand = of_session(store.by_hand(patient_id), session.header.hand, session.header.when.date())
         results = tuple(one for one in store.results_of(session_id) if store.owner(one.session_id) == patient_id)
         drawn = session_curves(session), joint_curves(session), motion_curves(session)
         modelled = None if drawn[1] is None else modelled_px(session.camera, session.markers.position_cam_m)
-        figures = _figures(session, choices, history, camera)
-        return cls(session, choices, history, camera, results, by_hand, *drawn, modelled, figures)
+        figures = session_figures(session, choices, limits_of(history))
+        return cls(session, choices, history, results, by_hand, *drawn, modelled, figures)
 
     def chosen(self, choices: RepetitionChoices) -> Reviewed:
-        return replace(self, choices=choices, figures=_figures(self.session, choices, self.history, self.camera))
+        return replace(self, choices=choices, figures=session_figures(self.session, choices, limits_of(self.history)))
 
     @property
     def id(self) -> str:
@@ -130,12 +128,6 @@ class Reviewed:
         edge, at_s = ("start", one.start_s) if at_start else ("end", one.end_s)
         moved = with_edge(one, edge, at_s + by_s)
         return self.with_edges(number, moved.start_s, moved.end_s)
-
-
-def _figures(
-    session: Session, choices: RepetitionChoices, history: Sequence[SessionFigures], camera: CameraSaid
-) -> SessionFigures:
-    return replace(session_figures(session, choices, limits_of(history)), camera=camera)
 
 
 def _hidden_words(count: int) -> str:

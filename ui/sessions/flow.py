@@ -19,7 +19,6 @@ from carpus.ui.report.tables import repetition_words
 from carpus.ui.report.words import warnings
 from carpus.ui.sessions.listing import SessionLine
 from carpus.ui.sessions.screen import SessionsScreen
-from carpus.ui.words.camera_standing import unsure_name
 from carpus.ui.words.progress import corrected_words
 
 
@@ -111,7 +110,6 @@ class StoredSessions:
             counted_words=repetition_words(figures),
             warning=" ".join(said),
             corrected=corrected_words(figures),
-            not_sure="" if line.of_practice else unsure_name(figures.camera),
         )
 
     def other_patients(self, patient_id: str) -> Sequence[tuple[str, str]]:

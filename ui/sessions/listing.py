@@ -14,7 +14,6 @@ from PySide6.QtWidgets import QFrame, QListView, QStyle, QStyledItemDelegate, QS
 from carpus.core.types import Side
 from carpus.ui import numbers, terms
 from carpus.ui.fonts import MEDIUM, font
-from carpus.ui.icons import paint_state
 from carpus.ui.theme import CARD_RADIUS_PX, Theme
 from carpus.ui.translate import inside, tr
 
@@ -53,8 +52,6 @@ class SessionLine:
     warning: str = ""
     corrected: str = ""
     """That and since when markers were put right, in words; empty as measured."""
-    not_sure: str = ""
-    """That a check of the camera near it was out, in two or three words; empty where none was."""
 
 
 def remark(line: SessionLine) -> str:
@@ -72,7 +69,7 @@ def cells(line: SessionLine, lines: Sequence[SessionLine] = ()) -> tuple[str, st
     """The texts of a row, which is told from the other ``lines``; what is not known yet is empty."""
     day = f"{numbers.short_date(line.when)} {numbers.time_beside(line.when, *(other.when for other in lines))}"
     what = f"{terms.exercise_name(line.exercise)}, {inside(terms.side_name(line.side))}"
-    return day, what, line.figure, line.counted, remark(line) or line.not_sure or line.corrected.rstrip(".")
+    return day, what, line.figure, line.counted, remark(line) or line.corrected.rstrip(".")
 
 
 class SessionModel(QAbstractListModel):
@@ -159,12 +156,6 @@ class SessionRowPainter(QStyledItemDelegate):
             painter.setFont(face)
             painter.setPen(theme.color("text" if counts and number < 3 else "text2"))
             room = rooms[number]
-            if number == 4 and line.not_sure and not remark(line):
-                size = theme.px(SIGN_PX)
-                at = QRectF(room.left(), room.center().y() - size / 2, size, size)
-                paint_state(painter, "warn", at, theme.color("warn"), theme.color("surface"))
-                painter.setPen(theme.color("warn"))
-                room.setLeft(at.right() + 6)
             # Of exercise and hand, and of a figure with its name, the end matters as much as the beginning.
             where = Qt.TextElideMode.ElideMiddle if number in (1, 2) else Qt.TextElideMode.ElideRight
             shown = QFontMetricsF(face).elidedText(text, where, room.width())

@@ -11,7 +11,7 @@ from carpus.ui.theme import Theme
 
 
 class CameraCard(Card):
-    """How far the camera is to be trusted; its buttons lead to the check card and to the board."""
+    """What the last check said of the camera; its buttons lead to the check card and to the board."""
 
     def __init__(self, theme: Theme) -> None:
         super().__init__(theme, 24)
@@ -19,7 +19,7 @@ class CameraCard(Card):
         self.body.addWidget(Text(theme, self.tr("Camera"), 20, SEMIBOLD))
         words = self.tr(
             "A printed board shows how the camera sees and how far off its depth is; a printed card shows in 30 "
-            "seconds whether it still measures right. Both can be tried with a simulated camera."
+            "seconds whether it still measures right."
         )
         self.body.addWidget(Text(theme, words, 14, REGULAR, "text2", wrap=True))
         self._row = in_line(gap=10)
@@ -33,7 +33,7 @@ class CameraCard(Card):
         fill(buttons, self.check_button, self.calibrate_button, STRETCH)
         self.body.addLayout(buttons)
 
-    def show_standing(self, state: State, words: str) -> None:
+    def show_status(self, state: State, words: str) -> None:
         sign = Sign(self._theme, state)
         self._row.replaceWidget(self._sign, sign)
         self._sign.hide()

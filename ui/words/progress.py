@@ -15,7 +15,6 @@ from carpus.ui.figures import figure_of
 from carpus.ui.marker_words import long_finger_name
 from carpus.ui.translate import inside, tr
 from carpus.ui.verdicts import difference, reason_words
-from carpus.ui.words.camera_standing import unsure_words
 
 
 def headline(progress: Progress) -> tuple[str, str]:
@@ -126,14 +125,10 @@ def _day_of(point: ProgressPoint, progress: Progress) -> str:
 def doubt_words(point: ProgressPoint, progress: Progress) -> str:
     """What was doubtful about a session that is compared all the same; empty for nothing."""
     said = " ".join(finding_words(finding).happened for finding in point.figures.findings)
-    unsure = unsure_words(point.figures.camera)
-    if not (said or unsure) or not point.fair:
+    if not said or not point.fair:
         return ""
-    day = _day_of(point, progress)
-    if not said:
-        return tr("{day}: {warning}").format(day=day, warning=unsure)
-    words = tr("{day}: measured although doubtful. {findings}").format(day=day, findings=said)
-    return f"{words} {unsure}".rstrip()
+    words = tr("{day}: measured although doubtful. {findings}")
+    return words.format(day=_day_of(point, progress), findings=said)
 
 
 def unfair_words(point: ProgressPoint, progress: Progress) -> str:

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from carpus.core.calibration.camera.sheet import PAPER_MM, Disc, Mark, Paper, PrintedSheet, SheetLine, SheetText, ruler
-from carpus.core.phrase import phrase
+from carpus.core.phrase import Phrase, phrase
 from carpus.core.types import FloatArray
 
 BLUE = "#2648A5"
@@ -191,19 +191,43 @@ class CardReading:
 
     @property
     def angles_hold(self) -> bool:
-        return within_angles(self.angle_error_deg, self.most_angle_deg)
+        return self.angle_error_deg <= self.most_angle_deg
 
     @property
     def lengths_hold(self) -> bool:
-        """Whether lengths are, each and all together."""
-        return within_lengths(self.length_error_mm, self.scale, self.most_length_mm)
+        """Whether lengths are within their limits, each and all together."""
+        return self.length_error_mm <= self.most_length_mm and abs(self.scale - 1.0) <= MOST_SCALE
+
+    @property
+    def holds(self) -> bool:
+        """Whether the camera measures right."""
+        return self.angles_hold and self.lengths_hold
 
 
-def within_angles(error_deg: float, most_deg: float) -> bool:
-    """Whether the largest error of an angle is within its limit."""
-    return error_deg <= most_deg
-
-
-def within_lengths(error_mm: float, scale: float, most_mm: float) -> bool:
-    """Whether the largest error of a length, and that of all lengths together, are within theirs."""
-    return error_mm <= most_mm and abs(scale - 1.0) <= MOST_SCALE
+def verdict_sentence(reading: CardReading) -> Phrase:
+    """What a check says, for people."""
+    angle, length = f"{reading.angle_error_deg:.1f}", f"{reading.length_error_mm:.1f}"
+    limits = {"most_angle": f"{reading.most_angle_deg:.1f}", "most_length": f"{reading.most_length_mm:.1f}"}
+    if reading.holds:
+        return phrase(
+            "The camera measures right: {angle}° and {length} mm off at most; the limits are {most_angle}° and "
+            "{most_length} mm.",
+            angle=angle,
+            length=length,
+            **limits,
+        )
+    angles = phrase("angles are {angle}° off", angle=angle)
+    share = 100.0 * (reading.scale - 1.0)
+    off = {"share": f"{abs(share):.1f}", "length": length}
+    lengths = phrase("all lengths are {share} % too short, the worst by {length} mm", **off)
+    if share > 0:
+        lengths = phrase("all lengths are {share} % too long, the worst by {length} mm", **off)
+    what = angles if reading.lengths_hold else lengths
+    if not reading.lengths_hold and not reading.angles_hold:
+        what = phrase("{one}; {other}", one=lengths, other=angles)
+    return phrase(
+        "The camera is out: {what} (the limits are {most_angle}° and {most_length} mm, all lengths {most_share} %).",
+        what=what,
+        most_share=f"{100.0 * MOST_SCALE:.1f}",
+        **limits,
+    )

@@ -1,4 +1,4 @@
-"""The check card: what it knows is measured, a camera that is off is told, and the chart knows what is usual."""
+"""The check card: what it knows is measured, a camera that is off is told, and the doctor knows the last verdict."""
 
 from __future__ import annotations
 
@@ -14,25 +14,29 @@ import pytest
 from carpus.app.__main__ import main
 from carpus.app.settings import load_settings
 from carpus.core.calibration.camera.sheet import PAPER_MM, Disc, Paper, SheetLine, SheetText
-from carpus.core.calibration.card.card import FIGURES, CardReading, card_sheets, disc_places_m, figures_of
-from carpus.core.calibration.card.chart import (
+from carpus.core.calibration.card.card import (
+    FIGURES,
+    CardReading,
+    card_sheets,
+    disc_places_m,
+    figures_of,
+    verdict_sentence,
+)
+from carpus.core.calibration.card.checks import (
     CardCheck,
     add_check,
-    chart_path,
+    check_status,
+    checks_path,
+    examine_cameras,
     read_checks,
-    sentence_of,
-    usual_of,
-    verdict_of,
 )
 from carpus.core.calibration.card.measure import CardWatch, measure_card
-from carpus.core.calibration.card.standing import camera_ages, standing_of
 from carpus.core.camera import Camera
 from carpus.core.capture.calibrated import new_calibration_path
 from carpus.core.capture.camera_info import StoredCalibration, write_camera_info
 from carpus.core.capture.files.raw import RawWriter
 from carpus.core.capture.source import SourceInfo
 from carpus.core.errors import CardMissing
-from carpus.core.results.camera_said import unsure_of
 from carpus.core.simulation.practice_camera import LENS, Studio, card_scene
 from carpus.core.types import Frame
 
@@ -51,9 +55,12 @@ def stretched(frames: Sequence[Frame], share: float) -> list[Frame]:
     return [replace(frame, depth_unit_m=frame.depth_unit_m * share) for frame in frames]
 
 
-def check(day: int, angle: float = 0.6, length: float = 0.8, scale: float = 1.0, calibrated: str = "x") -> CardCheck:
-    when = (NOW + timedelta(days=day)).isoformat()
-    return CardCheck(when, "77", angle, length, scale, tuple(one.true for one in FIGURES), (0.1,) * 6, calibrated)
+def check(day: int, angle: float = 0.6, length: float = 0.8, scale: float = 1.0) -> CardCheck:
+    measured = np.array([one.true for one in FIGURES])
+    measured[0] += angle
+    measured[3] += length
+    reading = CardReading(measured, np.full(6, 0.1), scale, np.nan, 0, 0)
+    return CardCheck((NOW + timedelta(days=day)).isoformat(), "77", reading, "x")
 
 
 def test_the_places_of_the_discs_have_the_figures_of_the_card() -> None:
@@ -124,96 +131,72 @@ def test_card_and_wedge_fit_the_paper_and_fold_up(paper: Paper) -> None:
         assert any(isinstance(mark, SheetText) and "100 mm" in mark.text for mark in sheet.marks)
 
 
-def test_usual_is_what_the_first_checks_were() -> None:
-    first = [check(k, 0.5 + 0.1 * (k % 3)) for k in range(7)]
-    assert usual_of(first[:3], "x") is None
-    usual = usual_of(first, "x")
-    assert usual is not None
-    assert usual.band[0, 0] < 0.5 < 0.7 < usual.band[0, 1] < 1.2
-    assert verdict_of(first, check(8, 0.85)) == "right"
-    assert verdict_of(first, check(8, 0.95)) == "unusual", "three standard deviations of 0.1 above the mean"
-    later = [check(7 + k, 0.8) for k in range(5)]
-    assert verdict_of([*first, *later], check(13, 0.95)) == "unusual", "what comes later widens nothing"
-    assert verdict_of(first, check(8, 0.6, calibrated="another")) == "right", "usual begins anew"
-    assert verdict_of(first, check(8, 2.1)) == "out"
-    assert verdict_of(first, check(8, scale=1.013)) == "out"
-    assert verdict_of([], check(0, length=2.6)) == "out"
+def test_verdict_sentence_of_a_camera_that_is_out_says_what_is_off() -> None:
+    said = verdict_sentence(check(0).reading)
+    assert said == "The camera measures right: 0.6° and 0.8 mm off at most; the limits are 2.0° and 2.5 mm."
+    assert "all lengths are 2.0 % too long" in verdict_sentence(check(0, length=2.4, scale=1.02).reading)
+    assert "angles are 2.4° off" in verdict_sentence(check(0, angle=2.4).reading)
 
 
-def test_a_drift_inside_the_band_is_unusual() -> None:
-    first = [check(k, 0.5 + 0.1 * (k % 3), scale=1.0 + 0.0004 * (k % 3 - 1)) for k in range(7)]
-    drift = [check(8 + k, scale=1.0008) for k in range(8)]
-    verdicts = [verdict_of([*first, *drift[:k]], one) for k, one in enumerate(drift)]
-    assert verdicts == ["right"] * 7 + ["unusual"]
+LINE_OF_0_2_0 = (
+    '{"when": "2026-11-21T09:00:00+00:00", "serial": "77", "angle_error_deg": 0.6, "length_error_mm": 0.8, '
+    '"scale": 1.0, "measured": [30.6, 50.0, 90.0, 80.8, 120.0, 25.0], "sd": [0.1, 0.1, 0.1, 0.1, 0.1, 0.1], '
+    '"calibrated": "x", "most_angle_deg": 2.0, "most_length_mm": 2.5}'
+)
 
 
-def test_the_sentence_says_what_is_off() -> None:
-    assert sentence_of(check(0), "right").startswith("The camera measures right: 0.6° and 0.8 mm off")
-    assert "all lengths are 2.0 % too long" in sentence_of(check(0, length=2.5, scale=1.02), "out")
-    assert "angles are 2.4° off" in sentence_of(check(0, angle=2.4), "out")
-
-
-def test_the_chart_survives_a_torn_line(tmp_path: Path) -> None:
-    path = chart_path(tmp_path, "77")
+def test_read_checks_of_a_torn_file_gives_the_others(tmp_path: Path) -> None:
+    path = checks_path(tmp_path, "77")
     add_check(path, check(0))
     with path.open("ab") as file:
-        file.write(b"[" * 100_000 + b'\n{"when": "2026-11-2')
-    add_check(path, check(1))
-    assert read_checks(path) == [check(0), check(1)]
+        file.write(b"[" * 100_000 + b'\n{"measured": [1], "sd": [1]}\n' + LINE_OF_0_2_0.encode() + b'\n{"when": "202')
+    add_check(path, check(2))
+    kept = read_checks(path)
+    assert [one.when[:10] for one in kept] == ["2026-11-20", "2026-11-21", "2026-11-22"]
+    assert [one.reading.angle_error_deg for one in kept] == pytest.approx([0.6] * 3)
     assert path.stat().st_mode & 0o077 == 0
 
 
 def test_the_doctor_names_the_age_of_calibration_and_check(tmp_path: Path) -> None:
-    assert [finding.state for finding in camera_ages(tmp_path, NOW)] == ["warning"]
+    assert [finding.state for finding in examine_cameras(tmp_path, NOW)] == ["warning"]
     path = new_calibration_path(tmp_path, "77", NOW)
     path.parent.mkdir()
     write_camera_info(path, LENS, calibration=StoredCalibration("77", NOW.isoformat(), 1.0, 0.0, 0.2, 20))
-    (never,) = camera_ages(tmp_path, NOW + timedelta(days=2))
+    (never,) = examine_cameras(tmp_path, NOW + timedelta(days=2))
     assert (never.state, never.found) == ("warning", "calibrated 2 days ago, never checked")
-    add_check(chart_path(tmp_path, "77"), check(3))
-    (good,) = camera_ages(tmp_path, NOW + timedelta(days=5))
+    add_check(checks_path(tmp_path, "77"), check(3))
+    (good,) = examine_cameras(tmp_path, NOW + timedelta(days=5))
     assert (good.name, good.state, good.remedy) == ("Camera 77", "good", "")
-    assert good.found == "calibrated 5 days ago, checked 2 days ago, right (0.6°, 0.8 mm off at most)"
-    (old,) = camera_ages(tmp_path, NOW + timedelta(days=11))
+    assert good.found == f"calibrated 5 days ago, checked 2 days ago: {verdict_sentence(check(3).reading)}"
+    (old,) = examine_cameras(tmp_path, NOW + timedelta(days=11))
     assert old.state == "warning"
     assert "older than 7 days" in old.remedy
-    add_check(chart_path(tmp_path, "77"), check(12, scale=1.02))
-    (out,) = camera_ages(tmp_path, NOW + timedelta(days=12))
+    add_check(checks_path(tmp_path, "77"), check(12, scale=1.02))
+    (out,) = examine_cameras(tmp_path, NOW + timedelta(days=12))
     assert out.state == "bad"
     since = NOW + timedelta(days=12, hours=1)
     made = StoredCalibration("77", since.isoformat(), 1.0, 0.0, 0.2, 20)
     write_camera_info(new_calibration_path(tmp_path, "77", since), LENS, calibration=made)
-    (later,) = camera_ages(tmp_path, since)
+    (later,) = examine_cameras(tmp_path, since)
     assert (later.state, later.remedy) == ("warning", "Run: carpus check-card: it was calibrated since.")
 
 
-def test_where_a_camera_stands_and_which_sessions_are_not_sure(tmp_path: Path) -> None:
-    nothing = standing_of(tmp_path, "77", NOW)
-    assert not any((nothing.is_old, nothing.is_out, nothing.is_unusual))
+def test_check_status_after_a_calibration_is_not_out(tmp_path: Path) -> None:
+    nothing = check_status(tmp_path, "77", NOW)
+    assert (nothing.check, nothing.is_out, nothing.is_due) == (None, False, True)
     for day, scale in ((0, 1.0), (4, 1.02)):
-        add_check(chart_path(tmp_path, "77"), check(day, scale=scale))
-    now = standing_of(tmp_path, "77", NOW + timedelta(days=12))
-    assert (now.is_out, now.is_old, round(now.checked_days)) == (True, True, 8)
+        add_check(checks_path(tmp_path, "77"), check(day, scale=scale))
+    now = check_status(tmp_path, "77", NOW + timedelta(days=12))
+    assert (now.is_out, now.is_due, round(now.checked_days)) == (True, True, 8)
     path = new_calibration_path(tmp_path, "77", NOW + timedelta(days=5))
     when = (NOW + timedelta(days=5)).isoformat()
     write_camera_info(path, LENS, calibration=StoredCalibration("77", when, 1.02, 0.0, 0.2, 20))
-    assert not standing_of(tmp_path, "77", NOW + timedelta(days=12)).is_out, "something was done about it"
-    checks = read_checks(chart_path(tmp_path, "77"))
-    assert unsure_of(checks, NOW - timedelta(days=1), "x") == (False, False)
-    assert unsure_of(checks, NOW + timedelta(days=1), "x") == (True, False)
-    assert unsure_of(checks, NOW + timedelta(days=1), "another") == (False, False)
-    again = replace(checks[-1], when=(NOW + timedelta(days=4, minutes=2)).isoformat(), scale=1.0)
-    assert unsure_of([*checks, again], NOW + timedelta(days=1), "x") == (False, False), (
-        "checked once more, it was right"
-    )
-    later = replace(again, when=(NOW + timedelta(days=5)).isoformat())
-    assert unsure_of([*checks, later], NOW + timedelta(days=1), "x") == (True, False)
-    twice = replace(checks[-1], when=(NOW + timedelta(days=4, minutes=1)).isoformat())
-    assert unsure_of([*checks, twice, again], NOW + timedelta(days=1), "x") == (True, False), "out twice was out"
+    later = check_status(tmp_path, "77", NOW + timedelta(days=6))
+    assert (later.is_out, later.is_due) == (False, True), "it is to be checked with the new values"
 
 
 @pytest.mark.usefixtures("qapp")
-def test_the_command_prints_checks_keeps_and_reports(
+def test_the_command_prints_measures_and_keeps(
     shown: list[Frame], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     pdf = tmp_path / "card.pdf"
@@ -226,15 +209,14 @@ def test_the_command_prints_checks_keeps_and_reports(
             for frame in stretched(shown, share):
                 writer.append_frame(frame)
         capsys.readouterr()
-        assert main(["check-card", str(path), "--output", str(tmp_path / f"{k}.pdf")]) == int(share != 1.0)
+        assert main(["check-card", str(path)]) == int(share != 1.0)
         said = capsys.readouterr()
         assert ("measures right" in said.out) == (share == 1.0)
         assert ("calibrate the camera" in said.err) == (share != 1.0)
-        assert (tmp_path / f"{k}.pdf").read_bytes().startswith(b"%PDF")
-    kept = read_checks(chart_path(load_settings().data_folder, "77"))
-    assert [one.lengths_hold for one in kept] == [True, True, False]
+    kept = read_checks(checks_path(load_settings().data_folder, "77"))
+    assert [one.reading.lengths_hold for one in kept] == [True, True, False]
     assert main(["check-card", str(path)]) == 1, "still out"
-    assert len(read_checks(chart_path(load_settings().data_folder, "77"))) == 3, "the same recording counts once"
+    assert len(read_checks(checks_path(load_settings().data_folder, "77"))) == 3, "the same recording counts once"
 
 
 def test_printing_and_measuring_at_once_is_wrong_usage(tmp_path: Path) -> None:

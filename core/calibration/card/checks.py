@@ -1,0 +1,186 @@
+"""The checks of a camera, a line each in a file that only grows, and what the newest says: for settings and doctor."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+
+from carpus.core.calibration.card.card import FIGURES, MOST_ANGLE_DEG, MOST_LENGTH_MM, CardReading, verdict_sentence
+from carpus.core.capture.calibrated import SUFFIX as CALIBRATION_SUFFIX
+from carpus.core.capture.calibrated import age_days, stored_calibration
+from carpus.core.capture.camera_info import read_camera_info
+from carpus.core.dates import is_moment
+from carpus.core.durable import private
+from carpus.core.errors import CarpusFault, OutputNotWritable
+from carpus.core.installing import Finding, State
+from carpus.core.names import CAMERAS, file_stem
+
+SUFFIX = ".checks.jsonl"
+OLD_DAYS = 7.0
+"""A check is made once a week."""
+OLD_CALIBRATION_DAYS = 365.0
+
+
+@dataclass(frozen=True, slots=True)
+class CardCheck:
+    """A reading of the camera with number ``serial``, when it was made, and the moment of the calibration that was used
+    (ISO 8601), empty without one."""
+
+    when: str
+    serial: str
+    reading: CardReading
+    calibrated: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class CheckStatus:
+    """Days since a camera was calibrated and checked, NaN for never; its newest check, None without one;
+    ``recalibrated``: it was calibrated after that check."""
+
+    serial: str
+    calibrated_days: float = math.nan
+    checked_days: float = math.nan
+    check: CardCheck | None = None
+    recalibrated: bool = False
+
+    @property
+    def is_out(self) -> bool:
+        """Whether the camera measured wrong, and was not calibrated since."""
+        return self.check is not None and not self.check.reading.holds and not self.recalibrated
+
+    @property
+    def is_due(self) -> bool:
+        """Whether it should be checked again."""
+        return self.recalibrated or not self.checked_days <= OLD_DAYS
+
+
+def checks_path(data_folder: Path, serial: str) -> Path:
+    """Where the checks of a camera are kept."""
+    return data_folder / CAMERAS / f"{file_stem(serial)}{SUFFIX}"
+
+
+def read_checks(path: Path) -> list[CardCheck]:
+    """All checks in order of time; a torn or strange line is passed over, as the others are still true."""
+    try:
+        lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return []
+    found = [check for line in lines if (check := _parse_check(line)) is not None]
+    return sorted(found, key=lambda check: datetime.fromisoformat(check.when))
+
+
+def add_check(path: Path, check: CardCheck) -> None:
+    """Append one check and bring it to the disk. Raises :class:`OutputNotWritable`."""
+    reading = check.reading
+    content = {
+        "when": check.when, "serial": check.serial, "angle_error_deg": reading.angle_error_deg,
+        "length_error_mm": reading.length_error_mm, "scale": reading.scale, "measured": reading.measured.tolist(),
+        "sd": reading.sd.tolist(), "calibrated": check.calibrated, "most_angle_deg": reading.most_angle_deg,
+        "most_length_mm": reading.most_length_mm,
+    }  # fmt: skip
+    try:
+        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        with open(path, "ab", opener=private) as file:
+            torn = file.tell() > 0 and not _ends_a_line(path)
+            file.write(("\n" if torn else "").encode() + json.dumps(content).encode() + b"\n")
+            file.flush()
+            os.fsync(file.fileno())
+    except OSError as cause:
+        raise OutputNotWritable(path, cause.strerror or "") from cause
+
+
+def check_status(data_folder: Path, serial: str, now: datetime) -> CheckStatus:
+    """What the data folder knows of a camera; nothing of one without a number."""
+    if not serial:
+        return CheckStatus("")
+    info = stored_calibration(data_folder, serial)
+    calibrated = info.calibration.calibrated if info is not None and info.calibration is not None else ""
+    checks = [one for one in read_checks(checks_path(data_folder, serial)) if one.serial == serial]
+    if not checks:
+        return CheckStatus(serial, age_days(calibrated, now))
+    last = checks[-1]
+    later = is_moment(calibrated) and datetime.fromisoformat(calibrated) > datetime.fromisoformat(last.when)
+    return CheckStatus(serial, age_days(calibrated, now), age_days(last.when, now), last, later)
+
+
+def known_serials(data_folder: Path) -> set[str]:
+    """Serial numbers of cameras with a calibration or a check."""
+    folder = data_folder / CAMERAS
+    found = {check.serial for path in folder.glob(f"*{SUFFIX}") for check in read_checks(path)}
+    for path in folder.glob(f"*{CALIBRATION_SUFFIX}"):
+        try:
+            made = read_camera_info(path).calibration
+        except CarpusFault:
+            continue
+        if made is not None:
+            found.add(made.serial)
+    return {serial for serial in found if serial and file_stem(serial)}
+
+
+def examine_cameras(data_folder: Path, now: datetime) -> Iterator[Finding]:
+    """One finding for each camera of which anything is kept; one that says so where nothing is."""
+    serials = sorted(known_serials(data_folder))
+    for serial in serials:
+        yield _examine_camera(check_status(data_folder, serial, now))
+    if not serials:
+        remedy = "Run: carpus calibrate-camera --board board.pdf, then hold the printed board before the camera."
+        yield Finding("Calibration", "warning", "no camera has been calibrated or checked", remedy)
+
+
+def _examine_camera(status: CheckStatus) -> Finding:
+    said, remedies = "never calibrated", ["Run: carpus calibrate-camera."]
+    if math.isfinite(status.calibrated_days):
+        said = f"calibrated {_ago(status.calibrated_days)}"
+        remedies = ["Run: carpus calibrate-camera: the calibration is older than a year."]
+        remedies = remedies if status.calibrated_days > OLD_CALIBRATION_DAYS else []
+    if status.check is None:
+        said += ", never checked"
+        remedies.append("Run: carpus check-card.")
+    else:
+        said += f", checked {_ago(status.checked_days)}: {verdict_sentence(status.check.reading)}"
+        if status.is_out:
+            remedies.append("It measured wrong at the last check: check once more, then calibrate it again.")
+        elif status.is_due:
+            why = "it was calibrated since" if status.recalibrated else f"the check is older than {OLD_DAYS:g} days"
+            remedies.append(f"Run: carpus check-card: {why}.")
+    state: State = "bad" if status.is_out else "warning" if remedies else "good"
+    return Finding(f"Camera {status.serial}", state, said, " ".join(remedies))
+
+
+def _ago(days: float) -> str:
+    """Days in words.
+
+    >>> _ago(0.2), _ago(1.3), _ago(12.9)
+    ('today', 'yesterday', '12 days ago')
+    """
+    whole = int(days)
+    return "today" if whole <= 0 else "yesterday" if whole == 1 else f"{whole} days ago"
+
+
+def _parse_check(line: str) -> CardCheck | None:
+    try:
+        content = json.loads(line)
+        measured, sd = (np.array(content[name], dtype=float) for name in ("measured", "sd"))
+        when, serial, calibrated = (str(content[name]) for name in ("when", "serial", "calibrated"))
+        most = (content.get("most_angle_deg", MOST_ANGLE_DEG), content.get("most_length_mm", MOST_LENGTH_MM))
+        scale, most_angle_deg, most_length_mm = map(float, (content["scale"], *most))
+    except (ValueError, KeyError, TypeError, OverflowError, RecursionError):
+        return None
+    numbers = (*measured.flat, scale, most_angle_deg, most_length_mm)
+    if not is_moment(when) or measured.shape != (len(FIGURES),) or not all(map(math.isfinite, numbers)):
+        return None
+    reading = CardReading(measured, sd, scale, math.nan, 0, 0, most_angle_deg, most_length_mm)
+    return CardCheck(when, serial, reading, calibrated)
+
+
+def _ends_a_line(path: Path) -> bool:
+    with path.open("rb") as file:
+        file.seek(-1, os.SEEK_END)
+        return file.read(1) == b"\n"

@@ -1,0 +1,73 @@
+"""What is said of a camera's last check, and of the card that is being looked at."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from datetime import datetime
+from typing import TYPE_CHECKING
+
+from carpus.core.calibration.card.card import verdict_sentence
+from carpus.core.types import FloatArray
+from carpus.ui import numbers
+from carpus.ui.icons import State
+from carpus.ui.translate import say, tr
+
+if TYPE_CHECKING:  # a window loads nothing that reads files
+    from carpus.core.calibration.card.checks import CheckStatus
+
+
+def check_words(status: CheckStatus) -> tuple[State, str]:
+    """The verdict of the last check with its date, and what to do next."""
+    check = status.check
+    if check is None:
+        return "open", tr("This camera has not been checked yet.")
+    day = numbers.report_date(datetime.fromisoformat(check.when))
+    words = tr("{verdict} Checked {day}.").format(verdict=say(verdict_sentence(check.reading)), day=day)
+    if status.recalibrated:
+        return "warn", f"{words} {tr('Check it again: it was calibrated since.')}"
+    if status.is_out:
+        next_step = tr("Check once more, then calibrate the camera. Still out: do not measure with it.")
+        return "bad", f"{words} {next_step}"
+    if status.is_due:
+        return "warn", f"{words} {tr('Check it again: once a week.')}"
+    return "good", words
+
+
+def camera_words(status: CheckStatus) -> tuple[State, str]:
+    """For the settings: the camera, when it was calibrated, and its last check."""
+    if not status.serial:
+        return "open", tr("Not calibrated and not checked yet.")
+    calibrated = tr("never calibrated")
+    if math.isfinite(status.calibrated_days):
+        days = int(status.calibrated_days)
+        ago = {0: tr("today"), 1: tr("yesterday")}.get(days, tr("{days} days ago").format(days=days))
+        calibrated = tr("calibrated {ago}").format(ago=ago)
+    state, words = check_words(status)
+    return state, tr("Camera {serial}: {calibrated}. {words}").format(
+        serial=status.serial, calibrated=calibrated, words=words
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class CardProgress:
+    """How far a check is: ``pixel`` of the discs (6, 2), None while they are not all seen; how many ``blue`` discs are;
+    ``seconds`` of steady pictures; ``moved``: the card lies elsewhere and all began again."""
+
+    pixel: FloatArray | None
+    blue: int
+    seconds: float
+    moved: bool = False
+
+
+def card_hint(now: CardProgress | None) -> str:
+    """What to do with the card."""
+    if now is None or (now.pixel is None and now.blue == 0):
+        return tr("Lay the card flat under the camera, all of it in the picture, about 60 cm away.")
+    if now.moved:
+        return tr("The card has moved: the seconds begin again.")
+    if now.pixel is None:
+        return tr("{count} of 6 discs seen: all of the card in the picture, even light, its wedge upright.").format(
+            count=min(now.blue, 6)
+        )
+    return tr("All six discs are seen. Leave it lying.")
