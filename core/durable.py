@@ -11,7 +11,7 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import IO, Self
 
 from carpus.core.errors import CarpusFault, DiskFull, OutputNotWritable
 
@@ -150,3 +150,22 @@ def copy_open_file(descriptor: int, path: Path) -> None:
             done += len(block)
         copy.flush()
         os.fsync(copy.fileno())
+
+
+def hold(file: IO[bytes]) -> None:
+    """Until it is closed, or the program dies. Raises OSError where another program holds it."""
+    if os.name == "nt":
+        import msvcrt
+
+        file.seek(1 << 20)
+        msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
+        file.seek(0)
+    else:
+        import fcntl
+
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise
+        except OSError:
+            pass  # a disk without locks

@@ -14,8 +14,8 @@ from carpus.app.of_file import note_in
 from carpus.app.settings import load_sound_settings, note_data_folder
 from carpus.core.durable import make_private
 from carpus.core.errors import CarpusFault, DataFolderChanged, FolderInUse
+from carpus.core.records.restoring import drop_unfinished, is_restored, put_in_place
 from carpus.core.records.set_up import PRACTICE_PATIENT
-from carpus.core.records.staging import remove_left_behind
 
 
 def has_display() -> bool:
@@ -47,13 +47,17 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
     desktop: compose.Desktop | None = None
     while desktop is None:
         try:
-            remove_left_behind(settings.data_folder)
             make_private(settings.data_folder)
             if not alone.take():
                 if alone.call_first(session):
                     say("it is open already, and has come to the front.")
                     return 0
                 raise FolderInUse(settings.data_folder)
+            if is_restored(settings.data_folder):  # its program was killed before it had the name
+                alone.let_go()
+                _take_restored(settings.data_folder)
+                continue
+            drop_unfinished(settings.data_folder)
             before = loaded.data_folder if settings.run_folder is not None else None
             if before is None and not is_demo:
                 before = note_data_folder(settings.data_folder)
@@ -85,7 +89,10 @@ def open_window(data_folder: Path | None, *, is_demo: bool, session: Path | None
     finally:
         desktop.close()
         alone.let_go()
-        restored = desktop.safe.backing_up.restored
-        if restored is not None:
-            restored.put_in_place(datetime.now())
-            note_in(restored.target, "restored", "everything")
+        if desktop.safe.backing_up.restored:
+            _take_restored(settings.data_folder)
+
+
+def _take_restored(folder: Path) -> None:
+    put_in_place(folder, datetime.now())
+    note_in(folder, "restored", "everything")

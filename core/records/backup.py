@@ -1,4 +1,4 @@
-"""A back-up of everything in a data folder, made while Carpus runs, read back and compared, and restored.
+"""A back-up of everything in a data folder, made while Carpus runs, read back and compared.
 
 A folder for back-ups holds ``objects/``, every content once under its SHA-256, and ``backups/``, one JSON for each
 back-up that says which file has which content. So fourteen back-ups take little more room than one, and any of them is
@@ -21,22 +21,20 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path, PureWindowsPath
-from typing import Any, BinaryIO
+from typing import Any
 
-from carpus.core.durable import make_private, private, replace_text, sync_folder, write_fault
+from carpus.core.durable import hold, make_private, private, replace_text, sync_folder, write_fault
 from carpus.core.errors import (
     BackupIncomplete,
     BackupPlaceUnsuited,
     BackupUnequal,
     BackupUnreadable,
     OutputBusy,
-    OutputExists,
     RegisterUnreadable,
 )
 from carpus.core.phrase import phrase
 from carpus.core.records.database import STORE_FILE, copied
 from carpus.core.records.session_list import COPY_SUFFIX
-from carpus.core.records.staging import Staged, hold, remove_left_behind
 from carpus.core.records.store import SESSIONS_FOLDER, look_for_store
 from carpus.core.session import recovery
 from carpus.core.session.disk import free_name, is_being_written
@@ -63,14 +61,11 @@ class Kept:
     changed_ns: int
 
 
-Content = Callable[[Kept], BinaryIO]
-"""Where the content of a file of a back-up is read; FileNotFoundError or KeyError where it is not."""
-
-
 @dataclass(frozen=True, slots=True)
 class Backup:
     """One back-up. ``sessions`` counts session files, ``running`` how many recordings ran and are not in it,
-    ``lacking`` what should be in it and could not be read."""
+    ``lacking`` what should be in it and could not be read; ``data_folder`` whose it is, empty where that is not
+    known."""
 
     name: str
     made: datetime
@@ -80,15 +75,7 @@ class Backup:
     running: int
     lacking: int
     software_version: str
-
-
-@dataclass(frozen=True, slots=True)
-class RestorePlan:
-    """What a restore would change: session files that come, change and go, by their paths."""
-
-    added: tuple[str, ...]
-    replaced: tuple[str, ...]
-    lost: tuple[str, ...]
+    data_folder: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,10 +116,12 @@ def back_up(
     for folder in (place, place / OBJECTS, place / BACKUPS):
         make_private(folder)
     with _alone(place):
-        return _back_up(sources, place, software_version, now or datetime.now().astimezone(), progress)
+        return _back_up(data_folder, sources, place, software_version, now or datetime.now().astimezone(), progress)
 
 
-def _back_up(sources: BackupSources, place: Path, software_version: str, now: datetime, progress: Progress) -> Backup:
+def _back_up(
+    data_folder: Path, sources: BackupSources, place: Path, software_version: str, now: datetime, progress: Progress
+) -> Backup:
     before = backups(place)
     known = {one.path: one for one in before[0].files} if before else {}
     done, total = 0, 2 * sources.size_bytes or 1
@@ -162,21 +151,14 @@ def _back_up(sources: BackupSources, place: Path, software_version: str, now: da
         progress(min(done, total), total)
     when = now.replace(microsecond=0)
     name = free_name(place / BACKUPS / f"{when:%Y-%m-%dT%H%M%S}.json").stem  # two of one second are two all the same
-    made = backup_of(name, when, files, sources.running, len(lacking), software_version)
+    made = Backup(
+        name, when, tuple(files), sum(one.path.endswith(".h5") for one in files), sum(one.size for one in files),
+        sources.running, len(lacking), software_version, str(data_folder.absolute()),
+    )  # fmt: skip
     replace_text(place / BACKUPS / f"{made.name}.json", json.dumps(told(made), indent=1))
     if lacking:
         raise BackupIncomplete(lacking[0], str(len(lacking)))
     return made
-
-
-def backup_of(
-    name: str, when: datetime, files: list[Kept], running: int, lacking: int, software_version: str
-) -> Backup:
-    """A back-up by its files."""
-    sessions = sum(one.path.endswith(".h5") for one in files)
-    return Backup(
-        name, when, tuple(files), sessions, sum(one.size for one in files), running, lacking, software_version
-    )
 
 
 def gather(data_folder: Path, place: Path, settings_folder: Path | None, sessions: Path | None = None) -> BackupSources:
@@ -188,9 +170,9 @@ def gather(data_folder: Path, place: Path, settings_folder: Path | None, session
     snapshot, wanted = _of_store(data_folder / STORE_FILE)
     lacking: list[str] = []
     place = _led_to(place)
-    there = dict(_walk(data_folder, place, lacking))
+    there = dict(walk_files(data_folder, place, lacking))
     if sessions is not None and sessions != data_folder / SESSIONS_FOLDER:
-        there |= _walk(sessions, place, lacking, SESSIONS_PREFIX)
+        there |= walk_files(sessions, place, lacking, SESSIONS_PREFIX)
     parts = [path for name, path in there.items() if name.endswith(".part")]
     beating = recovery.still_beating(parts)
     busy = {path for path in parts if path in beating or _is_written(path)}
@@ -249,12 +231,8 @@ def parsed(name: str, text: str) -> Backup:
     return Backup(
         name, made, files, _count(said["sessions"]), _count(said["size_bytes"]), _count(said["running"]),
         _count(said["lacking"]), str(said["software_version"]),
+        str(said.get("data_folder", "")),
     )  # fmt: skip
-
-
-def content_of(place: Path) -> Content:
-    """Contents of the back-ups in a folder."""
-    return lambda one: _object(place, one.sha256).open("rb")
 
 
 def compare(place: Path, backup: Backup, progress: Progress = lambda _done, _total: None) -> None:
@@ -301,67 +279,6 @@ def _thin_out(place: Path, keep: int, months: int, now: datetime) -> int:
     return len(gone)
 
 
-def plan_restore(backup: Backup, data_folder: Path) -> RestorePlan:
-    """What of the sessions that are there now would be different."""
-    old = {one.path: one for one in backup.files if one.path.endswith(".h5")}
-    now = {name: path for name, path in _walk(data_folder, None, []) if name.endswith(".h5")}
-    changed = (path for path in old.keys() & now.keys() if _hash(now[path]) != old[path].sha256)
-    return RestorePlan(
-        tuple(sorted(old.keys() - now.keys())), tuple(sorted(changed)), tuple(sorted(now.keys() - old.keys()))
-    )
-
-
-def restore(
-    backup: Backup,
-    content: Content,
-    target: Path,
-    *,
-    settings_folder: Path | None = None,
-    progress: Progress = lambda _done, _total: None,
-    replaces: bool = False,
-) -> Staged:
-    """Write a back-up beside ``target``, every content checked on its way; :meth:`Staged.put_in_place` gives it the
-    name. Settings come only where there are none. What a killed one left behind is removed first.
-
-    Raises :class:`OutputExists` for a folder with something in it unless it is to be replaced, :class:`BackupUnequal`,
-    :class:`DiskFull`, :class:`OutputNotWritable`; then nothing is left.
-    """
-    remove_left_behind(target)
-    chosen: list[tuple[Path, Path]] = []
-    if not replaces and target.exists() and (not target.is_dir() or any(target.iterdir())):
-        raise OutputExists(target)
-    staged = Staged.begin(target)
-    try:
-        done, total = 0, backup.size_bytes or 1
-        for one in backup.files:
-            if one.path.startswith(SETTINGS_PREFIX):
-                into = settings_folder / one.path.removeprefix(SETTINGS_PREFIX) if settings_folder else None
-                if into is None or into.exists():
-                    continue
-                make_private(into.parent)
-                chosen.append((into.with_name(f".{into.name}.new"), into))
-                into = chosen[-1][0]
-                into.unlink(missing_ok=True)  # of a program that was killed
-            else:
-                into = staged.folder / one.path
-                for folder in reversed(into.relative_to(staged.folder).parents):
-                    make_private(staged.folder / folder)
-            _fetch(content, one, into)
-            done += one.size
-            progress(done, total)
-        staged.complete()
-        for part, into in chosen:
-            part.replace(into)
-    except BaseException as cause:
-        staged.drop()
-        for part, _ in chosen:
-            part.unlink(missing_ok=True)
-        if isinstance(cause, OSError):
-            raise write_fault(target, cause) from cause
-        raise
-    return staged
-
-
 def is_due(made: datetime | None, days: int, now: datetime) -> bool:
     """Whether a person should be reminded: no back-up for so many days although there is something to lose."""
     return made is None or now.astimezone(UTC) - made.astimezone(UTC) > timedelta(days=days)
@@ -374,6 +291,7 @@ def told(made: Backup) -> dict[str, Any]:
         "format_version": FORMAT_VERSION,
         "made": made.made.isoformat(),
         "software_version": made.software_version,
+        "data_folder": made.data_folder,
         "sessions": made.sessions,
         "size_bytes": made.size_bytes,
         "running": made.running,
@@ -394,7 +312,7 @@ def _led_to(place: Path) -> Path:
     return Path(os.path.realpath(place))
 
 
-def _walk(folder: Path, place: Path | None, lacking: list[str], prefix: str = "") -> Iterator[tuple[str, Path]]:
+def walk_files(folder: Path, place: Path | None, lacking: list[str], prefix: str = "") -> Iterator[tuple[str, Path]]:
     """Every file by its path with slashes, links followed, each folder once; what leads nowhere or cannot be read is
     added to ``lacking``."""
     seen: set[tuple[int, int]] = set()
@@ -485,7 +403,7 @@ def _kept(path: str, source: Path, place: Path, before: Kept | None) -> Kept:
         raise SourceFails from cause
     changed_ns = max(0, state.st_mtime_ns)
     same = before is not None and (before.size, before.changed_ns) == (state.st_size, changed_ns)
-    if before is not None and same and _object(place, before.sha256).is_file():
+    if before is not None and same and find_object(place, before.sha256).is_file():
         return before
     return _stored(place, path, _blocks(source), changed_ns)
 
@@ -493,8 +411,8 @@ def _kept(path: str, source: Path, place: Path, before: Kept | None) -> Kept:
 def _stored(place: Path, path: str, blocks: Iterator[bytes], changed_ns: int) -> Kept:
     part = place / OBJECTS / f".{uuid.uuid4().hex}"
     try:
-        sha256, size = _written(part, blocks)
-        target = _object(place, sha256)
+        sha256, size = write_hashed(part, blocks)
+        target = find_object(place, sha256)
         make_private(target.parent)
         part.replace(target)
         sync_folder(target.parent)
@@ -505,7 +423,7 @@ def _stored(place: Path, path: str, blocks: Iterator[bytes], changed_ns: int) ->
     return Kept(path, sha256, size, changed_ns)
 
 
-def _written(into: Path, blocks: Iterator[bytes]) -> tuple[str, int]:
+def write_hashed(into: Path, blocks: Iterator[bytes]) -> tuple[str, int]:
     """A new private file on the disk; its SHA-256 and size."""
     digest, size = hashlib.sha256(), 0
     with open(into, "xb", opener=private) as copy:
@@ -518,7 +436,8 @@ def _written(into: Path, blocks: Iterator[bytes]) -> tuple[str, int]:
     return digest.hexdigest(), size
 
 
-def _object(place: Path, sha256: str) -> Path:
+def find_object(place: Path, sha256: str) -> Path:
+    """Where a content lies in a place for backups."""
     return place / OBJECTS / sha256[:2] / sha256
 
 
@@ -533,26 +452,11 @@ def _objects(place: Path) -> Iterator[Path]:
 
 
 def _compare(place: Path, one: Kept) -> None:
-    if _hash(_object(place, one.sha256), afresh=True) != one.sha256:
+    if hash_of(find_object(place, one.sha256), afresh=True) != one.sha256:
         raise BackupUnequal(one.sha256[:12], Path(one.path).suffix)
 
 
-def _fetch(content: Content, one: Kept, into: Path) -> None:
-    try:
-        with content(one) as file:
-            sha256, _ = _written(into, iter(lambda: file.read(BLOCK), b""))
-        with contextlib.suppress(OverflowError):
-            os.utime(into, ns=(one.changed_ns, one.changed_ns))
-    except (FileNotFoundError, KeyError) as cause:
-        raise BackupUnequal(one.sha256[:12], Path(one.path).suffix) from cause
-    except OSError as cause:
-        raise write_fault(into, cause) from cause
-    if sha256 != one.sha256:
-        into.unlink(missing_ok=True)
-        raise BackupUnequal(one.sha256[:12], Path(one.path).suffix)
-
-
-def _hash(path: Path, *, afresh: bool = False) -> str:
+def hash_of(path: Path, *, afresh: bool = False) -> str:
     """SHA-256 of a file, ``afresh`` from the disk and not from memory where the system can; empty without one."""
     try:
         with path.open("rb") as file:

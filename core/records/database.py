@@ -62,7 +62,8 @@ class Database:
         event.listen(self._engine, "begin", _begin)
         try:
             with self.writing() as connection:
-                self._check(connection)
+                if copy is None:  # a copy was looked through when it was made
+                    self._check(connection)
                 self.is_new = up_to_date(connection, path)
                 self.was_unguarded = _guard(connection)
                 for table in METADATA.sorted_tables:  # as text: SQLAlchemy would take a millisecond for each

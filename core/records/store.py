@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from sqlalchemy import Delete, Insert, Row, Select, Update, select
 
-from carpus.core.durable import make_private, make_private_file
+from carpus.core.durable import hold, make_private, make_private_file
 from carpus.core.errors import (
     CarpusFault,
     ErasureUnfinished,
@@ -32,7 +32,6 @@ from carpus.core.phrase import phrase
 from carpus.core.records.changes import PRACTICE, Change, forget, is_practice, is_shared, lay_out, make, new
 from carpus.core.records.database import STORE_FILE, Database, copied, rescue, set_aside
 from carpus.core.records.schema import PATIENT
-from carpus.core.records.staging import hold
 from carpus.core.session.disk import below
 
 if TYPE_CHECKING:

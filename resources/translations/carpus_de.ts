@@ -7373,6 +7373,22 @@
         <source>The folder of what is here now is kept beside the new one.</source>
         <translation>Der Ordner mit dem, was jetzt hier ist, bleibt neben dem neuen erhalten.</translation>
     </message>
+    <message>
+        <source>Restore</source>
+        <translation>Wiederherstellen</translation>
+    </message>
+    <message>
+        <source>Which back-up is to be restored?</source>
+        <translation>Welche Sicherung soll wiederhergestellt werden?</translation>
+    </message>
+    <message>
+        <source>{when}: {n} session files</source>
+        <translation>{when}: {n} Sitzungsdateien</translation>
+    </message>
+    <message>
+        <source>Patients and sessions that were erased since then stay erased: {n}.</source>
+        <translation>Patienten und Sitzungen, die seitdem gelöscht wurden, bleiben gelöscht: {n}.</translation>
+    </message>
 </context>
 <context>
     <name>BackupCard</name>

@@ -7373,6 +7373,22 @@
         <source>The folder of what is here now is kept beside the new one.</source>
         <translation>La cartella con ciò che c’è ora resta accanto a quella nuova.</translation>
     </message>
+    <message>
+        <source>Restore</source>
+        <translation>Ripristinare</translation>
+    </message>
+    <message>
+        <source>Which back-up is to be restored?</source>
+        <translation>Quale copia di sicurezza va ripristinata?</translation>
+    </message>
+    <message>
+        <source>{when}: {n} session files</source>
+        <translation>{when}: {n} file di sedute</translation>
+    </message>
+    <message>
+        <source>Patients and sessions that were erased since then stay erased: {n}.</source>
+        <translation>I pazienti e le sedute cancellati da allora restano cancellati: {n}.</translation>
+    </message>
 </context>
 <context>
     <name>BackupCard</name>

@@ -256,7 +256,12 @@ def test_a_back_up_by_command_comes_back_elsewhere(library: Library, tmp_path: P
     assert [command("restore", place, "--into", new).code for _ in range(2)] == [0, 1]
     with closing(Library(new)) as restored:
         assert [len(restored.sessions(one.patient_id)) for one in restored.patients.listed()] == [1]
-    assert [did for did, _, _ in deeds(new)] == ["added", "recorded", "restored"]
+    assert [did for did, _, _ in deeds(new)] == ["added", "recorded", "backed_up", "recorded", "restored"]
+    assert command("erase", "Linden 42", "--data-folder", library.folder, "--for-good", "linden 42").code == 0
+    later = command("restore", place, "--into", tmp_path / "later")
+    assert "erased again: 1 patients" in later.out
+    with closing(Library(tmp_path / "later")) as restored:
+        assert restored.patients.listed() == []
 
 
 def test_commands_find_what_was_written_of_a_file_on_the_clinic_s_share(

@@ -42,6 +42,8 @@ LINDEN = PatientEntry(
     "Linden 42", "right", "left", "40-49", "flexor tendon", "Erika Mustermann", "Flexor tendon repair", "operation",
     date(2026, 8, 21),
 )  # fmt: skip
+NAMES = ("Linden", "Erika Mustermann", "flexor tendon")
+"""Of Linden 42."""
 HERON = PatientEntry("Heron 17", "left", name="Otto Normal")
 _RECORDED: dict[tuple[Any, ...], list[bytes]] = {}
 """Contents of session files by their kind, and how many of a kind a test has asked for."""

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import itertools
 import json
+import os
 import shutil
 import sqlite3
 import uuid
 from datetime import UTC, datetime, timedelta
+from functools import partial, partialmethod
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +28,7 @@ from carpus.core.errors import (
     RegisterUnreadable,
 )
 from carpus.core.records import backup as module
+from carpus.core.records import erasure, restoring
 from carpus.core.records.backup import (
     BACKUPS,
     OBJECTS,
@@ -33,18 +36,16 @@ from carpus.core.records.backup import (
     back_up,
     backups,
     compare,
-    content_of,
     is_due,
-    plan_restore,
     read_backup,
-    restore,
     thin_out,
 )
 from carpus.core.records.database import STORE_FILE, copied
+from carpus.core.records.log import read_log
 from carpus.core.records.patients import Patients
-from carpus.core.records.staging import remove_left_behind
+from carpus.core.records.restoring import Past, is_restored, plan_restore, put_in_place, read_past, restore
 from carpus.core.records.store import Store
-from tests.records.samples import LINDEN, T0, measure, opened
+from tests.records.samples import HERON, LINDEN, NAMES, T0, measure, opened, traces
 from tests.session.samples import begun
 
 NOW = datetime(2026, 11, 20, 18, 0, tzinfo=UTC)
@@ -87,7 +88,8 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 
 def restored(place: Path, made: Backup, target: Path, settings: Path | None = None) -> None:
-    restore(made, content_of(place), target, settings_folder=settings).put_in_place(NOW)
+    restore(made, place, target, Past(), settings_folder=settings)
+    put_in_place(target, NOW)
 
 
 @pytest.mark.parametrize(
@@ -223,7 +225,7 @@ def test_a_flipped_bit_is_noticed(
     backed_up(data, place, NOW + timedelta(days=1))
     for later in backups(place):
         compare(place, later)  # written anew, for the earlier one too
-    monkeypatch.setattr(module, "_hash", lambda *_, **__: "")
+    monkeypatch.setattr(module, "hash_of", lambda *_, **__: "")
     with pytest.raises(BackupUnequal):
         backed_up(data, place, NOW + timedelta(days=2))
     assert len(backups(place)) == 2, "what could not be compared is no back-up"
@@ -261,15 +263,16 @@ def test_what_a_restore_changes_is_known_before_and_the_old_folder_is_kept(data:
     gone.unlink()
     changed.write_bytes(b"changed")
     (data / "sessions" / "new.h5").write_bytes(b"new")
-    plan = plan_restore(made, data)
+    plan = plan_restore(made, place, data, Past())
     assert plan.added == (gone.relative_to(data).as_posix(),)
     assert plan.replaced == (changed.relative_to(data).as_posix(),)
     assert plan.lost == ("sessions/new.h5",)
-    old = restore(made, content_of(place), data, replaces=True).put_in_place(NOW)
+    restore(made, place, data, Past(), replaces=True)
+    old = put_in_place(data, NOW)
     assert old is not None
     assert (old / "sessions" / "new.h5").read_bytes() == b"new"
     assert gone.exists()
-    assert plan_restore(made, data).replaced == ()
+    assert plan_restore(made, place, data, Past()).replaced == ()
 
 
 def test_the_newest_and_one_of_each_month_are_kept(data: Path, place: Path) -> None:
@@ -487,13 +490,101 @@ def test_a_file_that_cannot_be_read_is_told_and_the_rest_is_in_it(
     assert backups(place)[0].sessions == 2
 
 
-def test_what_a_killed_restore_left_goes_and_one_that_runs_stays(data: Path, place: Path, tmp_path: Path) -> None:
-    target = tmp_path / "new"
+def test_a_restore_that_was_killed_loses_nothing_and_leaves_nothing(
+    data: Path, place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Before each step that changes a name or a file of the disk."""
+    made, before = backed_up(data, place), contents(data)
+    (data / "set_ups.json").write_text("since")
+    deaths: list[int] = []
+    for number in itertools.count():
+        steps = itertools.count()
+
+        def step(real: Any, *told: Any, **named: Any) -> Any:
+            if next(steps) == number:  # noqa: B023
+                deaths.append(number)  # noqa: B023
+                raise KeyboardInterrupt
+            return real(*told, **named)
+
+        def renamed(path: Path, *told: Any, real: Any) -> Any:
+            return step(real, path, *told)
+
+        def tidied(*told: Any, real: Any = shutil.rmtree, **named: Any) -> None:
+            if number not in deaths:  # noqa: B023  # who was killed tidies nothing up
+                real(*told, **named)
+
+        with monkeypatch.context() as killed:
+            for name in ("rename", "replace"):
+                killed.setattr(Path, name, partialmethod(renamed, real=getattr(Path, name)))
+            killed.setattr(restoring, "_fetch", partial(step, restoring._fetch))
+            killed.setattr(os, "fsync", partial(step, os.fsync))
+            killed.setattr(shutil, "rmtree", tidied)
+            try:
+                restore(made, place, data, Past(), replaces=True)
+                put_in_place(data, NOW)
+            except KeyboardInterrupt:
+                pass
+            else:
+                break
+        if is_restored(data):  # as at the next start
+            put_in_place(data, NOW)
+        asides = list(tmp_path.glob("data.before-restore-*"))
+        assert len(asides) == (contents(data) == before)
+        for aside in asides:
+            shutil.rmtree(data)
+            aside.rename(data)
+        assert (data / "set_ups.json").read_text() == "since", "what was there is kept"
+    assert number >= 20
+    assert contents(data) == before
+    assert len(list(tmp_path.iterdir())) == 3, "what killed ones left is gone"
+
+
+@pytest.mark.parametrize("what", ["patient", "session"])
+def test_what_was_erased_since_a_back_up_is_not_brought_back_by_it(
+    what: str, data: Path, place: Path, tmp_path: Path
+) -> None:
+    with opened(data) as house:
+        heron = house.patients.add(HERON)
+        stays = measure(house, heron, T0)
+        linden = house.patients.called(LINDEN.pseudonym)
+        first, second = (one.session_id for one in house.index.of_patient(linden))
+        made = backed_up(data, place)
+        plan = (
+            erasure.plan_patient(house.store, linden) if what == "patient" else erasure.plan_session(house.store, first)
+        )
+        erasure.erase(house.store, plan, house.log)
+        past = read_past(place, house.store)
+        changes = plan_restore(made, place, data, past)
+    assert (changes.added, changes.lost, changes.erased) == ((), (), 1), "said before"
+    assert restore(made, place, tmp_path / "new", past) == 1
+    put_in_place(tmp_path / "new", NOW)
+    assert traces(tmp_path / "new", first, *((linden, second, *NAMES) if what == "patient" else ())) == []
+    with opened(tmp_path / "new") as house:
+        assert house.names() == (["Heron 17"] if what == "patient" else ["Heron 17", "Linden 42"])
+        assert house.index.one(stays).path.exists()
+        assert what == "patient" or house.index.one(second).path.exists()
+        assert [one.did for one in read_log(house.store)][-3:] == ["erase_begun", "erased", "erased"], "the log goes on"
+        assert house.files.take_in().sessions == 0
+
+
+def test_the_newest_back_up_knows_what_was_erased_where_the_data_folder_is_lost(
+    data: Path, place: Path, tmp_path: Path
+) -> None:
+    old = backed_up(data, place)
+    with opened(data) as house:
+        linden = house.patients.called(LINDEN.pseudonym)
+        erasure.erase(house.store, erasure.plan_patient(house.store, linden), house.log)
+    backed_up(data, place, NOW + timedelta(days=1))
+    shutil.rmtree(data)
+    assert restore(old, place, data, read_past(place, None)) == 1
+    put_in_place(data, NOW)
+    assert traces(data, linden, *NAMES) == []
+
+
+def test_a_patient_whose_erasing_was_refused_comes_back(data: Path, place: Path, tmp_path: Path) -> None:
     made = backed_up(data, place)
-    running = restore(made, content_of(place), target)
-    remove_left_behind(target)
-    assert running.folder.is_dir(), "its program lives"
-    running._lock.close()  # it was killed between writing and naming
-    remove_left_behind(target)
-    assert contents(target) == contents(data), "it was whole, and has the name now"
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["data", "disk", "new"]
+    with opened(data) as house:
+        linden = house.patients.called(LINDEN.pseudonym)
+        house.log.note("erase_begun", "patient", linden)
+        past = read_past(place, house.store)
+    assert restore(made, place, tmp_path / "new", past) == 0

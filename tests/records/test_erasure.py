@@ -32,9 +32,7 @@ from carpus.core.records.log import read_log
 from carpus.core.records.schema import PATIENT, SESSION
 from carpus.core.records.values import PatientEntry
 from carpus.core.session.reader import read_outline, read_session, verify, write_anew
-from tests.records.samples import HERON, LINDEN, T0, House, fill, measure, opened, record, traces
-
-NAMES = ("Linden", "Erika Mustermann", "flexor tendon")
+from tests.records.samples import HERON, LINDEN, NAMES, T0, House, fill, measure, opened, record, traces
 
 
 @pytest.fixture

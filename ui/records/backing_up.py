@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import datetime
 from functools import partial
@@ -11,24 +11,19 @@ from pathlib import Path
 from typing import TypeVar
 
 from PySide6.QtCore import QObject, QTimer, Signal
-from PySide6.QtWidgets import QFileDialog, QVBoxLayout
+from PySide6.QtWidgets import QFileDialog, QInputDialog, QVBoxLayout
 
 from carpus.core.disks import on_same_disk
 from carpus.core.errors import BackupMissing
 from carpus.core.records.backup import (
     Backup,
-    Content,
-    RestorePlan,
     back_up,
     backups,
-    content_of,
     is_due,
-    plan_restore,
-    restore,
     thin_out,
 )
 from carpus.core.records.of_clinic import LastBackup, last_backup, note_backup
-from carpus.core.records.staging import Staged
+from carpus.core.records.restoring import Past, RestorePlan, plan_restore, read_past, restore
 from carpus.core.records.values import BackupSettings
 from carpus.core.words import Words
 from carpus.ui import numbers
@@ -61,8 +56,8 @@ class BackingUp(QObject):
         self._background = Background()  # its own: a back-up of gigabytes holds up nothing else
         self._running = False
         self.last: LastBackup | None = None
-        self.restored: Staged | None = None
-        """A back-up that lies beside the data folder and takes its place when the window has closed."""
+        self.restored = False
+        """Whether a back-up lies beside the data folder, which takes its place when the window has closed."""
         self.card = BackupCard(context.theme, settings.hour)
         self.card.now_button.clicked.connect(self.back_up)
         self.card.restore_button.clicked.connect(self.ask_restore)
@@ -179,51 +174,73 @@ class BackingUp(QObject):
 
     # --- the way back -------------------------------------------------------------------------------------
     def ask_restore(self) -> None:
-        """Choose a folder with back-ups; what the newest would change is shown first."""
+        """Choose a folder with back-ups and one of them; what it would change is shown first."""
         title = self.tr("Folder that holds the back-ups")
         folder = QFileDialog.getExistingDirectory(self.card.window(), title, self._settings.folder)
         if folder:
-            self._read(lambda: _newest(Path(folder)))
+            place = Path(folder)
+            self._background.run(
+                lambda: _backups_of(place), lambda there: self._choose_backup(place, there), self._failed, self
+            )
 
-    def _read(self, found: Callable[[], tuple[Backup, Content]]) -> None:
-        """A back-up, and what it would change; then it is asked about."""
+    def _choose_backup(self, place: Path, there: Sequence[Backup]) -> None:
+        lines = [self._line(one) for one in there]
+        if len(lines) == 1:
+            self._plan(place, there[0])
+            return
+        chosen, is_chosen = QInputDialog.getItem(
+            self.card.window(), self.tr("Restore"), self.tr("Which back-up is to be restored?"), lines, 0, False
+        )
+        if is_chosen:
+            self._plan(place, there[lines.index(chosen)])
 
-        def read() -> tuple[Backup, Content, RestorePlan]:
-            backup, content = found()
-            return backup, content, plan_restore(backup, self._library.folder)
+    def _line(self, one: Backup) -> str:
+        made = one.made.astimezone()
+        when = f"{numbers.report_date(made)}, {made:%H:%M:%S}"
+        return self.tr("{when}: {n} session files").format(when=when, n=one.sessions)
 
-        self._background.run(read, lambda known: self._ask(*known), self._failed, self)
+    def _plan(self, place: Path, backup: Backup) -> None:
+        """What a back-up would change; then it is asked about."""
+        library = self._library
 
-    def _ask(self, backup: Backup, content: Content, plan: RestorePlan) -> None:
+        def read() -> tuple[Past, RestorePlan]:
+            past = read_past(place, library.store)
+            return past, plan_restore(backup, place, library.folder, past)
+
+        self._background.run(read, lambda known: self._ask(place, backup, *known), self._failed, self)
+
+    def _ask(self, place: Path, backup: Backup, past: Past, plan: RestorePlan) -> None:
         what = self.tr(
             "Restore the back-up of {when}? Session files added: {come}, changed: {change}, taken away: {go}."
         )
         when = numbers.report_date(backup.made.astimezone())
+        happened = what.format(when=when, come=len(plan.added), change=len(plan.replaced), go=len(plan.lost))
+        if plan.erased:
+            stays = self.tr("Patients and sessions that were erased since then stay erased: {n}.").format(n=plan.erased)
+            happened = f"{happened} {stays}"
         self._context.messages.ask(
             Words(
-                what.format(when=when, come=len(plan.added), change=len(plan.replaced), go=len(plan.lost)),
+                happened,
                 self.tr("The folder of what is here now is kept beside the new one."),
                 self.tr("Carpus closes when it is done. Start it again then."),
             ),
             (
-                Answer(self.tr("Restore it"), lambda: self._restore(backup, content), "R", risky=True),
+                Answer(self.tr("Restore it"), lambda: self._restore(place, backup, past), "R", risky=True),
                 Answer(self.tr("Leave it as it is"), lambda: None),
             ),
             icon="rotate-ccw",
         )
 
-    def _restore(self, backup: Backup, content: Content) -> None:
+    def _restore(self, place: Path, backup: Backup, past: Past) -> None:
         if self._running:
             return
 
-        def work() -> Staged:
-            staged = restore(backup, content, self._library.folder, progress=self._step, replaces=True)
-            self._library.notes.program("restored", sessions=backup.sessions)
-            return staged
+        def work() -> int:
+            return restore(backup, place, self._library.folder, past, progress=self._step, replaces=True)
 
-        def done(staged: Staged) -> None:
+        def done(_: int) -> None:
             self._running = False
-            self.restored = staged
+            self.restored = True
             self._context.shell.close_surely()
 
         self._begin(work, done)
@@ -280,8 +297,8 @@ def backup_facts(
     )
 
 
-def _newest(place: Path) -> tuple[Backup, Content]:
+def _backups_of(place: Path) -> Sequence[Backup]:
     there = backups(place)
     if not there:
         raise BackupMissing(place)
-    return there[0], content_of(place)
+    return there

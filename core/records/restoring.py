@@ -1,0 +1,249 @@
+"""The way back from a backup: what would change, and a data folder that is written whole before it takes its place.
+
+A restore writes ``.NAME.restoring`` beside the data folder. Whole and compared it is ``.NAME.restored``, which takes
+the name when no program has the folder open: at once, or, after a kill, at the next start. What was there is kept
+beside it. What was erased since the backup stays erased, and the log goes on.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from sqlalchemy import Select, insert, select, update
+
+from carpus.core.durable import make_private, sync_folder, write_fault
+from carpus.core.errors import BackupUnequal, CarpusFault, OutputExists
+from carpus.core.records.backup import (
+    BLOCK,
+    SESSIONS_PREFIX,
+    SETTINGS_PREFIX,
+    Backup,
+    Kept,
+    Progress,
+    backups,
+    find_object,
+    hash_of,
+    walk_files,
+    write_hashed,
+)
+from carpus.core.records.database import STORE_FILE, copied
+from carpus.core.records.erasure import finish_erasing
+from carpus.core.records.log import Log, fingerprint
+from carpus.core.records.schema import DEED, PATIENT, SESSION
+from carpus.core.records.store import Store
+
+
+@dataclass(frozen=True, slots=True)
+class Past:
+    """What the log knows by now: its rows, and the fingerprints of what is erased."""
+
+    deeds: tuple[Mapping[str, Any], ...] = ()
+    erased: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class RestorePlan:
+    """What a restore would change: paths of session files that come, change and go; how many patients and single
+    sessions of the backup were erased since, and do not come."""
+
+    added: tuple[str, ...]
+    replaced: tuple[str, ...]
+    lost: tuple[str, ...]
+    erased: int
+
+
+def read_past(place: Path, present: Store | None) -> Past:
+    """Read what was done until now: in the store that is there, and as the newest backup of the place has it."""
+    stores = [*([present] if present else [])]
+    deeds, erased = dict[str, Mapping[str, Any]](), set[str]()
+    with suppress(CarpusFault), _newest_store(place) as newest:
+        stores += [newest] if newest else []
+        for store in stores:
+            rows = {str(row.id): dict(row._mapping) for row in store.rows(select(DEED))}
+            deeds |= rows
+            begun = {row["subject"] for row in rows.values() if row["did"] in ("erase_begun", "erased")}
+            erased |= begun - _prints(store)
+    return Past(tuple(deeds.values()), frozenset(erased - (_prints(present) if present else set()) - {""}))
+
+
+def plan_restore(backup: Backup, place: Path, data_folder: Path, past: Past) -> RestorePlan:
+    """Find out what of the sessions that are there now would be different."""
+    with _store_of(backup, place) as store:
+        people, paths = _erased_rows(store, past) if store else ([], {})
+    going = (*(f"{SESSIONS_PREFIX}{one}/" for one in people), *(f"{SESSIONS_PREFIX}{one}" for one in paths.values()))
+    wanted = (one for one in backup.files if one.path.endswith(".h5") and not one.path.startswith(going))
+    old = {one.path: one for one in wanted}
+    now = {name: path for name, path in walk_files(data_folder, None, []) if name.endswith(".h5")}
+    changed = (path for path in old.keys() & now.keys() if hash_of(now[path]) != old[path].sha256)
+    return RestorePlan(
+        tuple(sorted(old.keys() - now.keys())), tuple(sorted(changed)), tuple(sorted(now.keys() - old.keys())),
+        len(people) + len(paths),
+    )  # fmt: skip
+
+
+def restore(
+    backup: Backup,
+    place: Path,
+    target: Path,
+    past: Past,
+    *,
+    settings_folder: Path | None = None,
+    progress: Progress = lambda _done, _total: None,
+    replaces: bool = False,
+) -> int:
+    """Write a backup beside ``target``, every content checked on its way; :func:`put_in_place` gives it the name. How
+    many patients and sessions that were erased since were taken out again.
+
+    Settings come only where there are none. Raises :class:`OutputExists` for a folder with something in it unless it
+    is to be replaced, :class:`BackupUnequal`, :class:`DiskFull`, :class:`OutputNotWritable`; then nothing is left.
+    """
+    if not replaces and target.exists() and (not target.is_dir() or any(target.iterdir())):
+        raise OutputExists(target)
+    folder, parts = _beside(target, "restoring"), dict[Path, Path]()
+    try:
+        for left in (folder, _beside(target, "restored")):
+            shutil.rmtree(left, ignore_errors=True)
+        make_private(folder)
+        done, total = 0, backup.size_bytes or 1
+        for one in backup.files:
+            if not one.path.startswith(SETTINGS_PREFIX):
+                into = folder / one.path
+            elif settings_folder is None or (own := settings_folder / one.path.removeprefix(SETTINGS_PREFIX)).exists():
+                continue
+            else:
+                into = parts[own] = own.with_name(f".{own.name}.new")
+                into.unlink(missing_ok=True)  # of a program that was killed
+            _fetch(place, one, into)
+            done += one.size
+            progress(done, total)
+        gone = _bring_up_to_date(folder, past)
+        for own, part in parts.items():
+            part.replace(own)
+        folder.rename(_beside(target, "restored"))
+    except BaseException as cause:
+        shutil.rmtree(folder, ignore_errors=True)
+        for part in parts.values():
+            part.unlink(missing_ok=True)
+        if isinstance(cause, OSError):
+            raise write_fault(target, cause) from cause
+        raise
+    return gone
+
+
+def is_restored(target: Path) -> bool:
+    """Whether a whole data folder lies beside a place and waits for its name."""
+    return _beside(target, "restored").is_dir()
+
+
+def drop_unfinished(target: Path) -> None:
+    """Delete what a restore that was killed has left beside a data folder."""
+    shutil.rmtree(_beside(target, "restoring"), ignore_errors=True)
+
+
+def put_in_place(target: Path, now: datetime) -> Path | None:
+    """Give a restored folder the name, which no program may have open; where the folder lies now that had it.
+
+    Raises :class:`OutputNotWritable`.
+    """
+    aside = None
+    try:
+        if target.exists():
+            if any(target.iterdir()):
+                aside = target.with_name(f"{target.name}.before-restore-{now:%Y%m%d-%H%M%S}")
+                target.rename(aside)
+            else:
+                target.rmdir()
+        try:
+            _beside(target, "restored").rename(target)
+        except OSError:
+            if aside is not None:
+                aside.rename(target)
+            raise
+    except OSError as cause:
+        raise write_fault(target, cause) from cause
+    sync_folder(target.parent)
+    return aside
+
+
+def _beside(target: Path, what: str) -> Path:
+    return target.with_name(f".{target.name}.{what}")
+
+
+def _fetch(place: Path, one: Kept, into: Path) -> None:
+    wrong = BackupUnequal(one.sha256[:12], Path(one.path).suffix)
+    for above in reversed([one for one in into.parents if not one.exists()]):
+        make_private(above)
+    try:
+        with find_object(place, one.sha256).open("rb") as file:
+            sha256, _ = write_hashed(into, iter(lambda: file.read(BLOCK), b""))
+        with suppress(OverflowError):
+            os.utime(into, ns=(one.changed_ns, one.changed_ns))
+    except FileNotFoundError as cause:
+        raise wrong from cause
+    if sha256 != one.sha256:
+        raise wrong
+
+
+def _bring_up_to_date(folder: Path, past: Past) -> int:
+    """Take out of a restored folder what was erased since, and add to its log what was done since."""
+    left = [one for one in (folder / SESSIONS_PREFIX).glob("*") if fingerprint(one.name) in past.erased]
+    for one in left:
+        shutil.rmtree(one)
+    if not (folder / STORE_FILE).is_file():  # the rows are on the clinic's server
+        return len(left)
+    with Store(folder) as store:
+        known = {row.id for row in store.rows(select(DEED.c.id))}
+        names = {column.name for column in DEED.c}
+        rows = [{k: v for k, v in one.items() if k in names} for one in past.deeds if one["id"] not in known]
+        people, sessions = _erased_rows(store, past)
+        store.own(
+            *(insert(DEED).values(**row) for row in rows),
+            update(PATIENT).where(PATIENT.c.id.in_(people)).values(erasing=1),
+            update(SESSION).where(SESSION.c.id.in_(sessions)).values(erasing=1),
+        )
+        finish_erasing(store, Log(store, "command"))
+    return len(people) + len(sessions)
+
+
+def _erased_rows(store: Store, past: Past) -> tuple[list[str], dict[str, str]]:
+    """Patients of a store that were erased since, and of the others' sessions the erased ones, with their paths: every
+    result of such a recording."""
+    people = [str(row.id) for row in store.rows(select(PATIENT.c.id)) if fingerprint(row.id) in past.erased]
+    rows = store.rows(select(SESSION.c.id, SESSION.c.patient_id, SESSION.c.recording_id, SESSION.c.path))
+    recordings = {row.recording_id for row in rows if fingerprint(row.id) in past.erased}
+    gone = (row for row in rows if row.recording_id in recordings and row.patient_id not in people)
+    return people, {str(row.id): str(row.path) for row in gone}
+
+
+def _prints(store: Store) -> set[str]:
+    """Fingerprints of who and what is in a store, and not being erased."""
+    queries: list[Select[Any]] = [select(table.c.id).where(table.c.erasing == 0) for table in (PATIENT, SESSION)]
+    return {fingerprint(row.id) for query in queries for row in store.rows(query)}
+
+
+@contextmanager
+def _store_of(backup: Backup, place: Path) -> Iterator[Store | None]:
+    """The store that a backup holds, in memory."""
+    found = next((one for one in backup.files if one.path == STORE_FILE), None)
+    if found is None:
+        yield None
+        return
+    with Store(place, copy=copied(find_object(place, found.sha256))) as store:
+        yield store
+
+
+@contextmanager
+def _newest_store(place: Path) -> Iterator[Store | None]:
+    there = backups(place)
+    if not there:
+        yield None
+        return
+    with _store_of(there[0], place) as store:
+        yield store
