@@ -394,3 +394,23 @@ def _value(hint: Any, value: Any, place: str, file: str) -> Any:
         place,
         phrase("{value} is not {wanted_words}, in {file}", value=f"{value!r}", wanted_words=wanted_words, file=file),
     )
+
+
+def with_data_folder(settings: Settings, folder: Path | None) -> Settings:
+    """The settings with the data folder named on the command line: without the clinic's server, shared folder and daily
+    backup, which are those of its own data folder."""
+    if folder is None or folder.absolute() == settings.data_folder.absolute():
+        return settings
+    records, backup = replace(settings.records, url="", sessions=""), replace(settings.backup, hour=-1)
+    return replace(settings, run_folder=folder, records=records, backup=backup)
+
+
+def with_kept_folder(settings: Settings, folder: Path) -> Settings:
+    """The settings with another data folder; also from the next start on, unless this run had a folder of its own."""
+    if settings.run_folder is not None:
+        return replace(settings, run_folder=folder)
+    os.environ.pop(DATA_VARIABLE, None)  # it would go over what was just chosen
+    chosen = replace(settings, recording=replace(settings.recording, folder=str(folder)))
+    with suppress(CarpusFault):
+        keep_preferences(settings, chosen)
+    return chosen

@@ -19,9 +19,12 @@ from PySide6.QtCore import QPoint, Qt, qInstallMessageHandler
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QWidget
 
-from carpus.app import compose
 from carpus.app.command_line import on_stop, say
-from carpus.app.desktop.sources import RECENT_FRAMES, practice_spec
+from carpus.app.compose import compose
+from carpus.app.desktop.looks import application
+from carpus.app.desktop.practice import practice_spec
+from carpus.app.desktop.sources import RECENT_FRAMES
+from carpus.app.desktop.window import Desktop
 from carpus.app.settings import FirstStartSettings, ScreenSettings, Settings
 from carpus.core.errors import CalibrationImpossible
 from carpus.core.records.set_up import PRACTICE_PATIENT
@@ -80,7 +83,7 @@ class Walker:
 
     def __init__(
         self,
-        desktop: compose.Desktop,
+        desktop: Desktop,
         is_stopping: Callable[[], bool] = lambda: False,
         on_wait: Callable[[], None] = lambda: None,
     ) -> None:
@@ -185,8 +188,8 @@ def walk(settings: Settings, progress: Progress) -> Walked:
     stopping = threading.Event()
     on_stop(stopping.set)  # first of all: an exception out of the middle of a window's own work would be lost
     qInstallMessageHandler(_told_by_qt)
-    qt = compose.application(["carpus"])
-    desktop = compose.compose(qt, settings, is_demo=True)
+    qt = application(["carpus"])
+    desktop = compose(qt, settings, is_demo=True)
 
     def show_progress(done: int, total: int) -> None:
         steps.update(done, total)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from PySide6.QtWidgets import QApplication
     from pytestqt.qtbot import QtBot
 
-    from carpus.app.compose import Desktop
+    from carpus.app.desktop.window import Desktop
     from carpus.core.simulation.spec import RecordingSpec
     from tests.commands import Command
 

@@ -7,9 +7,8 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import date
-from importlib import import_module
 from pathlib import Path
-from typing import Any, Generic, Protocol, TypeVar, cast
+from typing import Any, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
@@ -29,7 +28,6 @@ from carpus.ui.shell import Shell
 from carpus.ui.theme import Theme
 
 T = TypeVar("T")
-F = TypeVar("F", bound="Flow", covariant=True)
 STEPS = ("exercise", "camera", "markers", "live")
 """The set-up, in order; the top bar counts them."""
 TABS = ("sessions", "review", "progress", "report")
@@ -170,31 +168,6 @@ class Flow(QObject):
     def ask_where_to_save(self, kind: Kind, name: str, title: str, kinds: str) -> Path | None:
         """A file to write, None when the person changed their mind."""
         return self.context.places.ask_where_to_save(self.context.shell, kind, name, title, kinds)
-
-
-class Owner(Protocol):
-    """Who has screens as its attributes."""
-
-    way: Navigator
-
-
-class Place(Generic[F]):
-    """A screen as an attribute that has its place's name. Its module, named as folder and class below
-    :mod:`carpus.ui`, is loaded when it is made."""
-
-    def __init__(self, flow: str) -> None:
-        folder, self._class = flow.split(".")
-        self.module = f"carpus.ui.{folder}.flow"
-
-    def __set_name__(self, _: type, place: str) -> None:
-        self._place = place
-
-    def __get__(self, owner: Owner, _: type) -> F:
-        return cast("F", owner.way.flow(self._place))
-
-    def make(self, context: ScreenContext) -> F:
-        made: F = getattr(import_module(self.module), self._class)(context)
-        return made
 
 
 class Navigator(QObject):

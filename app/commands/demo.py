@@ -7,7 +7,7 @@ from pathlib import Path
 
 from carpus.app.command_line import bar
 from carpus.app.commands import desktop
-from carpus.app.settings import load_settings
+from carpus.app.settings import load_settings, with_data_folder
 from carpus.core.durable import make_private
 
 EXAMPLE = "carpus demo --data-folder out/practice"
@@ -23,11 +23,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     if desktop.has_display() and not arguments.unattended:
         return desktop.open_window(arguments.data_folder, is_demo=True)
-    from carpus.app import compose
+    from carpus.app.desktop.log import write_log
     from carpus.app.unattended import walk
 
-    compose.write_log()
-    settings = compose.with_data_folder(load_settings(), arguments.data_folder)
+    write_log()
+    settings = with_data_folder(load_settings(), arguments.data_folder)
     make_private(settings.data_folder)
     with bar("the whole way", "repetition") as progress:
         result = walk(settings, progress)

@@ -17,7 +17,7 @@ import pytest
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop
+from carpus.app.desktop.window import Desktop
 from carpus.core import so3
 from carpus.core.agreement.limits_file import LIMITS_FILE, read_limits, store_limits
 from carpus.core.agreement.retest import as_if_complete, plan_of, restated, retest, studies

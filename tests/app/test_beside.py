@@ -12,7 +12,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop
+from carpus.app.desktop.window import Desktop
 from carpus.core.records.log import read_log
 from tests.agreement.test_retest import written
 from tests.records.samples import LINDEN, kept

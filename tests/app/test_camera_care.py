@@ -14,8 +14,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop
 from carpus.app.desktop import care_cameras
+from carpus.app.desktop.window import Desktop
 from carpus.core.calibration.camera import views
 from carpus.core.calibration.card import measure
 from carpus.core.calibration.card.checks import add_check, checks_path, read_checks

@@ -13,7 +13,7 @@ import pytest
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop
+from carpus.app.desktop.window import Desktop
 from carpus.app.settings import ScreenSettings, Settings
 from carpus.core.agreement.clocks import Stopped, WorkWatch
 from carpus.core.agreement.compared_files import compare_files

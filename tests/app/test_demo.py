@@ -9,8 +9,8 @@ import pytest
 from PySide6.QtWidgets import QAbstractButton, QLabel
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop
 from carpus.app.desktop.care_cameras import CareCameras
+from carpus.app.desktop.window import Desktop
 from carpus.core.records.library import Library
 from tests.records.samples import HERON, LINDEN, T0, record
 

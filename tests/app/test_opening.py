@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carpus.app.desktop.sources import TakesDrawn, practice_beginning, practice_spec
+from carpus.app.desktop.practice import TakesDrawn, practice_beginning, practice_spec
 from carpus.core.calibration.settings import CalibrationSettings
 from carpus.core.capture.paced import PracticeSource
 from carpus.core.capture.source import is_simulated

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from carpus.app import compose
+from carpus.app.desktop.log import NobodysLines
 from carpus.app.settings import load_sound_settings
 from carpus.core.camera import Camera
 from carpus.core.capture.files.raw import RawWriter
@@ -51,7 +51,7 @@ def test_what_a_command_writes_is_for_its_owner(tmp_path: Path, command: Command
 def test_the_log_names_nobody(tmp_path: Path, own_folders: Path) -> None:
     library = Library(tmp_path)
     library.patients.add(PatientEntry("Linden Birke", "right", name="Ada Miller"))
-    lines = compose.NobodysLines()
+    lines = NobodysLines()
     lines.names = library.pseudonyms
     try:
         path = tmp_path / "sessions" / "Linden-Birke" / "Linden-Birke_2026-11-13_153000_wrist-flexion_left.h5"

@@ -18,7 +18,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QAbstractItemView, QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop
+from carpus.app.desktop.window import Desktop
 from carpus.app.settings import RecordsSettings, Settings
 from carpus.core.records.backup import backups
 from carpus.core.records.erasure import ErasurePlan

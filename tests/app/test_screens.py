@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,11 +17,9 @@ from PySide6.QtCore import QEvent, QObject
 from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app import compose
-from carpus.app.compose import Desktop
-from carpus.app.desktop.journey import CORE, SCREENS, load
-from carpus.app.settings import ScreenSettings, Settings
-from carpus.ui import language
+from carpus.app.desktop import window
+from carpus.app.desktop.screens import CORE, PLACES, load_core, load_screens
+from carpus.app.desktop.window import Desktop
 from carpus.ui.flow import ASIDE, STEPS, TABS
 from carpus.ui.help import guide
 from carpus.ui.now_open import SourceChoice
@@ -98,17 +96,18 @@ def test_a_start_makes_no_screen_but_the_first_and_loads_the_others_in_the_windo
     """Two threads that name classes of Qt for the first time at once end the process."""
     loaded: dict[str, threading.Thread] = {}
 
-    def noted(modules: Sequence[str]) -> Iterator[str]:
-        for module in load(modules):
-            loaded[module] = threading.current_thread()
-            yield module
+    def noted(real: Callable[[], Iterator[str]]) -> Iterator[str]:
+        for one in real():
+            loaded[one] = threading.current_thread()
+            yield one
 
-    monkeypatch.setattr(compose, "load", noted)
+    monkeypatch.setattr(window, "load_core", lambda: noted(load_core))
+    monkeypatch.setattr(window, "load_screens", lambda: noted(load_screens))
     desktop = open_desktop()
     assert set(desktop.journey.way.flows) == {"patients"}
     desktop._load()
-    qtbot.waitUntil(lambda: {*CORE, *SCREENS} <= set(loaded))
-    assert {loaded[module] for module in SCREENS} == {threading.main_thread()}
+    qtbot.waitUntil(lambda: {*CORE, *PLACES} <= set(loaded))
+    assert {loaded[place] for place in PLACES} == {threading.main_thread()}
     assert threading.main_thread() not in {loaded[module] for module in CORE}
     desktop.close()
     assert set(desktop.journey.way.flows) == {"patients"}
@@ -160,19 +159,3 @@ def test_what_is_chosen_reaches_the_screens_that_are_made_later(open_desktop: Ca
     for desktop in (early, late):
         assert desktop.journey.live.screen.recording.start_mode == "still"
         assert not desktop.journey.sessions.screen.reference_button.isHidden()
-
-
-def test_a_language_that_is_chosen_reaches_the_screens_that_are_made_later(
-    open_desktop: Callable[..., Desktop], qtbot: QtBot
-) -> None:
-    try:
-        late = open_desktop()
-        english, old = seen(late, *SOME), late.journey
-        choose(late, language="de")
-        qtbot.waitUntil(lambda: late.journey is not old, timeout=60_000)
-        german = seen(late)
-        from_start = seen(open_desktop(Settings(screen=ScreenSettings("light", language="de"))))
-        assert [place for place in german if not same(german[place], from_start[place])] == []
-        assert all(german[place] != looks for place, looks in english.items())
-    finally:
-        language.speak("en")

@@ -11,8 +11,7 @@ from typing import Any
 
 import pytest
 
-from carpus.app import compose
-from carpus.app.compose import Desktop
+from carpus.app.desktop.window import Desktop
 from carpus.app.settings import (
     GONE,
     PREFERENCES_FILE,
@@ -27,6 +26,7 @@ from carpus.app.settings import (
     load_sound_settings,
     note_data_folder,
     settings_folder,
+    with_data_folder,
 )
 from carpus.core.errors import SettingsInvalid
 from carpus.core.results.report_form import ReportSettings
@@ -135,7 +135,7 @@ def test_the_data_folder_is_the_users_own_unless_named(own_folders: Path, monkey
 
 def test_a_data_folder_named_for_one_run_is_never_stored(open_desktop: Callable[..., Desktop], tmp_path: Path) -> None:
     written(tmp_path / "settings", '[recording]\nfolder = "/clinic"\n[records]\nurl = "postgresql://a@b/c"\n')
-    settings = compose.with_data_folder(load_settings(tmp_path / "settings"), tmp_path / "of one run")
+    settings = with_data_folder(load_settings(tmp_path / "settings"), tmp_path / "of one run")
     assert (settings.data_folder, settings.records.url, settings.backup.hour) == (tmp_path / "of one run", "", -1)
     desktop = open_desktop(settings)
     desktop.keeper.screen.patient_sound.buttons()[1].click()

@@ -22,10 +22,11 @@ gc.disable()  # as the command does
 from pathlib import Path
 from carpus.app import compose
 from carpus.app.desktop.alone import Alone
-from carpus.app.settings import load_sound_settings
+from carpus.app.desktop.looks import application
+from carpus.app.settings import load_sound_settings, with_data_folder
 loaded, told = load_sound_settings()
-settings = compose.with_data_folder(loaded, Path(sys.argv[1]))
-qt = compose.application(["carpus"])
+settings = with_data_folder(loaded, Path(sys.argv[1]))
+qt = application(["carpus"])
 alone = Alone(settings.data_folder)
 alone.take()
 desktop = compose.compose(qt, settings, told=told)

@@ -19,7 +19,8 @@ from PySide6.QtCore import QEvent, QEventLoop, QObject, Qt, QTimer
 
 from carpus.app import compose
 from carpus.app.desktop.journey import Journey
-from carpus.app.desktop.sources import practice_spec
+from carpus.app.desktop.looks import application
+from carpus.app.desktop.practice import practice_spec
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.app.unattended import Walker
 from carpus.core.calibration.clicks import read_clicks
@@ -141,7 +142,7 @@ def choose_whole_hand(journey: Journey) -> None:
 def measure(seconds: float, folder: Path, *, pictures: bool, whole_hand: bool) -> tuple[Run, dict[str, Any]]:
     """Record so long in the real window, on the practice patient in real time; with the raw ``pictures`` on request."""
     settings = replace(Settings(), screen=ScreenSettings("light"), recording=RecordingSettings(folder=str(folder)))
-    qt = compose.application(["bench"])
+    qt = application(["bench"])
     desktop = compose.compose(qt, settings, is_demo=True, take=take)
     run = Run()
     try:

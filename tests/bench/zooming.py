@@ -11,7 +11,7 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from carpus.app import compose
+from carpus.app.desktop.looks import application
 from carpus.core.hand.exercises import exercise_named
 from carpus.core.results.seen import JointCurves, ReportCurves
 from carpus.ui.figures import FIGURES
@@ -25,7 +25,7 @@ WANTED_MS = 50.0
 
 def report() -> Iterator[str]:
     """In at the middle and out again, then along: each step until it is painted; of the wrist and of the whole hand."""
-    qt = compose.application(["carpus"])
+    qt = application(["carpus"])
     gc.collect()
     gc.freeze()  # as the program does before a session is opened
     curves = _curves()

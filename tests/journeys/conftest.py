@@ -12,7 +12,8 @@ from typing import Any
 
 import pytest
 
-from carpus.app.compose import Desktop, application
+from carpus.app.desktop.looks import application
+from carpus.app.desktop.window import Desktop
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from carpus.core.pipeline import looking_back
 from carpus.ui.live import recording as live_recording

@@ -8,8 +8,8 @@ import pytest
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop
 from carpus.app.desktop import welcoming
+from carpus.app.desktop.window import Desktop
 from carpus.app.settings import load_settings
 from carpus.core.capture.devices import openni2_camera
 from carpus.core.capture.doctor import examine_at_start

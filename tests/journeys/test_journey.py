@@ -18,10 +18,10 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QApplication, QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop
 from carpus.app.desktop.care_cameras import CareCameras
 from carpus.app.desktop.journey import Journey
 from carpus.app.desktop.sources import RECENT_FRAMES
+from carpus.app.desktop.window import Desktop
 from carpus.core.calibration.result import CalibrationFinding
 from carpus.core.capture.camera_info import sidecar_path
 from carpus.core.capture.devices import xtion

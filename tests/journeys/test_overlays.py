@@ -9,7 +9,7 @@ from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from carpus.app.compose import Desktop
+from carpus.app.desktop.window import Desktop
 from carpus.core.errors import DiskFull
 from carpus.ui.controls.sheet import Sheet
 from carpus.ui.messages.messages import StopCard

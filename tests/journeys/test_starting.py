@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PySide6.QtCore import QTimer
@@ -13,11 +14,14 @@ from pytestqt.qtbot import QtBot
 
 from carpus.app import compose
 from carpus.app.commands import desktop
-from carpus.app.compose import NoFolder
+from carpus.app.desktop import log, no_folder, window
 from carpus.app.desktop.alone import Alone
+from carpus.app.desktop.no_folder import NoFolder
 from carpus.app.settings import load_settings, settings_folder
 from carpus.core.errors import CarpusFault, DataFolderChanged
 from carpus.core.words import Words
+from carpus.ui import language
+from carpus.ui.controls.text import Text
 from carpus.ui.theme import Theme
 
 ROOT = Path(__file__).parents[2]
@@ -59,28 +63,29 @@ def test_another_folder_is_another_carpus(tmp_path: Path) -> None:
 def test_a_folder_that_cannot_be_used_is_told_in_a_window(
     qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, answer: str
 ) -> None:
-    window = NoFolder(Theme(), Words("It cannot be written.", "All is safe.", "Choose another."), tmp_path)
+    asking = NoFolder(Theme(), Words("It cannot be written.", "All is safe.", "Choose another."), tmp_path)
     named = ["", str(tmp_path)] if answer == "think again" else [str(tmp_path)]
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: named.pop(0))
     presses = {"close": [0], "choose": [1], "think again": [1, 1]}[answer]
-    timer = QTimer(window.shell)
+    timer = QTimer(asking.shell)
 
     def press() -> None:
-        if presses and window.card.isVisible():
-            window.card.answers[presses.pop(0)].click()
+        if presses and asking.card.isVisible():
+            asking.card.answers[presses.pop(0)].click()
 
     timer.timeout.connect(press)
     timer.start(20)
-    assert window.ask() == (None if answer == "close" else tmp_path)
-    assert "cannot be written" in window.card.what.text()
+    assert asking.ask() == (None if answer == "close" else tmp_path)
+    assert "cannot be written" in asking.card.what.text()
 
 
 @pytest.fixture
 def quiet(qapp: QApplication, monkeypatch: pytest.MonkeyPatch) -> None:
     """A window with a display, which takes no signals and changes no language of this process."""
     monkeypatch.setattr(desktop, "has_display", lambda: True)
-    for name in ("write_log", "end_on_signals", "speak_in_the_window"):
-        monkeypatch.setattr(compose, name, lambda *_: None)
+    monkeypatch.setattr(log, "write_log", lambda: None)
+    monkeypatch.setattr(log, "speak_in_the_window", lambda *_: None)
+    monkeypatch.setattr(window, "end_on_signals", lambda *_: None)
 
 
 @pytest.mark.usefixtures("quiet")
@@ -92,7 +97,7 @@ def test_the_window_opens_on_the_folder_that_was_chosen_instead(
     monkeypatch.setenv("CARPUS_DATA", str(blocked))
     monkeypatch.setattr(QApplication, "exec", lambda *_: 0)
     asked: list[str] = []
-    monkeypatch.setattr(compose, "ask_for_folder", lambda *given: asked.append(type(given[-1]).__name__) or good)
+    monkeypatch.setattr(no_folder, "ask_for_folder", lambda *given: asked.append(type(given[-1]).__name__) or good)
     assert desktop.open_window(None, is_demo=False) == 0
     assert asked == ["OutputNotWritable"]
     assert "blocked" in capsys.readouterr().err
@@ -121,7 +126,7 @@ def test_nobody_chooses_and_it_ends_with_a_sentence(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "blocked").write_text("")
-    monkeypatch.setattr(compose, "ask_for_folder", lambda *_: None)
+    monkeypatch.setattr(no_folder, "ask_for_folder", lambda *_: None)
     assert desktop.open_window(tmp_path / "blocked", is_demo=False) == 1
     assert capsys.readouterr().err.count("\n") == 1
 
@@ -131,12 +136,49 @@ def test_a_window_that_is_closed_while_it_comes_up_ends_in_peace(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(QApplication, "exec", lambda *_: pytest.fail("a closed window waits for nobody"))
-    close_early = compose.Desktop.close
+    close_early = window.Desktop.close
 
-    def closes_at_once(self: compose.Desktop) -> None:
+    def closes_at_once(self: window.Desktop, **_: bool) -> None:
         close_early(self)
         self.journey.patients.show()  # what it was about to do, on what is closed now
 
-    monkeypatch.setattr(compose.Desktop, "show", closes_at_once)
+    monkeypatch.setattr(window.Desktop, "show", closes_at_once)
     assert desktop.open_window(tmp_path / "early", is_demo=True) == 0
     assert capsys.readouterr().err == ""
+
+
+@pytest.mark.usefixtures("quiet")
+def test_another_language_opens_the_window_again_with_the_settings_in_it(
+    qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On the same data folder, which nobody else gets meanwhile, and in the place that the person came from."""
+    shown: list[tuple[str, str, bool]] = []
+
+    def stay(_: QApplication) -> int:
+        desktop = opened[-1]
+        said = {text.text() for text in desktop.keeper.screen.findChildren(Text)} if shown else set[str]()
+        shown.append((desktop.journey.place, desktop.keeper.settings.screen.language, "Einstellungen" in said))
+        if len(shown) == 1:
+            desktop.journey.way.show("settings")
+            qtbot.waitUntil(lambda: not desktop.why_no_other_language())
+            desktop.keeper.screen.language.buttons()[list(language.LANGUAGES).index("de")].click()
+            qtbot.waitUntil(lambda: desktop.closed)
+        return 0
+
+    opened: list[window.Desktop] = []
+    composed = compose.compose
+
+    def compose_one(*given: Any, **named: Any) -> window.Desktop:
+        opened.append(composed(*given, **named))
+        return opened[-1]
+
+    monkeypatch.setattr(compose, "compose", compose_one)
+    monkeypatch.setattr(QApplication, "exec", stay)
+    monkeypatch.setenv("CARPUS_DATA", str(tmp_path / "data"))
+    try:
+        assert desktop.open_window(None, is_demo=False) == 0
+    finally:
+        language.speak("en")
+    assert shown == [("patients", "system", False), ("settings", "de", True)]
+    assert load_settings().screen.language == "de"
+    assert all(one.closed for one in opened)

@@ -13,7 +13,9 @@ from pathlib import Path
 from PySide6.QtCore import QPoint, QTimer
 
 from carpus.app import compose
+from carpus.app.desktop.looks import application
 from carpus.app.desktop.sources import RECENT_FRAMES
+from carpus.app.desktop.window import Desktop, end_on_signals
 from carpus.app.settings import RecordingSettings, ScreenSettings, Settings
 from tests.journeys.takes import SPEED, clicks_of, take_of
 
@@ -23,7 +25,7 @@ LOOK_MS = 50
 class Reporter:
     """Says on standard output what a person would see."""
 
-    def __init__(self, desktop: compose.Desktop, take: Path) -> None:
+    def __init__(self, desktop: Desktop, take: Path) -> None:
         self._desktop, self._take = desktop, take
         self._said: set[str] = set()
         desktop.journey.live.screen.recording.stopped.connect(self._stored)
@@ -76,9 +78,9 @@ def main() -> int:
     take, data = map(Path, sys.argv[1:3])
     recording = RecordingSettings(folder=str(data), keep_pictures=False)
     settings = replace(Settings(), screen=ScreenSettings("light"), recording=recording)
-    qt = compose.application(["carpus"])
+    qt = application(["carpus"])
     desktop = compose.compose(qt, settings, take=take_of(take), speed=SPEED, settings_folder=data / "settings")
-    compose.end_on_signals(desktop)
+    end_on_signals(desktop)
     reporter = Reporter(desktop, take)
     desktop.show()
     reporter.say("started")

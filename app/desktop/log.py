@@ -1,0 +1,65 @@
+"""The program's own log, for who helps with it: no line names a patient. What nobody caught goes there too."""
+
+from __future__ import annotations
+
+import logging
+import re
+import sys
+from collections.abc import Callable, Sequence
+from logging.handlers import RotatingFileHandler
+from pathlib import Path
+from types import TracebackType
+
+import platformdirs
+
+from carpus.core.durable import make_private
+from carpus.core.errors import OutputNotWritable
+
+SESSION_PATH = re.compile(r"\S*(?:sessions[\\/]|_\d{4}-\d\d-\d\d_\d{6}_)\S*")
+"""A path or a file's name with a pseudonym in it."""
+LOG_FILE, LOG_BYTES = "carpus.log", 1_000_000
+
+
+class NobodysLines(logging.Formatter):
+    """Lines of the log without pseudonyms: the names of patients' folders and files are cut out of every path."""
+
+    def __init__(self) -> None:
+        super().__init__("%(asctime)s %(name)s %(levelname)s %(message)s")
+        self.names: Callable[[], Sequence[str]] = lambda: ()
+        """What else must not be in the log: asked for each line, of which there are few."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        text = SESSION_PATH.sub("…", super().format(record))
+        for name in self.names():
+            text = re.sub(rf"(?<!\w){re.escape(name)}(?!\w)", "…", text, flags=re.IGNORECASE)
+        return text
+
+
+LINES = NobodysLines()
+
+
+def write_log() -> None:
+    """Log into the user's own folder; where that cannot be written there is no log."""
+    folder = Path(platformdirs.user_log_dir("carpus", appauthor=False))
+    handler: logging.Handler
+    try:
+        make_private(folder)
+        for old in folder.glob(f"{LOG_FILE}*"):
+            old.chmod(0o600)
+        handler = RotatingFileHandler(folder / LOG_FILE, maxBytes=LOG_BYTES, backupCount=2, encoding="utf-8")
+    except (OSError, OutputNotWritable):
+        handler = logging.NullHandler()
+    handler.setFormatter(LINES)
+    logging.basicConfig(level=logging.INFO, handlers=[handler])
+    logging.getLogger("alembic").setLevel(logging.WARNING)  # how the store is set up says nothing to a person
+
+
+def speak_in_the_window(tell: Callable[[Exception], None]) -> None:
+    """From now on what nobody caught becomes a message and a line in the log, never a traceback."""
+
+    def hook(kind: type[BaseException], value: BaseException, trace: TracebackType | None) -> None:
+        logging.getLogger("carpus").error("uncaught", exc_info=(kind, value, trace))
+        if isinstance(value, Exception):
+            tell(value)
+
+    sys.excepthook = hook

@@ -1,0 +1,166 @@
+"""The screens: each is loaded and made when it is first asked for, since a start would wait for all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+
+from carpus.ui.flow import Flow, Navigator, ScreenContext
+
+if TYPE_CHECKING:
+    from carpus.ui.agreement.flow import AgreementFlow
+    from carpus.ui.beside.flow import BesideFlow
+    from carpus.ui.by_hand.flow import ByHandFlow
+    from carpus.ui.camera_calibration.flow import BoardFlow
+    from carpus.ui.check_card.flow import CardFlow
+    from carpus.ui.correct.flow import CorrectFlow
+    from carpus.ui.help.flow import HelpFlow
+    from carpus.ui.live.flow import LiveFlow
+    from carpus.ui.markers.flow import MarkersFlow
+    from carpus.ui.patients.flow import PatientsFlow
+    from carpus.ui.progress.flow import ProgressFlow
+    from carpus.ui.report.flow import ReportFlow
+    from carpus.ui.retest.flow import RetestFlow
+    from carpus.ui.review.flow import ReviewFlow
+    from carpus.ui.sessions.flow import SessionsFlow
+    from carpus.ui.setup.flow import CameraFlow, ExerciseFlow
+
+CORE = (
+    "carpus.core.pipeline.correction",
+    "carpus.core.agreement.compared_files",
+    "carpus.core.agreement.retest",
+    "carpus.core.calibration.camera.calibrate",
+    "carpus.core.calibration.card.measure",
+    "carpus.core.results.side_by_side",
+)
+"""What takes longest to load of what screens use, and has nothing of Qt in it: for whatever thread."""
+PLACES = (
+    "patients", "exercise", "camera", "markers", "live", "sessions", "review", "progress", "report", "by_hand",
+    "agreement", "beside", "retest", "board", "card", "help", "correct",
+)  # fmt: skip
+
+
+class Screens(QObject):
+    """Each screen's flow by its place."""
+
+    way: Navigator
+    patients: PatientsFlow
+    exercise: ExerciseFlow
+    camera: CameraFlow
+    markers: MarkersFlow
+    live: LiveFlow
+    sessions: SessionsFlow
+    review: ReviewFlow
+    progress: ProgressFlow
+    report: ReportFlow
+    by_hand: ByHandFlow
+    agreement: AgreementFlow
+    beside: BesideFlow
+    retest: RetestFlow
+    board: BoardFlow
+    card: CardFlow
+    help: HelpFlow
+    correct: CorrectFlow
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, place: str) -> Flow:
+            """A place that no screen was gone to yet is made now."""
+            if place not in PLACES:
+                raise AttributeError(place)
+            return self.way.flow(place)
+
+
+def flow_class(place: str) -> Callable[[ScreenContext], Flow]:
+    """Load what the screen of a place is made of."""
+    match place:
+        case "patients":
+            from carpus.ui.patients.flow import PatientsFlow
+
+            return PatientsFlow
+        case "exercise":
+            from carpus.ui.setup.flow import ExerciseFlow
+
+            return ExerciseFlow
+        case "camera":
+            from carpus.ui.setup.flow import CameraFlow
+
+            return CameraFlow
+        case "markers":
+            from carpus.ui.markers.flow import MarkersFlow
+
+            return MarkersFlow
+        case "live":
+            from carpus.ui.live.flow import LiveFlow
+
+            return LiveFlow
+        case "sessions":
+            from carpus.ui.sessions.flow import SessionsFlow
+
+            return SessionsFlow
+        case "review":
+            from carpus.ui.review.flow import ReviewFlow
+
+            return ReviewFlow
+        case "progress":
+            from carpus.ui.progress.flow import ProgressFlow
+
+            return ProgressFlow
+        case "report":
+            from carpus.ui.report.flow import ReportFlow
+
+            return ReportFlow
+        case "by_hand":
+            from carpus.ui.by_hand.flow import ByHandFlow
+
+            return ByHandFlow
+        case "agreement":
+            from carpus.ui.agreement.flow import AgreementFlow
+
+            return AgreementFlow
+        case "beside":
+            from carpus.ui.beside.flow import BesideFlow
+
+            return BesideFlow
+        case "retest":
+            from carpus.ui.retest.flow import RetestFlow
+
+            return RetestFlow
+        case "board":
+            from carpus.ui.camera_calibration.flow import BoardFlow
+
+            return BoardFlow
+        case "card":
+            from carpus.ui.check_card.flow import CardFlow
+
+            return CardFlow
+        case "help":
+            from carpus.ui.help.flow import HelpFlow
+
+            return HelpFlow
+        case "correct":
+            from carpus.ui.correct.flow import CorrectFlow
+
+            return CorrectFlow
+    raise KeyError(place)
+
+
+def load_core() -> Iterator[str]:
+    """Load, module by module, what has nothing of Qt in it; in whatever thread."""
+    for module in CORE:
+        import_module(module)
+        yield module
+
+
+def load_screens() -> Iterator[str]:
+    """Load, one by one, what all screens are made of. For the window's thread alone: Qt makes a class when it is first
+    named, and where two threads name one each at once the process ends."""
+    for place in PLACES:
+        flow_class(place)
+        yield place
+    for module in ("carpus.ui.settings.flow", "carpus.ui.plot.canvas"):
+        import_module(module)
+        yield module
