@@ -83,6 +83,6 @@ def _say(plan: ErasurePlan) -> None:
     print(f"This goes: {plan.sessions} sessions, {len(plan.files)} files, {plan.size_bytes / 1e6:.1f} MB")
     for one in plan.made:
         print(f"This stays, delete it yourself: {one.kind} {one.path}")
-    for path in plan.unsure:
-        print(f"This stays, it is damaged and Carpus cannot tell whose it is: {path}")
+    for path in plan.outside:
+        print(f"This stays, look at it yourself, it lies in no patient's folder: {path}")
     print("This stays: back-ups and files copied elsewhere; Carpus cannot reach them.")

@@ -2,18 +2,16 @@
 
 An erasure that is cut short is finished when the store is opened next. Only files in the folder of the sessions, and
 what Carpus keeps beside it, are touched: by relative paths without links; where a link leads elsewhere, nothing is
-begun. Reports and exports that were saved elsewhere are named, and so are back-ups, which stay. What is deleted is
-overwritten in the store; what the disk itself keeps of deleted files only its encryption protects.
+begun. What lies outside the patient's folder and is no session's stays and is listed for a person, and so are reports
+and exports that were saved elsewhere; back-ups stay. What is deleted is overwritten in the store; what the disk itself
+keeps of deleted files only its encryption protects.
 """
 
 from __future__ import annotations
 
 import contextlib
 import glob
-import mmap
 import re
-import struct
-from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +20,7 @@ from sqlalchemy import delete, select
 
 from carpus.core.errors import ChangedMeanwhile, ErasureLeadsOut, ErasureUnfinished, FolderMissing
 from carpus.core.names import folded
-from carpus.core.records.changes import PRACTICE, RowChange, changed, dropped, is_identity
+from carpus.core.records.changes import RowChange, changed, dropped, is_identity
 from carpus.core.records.database import STORE_FILE
 from carpus.core.records.log import Kind, Log
 from carpus.core.records.of_clinic import PLACE
@@ -30,12 +28,12 @@ from carpus.core.records.of_sessions import MadeFile, made_from
 from carpus.core.records.patients import Patients
 from carpus.core.records.schema import DIAGNOSIS, OWN, PATIENT, RECIPIENT, SEEN, SESSION, SHARED
 from carpus.core.records.session_list import (
-    TRIALS_FOLDER,
+    COPY,
+    IS_THERE,
     FilesOfSessions,
     ListedSessions,
-    file_name,
     look_for_share,
-    named_after,
+    remembered,
     trials_of,
 )
 from carpus.core.records.store import Store
@@ -46,7 +44,7 @@ from carpus.core.session.disk import below
 @dataclass(frozen=True, slots=True)
 class ErasurePlan:
     """What would go. ``sessions`` counts recordings; ``files`` lie in the data folder; ``made`` are files that Carpus
-    made elsewhere and does not touch; ``unsure`` are damaged files that stay, where only a word speaks of the patient;
+    made elsewhere and does not touch; ``outside`` lies in no patient's folder, and a person has to look at it;
     ``others`` counts the patient's recordings that stay."""
 
     kind: Kind
@@ -58,7 +56,7 @@ class ErasurePlan:
     files: tuple[Path, ...]
     size_bytes: int
     made: tuple[MadeFile, ...]
-    unsure: tuple[Path, ...]
+    outside: tuple[Path, ...]
     others: int = 0
 
 
@@ -90,12 +88,12 @@ def _plan(
     links = _links(store, going, sessions)
     if links:
         raise ErasureLeadsOut(links[0])
-    found, unsure = _files(store, going, sessions)
-    files = sorted(found)
+    files = sorted(_files(store, going, sessions))
     return ErasurePlan(
         kind, identity, patient_id, Patients(store).one(patient_id).entry.pseudonym if patient_id else "",
         tuple(results), len({one.recording_id for one in results}), tuple(files),
-        sum(path.lstat().st_size for path in files), tuple(made_from(store, sessions)), tuple(sorted(unsure)), others,
+        sum(path.lstat().st_size for path in files), tuple(made_from(store, sessions)),
+        _outside(store, patient_id) if kind == "patient" else (), others,
     )  # fmt: skip
 
 
@@ -155,7 +153,7 @@ def go_on(store: Store, gone_there: Collection[str] | None = None) -> list[Path]
     sessions = [str(row.id) for row in rows]
     if rows and _is_away(store):
         return [store.sessions_folder]
-    files, _ = _files(store, patients, sessions)
+    files = _files(store, patients, sessions)
     left = [*_links(store, patients, sessions), *(path for path in sorted(files) if not _gone(path))]
     if rows and _is_away(store):  # since then: nobody knows what was found and is gone
         return [store.sessions_folder]
@@ -198,121 +196,54 @@ def _naming(store: Store, names: Sequence[str]) -> list[RowChange]:
     if not named:
         return []
     addresses, listed = store.rows(select(RECIPIENT)), store.rows(select(DIAGNOSIS))
-    word = _words(named, ())
+    words = "|".join(map(re.escape, named))
+    word = re.compile(rf"(?<![^\W_])(?:{words})(?![^\W_])")
     return [
         *(dropped(RECIPIENT, row.id) for row in addresses if word.search(folded(row.address))),
         *(dropped(DIAGNOSIS, row.id) for row in listed if word.search(folded(row.words))),
     ]
 
 
-def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> tuple[set[Path], set[Path]]:
-    """Every file of these: the sessions' own with what lies beside them and copies, all that is left in the folders of
-    the patients, what is no session and names them, new results that wait for a decision, and damaged stores that were
-    set aside, which may hold names. And those that may be theirs and stay: nobody can tell."""
-    paths, going, root = dict[str, str](), set(sessions), store.sessions_folder
-    for row in store.rows(select(SESSION.c.id, SESSION.c.path)):
-        paths[row.id] = row.path
-    others = {f"{root / path}".removesuffix(".h5") for session_id, path in paths.items() if session_id not in going}
-    mine, files = [paths[session_id] for session_id in paths.keys() & going], FilesOfSessions(store)
+def _files(store: Store, patients: Sequence[str], sessions: Sequence[str]) -> set[Path]:
+    """Every file of these: the sessions' own with what lies beside them, their copies and new results that wait, and
+    all that is left in the folders of the patients; but nothing that lies beside another session under its name."""
+    rows, root, going = store.rows(select(SESSION.c.id, SESSION.c.path)), store.sessions_folder, set(sessions)
+    mine, files = [str(row.path) for row in rows if row.id in going], FilesOfSessions(store)
+    others = {f"{root / row.path}".removesuffix(".h5") for row in rows if row.id not in going}
     own = {path for stored in mine if (path := _inside(root, stored)) is not None and path.exists()}
-    found = own | {path for stored in mine for path in _beside(store, stored)}
+    found = {path for stored in mine for path in _beside(store, stored)}
     found |= {path for stored in mine for path in files.copies_of(stored) if path.is_file()}
-    for folder in _folders(store, patients):
-        found |= set(_plain_files(folder))
-    waits, unsure = set(trials_of(store, paths.keys() - going)), set[Path]()
-    for names in _names_of(store, patients):
-        for folder in (root, store.folder / TRIALS_FOLDER):
-            orphans = (path for path in _plain_files(folder) if path not in waits and not _is_beside(path, others))
-            judged = {one: names.name(one, folder) for one in orphans}
-            found |= {one for one, is_named in judged.items() if is_named}
-            unsure |= {one for one, is_named in judged.items() if is_named is None}
+    found |= {path for folder in _folders(store, patients) for path in _plain_files(folder)}
     found |= set(trials_of(store, going))
+    return own | {path for path in found if not _is_beside(path, others)}
+
+
+def _outside(store: Store, patient_id: str) -> tuple[Path, ...]:
+    """What lies in no patient's folder and beside no session that is listed, folders and stores that were set aside:
+    nobody but a person can tell whose it is. What is named like the patient comes first."""
+    root, seen = store.sessions_folder, remembered(store)
+    listed = {f"{root / row.path}".removesuffix(".h5") for row in store.rows(select(SESSION.c.path))}
+    copies = {root / path for path, one in seen.items() if one.reason.startswith(COPY)}
+    found = {
+        path
+        for path in _plain_files(root)
+        if not is_identity(path.relative_to(root).parts[0]) and path.name != IS_THERE and not _is_beside(path, listed)
+    } - copies
     stem, suffix = STORE_FILE.split(".")
-    found |= set(store.folder.glob(f"{stem}.damaged-*.{suffix}*"))
-    found = own | {path for path in found if not _is_beside(path, others)}
-    return found, unsure - found
+    found |= set(store.folder.glob(f"{stem}.*-*.{suffix}"))
+    found |= set(store.folder.parent.glob(f"{glob.escape(store.folder.name)}.before-restore-*"))
+    names = [_joined(one) for one in _names_of(store, patient_id)]
+    return tuple(sorted(found, key=lambda path: (not any(one in _joined(f"{path}") for one in names), path)))
 
 
-@dataclass(frozen=True, slots=True)
-class _Names:
-    """How files name one patient: ``stems`` as Carpus names them, as words in a path and in what a file says, which the
-    group ``own`` finds outside of longer names, and as whose a session says it is. ``others`` are the stems of other
-    patients."""
-
-    stems: Collection[str]
-    others: Collection[str]
-    in_path: re.Pattern[str]
-    in_file: re.Pattern[bytes]
-    subject: re.Pattern[bytes]
-
-    def name(self, path: Path, folder: Path) -> bool | None:
-        """Whether a file in ``folder`` is this patient's; None where only a word in a damaged one says so. One that
-        Carpus named is whose name it has, whatever else stands there: a pseudonym may be a word of an exercise, or a
-        number of a day."""
-        whose, way = named_after(path), path.relative_to(folder)
-        if whose in self.others and whose not in self.stems:
-            return False
-        if whose in self.stems and whose not in self.others:
-            return True
-        searched = "/".join(one for one in (way.parent if whose else way).parts if not is_identity(one))
-        return any(one["own"] for one in self.in_path.finditer(searched)) or self._is_said_in(path)
-
-    def _is_said_in(self, path: Path) -> bool | None:
-        if path.suffix in (".h5", ".part"):
-            with (
-                contextlib.suppress(OSError, ValueError),
-                path.open("rb") as file,
-                mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as content,
-            ):
-                whose = self.subject.search(content)
-                if whose is not None:
-                    return whose["own"] is not None
-                return None if any(one["own"] for one in self.in_file.finditer(content)) else False
-        return False
+def _joined(text: str) -> str:
+    """A text as it may stand in names of files."""
+    return re.sub(r"\W+", "-", folded(text))
 
 
-def _names_of(store: Store, patients: Sequence[str]) -> Iterator[_Names]:
-    """Of each patient the pseudonyms, and a name of several words, where that could be nobody else's."""
-    names = {
-        row.id: {row.pseudonym, *row.former.split("\n"), row.name if " " in row.name else ""} - {""}
-        for row in (store.rows(select(PATIENT)) if patients else ())
-    }
-    equal = Counter(one for own in names.values() for one in own)
-    for patient in (one for one in patients if one != PRACTICE):
-        own = {one for one in names[patient] if equal[one] == 1}
-        foreign = {one for other, theirs in names.items() if other != patient for one in theirs}
-        stems, others = ({file_name(one) for one in them} - {""} for them in (own, foreign))
-        written = {name for name in own if file_name(name) not in others} | (stems - others)
-        yield _Names(stems, others, _words(written, foreign | others), _in_bytes(own, foreign), _subject(own, foreign))
-
-
-def _words(own: Collection[str], others: Collection[str]) -> re.Pattern[str]:
-    return re.compile(_found(own, others, r"(?<![^\W_])", r"(?![^\W_])"))
-
-
-def _in_bytes(own: Collection[str], others: Collection[str]) -> re.Pattern[bytes]:
-    a, z = r"(?<![\w\x80-\xff])", r"(?![\w\x80-\xff])"
-    mine, theirs = ({one.encode().decode("latin-1") for one in them} for them in (own, others))
-    return re.compile(_found(mine, theirs, a, z).encode("latin-1"))
-
-
-def _subject(own: Collection[str], others: Collection[str]) -> re.Pattern[bytes]:
-    """Finds them as ``subject_id`` in what HDF5 keeps of a session's texts, each with its length and filled up to 8
-    bytes: after the recording's identity, before a moment. Those of this patient are the group ``own``."""
-
-    def texts(names: Collection[str]) -> bytes:
-        stored = (struct.pack("<Q", len(one)) + one + bytes(-len(one) % 8) for one in map(str.encode, names))
-        return b"|".join(map(re.escape, stored)) or rb"(?!)"
-
-    either = rb"(?:(?P<own>" + texts(own) + rb")|" + texts(others) + rb")"
-    return re.compile(rb"[0-9a-f]{12}\0{4}.{8}" + either + rb".{16}\d{4}-\d\d-\d\dT", re.DOTALL)
-
-
-def _found(own: Collection[str], others: Collection[str], before: str, after: str) -> str:
-    """A pattern of the names as words, the group ``own``; longer ones of others first, which hold one of them."""
-    longer = [one for one in others if any(name in one and name != one for name in own)]
-    theirs, mine = ("|".join(re.escape(one) for one in sorted(them, key=len, reverse=True)) for them in (longer, own))
-    return rf"{before}(?:{theirs or '(?!)'}|(?P<own>{mine or '(?!)'})){after}"
+def _names_of(store: Store, patient_id: str) -> list[str]:
+    row = store.row(select(PATIENT).where(PATIENT.c.id == patient_id))
+    return [one for one in (row.pseudonym, row.name, *row.former.split("\n")) if one] if row is not None else []
 
 
 def _beside(store: Store, stored: str) -> set[Path]:

@@ -277,12 +277,6 @@ def free_path(folder: Path, pseudonym: str, exercise: str, hand: Side, when: dat
     return free_name(folder / f"{stem}.h5")
 
 
-def named_after(path: Path) -> str:
-    """Whose pseudonym, as it stands in names of files, a name has that Carpus gave; empty for any other name."""
-    made = re.fullmatch(r"\.?(.+?)_\d{4}-\d\d-\d\d_\d{6}_.+", path.name)
-    return made[1] if made else ""
-
-
 def trials_of(store: Store, session_ids: Collection[str]) -> Iterator[Path]:
     """New results of these sessions that nobody has decided about. One that is damaged, or not finished, is known by
     its name, which is that of its session's file, where no other session's is like it."""

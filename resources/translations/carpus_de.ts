@@ -8649,6 +8649,10 @@
         <translation>Anderswo gespeicherte Berichte und Exporte löschen Sie selbst ({n}): {path}.</translation>
     </message>
     <message>
+        <source>Files outside the patient’s folder, look at them yourself ({n}): {path}.</source>
+        <translation>Dateien außerhalb des Patientenordners, bitte selbst ansehen ({n}): {path}.</translation>
+    </message>
+    <message>
         <source>Angles, pictures, notes and pain scores of this session ({files}, {size} MB).</source>
         <translation>Winkel, Bilder, Notizen und Schmerzwerte dieser Sitzung ({files}, {size} MB).</translation>
     </message>
@@ -8667,10 +8671,6 @@
     <message>
         <source>Files copied elsewhere: Carpus cannot reach them.</source>
         <translation>Anderswohin kopierte Dateien: Carpus erreicht sie nicht.</translation>
-    </message>
-    <message>
-        <source>Damaged files of which nobody can tell whose they are ({n}): {path}.</source>
-        <translation>Beschädigte Dateien, von denen niemand sagen kann, wessen sie sind ({n}): {path}.</translation>
     </message>
     <message>
         <source>The log keeps that it was erased, no name.</source>

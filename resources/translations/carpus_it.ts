@@ -8649,6 +8649,10 @@
         <translation>Relazioni ed esportazioni salvate altrove, da cancellare di persona ({n}): {path}.</translation>
     </message>
     <message>
+        <source>Files outside the patient’s folder, look at them yourself ({n}): {path}.</source>
+        <translation>File fuori dalla cartella del paziente, da controllare di persona ({n}): {path}.</translation>
+    </message>
+    <message>
         <source>Angles, pictures, notes and pain scores of this session ({files}, {size} MB).</source>
         <translation>Angoli, immagini, note e punteggi del dolore di questa seduta ({files}, {size} MB).</translation>
     </message>
@@ -8667,10 +8671,6 @@
     <message>
         <source>Files copied elsewhere: Carpus cannot reach them.</source>
         <translation>File copiati altrove: Carpus non può raggiungerli.</translation>
-    </message>
-    <message>
-        <source>Damaged files of which nobody can tell whose they are ({n}): {path}.</source>
-        <translation>File danneggiati di cui nessuno sa dire di chi siano ({n}): {path}.</translation>
     </message>
     <message>
         <source>The log keeps that it was erased, no name.</source>

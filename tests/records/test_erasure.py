@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 from datetime import date, timedelta
 from pathlib import Path
-from uuid import uuid4
 
 import h5py
 import pytest
@@ -31,7 +30,7 @@ from carpus.core.records.library import Library
 from carpus.core.records.log import read_log
 from carpus.core.records.schema import PATIENT, SESSION
 from carpus.core.records.values import PatientEntry
-from carpus.core.session.reader import read_outline, read_session, verify, write_anew
+from carpus.core.session.reader import read_outline, read_session, verify
 from tests.records.samples import HERON, LINDEN, NAMES, T0, House, fill, measure, opened, record, traces
 
 
@@ -48,11 +47,6 @@ def house(folder: Path) -> Iterator[House]:
 
 def deeds(house: House) -> list[str]:
     return [entry.did for entry in read_log(house.store)]
-
-
-def half_a_session(folder: Path, pseudonym: str) -> bytes:
-    """What is left of a session's file."""
-    return record(folder.with_name("elsewhere") / f"{pseudonym}.h5", pseudonym, T0).read_bytes()[:9000]
 
 
 def erase_patient(house: House, patient_id: str) -> int:
@@ -133,10 +127,9 @@ def test_of_an_erased_patient_there_is_not_a_byte_in_the_folder(folder: Path) ->
         linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
         sessions = fill(house, linden)
         fill(house, heron)
-        (folder / "records.damaged-20261009-120000.sqlite3").write_bytes(b"no store, but Linden 42 is in it")
         (folder / "sessions" / linden / "left over.part").write_bytes(b"x")
         plan = erasure.plan_patient(house.store, linden)
-        assert (plan.sessions, len(plan.files)) == (3, 11)
+        assert (plan.sessions, len(plan.files)) == (3, 10)
         erasure.erase(house.store, plan, house.log)
         words = (*NAMES, LINDEN.diagnosis, LINDEN.diagnosis.casefold(), linden, *sessions)
         assert traces(folder, *words) == [], "while it is open: also free pages and journals"
@@ -290,82 +283,6 @@ def test_what_was_copied_in_and_not_looked_at_brings_nobody_back(folder: Path, h
     assert traces(folder, *NAMES, linden) == []
 
 
-def test_damaged_files_that_name_the_patient_go_and_no_others(folder: Path, house: House) -> None:
-    for pseudonym in ("Linden 421", "Fir 11", "Fir-11"):
-        house.patients.add(PatientEntry(pseudonym, "left"))
-    sessions, linden = folder / "sessions", house.patients.add(LINDEN)
-    gone = ("Linden-42_2026.h5", "x.h5.12345678.part", "Linden 42.h5.12345678.part", "a/said.h5")
-    gone += ("Linden-42_2.markers.jpg",)
-    stay = ("Linden-421_2026.h5", "said of another.h5", "Fir-11_2026.h5")
-    (sessions / "a").mkdir()
-    of_linden, of_another = (half_a_session(folder, one) for one in ("Linden 42", "Linden 421"))
-    for name in (*gone, *stay):
-        said = of_another if "another" in name else of_linden if name[0] in "xa" else b"damaged"
-        (sessions / name).write_bytes(said)
-    house.files.take_in()
-    erase_patient(house, linden)
-    assert [name for name in gone if (sessions / name).exists()] == []
-    assert [name for name in stay if (sessions / name).exists()] == list(stay)
-    erase_patient(house, house.patients.called("Fir 11"))
-    assert (sessions / "Fir-11_2026.h5").exists(), "it may be of Fir-11"
-    assert traces(folder, "Linden-42_", "Linden 42\0") == []
-
-
-def test_a_damaged_file_in_which_a_pseudonym_is_only_a_word_stays_and_is_named(folder: Path, house: House) -> None:
-    renamed, words = folder / "sessions" / "x.h5", ("right", "WRIST_FE", "Linden", "deg", "0")
-    renamed.write_bytes(half_a_session(folder, "Linden 42"))  # who is in no list here
-    for word in words:
-        plan = erasure.plan_patient(house.store, house.patients.add(PatientEntry(word, "left")))
-        assert (plan.files, plan.unsure) == ((), (renamed,)), word
-        erasure.erase(house.store, plan, house.log)
-        assert renamed.exists(), word
-    house.patients.add(LINDEN)
-    again = [erasure.plan_patient(house.store, house.patients.add(PatientEntry(one, "left"))) for one in words]
-    assert [plan.unsure for plan in again] == [()] * len(words), "it says that it is Linden 42's"
-
-
-@pytest.mark.parametrize("pseudonym", ["Heron 17", "Heron 171"])
-def test_what_is_left_of_a_session_that_was_given_to_another_says_whose_it_is(
-    folder: Path, house: House, pseudonym: str
-) -> None:
-    path = record(folder.with_name("elsewhere") / "of Linden 42.h5", "Linden 42", T0)
-    write_anew(path, path.with_name("given.h5"), subject_id=pseudonym)
-    renamed = folder / "sessions" / "x.h5"
-    renamed.write_bytes(path.with_name("given.h5").read_bytes()[:9000])
-    linden, other = (house.patients.add(PatientEntry(one, "left")) for one in ("Linden 42", pseudonym))
-    plans = (erasure.plan_patient(house.store, one) for one in (linden, other))
-    assert [(plan.files, plan.unsure) for plan in plans] == [((), ()), ((renamed,), ())]
-
-
-def test_a_pseudonym_that_is_a_word_in_names_of_another_patients_files_takes_none_of_them(
-    folder: Path, house: House
-) -> None:
-    linden, words = house.patients.add(LINDEN), ("Linden", "42", "10", "right", "MCP2", "***")
-    path = house.index.one(measure(house, linden, T0)).path
-    trials = folder / "corrections"
-    trials.mkdir()
-    waits = trials / path.name
-    write_anew(path, waits, session_id=str(uuid4()), origin=read_outline(path).header.session_id)
-    damaged, unfinished = trials / f"{path.stem}-2.h5", trials / f"{path.stem}-3.h5.12345678.part"
-    damaged.write_bytes(waits.read_bytes()[:2000])
-    unfinished.write_bytes("\0".join(("", "Linden 42", *words, "")).encode())
-    interrupted = path.with_name(f"{path.stem}-2.h5.12345678.part")
-    shutil.copyfile(unfinished, interrupted)
-    called = folder / "sessions" / "Linden 42.h5.12345678.part"
-    called.write_bytes(b"\0Linden 42\0")
-    hidden = folder / "sessions" / ".x.h5"
-    hidden.write_bytes(b"-")
-    theirs = {waits, damaged, unfinished, interrupted, called, hidden}
-    for word in words:
-        other = house.patients.add(PatientEntry(word, "left"))
-        plan = erasure.plan_patient(house.store, other)
-        assert not theirs & {*plan.files, *plan.unsure}, word
-        erase_patient(house, other)
-        assert {one for one in theirs if not one.exists()} == set(), word
-    erase_patient(house, linden)
-    assert {one for one in theirs if one.exists()} == {hidden}
-
-
 def test_a_damaged_result_of_one_of_two_sessions_named_alike_stays_with_both(folder: Path, house: House) -> None:
     linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
     for patient, when in ((linden, T0), (heron, T0 + timedelta(days=1))):
@@ -379,6 +296,24 @@ def test_a_damaged_result_of_one_of_two_sessions_named_alike_stays_with_both(fol
     assert damaged.exists(), "it may be of the other"
     erase_patient(house, heron)
     assert not damaged.exists()
+
+
+def test_what_lies_outside_of_patients_folders_stays_and_is_listed(folder: Path, house: House) -> None:
+    linden, heron = house.patients.add(LINDEN), house.patients.add(HERON)
+    others = house.index.one(measure(house, heron, T0)).path
+    shutil.copy(others, folder / "sessions" / "a copy.h5")
+    house.files.take_in()
+    outside = [folder / "sessions" / "letters" / "a Linden 42.txt", folder / "sessions" / "damaged.h5"]
+    outside += [folder.with_name("data.before-restore-20261009-120000"), folder / "records.damaged-1-2.sqlite3"]
+    for path in outside:
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(b"whose?")
+    others.with_name("also Linden 42.txt").write_bytes(b"in the folder of another")
+    plan = erasure.plan_patient(house.store, linden)
+    assert (plan.outside[0], set(plan.outside)) == (outside[0], set(outside)), "what is named like the patient first"
+    erasure.erase(house.store, plan, house.log)
+    assert all(path.exists() for path in (*outside, others, others.with_name("also Linden 42.txt")))
+    assert erasure.plan_session(house.store, house.index.of_patient(heron)[0].session_id).outside == ()
 
 
 @pytest.mark.parametrize("after", ["mark", "files"])
@@ -498,19 +433,6 @@ def test_an_identity_that_leads_out_erases_nothing_there(tmp_path: Path, folder:
     assert (mine / "letter.txt").exists()
     assert house.index.one(stays).path.exists()
     assert house.names() == ["Linden 42"]
-
-
-def test_an_earlier_pseudonym_and_a_folder_with_a_name_go_too(folder: Path, house: House) -> None:
-    linden, sessions = house.patients.add(replace(LINDEN, pseudonym="Fir 11")), folder / "sessions"
-    house.patients.change(linden, LINDEN)
-    house.patients.add(HERON)
-    for name in ("damaged.h5", "Linden 42/a/notes.txt", "letters/notes Erika Mustermann.txt", "letters/Heron 17.txt"):
-        (sessions / name).parent.mkdir(parents=True, exist_ok=True)
-        (sessions / name).write_bytes(half_a_session(folder, "Fir 11") if name == "damaged.h5" else b"a note")
-    house.files.take_in()
-    erase_patient(house, linden)
-    assert [path.name for path in sessions.rglob("*") if path.is_file()] == ["Heron 17.txt"]
-    assert traces(folder, "Fir 11", "fir 11", *NAMES) == []
 
 
 def test_what_another_program_still_reads_is_told_as_left(

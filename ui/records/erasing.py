@@ -77,7 +77,7 @@ class Erasing(QObject):
                 files=len(plan.files),
                 size_mb=plan.size_bytes / 1e6,
                 made=tuple(str(one.path) for one in plan.made),
-                unsure=tuple(map(str, plan.unsure)),
+                outside=tuple(map(str, plan.outside)),
                 others=plan.others,
                 by_hand=self._records.values_by_hand(plan.patient_id) if plan.kind == "patient" else 0,
                 last_backup=self._last_backup(),
@@ -185,10 +185,9 @@ MOST_PATHS = 3
 class ErasureFacts:
     """What is said before a session, or with ``when`` None a patient, is erased.
 
-    ``made``: reports and exports that Carpus saved elsewhere; they stay, and so do ``unsure``, damaged files of which
-    nobody can tell whose they are. ``others`` counts the patient's sessions that stay. ``kept_until`` None where no
-    years are set, ``last_backup`` None before the first. ``by_hand``: values that a person measured, which go with a
-    patient.
+    ``made``: reports and exports that Carpus saved elsewhere; they stay, and so does what lies ``outside`` of patients'
+    folders. ``others`` counts the patient's sessions that stay. ``kept_until`` None where no years are set,
+    ``last_backup`` None before the first. ``by_hand``: values that a person measured, which go with a patient.
     """
 
     pseudonym: str
@@ -205,7 +204,7 @@ class ErasureFacts:
     retention_years: int
     today: date
     by_hand: int = 0
-    unsure: tuple[str, ...] = ()
+    outside: tuple[str, ...] = ()
 
 
 class EraseSheet(Sheet):
@@ -344,7 +343,7 @@ class EraseSheet(Sheet):
             parts.append(self.tr("Files copied elsewhere: Carpus cannot reach them."))
         for words, found in (
             (self.tr("Reports and exports saved elsewhere, delete them yourself ({n}): {path}."), facts.made),
-            (self.tr("Damaged files of which nobody can tell whose they are ({n}): {path}."), facts.unsure),
+            (self.tr("Files outside the patient’s folder, look at them yourself ({n}): {path}."), facts.outside),
         ):
             if found:
                 paths = ", ".join(found[:MOST_PATHS]) + (", …" if len(found) > MOST_PATHS else "")
