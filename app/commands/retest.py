@@ -4,7 +4,6 @@ are the clinic's own error limits."""
 from __future__ import annotations
 
 import argparse
-import csv
 import math
 from collections import Counter
 from datetime import date
@@ -117,8 +116,10 @@ def _read(places: list[Path], named: dict[str, str]) -> tuple[list, dict[str, st
 def _raters(path: Path | None) -> dict[str, str]:
     if path is None:
         return {}
-    try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            return {row["session"].strip(): row["rater"].strip() for row in csv.DictReader(file)}
-    except (OSError, ValueError, KeyError, AttributeError, csv.Error) as cause:
-        raise ReferenceUnreadable(path, "a list of raters has the columns session and rater") from cause
+    from carpus.core.formats.table_read import read_table
+
+    table = read_table(path, ("session", "rater"))
+    if not {name.lower() for name in table.names} >= {"session", "rater"}:
+        raise ReferenceUnreadable(path, "a list of raters has the columns session and rater")
+    rows = map(table.row, range(len(table.rows)))
+    return {row["session"]: row["rater"] for row in rows}

@@ -20,7 +20,7 @@ from carpus.core.agreement.clocks import (
     best_shift,
     with_drift,
 )
-from carpus.core.agreement.reference import Reference
+from carpus.core.agreement.reference import Reference, listed
 from carpus.core.agreement.statistics import FEWEST, Agreement, agreement
 from carpus.core.errors import ReferenceUnsuited
 from carpus.core.hand.clinical_angles import angles_from_rotation, rotation_from_angles
@@ -42,6 +42,8 @@ LEAST_MATCH = 0.5
 """Below this correlation no shift is believed: it is not the same movement."""
 LARGEST_SCALE, MOVES_RAD = 2.0, math.radians(3.0)
 """Where one moves by so many times the standard deviation of the other, and by so much, their units may differ."""
+FAR_APART_M = 0.010
+"""Of a rigid fit: markers stuck beside the discs, and skin that glides, leave less."""
 SLOW_HZ = 5.0
 NEUTRAL_S = 0.5
 NEUTRAL_POSE, FIRST_IN_COMMON = "its neutral pose", "the session at the first moment in common"
@@ -153,7 +155,7 @@ def compare(
     rate_hz = 1.0 / float(np.median(np.diff(reference_s))) if len(reference_s) > 1 else math.nan
     return Compared(
         reference.kind, tuple(pairs), shift, alignment, len(session), int((~use).sum()), overlap_s, rate_hz,
-        tuple(not_used), remarks_of(pairs, shift, overlap_s),
+        tuple(not_used), (*reference.remarks, *_remarks_of_space(alignment), *remarks_of(pairs, shift, overlap_s)),
     )  # fmt: skip
 
 
@@ -242,6 +244,18 @@ def remarks_of(pairs: Sequence[Pairs], shift: Shift | None, overlap_s: float = m
     return tuple(out) if shift is None else (*out, *_remarks_of_clocks(shift, overlap_s))
 
 
+def _remarks_of_space(alignment: Alignment | None) -> list[str]:
+    if alignment is None or alignment.residual_m <= FAR_APART_M:
+        return []
+    return [
+        phrase(
+            "discs and markers stay {apart} mm apart, up to {most} are usual: other markers, another hand, or jumps",
+            apart=f"{1e3 * alignment.residual_m:.1f}",
+            most=f"{1e3 * FAR_APART_M:.0f}",
+        )
+    ]
+
+
 def _remarks_of_clocks(shift: Shift, overlap_s: float) -> list[str]:
     out: list[str] = []
     if overlap_s < SAFE_OVERLAP_S:
@@ -312,9 +326,10 @@ def _curves_of_angles(
 ) -> ClockCurves:
     names = [name for name in reference.angles_rad if name in own]
     if not names:
-        why = phrase("no disc of the palm and no angle of the wrist or fingers is in it")
+        there = listed(reference.names)
+        why = phrase("no disc of the palm and no angle of the wrist or fingers is in it; it has {there}", there=there)
         if reference.angles_rad:
-            why = phrase("no angle of the session is in it")
+            why = phrase("no angle of the session is in it; it has {there}", there=there)
         raise ReferenceUnsuited(reference.path, why)
     names = [name for name in names if np.nanstd(own[name]) > 0.0]
     theirs_s = _since_start(reference, session)
@@ -351,10 +366,9 @@ def _speed(time_s: FloatArray, place_m: FloatArray) -> FloatArray:
 def _common(session: Session, reference: Reference) -> list[str]:
     names = [name for name in PALM_MARKERS if name in reference.points_m]
     if len(names) < 3:
-        there = ", ".join(names) or "none"
         raise ReferenceUnsuited(
             reference.path,
-            phrase("three discs of the palm are needed, it has {there}; say which markers they are", there=there),
+            phrase("three discs of the palm are needed; say which of {there} they are", there=listed(reference.names)),
         )
     return names
 
@@ -461,7 +475,7 @@ def _with_readings(
     count = len(reference.readings)
     return Compared(
         reference.kind, tuple(pairs), None, None, count, left, math.nan, math.nan, tuple(not_used),
-        remarks_of(pairs, None),
+        (*reference.remarks, *remarks_of(pairs, None)),
     )  # fmt: skip
 
 

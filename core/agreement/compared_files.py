@@ -14,7 +14,7 @@ import numpy as np
 from carpus.core.agreement.clocks import UNWATCHED, WorkWatch
 from carpus.core.agreement.compare import MOST_SHIFT_S, Compared, Pairs, compare
 from carpus.core.agreement.reference import read_reference
-from carpus.core.agreement.statistics import FEWEST_TO_JUDGE, Agreement
+from carpus.core.agreement.statistics import FEWEST, FEWEST_TO_JUDGE, Agreement
 from carpus.core.formats.new_output import new_json, new_table
 from carpus.core.formats.provenance import provenance
 from carpus.core.formats.take import number
@@ -60,7 +60,7 @@ def compare_files(
     watch.at(0.0)
     session = read_session(session_path)
     watch.at(0.0)
-    reference = read_reference(reference_path, columns, markers, radians, smoothed)
+    reference = read_reference(reference_path, columns, markers, radians, smoothed, session.header.hand)
     figures = session_figures(session, choices) if reference.readings else None
     compared = compare(
         session, reference, smoothed=smoothed, most_shift_s=most_shift_s, lag_s=lag_s, drift=drift, figures=figures,
@@ -177,8 +177,27 @@ def lines(compared: Compared) -> list[str]:
     why = "predicted, doubtful, lost or not still"
     out.append(f"Left out     {compared.left_out} of {compared.pictures} {what}: {why}")
     out.append("Differences  Carpus less reference, degrees; in brackets 95 % intervals, repeated values allowed for")
-    out += ["", *figure_lines([(pairs.name, pairs.figures_deg) for pairs in compared.pairs]), ""]
+    out.append("")
+    if compared.shift is None:
+        out += [*_pair_lines(compared.pairs), ""]
+    figures = [(pairs.name, pairs.figures_deg) for pairs in compared.pairs if math.isfinite(pairs.figures_deg.bias)]
+    if figures:
+        out += [*figure_lines(figures), ""]
+    few = [pairs.name for pairs in compared.pairs if not math.isfinite(pairs.figures_deg.bias)]
+    out += [f"Not judged: {name}, of which there are fewer than {FEWEST} pairs." for name in few]
     out += [f"Not used: {reason}." for reason in compared.not_used]
+    return out
+
+
+def _pair_lines(pairs: Sequence[Pairs]) -> list[str]:
+    """Each reading beside what Carpus has for it."""
+    width = max(len(one.name) for one in pairs)
+    out = [f"{'':{width}}  {'at':>9}  {'Carpus':>8}  {'reading':>8}  {'difference':>10}"]
+    for one in pairs:
+        columns = one.time_s, np.degrees(one.measured_rad), np.degrees(one.reference_rad)
+        for time_s, mine, other in zip(*columns, strict=True):
+            at = f"{time_s:.2f} s" if math.isfinite(time_s) else "range"
+            out.append(f"{one.name:{width}}  {at:>9}  {mine:8.2f}  {other:8.2f}  {mine - other:10.2f}")
     return out
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
+import re
+from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
@@ -14,16 +14,30 @@ import numpy as np
 
 from carpus.core.errors import ReferenceUnreadable
 from carpus.core.formats.c3d_read import read_c3d
-from carpus.core.formats.opensim_read import Columns, read_mot, read_trc, text_of
+from carpus.core.formats.opensim_read import Columns, read_mot, read_trc
+from carpus.core.formats.table_read import TextTable, is_no_number, parse_number, parse_times, read_table, split_unit
 from carpus.core.hand.protocols import SITES, WRIST_ANGLES, joint_angle_names
 from carpus.core.phrase import phrase
 from carpus.core.results.seen import best_motion
 from carpus.core.session.reader import read_session
-from carpus.core.types import FloatArray
+from carpus.core.types import FloatArray, Side
 
 POINT_FILES, ANGLE_FILES, TABLE_FILES = (".c3d", ".trc"), (".mot", ".sto"), (".csv", ".tsv", ".txt")
 SESSION_FILES = (".h5", ".part")
-TIME_NAMES = ("time_s", "timestamp_s", "time", "since_start_s", "t")
+TIME_NAMES = (
+    *("time_s", "timestamp_s", "time", "since_start_s", "t", "time_ms", "timestamp_ms", "timestamp"),
+    *("zeit", "tempo"),
+)
+SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "msec": 1e-3, "us": 1e-6, "µs": 1e-6, "μs": 1e-6, "min": 60.0}
+STEPS_S = ((500.0, 1e-6, "µs"), (0.5, 1e-3, "ms"))
+"""Of times that do not say their unit: from this step between two rows on they are in these parts of a second."""
+SIDES = re.compile(
+    r"^(?:(r|right|rechts|re|destra|dx)|(l|left|links|li|sinistra|sx))[:_ .]|"
+    r"[_ .](?:(r|right|rechts|re|destra|dx)|(l|left|links|li|sinistra|sx))$",
+    re.IGNORECASE,
+)
+"""How the names of markers and columns say which hand they are of."""
+MOST_LISTED = 24
 ANGLE_NAMES = (*WRIST_ANGLES, *joint_angle_names(True))
 DIRECTIONS = {
     "flexion": ("flexion", 1.0),
@@ -34,6 +48,7 @@ DIRECTIONS = {
     "pronation": ("pronosupination", -1.0),
 }
 """What a goniometer's list calls the two ways of each angle."""
+KNOWN_NAMES = frozenset((*TIME_NAMES, "angle", "movement", *(name.lower() for name in ANGLE_NAMES)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +74,10 @@ class Reference:
     points_m: Mapping[str, FloatArray] = field(default_factory=dict)
     readings: tuple[GoniometerReading, ...] = ()
     unused: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+    """Of all its markers or columns."""
+    remarks: tuple[str, ...] = ()
+    """What was taken for granted in reading it."""
     same_clock: bool = False
     """Whether its times are those of the session's own pictures."""
 
@@ -82,11 +101,11 @@ def outline_of(path: Path) -> ReferenceOutline:
         there = {_plain(name): name for name in track.names}
         return ReferenceOutline(path, "points", track.names, {name: there[name] for name in SITES if name in there})
     if suffix in TABLE_FILES:
-        _, head, low = _rows_of(path)
-        if _is_list(low):
+        table = read_table(path, KNOWN_NAMES)
+        if _is_list(table):
             return ReferenceOutline(path, "readings")
-        time = {"time": _time_name(low)} if _time_name(low) else {}
-        return ReferenceOutline(path, "angles", tuple(head), time | _found(head))
+        time = {"time": _time_name(table)} if _time_name(table) else {}
+        return ReferenceOutline(path, "angles", table.names, time | _found(table.names))
     if suffix in ANGLE_FILES:
         values = read_mot(path).values
         return ReferenceOutline(path, "angles", tuple(values), {"time": "time"} | _found(values))
@@ -96,8 +115,7 @@ def outline_of(path: Path) -> ReferenceOutline:
 
 
 def _found(columns: Iterable[str]) -> dict[str, str]:
-    named = {name: _column(name, {}, columns)[0] for name in ANGLE_NAMES}
-    return {name: column for name, column in named.items() if column}
+    return {name: found[0] for name in ANGLE_NAMES if (found := _candidates(name, columns))}
 
 
 def read_reference(
@@ -106,20 +124,22 @@ def read_reference(
     markers: Mapping[str, str] | None = None,
     radians: bool | None = None,
     smoothed: bool = False,
+    hand: Side | None = None,
 ) -> Reference:
     """A reference by its ending. ``columns`` angle (or ``time``) to column, a minus before it turns the sign;
     ``markers`` ours to theirs; ``radians`` overrules what the file says; ``smoothed``: of a
-    session the smoother's result where there is one, else the filter's. Raises :class:`ReferenceUnreadable`, and for a
+    session the smoother's result where there is one, else the filter's; ``hand``: whose markers or columns are meant
+    where the file has both hands'. Raises :class:`ReferenceUnreadable`, and for a
     session what reading it raises."""
     suffix = path.suffix.lower()
     if suffix in POINT_FILES:
-        return _of_points(path, suffix, markers or {})
+        return _of_points(path, suffix, markers or {}, hand)
     if suffix in ANGLE_FILES:
         return _of_angles(
-            path, phrase("angles by {format}", format=suffix[1:].upper()), read_mot(path), columns or {}, radians
+            path, phrase("angles by {format}", format=suffix[1:].upper()), read_mot(path), columns or {}, radians, hand
         )
     if suffix in TABLE_FILES:
-        return _of_table(path, columns or {}, radians)
+        return _of_table(path, columns or {}, radians, hand)
     if suffix in SESSION_FILES:
         return _of_session(path, smoothed)
     raise ReferenceUnreadable(path, phrase("no reader for {value}", value=suffix or "a file without an ending"))
@@ -136,22 +156,30 @@ def _of_session(path: Path, smoothed: bool) -> Reference:
     )
 
 
-def _of_points(path: Path, suffix: str, markers: Mapping[str, str]) -> Reference:
+def _of_points(path: Path, suffix: str, markers: Mapping[str, str], hand: Side | None) -> Reference:
     track = read_c3d(path) if suffix == ".c3d" else read_trc(path)
-    there = {_plain(name): k for k, name in enumerate(track.names)}
-    points = {}
+    by_whole, by_plain = defaultdict[str, list[int]](list), defaultdict[str, list[int]](list)
+    for k, name in enumerate(track.names):
+        by_whole[name.strip().upper()].append(k)
+        by_plain[_plain(name)].append(k)
+    taken: dict[str, int] = {}
     for name in SITES:
-        wanted = _plain(markers.get(name, name))
-        if wanted in there:
-            points[name] = track.place_m[:, there[wanted]]
+        wanted = markers.get(name, name).strip().upper()
+        found = by_whole[wanted] or by_plain[wanted]
+        if found:
+            taken[name] = _one_of(path, wanted, found, track.names, hand)
         elif name in markers:
-            raise ReferenceUnreadable(path, phrase("it has no marker {markers}", markers=markers[name]))
-    used = {_plain(markers.get(name, name)) for name in points}
-    left = [name for name in track.names if _plain(name) not in used]
-    unused = _left(phrase("markers"), left, phrase("none of the discs by their names"))
+            raise ReferenceUnreadable(
+                path,
+                phrase("it has no marker {wanted}; it has {names}", wanted=markers[name], names=listed(track.names)),
+            )
+    left = [name for k, name in enumerate(track.names) if k not in taken.values()]
+    unused = _left(phrase("markers"), left, phrase("none of the discs by their names, or of the other hand"))
     return Reference(
-        path, phrase("points by {format}", format=suffix[1:].upper()), track.time_s, points_m=points, unused=unused
-    )
+        path, phrase("points by {format}", format=suffix[1:].upper()), track.time_s,
+        points_m={name: track.place_m[:, k] for name, k in taken.items()}, unused=unused, names=track.names,
+        remarks=_of_hands([track.names[k] for name, k in taken.items() if name not in markers], track.names, hand),
+    )  # fmt: skip
 
 
 def _plain(name: str) -> str:
@@ -159,21 +187,81 @@ def _plain(name: str) -> str:
     return name.split(":")[-1].strip().upper()
 
 
-def _of_angles(path: Path, kind: str, table: Columns, columns: Mapping[str, str], radians: bool | None) -> Reference:
+def _one_of(path: Path, wanted: str, found: Sequence[int], names: Sequence[str], hand: Side | None) -> int:
+    """Of the places of several of one name that of the hand. Raises :class:`ReferenceUnreadable` where none or more
+    than one is."""
+    if len(found) == 1:
+        return found[0]
+    of_hand = [k for k in found if _side_of(names[k]) == hand]
+    if hand is None or len(of_hand) != 1:
+        several = listed([names[k] for k in found])
+        raise ReferenceUnreadable(
+            path, phrase("it has {several} for {wanted}: say which it is", several=several, wanted=wanted)
+        )
+    return of_hand[0]
+
+
+def _side_of(name: str) -> Side | None:
+    found = SIDES.search(split_unit(name)[0])
+    return None if found is None else "right" if found[1] or found[3] else "left"
+
+
+def _of_hands(taken: Sequence[str], names: Sequence[str], hand: Side | None) -> tuple[str, ...]:
+    """What is said where the names of those ``taken`` tell a hand: of which of two it is, or of the other one."""
+    others = [name for name in taken if hand is not None and _side_of(name) not in (None, hand)]
+    if others:
+        return (phrase("{names}: by their names of the other hand than the session", names=listed(others)),)
+    if hand is not None and any(map(_side_of, taken)) and {"left", "right"} <= set(map(_side_of, names)):
+        return (phrase("both hands are in the reference, taken are {names}", names=listed(taken)),)
+    return ()
+
+
+def listed(names: Sequence[str]) -> str:
+    """Names, as many as a sentence bears."""
+    if not names:
+        return phrase("nothing")
+    shown = ", ".join(names[:MOST_LISTED])
+    return (
+        shown
+        if len(names) <= MOST_LISTED
+        else phrase("{names} and {count} more", names=shown, count=len(names) - MOST_LISTED)
+    )
+
+
+def _of_angles(
+    path: Path, kind: str, table: Columns, columns: Mapping[str, str], radians: bool | None, hand: Side | None
+) -> Reference:
     in_radians = radians if radians is not None else table.in_degrees is False
-    found, used = {}, set()
+    names = list(table.values)
+    found, taken = {}, set[str]()
     for name in ANGLE_NAMES:
-        column, sign = _column(name, columns, table.values)
-        if not column and name in columns:
-            raise ReferenceUnreadable(path, phrase("it has no column {value}", value=columns[name].lstrip("-")))
-        if column:
-            used.add(column)
+        wanted = columns.get(name, "")
+        sign, said = -1.0 if wanted.startswith("-") and wanted not in names else 1.0, wanted
+        if wanted:
+            said = wanted if sign > 0.0 else wanted[1:]
+            candidates = [one for one in names if one.lower() == said.lower()]
+            candidates = candidates or [one for one in names if split_unit(one)[0].lower() == said.lower()]
+            if not candidates:
+                raise ReferenceUnreadable(
+                    path, phrase("it has no column {wanted}; it has {names}", wanted=said, names=listed(names))
+                )
+        else:
+            candidates = _candidates(name, names)
+        if candidates:
+            column = names[_one_of(path, said or name, [names.index(one) for one in candidates], names, hand)]
+            taken.add(column)
             values = sign * table.values[column]
             found[name] = values if in_radians else np.radians(values)
-    left = [name for name in table.values if name not in used]
+    left = [name for name in names if name not in taken]
+    unused = _left(phrase("columns"), left, phrase("no angles by their names, or of the other hand"))
+    by_name = [column for column in names if column in taken and column not in map(_unsigned, columns.values())]
     return Reference(
-        path, kind, table.time_s, found, unused=_left(phrase("columns"), left, phrase("no angles by their names"))
+        path, kind, table.time_s, found, unused=unused, names=tuple(names), remarks=_of_hands(by_name, names, hand)
     )
+
+
+def _unsigned(wanted: str) -> str:
+    return wanted.removeprefix("-")
 
 
 def _left(what: str, names: Sequence[str], why: str) -> tuple[str, ...]:
@@ -185,91 +273,124 @@ def _left(what: str, names: Sequence[str], why: str) -> tuple[str, ...]:
     return (phrase("{what} {names}: {why}", what=what, names=shown, why=why),)
 
 
-def _column(name: str, columns: Mapping[str, str], there: Iterable[str]) -> tuple[str, float]:
-    """The column of an angle, and its sign; empty where there is none."""
-    if name in columns:
-        wanted = columns[name]
-        return (
-            (wanted.lstrip("-"), -1.0 if wanted.startswith("-") else 1.0) if wanted.lstrip("-") in there else ("", 1.0)
+def _candidates(name: str, there: Iterable[str]) -> list[str]:
+    """The columns that an angle's name fits, whatever their hand and unit."""
+    ends = ("", "_deg", "_rad", "_r", "_l")
+    own = {f"{before}{name}{end}".lower() for before in ("", "wrist_") for end in ends}
+    return [column for column in there if split_unit(column)[0].lower() in own]
+
+
+def _time_name(table: TextTable) -> str:
+    by_base = {split_unit(name)[0].lower(): name for name in reversed(table.names)}
+    return next((by_base[name] for name in TIME_NAMES if name in by_base), "")
+
+
+def _is_list(table: TextTable) -> bool:
+    return bool({"angle", "movement"} & {split_unit(name)[0].lower() for name in table.names})
+
+
+def _of_table(path: Path, columns: Mapping[str, str], radians: bool | None, hand: Side | None) -> Reference:
+    table = read_table(path, {*KNOWN_NAMES, *(split_unit(_unsigned(name))[0].lower() for name in columns.values())})
+    if _is_list(table):
+        return _of_readings(path, table)
+    time_name = columns.get("time") or _time_name(table)
+    time_name = next((name for name in table.names if time_name in (name, split_unit(name)[0])), time_name)
+    if time_name not in table.names:
+        raise ReferenceUnreadable(
+            path, phrase("it has no column of times; say which of {names} it is", names=listed(table.names))
         )
-    own = {f"{name}{end}" for end in ("", "_deg", "_rad", "_r", "_l")} | {
-        f"wrist_{name}{end}" for end in ("", "_r", "_l")
-    }
-    lower = {one.lower() for one in own}
-    return next((column for column in there if column.lower() in lower), ""), 1.0
-
-
-def _rows_of(path: Path) -> tuple[list[dict[str, str]], list[str], dict[str, str]]:
-    """Rows of a table, its head, and the head by names in small letters."""
-    text = text_of(path)
-    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
-    if len(lines) < 2:
-        raise ReferenceUnreadable(path, phrase("it holds no table"))
-    separator = max("\t;,", key=lines[0].count)
-    rows = list(csv.DictReader(io.StringIO("\n".join(lines)), delimiter=separator))
-    head = [name for name in rows[0] if name]
-    return rows, head, {name.strip().lower(): name for name in head}
-
-
-def _time_name(low: Mapping[str, str]) -> str:
-    return next((low[name] for name in TIME_NAMES if name in low), "")
-
-
-def _is_list(low: Mapping[str, str]) -> bool:
-    return "angle" in low or "movement" in low
-
-
-def _of_table(path: Path, columns: Mapping[str, str], radians: bool | None) -> Reference:
-    rows, head, low = _rows_of(path)
-    if _is_list(low):
-        return _of_readings(path, rows, low)
-    time_name = columns.get("time") or _time_name(low)
-    if time_name not in head:
-        raise ReferenceUnreadable(path, phrase("it has no column of times; say which it is"))
-    time_s = np.array([_number(row[time_name]) for row in rows])
-    known = np.isfinite(time_s)
-    if known.sum() < 2 or (np.diff(time_s[known]) <= 0.0).any():
+    time_s, remarks = _times_s(path, time_name, table.column(time_name))
+    # A row that comes no later than the one before is left out: of two at one time the first counts.
+    known = np.flatnonzero(np.isfinite(time_s))
+    rises = np.append(True, np.diff(time_s[known]) > 0.0) if len(known) else np.empty(0, bool)
+    if len(known) < 2 or (np.diff(time_s[known]) < 0.0).any():
         raise ReferenceUnreadable(path, phrase("its times do not rise"))
+    if not rises.all():
+        remarks.append(phrase("rows with the time of the row before are left out ({count})", count=int((~rises).sum())))
+    known = known[rises]
     values = {}
-    for name in head:
+    for name in table.names:
+        cells = table.column(name)
         if name != time_name:
-            column = np.array([_number(row[name]) for row in rows])[known]
+            column = np.array([parse_number(cells[k]) for k in known])
             if np.isfinite(column).any():
                 values[name] = column
-    if radians is None and any(name.lower().endswith("_rad") for name in values):
-        radians = not any(name.lower().endswith("_deg") for name in values)
-    return _of_angles(path, phrase("angles by table"), Columns(time_s[known], values, None), columns, radians)
+            is_angle = np.isfinite(column).any() or any(_candidates(angle, (name,)) for angle in ANGLE_NAMES)
+            if is_angle and (bad := _no_numbers(name, cells, table.line)):
+                remarks.append(bad)
+    if radians is None and any(_says(name, "rad") for name in values):
+        radians = not any(_says(name, "deg") for name in values)
+    found = _of_angles(path, phrase("angles by table"), Columns(time_s[known], values, None), columns, radians, hand)
+    return replace(found, remarks=(*found.remarks, *remarks))
 
 
-def _of_readings(path: Path, rows: list[dict[str, str]], low: Mapping[str, str]) -> Reference:
+def _says(name: str, unit: str) -> bool:
+    return name.lower().endswith(f"_{unit}") or split_unit(name)[1] == unit
+
+
+def _no_numbers(name: str, cells: Sequence[str], line: Sequence[int]) -> str:
+    """How many cells of a column are no number, and which is the first; empty where all are."""
+    bad = [(number, cell) for number, cell in zip(line, cells, strict=True) if is_no_number(cell)]
+    if not bad:
+        return ""
+    return phrase(
+        "{name}: cells that are no number are left out ({count}), the first is “{cell}” in line {line}",
+        name=name, count=len(bad), cell=bad[0][1][:20], line=bad[0][0],
+    )  # fmt: skip
+
+
+def _times_s(path: Path, name: str, cells: Sequence[str]) -> tuple[FloatArray, list[str]]:
+    """Times (K,) in seconds by what the column's name, or else their step, says; and what is to be said of it."""
+    times, are_clocks = parse_times(cells)
+    time_s, base = np.array(times), split_unit(name)
+    known = time_s[np.isfinite(time_s)]
+    if len(known) < len(cells) / 2:
+        raise ReferenceUnreadable(path, phrase("the cells of {name} are no times", name=name))
+    if are_clocks:
+        return time_s, []
+    unit = base[1] or base[0].lower().rpartition("_")[2]
+    if unit in SECONDS:
+        return time_s * SECONDS[unit], []
+    step = float(np.median(np.diff(known))) if len(known) > 1 else 0.0
+    for least, scale, named in STEPS_S:
+        if step >= least:
+            words = phrase(
+                "{name}: taken as {unit}, since a row comes every {step}", name=name, unit=named, step=f"{step:g}"
+            )
+            return time_s * scale, [words]
+    return time_s, []
+
+
+def _of_readings(path: Path, table: TextTable) -> Reference:
     """A goniometer's list: ``angle`` or ``movement``, ``reading_deg``, and ``time_s`` where it was noted."""
+    low = {split_unit(name)[0].lower(): name.lower() for name in reversed(table.names)}
     value_name = next(
         (low[n] for n in ("reading_deg", "value_deg", "deg", "reading", "value", "angle_deg") if n in low), ""
     )
-    time_name = _time_name(low)
+    time_name = _time_name(table)
     if not value_name:
-        raise ReferenceUnreadable(path, phrase("it has no column reading_deg"))
+        raise ReferenceUnreadable(
+            path, phrase("it has no column reading_deg; it has {names}", names=listed(table.names))
+        )
+    times_s = parse_times(table.column(time_name))[0] if time_name else [math.nan] * len(table.rows)
+    scale = SECONDS.get(split_unit(time_name)[1] or time_name.lower().rpartition("_")[2], 1.0)
     readings, unused = [], []
-    for k, row in enumerate(rows, start=2):
-        said = (row.get(low.get("movement", ""), "") or row.get(low.get("angle", ""), "") or "").strip()
-        value = _number(row[value_name])
+    for k, line in enumerate(table.line):
+        row = table.row(k)
+        said = (row.get(low.get("movement", ""), "") or row.get(low.get("angle", ""), "")).strip()
+        value = parse_number(row[value_name])
         name = next((one for one in ANGLE_NAMES if one.lower() == said.lower()), "")
         movement, sign = said.lower(), 1.0
         if movement in DIRECTIONS and (name in ("", "flexion")):
             name, sign = DIRECTIONS[movement]
         if not name or not math.isfinite(value):
-            unused.append(f"line {k}: " + ("no reading" if name else f"no angle is called {said or 'nothing'}"))
+            unused.append(
+                phrase("line {line}: “{cell}” is no reading", line=line, cell=row[value_name])
+                if name
+                else phrase("line {line}: no angle is called {said}", line=line, said=said or phrase("nothing"))
+            )
             continue
-        time_s = _number(row[time_name]) if time_name else math.nan
-        readings.append(GoniometerReading(name, movement, sign * math.radians(value), time_s))
+        readings.append(GoniometerReading(name, movement, sign * math.radians(value), scale * times_s[k]))
     if not readings:
         raise ReferenceUnreadable(path, phrase("it holds no reading"))
     return Reference(path, phrase("goniometer list"), readings=tuple(readings), unused=tuple(unused))
-
-
-def _number(text: str | None) -> float:
-    """A number as people write it; a comma may stand for the point."""
-    try:
-        return float((text or "").strip().replace(",", "."))
-    except ValueError:
-        return math.nan

@@ -7,7 +7,6 @@ rad), ``lag_s`` and ``drift_percent``.
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -20,6 +19,7 @@ from carpus.core.agreement.compare import FURTHEST_SHIFT_S, LARGEST_DRIFT_PERCEN
 from carpus.core.agreement.compared_files import HEAD, Result, cell, compare_files, figure_lines, row_of
 from carpus.core.agreement.statistics import Agreement, Between, agreement_of_people, fewest_of_person
 from carpus.core.errors import CarpusFault, ReferenceUnreadable, ReferenceUnsuited
+from carpus.core.formats import table_read as tables
 from carpus.core.formats.new_output import new_json, new_table
 from carpus.core.phrase import phrase
 from carpus.core.provenance import sha256_of_file
@@ -90,18 +90,16 @@ class AgreementStudy:
 
 def read_table(path: Path, read_map: Callable[[str], Mapping[str, str]]) -> tuple[StudyLine, ...]:
     """The lines of a study's table. Raises :class:`ReferenceUnreadable`."""
+    table = tables.read_table(path, NEEDED)
+    if not {name.lower() for name in table.names} >= set(NEEDED):
+        raise ReferenceUnreadable(path, phrase("a study's table has the columns person, session and reference"))
     try:
-        with path.open(newline="", encoding="utf-8-sig") as file:
-            rows = list(csv.DictReader(file))
-            if not rows or not all(name in rows[0] for name in NEEDED):
-                raise ReferenceUnreadable(path, phrase("a study's table has the columns person, session and reference"))
-            return tuple(_line(path, row, read_map) for row in rows)
-    except (OSError, ValueError, csv.Error, AttributeError) as cause:
+        return tuple(_line(path, table.row(k), read_map) for k in range(len(table.rows)))
+    except ValueError as cause:
         raise ReferenceUnreadable(path, phrase("it cannot be read as a table: {why}", why=str(cause))) from cause
 
 
-def _line(path: Path, row: Mapping[str, str | None], read_map: Callable[[str], Mapping[str, str]]) -> StudyLine:
-    said = {name: (value or "").strip() for name, value in row.items() if name}
+def _line(path: Path, said: Mapping[str, str], read_map: Callable[[str], Mapping[str, str]]) -> StudyLine:
     if not all(said[name] for name in NEEDED):
         raise ValueError("a line without person, session or reference")
     unit = said.get("unit", "")
@@ -120,7 +118,7 @@ def _line(path: Path, row: Mapping[str, str | None], read_map: Callable[[str], M
 def _number(said: Mapping[str, str], name: str, usual: float, most: float) -> float:
     if not said.get(name):
         return usual
-    value = float(said[name])
+    value = tables.parse_number(said[name])
     if not abs(value) <= most:
         raise ValueError(f"{name} is {said[name]}, from {-most:g} to {most:g}")
     return value

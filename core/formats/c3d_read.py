@@ -80,7 +80,12 @@ def _points(content: bytes, path: Path) -> PointTrack:
     place_m = np.where(known[..., None], place.astype(np.float64) * _METRES[unit], np.nan)
     names = [str(name).strip() for k in ("", *map(str, range(2, 99))) for name in point.get(f"LABELS{k}", [])]
     names = (names + [f"point {k + 1}" for k in range(used)][len(names) :])[:used]
-    return PointTrack(np.arange(frames) / rate_hz, tuple(names), place_m, unit)
+    return PointTrack(np.arange(frames) / rate_hz, tuple(names), without_zeros(place_m), unit)
+
+
+def without_zeros(place_m: FloatArray) -> FloatArray:
+    """Places (K, P, 3) with a gap where a program wrote 0, 0, 0 for a marker that it did not see."""
+    return np.where((place_m == 0.0).all(axis=-1, keepdims=True), np.nan, place_m)
 
 
 def _frames(said: Mapping[str, Mapping[str, list[Any]]], by_header: int) -> int:

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from carpus.core.errors import ReferenceUnreadable
-from carpus.core.formats.c3d_read import PointTrack
+from carpus.core.formats.c3d_read import PointTrack, without_zeros
+from carpus.core.formats.table_read import is_no_number, parse_number, read_text
 from carpus.core.phrase import phrase
 from carpus.core.types import FloatArray
 
-MOST_BYTES = 1 << 30
 _METRES = {"mm": 1e-3, "m": 1.0, "cm": 1e-2}
 
 
@@ -28,7 +28,7 @@ class Columns:
 
 def read_trc(path: Path) -> PointTrack:
     """The points of a TRC file. Raises :class:`ReferenceUnreadable`."""
-    lines = text_of(path).splitlines()
+    lines = read_text(path).splitlines()
     if len(lines) < 6 or not lines[0].startswith("PathFileType"):
         raise ReferenceUnreadable(path, "no TRC")
     tab = "\t" if "\t" in lines[0] else ","
@@ -46,12 +46,12 @@ def read_trc(path: Path) -> PointTrack:
     except ValueError as cause:
         raise ReferenceUnreadable(path, str(cause)) from cause
     place_m = table[:, 2:].reshape(len(rows), len(names), 3) * _METRES[unit]
-    return PointTrack(_times(table[:, 1], path), tuple(names), place_m, unit)
+    return PointTrack(_times(table[:, 1], path), tuple(names), without_zeros(place_m), unit)
 
 
 def read_mot(path: Path) -> Columns:
     """The columns of a MOT or STO file. Raises :class:`ReferenceUnreadable`."""
-    lines = text_of(path).splitlines()
+    lines = read_text(path).splitlines()
     ends = [k for k, line in enumerate(lines) if line.strip(", ").lower() == "endheader"]
     if not ends or ends[0] + 1 >= len(lines):
         raise ReferenceUnreadable(path, phrase("no MOT: it has no end of its header"))
@@ -70,18 +70,11 @@ def read_mot(path: Path) -> Columns:
     return Columns(_times(table[:, 0], path), columns, None if told is None else told.startswith("y"))
 
 
-def text_of(path: Path) -> str:
-    """A text file as people's programs write it. Raises :class:`ReferenceUnreadable`."""
-    try:
-        if path.stat().st_size > MOST_BYTES:
-            raise ReferenceUnreadable(path, phrase("larger than 1 GB"))
-        return path.read_text(encoding="utf-8-sig", errors="replace")
-    except OSError as cause:
-        raise ReferenceUnreadable(path, cause.strerror or "") from cause
-
-
 def _number(cell: str) -> float:
-    return float(cell) if cell.strip() else np.nan
+    """NaN of an empty cell; raises ValueError where it holds something else than a number."""
+    if is_no_number(cell):
+        raise ValueError(f"“{cell[:20]}” is no number")
+    return parse_number(cell)
 
 
 def _times(time_s: FloatArray, path: Path) -> FloatArray:

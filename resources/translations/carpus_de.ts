@@ -5688,22 +5688,6 @@
         <translation>es enthält keine Grenzen; es gelten die üblichen</translation>
     </message>
     <message>
-        <source>it has no column of times; say which it is</source>
-        <translation>keine Spalte mit Zeiten; sagen Sie, welche es ist</translation>
-    </message>
-    <message>
-        <source>it has no column reading_deg</source>
-        <translation>keine Spalte reading_deg</translation>
-    </message>
-    <message>
-        <source>it has no column {value}</source>
-        <translation>keine Spalte {value}</translation>
-    </message>
-    <message>
-        <source>it has no marker {markers}</source>
-        <translation>kein Marker {markers}</translation>
-    </message>
-    <message>
         <source>it has no marker {name}</source>
         <translation>sie hat keinen Marker {name}</translation>
     </message>
@@ -5884,14 +5868,6 @@
         <translation>kein MOT: Der Kopf hat kein Ende</translation>
     </message>
     <message>
-        <source>no angle of the session is in it</source>
-        <translation>kein Winkel der Sitzung ist darin</translation>
-    </message>
-    <message>
-        <source>no angles by their names</source>
-        <translation>keine Winkel nach ihren Namen</translation>
-    </message>
-    <message>
         <source>no answer for {patience_s} s</source>
         <translation>keine Antwort seit {patience_s} s</translation>
     </message>
@@ -5910,10 +5886,6 @@
     <message>
         <source>no depth picture within {pairing_limit_s} ms of a colour picture</source>
         <translation>kein Tiefenbild innerhalb von {pairing_limit_s} ms um ein Farbbild</translation>
-    </message>
-    <message>
-        <source>no disc of the palm and no angle of the wrist or fingers is in it</source>
-        <translation>kein Punkt der Handfläche und kein Winkel von Handgelenk oder Fingern ist darin</translation>
     </message>
     <message>
         <source>no intrinsics for pictures of {size}</source>
@@ -5950,10 +5922,6 @@
     <message>
         <source>no udev rules for the camera</source>
         <translation>keine udev-Regeln für die Kamera</translation>
-    </message>
-    <message>
-        <source>none of the discs by their names</source>
-        <translation>keine der Punkte nach ihren Namen</translation>
     </message>
     <message>
         <source>none of the program&apos;s own</source>
@@ -6122,10 +6090,6 @@
     <message>
         <source>there is no such setting, in {file}</source>
         <translation>diese Einstellung gibt es nicht, in {file}</translation>
-    </message>
-    <message>
-        <source>three discs of the palm are needed, it has {there}; say which markers they are</source>
-        <translation>drei Punkte der Handfläche werden gebraucht, da sind {there}; sagen Sie, welche Marker es sind</translation>
     </message>
     <message>
         <source>to open formats (CSV, JSON, C3D, TRC, MOT, BIDS)</source>
@@ -7174,6 +7138,86 @@
     <message>
         <source>Check it again: once a week.</source>
         <translation>Erneut prüfen: einmal in der Woche.</translation>
+    </message>
+    <message>
+        <source>both hands are in the reference, taken are {names}</source>
+        <translation>In der Referenz sind beide Hände; genommen werden {names}</translation>
+    </message>
+    <message>
+        <source>discs and markers stay {apart} mm apart, up to {most} are usual: other markers, another hand, or jumps</source>
+        <translation>Punkte und Marker bleiben {apart} mm auseinander, üblich sind bis zu {most}: andere Marker, eine andere Hand oder Sprünge</translation>
+    </message>
+    <message>
+        <source>it has no marker {wanted}; it has {names}</source>
+        <translation>kein Marker {wanted}; vorhanden sind {names}</translation>
+    </message>
+    <message>
+        <source>it has {several} for {wanted}: say which it is</source>
+        <translation>für {wanted} gibt es {several}: geben Sie an, welches gilt</translation>
+    </message>
+    <message>
+        <source>line {line}: no angle is called {said}</source>
+        <translation>Zeile {line}: kein Winkel heißt {said}</translation>
+    </message>
+    <message>
+        <source>line {line}: “{cell}” is no reading</source>
+        <translation>Zeile {line}: „{cell}“ ist kein Messwert</translation>
+    </message>
+    <message>
+        <source>nothing</source>
+        <translation>nichts</translation>
+    </message>
+    <message>
+        <source>rows with the time of the row before are left out ({count})</source>
+        <translation>Zeilen mit der Zeit der Zeile davor sind ausgelassen ({count})</translation>
+    </message>
+    <message>
+        <source>the cells of {name} are no times</source>
+        <translation>die Zellen von {name} sind keine Zeiten</translation>
+    </message>
+    <message>
+        <source>{names}: by their names of the other hand than the session</source>
+        <translation>{names}: dem Namen nach von der anderen Hand als die Sitzung</translation>
+    </message>
+    <message>
+        <source>{name}: cells that are no number are left out ({count}), the first is “{cell}” in line {line}</source>
+        <translation>{name}: Zellen, die keine Zahl sind, sind ausgelassen ({count}), die erste ist „{cell}“ in Zeile {line}</translation>
+    </message>
+    <message>
+        <source>{name}: taken as {unit}, since a row comes every {step}</source>
+        <translation>{name}: als {unit} gelesen, da alle {step} eine Zeile kommt</translation>
+    </message>
+    <message>
+        <source>it has no column of times; say which of {names} it is</source>
+        <translation>keine Spalte mit Zeiten; geben Sie an, welche von {names} es ist</translation>
+    </message>
+    <message>
+        <source>it has no column reading_deg; it has {names}</source>
+        <translation>keine Spalte reading_deg; vorhanden sind {names}</translation>
+    </message>
+    <message>
+        <source>it has no column {wanted}; it has {names}</source>
+        <translation>keine Spalte {wanted}; vorhanden sind {names}</translation>
+    </message>
+    <message>
+        <source>no angle of the session is in it; it has {there}</source>
+        <translation>kein Winkel der Sitzung ist darin; vorhanden sind {there}</translation>
+    </message>
+    <message>
+        <source>no angles by their names, or of the other hand</source>
+        <translation>dem Namen nach keine Winkel oder von der anderen Hand</translation>
+    </message>
+    <message>
+        <source>no disc of the palm and no angle of the wrist or fingers is in it; it has {there}</source>
+        <translation>kein Punkt der Handfläche und kein Winkel von Handgelenk oder Fingern ist darin; vorhanden sind {there}</translation>
+    </message>
+    <message>
+        <source>none of the discs by their names, or of the other hand</source>
+        <translation>dem Namen nach keine der Punkte oder von der anderen Hand</translation>
+    </message>
+    <message>
+        <source>three discs of the palm are needed; say which of {there} they are</source>
+        <translation>drei Punkte der Handfläche werden gebraucht; geben Sie an, welche von {there} es sind</translation>
     </message>
 </context>
 <context>

@@ -5676,22 +5676,6 @@
         <translation>non contiene limiti; valgono quelli usuali</translation>
     </message>
     <message>
-        <source>it has no column of times; say which it is</source>
-        <translation>manca una colonna dei tempi; dire quale è</translation>
-    </message>
-    <message>
-        <source>it has no column reading_deg</source>
-        <translation>manca la colonna reading_deg</translation>
-    </message>
-    <message>
-        <source>it has no column {value}</source>
-        <translation>manca la colonna {value}</translation>
-    </message>
-    <message>
-        <source>it has no marker {markers}</source>
-        <translation>manca il marcatore {markers}</translation>
-    </message>
-    <message>
         <source>it has no marker {name}</source>
         <translation>non ha alcun marcatore {name}</translation>
     </message>
@@ -5872,14 +5856,6 @@
         <translation>non è un MOT: manca la fine dell’intestazione</translation>
     </message>
     <message>
-        <source>no angle of the session is in it</source>
-        <translation>non contiene nessun angolo della seduta</translation>
-    </message>
-    <message>
-        <source>no angles by their names</source>
-        <translation>nessun angolo con il suo nome</translation>
-    </message>
-    <message>
         <source>no answer for {patience_s} s</source>
         <translation>nessuna risposta da {patience_s} s</translation>
     </message>
@@ -5898,10 +5874,6 @@
     <message>
         <source>no depth picture within {pairing_limit_s} ms of a colour picture</source>
         <translation>nessuna immagine di profondità entro {pairing_limit_s} ms da una a colori</translation>
-    </message>
-    <message>
-        <source>no disc of the palm and no angle of the wrist or fingers is in it</source>
-        <translation>non contiene dischetti del palmo né angoli del polso o delle dita</translation>
     </message>
     <message>
         <source>no intrinsics for pictures of {size}</source>
@@ -5938,10 +5910,6 @@
     <message>
         <source>no udev rules for the camera</source>
         <translation>nessuna regola udev per la telecamera</translation>
-    </message>
-    <message>
-        <source>none of the discs by their names</source>
-        <translation>nessuno dei dischetti con il suo nome</translation>
     </message>
     <message>
         <source>none of the program&apos;s own</source>
@@ -6110,10 +6078,6 @@
     <message>
         <source>there is no such setting, in {file}</source>
         <translation>quell’impostazione non esiste, in {file}</translation>
-    </message>
-    <message>
-        <source>three discs of the palm are needed, it has {there}; say which markers they are</source>
-        <translation>servono tre dischetti del palmo, ce ne sono {there}; dire quali marcatori sono</translation>
     </message>
     <message>
         <source>to open formats (CSV, JSON, C3D, TRC, MOT, BIDS)</source>
@@ -7174,6 +7138,86 @@
     <message>
         <source>Check it again: once a week.</source>
         <translation>Controllarla di nuovo: una volta alla settimana.</translation>
+    </message>
+    <message>
+        <source>both hands are in the reference, taken are {names}</source>
+        <translation>Il riferimento contiene entrambe le mani; si usano {names}</translation>
+    </message>
+    <message>
+        <source>discs and markers stay {apart} mm apart, up to {most} are usual: other markers, another hand, or jumps</source>
+        <translation>Dischi e marker restano a {apart} mm di distanza, di solito al massimo {most}: altri marker, un’altra mano o salti</translation>
+    </message>
+    <message>
+        <source>it has no marker {wanted}; it has {names}</source>
+        <translation>nessun marker {wanted}; ci sono {names}</translation>
+    </message>
+    <message>
+        <source>it has {several} for {wanted}: say which it is</source>
+        <translation>per {wanted} ci sono {several}: indicare quale vale</translation>
+    </message>
+    <message>
+        <source>line {line}: no angle is called {said}</source>
+        <translation>riga {line}: nessun angolo si chiama {said}</translation>
+    </message>
+    <message>
+        <source>line {line}: “{cell}” is no reading</source>
+        <translation>riga {line}: «{cell}» non è una misura</translation>
+    </message>
+    <message>
+        <source>nothing</source>
+        <translation>nulla</translation>
+    </message>
+    <message>
+        <source>rows with the time of the row before are left out ({count})</source>
+        <translation>righe con il tempo della riga precedente escluse ({count})</translation>
+    </message>
+    <message>
+        <source>the cells of {name} are no times</source>
+        <translation>le celle di {name} non sono tempi</translation>
+    </message>
+    <message>
+        <source>{names}: by their names of the other hand than the session</source>
+        <translation>{names}: dal nome sono dell’altra mano rispetto alla seduta</translation>
+    </message>
+    <message>
+        <source>{name}: cells that are no number are left out ({count}), the first is “{cell}” in line {line}</source>
+        <translation>{name}: celle che non sono numeri escluse ({count}), la prima è «{cell}» alla riga {line}</translation>
+    </message>
+    <message>
+        <source>{name}: taken as {unit}, since a row comes every {step}</source>
+        <translation>{name}: letto in {unit}, poiché c’è una riga ogni {step}</translation>
+    </message>
+    <message>
+        <source>it has no column of times; say which of {names} it is</source>
+        <translation>nessuna colonna dei tempi; indicare quale è tra {names}</translation>
+    </message>
+    <message>
+        <source>it has no column reading_deg; it has {names}</source>
+        <translation>nessuna colonna reading_deg; ci sono {names}</translation>
+    </message>
+    <message>
+        <source>it has no column {wanted}; it has {names}</source>
+        <translation>nessuna colonna {wanted}; ci sono {names}</translation>
+    </message>
+    <message>
+        <source>no angle of the session is in it; it has {there}</source>
+        <translation>non contiene alcun angolo della seduta; ci sono {there}</translation>
+    </message>
+    <message>
+        <source>no angles by their names, or of the other hand</source>
+        <translation>dal nome non sono angoli, o sono dell’altra mano</translation>
+    </message>
+    <message>
+        <source>no disc of the palm and no angle of the wrist or fingers is in it; it has {there}</source>
+        <translation>non contiene dischi del palmo né angoli di polso o dita; ci sono {there}</translation>
+    </message>
+    <message>
+        <source>none of the discs by their names, or of the other hand</source>
+        <translation>dal nome non sono dischi, o sono dell’altra mano</translation>
+    </message>
+    <message>
+        <source>three discs of the palm are needed; say which of {there} they are</source>
+        <translation>servono tre dischi del palmo; indicare quali sono tra {there}</translation>
     </message>
 </context>
 <context>

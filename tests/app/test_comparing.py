@@ -182,7 +182,7 @@ def test_progress_rises_and_a_stop_writes_nothing(recorded: Path, optical: Path)
     [
         ("a.csv", "time_s,flexion_deg,other\n0,1,2\n1,2,3\n", "angles", {"time": "time_s", "flexion": "flexion_deg"}),
         ("b.csv", "movement;reading_deg\nflexion;40\n", "readings", {}),
-        ("c.tsv", "Zeit\tFE\n0\t1\n1\t2\n", "angles", {}),
+        ("c.tsv", "Zeit\tFE\n0\t1\n1\t2\n", "angles", {"time": "Zeit"}),
     ],
 )
 def test_the_outline_says_what_is_known_by_its_name(

@@ -137,7 +137,7 @@ WRONG: dict[str, list[tuple[str, int, str]]] = {
         ("", 2, "SESSION.h5"),
         ("{gone}", 1, "There is no folder {gone}"),
         ("{empty}", 1, "no session can be read"),
-        ("{session} --raters {gone}", 1, "columns session and rater"),
+        ("{session} --raters {gone}", 1, "No such file"),
     ],
     "log": [
         ("--data-folder {gone}", 1, "There is no folder {gone}"),

@@ -1,0 +1,174 @@
+"""Tables as people's programs and spreadsheets write them: any separator, decimal sign and encoding, lines before the
+header, units in the names."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import re
+from collections import Counter
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from carpus.core.errors import ReferenceUnreadable
+from carpus.core.phrase import phrase
+
+MOST_BYTES = 1 << 30
+MOST_LINES_BEFORE = 200
+"""Before the header of a table."""
+_SEPARATORS = ";\t,"
+_NOTHING = ("", "-", "–", "—", "nan", "na", "n/a", "null")
+_PLAIN = str.maketrans("\N{MINUS SIGN}\N{EN DASH}", "--", " \N{NO-BREAK SPACE}\N{NARROW NO-BREAK SPACE}")
+_UNIT = re.compile(r"^(.*?)\s*[(\[]\s*([^()\[\]]*)\s*[)\]]$")
+_CLOCK = re.compile(r"^(?:(\d+):)?(\d{1,2}):(\d{1,2}(?:[.,]\d+)?)$")
+
+
+@dataclass(frozen=True, slots=True)
+class TextTable:
+    """Cells as texts: ``names`` of the columns, each another one; ``rows`` with a cell for each name; ``line`` of each
+    row in the file."""
+
+    names: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    line: tuple[int, ...]
+
+    def column(self, name: str) -> list[str]:
+        """The cells of a column."""
+        at = self.names.index(name)
+        return [row[at] for row in self.rows]
+
+    def row(self, at: int) -> dict[str, str]:
+        """A row's cells by the names in small letters."""
+        return {name.lower(): cell for name, cell in zip(self.names, self.rows[at], strict=True)}
+
+
+def read_text(path: Path) -> str:
+    """Read a text in UTF-8, UTF-16 or, where it is neither, Windows-1252. Raises :class:`ReferenceUnreadable`."""
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise ReferenceUnreadable(path, phrase("larger than 1 GB"))
+        content = path.read_bytes()
+    except OSError as cause:
+        raise ReferenceUnreadable(path, cause.strerror or "") from cause
+    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return content.decode("utf-16", errors="replace")
+    zero = content[:400].count(0)
+    if zero > len(content[:400]) // 4:  # UTF-16 without its mark
+        return content.decode("utf-16-le" if content[1:2] == b"\0" else "utf-16-be", errors="replace")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return content.decode("cp1252", errors="replace")
+
+
+def read_table(path: Path, known: Collection[str]) -> TextTable:
+    """Read the table in a file: its header is the line that has one of the ``known`` names (in small letters, without
+    unit), or else the one that most rows of numbers follow. Raises :class:`ReferenceUnreadable`."""
+    text = read_text(path)
+    separators = _SEPARATORS
+    said = re.match(r"\s*\"?sep=(.)\"?[^\n]*\n", text, re.IGNORECASE)
+    if said:
+        separators, text = said[1], "\n" + text[said.end() :]
+    found = [_table(text, separator, known) for separator in separators]
+    best = max((one for one in found if one is not None), key=lambda one: one[0], default=None)
+    if best is None:
+        raise ReferenceUnreadable(path, phrase("it holds no table"))
+    return best[1]
+
+
+def _table(text: str, separator: str, known: Collection[str]) -> tuple[tuple[bool, int, int], TextTable] | None:
+    """The table by one separator, and how likely it is one; None where there is none."""
+    reader = csv.reader(io.StringIO(text), delimiter=separator, skipinitialspace=True)
+    try:
+        lines = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
+    except csv.Error:
+        return None
+    lines = [(number, cells) for number, cells in lines if any(cells) and not cells[0].startswith("#")]
+    best: tuple[tuple[bool, int, int], int] | None = None
+    for k, (_, cells) in enumerate(lines[:MOST_LINES_BEFORE]):
+        named = [cell for cell in cells if cell]
+        if len(named) < 2 or any(math.isfinite(parse_number(cell)) for cell in named) or k + 1 == len(lines):
+            continue
+        follow = 0
+        for _, row in lines[k + 1 : k + 1 + MOST_LINES_BEFORE]:
+            if len(row) < len(named) or not any(math.isfinite(parse_number(cell)) for cell in row):
+                break
+            follow += 1
+        score = (any(split_unit(cell)[0].lower() in known for cell in named), follow, len(named))
+        if best is None or score > best[0]:
+            best = score, k
+    if best is None or not (best[0][0] or best[0][1]):
+        return None
+    score, k = best
+    width = max(place for place, cell in enumerate(lines[k][1], 1) if cell)
+    head = [cell or f"column {place}" for place, cell in enumerate(lines[k][1][:width], 1)]
+    count, place_of = Counter(head), Counter[str]()
+    for place, name in enumerate(head):
+        if count[name] > 1:
+            place_of[name] += 1
+            head[place] = f"{name} #{place_of[name]}"
+    rows = [tuple((cells + [""] * width)[:width]) for _, cells in lines[k + 1 :]]
+    return score, TextTable(tuple(head), tuple(rows), tuple(number for number, _ in lines[k + 1 :]))
+
+
+def split_unit(name: str) -> tuple[str, str]:
+    """A column's name and its unit in brackets, empty where it says none; of columns of one name the same name.
+
+    >>> split_unit("Flexion (°)"), split_unit("time [ms]"), split_unit("flexion #2")
+    (('Flexion', '°'), ('time', 'ms'), ('flexion', ''))
+    """
+    name = re.sub(r" #\d+$", "", name)
+    found = _UNIT.match(name)
+    return (found[1], found[2].strip().lower()) if found and found[1] else (name, "")
+
+
+def parse_number(text: str | None) -> float:
+    """A number as people write it, NaN for what is none: decimal comma or point, any minus, a degree sign behind it.
+
+    >>> parse_number("−0,5"), parse_number("1.234,5"), parse_number("1,234.5"), parse_number("45°")
+    (-0.5, 1234.5, 1234.5, 45.0)
+    """
+    plain = (text or "").strip().translate(_PLAIN).rstrip("°")
+    if "," in plain:
+        point = plain.rfind(".") > plain.rfind(",")
+        plain = plain.replace(",", "") if point else plain.replace(".", "").replace(",", ".")
+    try:
+        value = float(plain)
+    except ValueError:
+        return math.nan
+    return value if math.isfinite(value) and "_" not in plain else math.nan
+
+
+def is_no_number(text: str) -> bool:
+    """Whether a cell holds something that is neither a number nor a way to say that there is none."""
+    return text.strip().lower() not in _NOTHING and not math.isfinite(parse_number(text))
+
+
+def parse_times(cells: Sequence[str]) -> tuple[list[float], bool]:
+    """Times (K,) of numbers, or in seconds of clocks (h:mm:ss.f, mm:ss.f) and dates with one; NaN for what is none; and
+    whether they were clocks, past midnight too."""
+    numbers = [parse_number(cell) for cell in cells]
+    if sum(map(math.isfinite, numbers)) * 2 >= len(numbers):
+        return numbers, False
+    times: list[float] = []
+    day_s, before_s = 0.0, -math.inf
+    for cell in cells:
+        time_s = _clock_s(cell.strip())
+        if time_s + day_s < before_s - 12 * 3600.0:
+            day_s += 24 * 3600.0
+        times.append(time_s + day_s)
+        before_s = times[-1] if math.isfinite(times[-1]) else before_s
+    return times, True
+
+
+def _clock_s(text: str) -> float:
+    found = _CLOCK.match(text)
+    if found:
+        return 3600.0 * int(found[1] or 0) + 60.0 * int(found[2]) + float(found[3].replace(",", "."))
+    try:
+        return datetime.fromisoformat(text.replace(",", ".")).timestamp() if ":" in text else math.nan
+    except (ValueError, OverflowError, OSError):
+        return math.nan
