@@ -27,8 +27,6 @@ from carpus.core.results.repetition_rows import ShownRepetition
 from carpus.core.types import FloatArray, Side
 
 Relation = Literal["hands", "dates"]
-JUST_BEYOND = 1.1
-"""Up to so many times its limit a difference is only just beyond error."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,15 +47,6 @@ class ComparedRange:
     def at_least(self) -> bool:
         """Whether that difference is a lower bound, since one of the two was hidden in part."""
         return self.beyond and bool(self.first.joint) and self.first.limited != self.second.limited
-
-    @property
-    def just_beyond(self) -> bool:
-        """Whether that difference is hardly larger than error."""
-        return (
-            self.beyond
-            and not self.at_least
-            and abs(self.comparison.shown_difference_deg) <= JUST_BEYOND * self.comparison.limit_deg
-        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,10 +154,6 @@ def _alike(one: SessionFigures, other: SessionFigures) -> bool:
     return same and one.session_id != other.session_id and not one.not_counted
 
 
-Step = Literal["part", "start", "time"]
-"""By part of the repetition, by repetition start, or by time."""
-
-
 @dataclass(frozen=True, slots=True)
 class InStep:
     """Knots (K,) between which time runs evenly: ``player_s`` rises strictly, ``first_s`` and ``second_s`` never fall.
@@ -210,20 +195,16 @@ class InStep:
 
 
 def in_step(
-    first: Sequence[ShownRepetition],
-    second: Sequence[ShownRepetition],
-    durations_s: tuple[float, float],
-    step: Step = "part",
+    first: Sequence[ShownRepetition], second: Sequence[ShownRepetition], durations_s: tuple[float, float]
 ) -> InStep:
     """The first repetition beside the first one, the second beside the second, and so on, as both were found.
 
-    ``part``: the first recording runs at its own speed, the second so that both are in the same part of their
-    repetition. ``start``: both run at their own speed, and who is back first waits for the next start. What comes
-    before the first repetition runs so that both begin it together; what comes after the last common one, and all of it
-    with ``time``, runs at its own speed until each ends.
+    The first recording runs at its own speed, the second so that both are in the same part of their repetition. What
+    comes before the first repetition runs so that both begin it together; what comes after the last common one, and all
+    where one has no repetition, runs at its own speed until each ends.
     """
     knots = _Knots()
-    pairs = [] if step == "time" else list(zip(_edges(first, durations_s[0]), _edges(second, durations_s[1])))  # noqa: B905
+    pairs = list(zip(_edges(first, durations_s[0]), _edges(second, durations_s[1])))  # noqa: B905
     starts: list[float] = []
     if pairs:
         (start_first, _), (start_second, _) = pairs[0]
@@ -233,11 +214,10 @@ def in_step(
         knots.add(lead_s, start_first, start_second)
     for number, (mine, other) in enumerate(pairs):
         starts.append(knots.player_s)
-        if step == "part":
-            knots.go_on(mine[1] - mine[0] or other[1] - other[0], mine[1], other[1])
+        knots.go_on(mine[1] - mine[0] or other[1] - other[0], mine[1], other[1])
         if number + 1 < len(pairs):
             (next_first, _), (next_second, _) = pairs[number + 1]
-            knots.run_to(next_first, next_second, together=step == "part")
+            knots.run_to(next_first, next_second, together=True)
     knots.run_to(*durations_s, together=False)
     return knots.made(tuple(starts))
 

@@ -420,92 +420,12 @@
         <translation>{movement}: links {size} mehr als rechts.</translation>
     </message>
     <message>
-        <source>The right forearm turns {size} less than the left.</source>
-        <translation>Der rechte Unterarm dreht {size} weniger als der linke.</translation>
-    </message>
-    <message>
-        <source>The right forearm turns {size} more than the left.</source>
-        <translation>Der rechte Unterarm dreht {size} mehr als der linke.</translation>
-    </message>
-    <message>
-        <source>The left forearm turns {size} less than the right.</source>
-        <translation>Der linke Unterarm dreht {size} weniger als der rechte.</translation>
-    </message>
-    <message>
-        <source>The left forearm turns {size} more than the right.</source>
-        <translation>Der linke Unterarm dreht {size} mehr als der rechte.</translation>
-    </message>
-    <message>
-        <source>The right wrist moves {size} less than the left.</source>
-        <translation>Das rechte Handgelenk bewegt sich {size} weniger als das linke.</translation>
-    </message>
-    <message>
-        <source>The right wrist moves {size} more than the left.</source>
-        <translation>Das rechte Handgelenk bewegt sich {size} mehr als das linke.</translation>
-    </message>
-    <message>
-        <source>The left wrist moves {size} less than the right.</source>
-        <translation>Das linke Handgelenk bewegt sich {size} weniger als das rechte.</translation>
-    </message>
-    <message>
-        <source>The left wrist moves {size} more than the right.</source>
-        <translation>Das linke Handgelenk bewegt sich {size} mehr als das rechte.</translation>
-    </message>
-    <message>
-        <source>TAM differs between the hands in {count} of {all} fingers.</source>
-        <translation>Die TAM unterscheidet sich zwischen den Händen bei {count} von {all} Fingern.</translation>
-    </message>
-    <message>
-        <source>{count} of {all} ranges differ between the hands.</source>
-        <translation>{count} von {all} Umfängen unterscheiden sich zwischen den Händen.</translation>
-    </message>
-    <message>
-        <source>TAM is less on the right than on the left in {count} of {all} fingers.</source>
-        <translation>Die TAM ist bei {count} von {all} Fingern rechts kleiner als links.</translation>
-    </message>
-    <message>
-        <source>TAM is more on the right than on the left in {count} of {all} fingers.</source>
-        <translation>Die TAM ist bei {count} von {all} Fingern rechts größer als links.</translation>
-    </message>
-    <message>
-        <source>TAM is less on the left than on the right in {count} of {all} fingers.</source>
-        <translation>Die TAM ist bei {count} von {all} Fingern links kleiner als rechts.</translation>
-    </message>
-    <message>
-        <source>TAM is more on the left than on the right in {count} of {all} fingers.</source>
-        <translation>Die TAM ist bei {count} von {all} Fingern links größer als rechts.</translation>
-    </message>
-    <message>
-        <source>{count} of {all} ranges are less on the right than on the left.</source>
-        <translation>{count} von {all} Umfängen sind rechts kleiner als links.</translation>
-    </message>
-    <message>
-        <source>{count} of {all} ranges are more on the right than on the left.</source>
-        <translation>{count} von {all} Umfängen sind rechts größer als links.</translation>
-    </message>
-    <message>
-        <source>{count} of {all} ranges are less on the left than on the right.</source>
-        <translation>{count} von {all} Umfängen sind links kleiner als rechts.</translation>
-    </message>
-    <message>
-        <source>{count} of {all} ranges are more on the left than on the right.</source>
-        <translation>{count} von {all} Umfängen sind links größer als rechts.</translation>
-    </message>
-    <message>
         <source>{movement} {first} against {second}: more than the measurement error of {limit}.</source>
         <translation>{movement} {first} gegen {second}: mehr als der Messfehler von {limit}.</translation>
     </message>
     <message>
         <source>{movement} {first} against {second}: within the measurement error of {limit}.</source>
         <translation>{movement} {first} gegen {second}: im Messfehler von {limit}.</translation>
-    </message>
-    <message>
-        <source>{more} – {less}</source>
-        <translation>{more} – {less}</translation>
-    </message>
-    <message>
-        <source>Not a fair pair: {why}. Curves and figures are shown, nothing is judged.</source>
-        <translation>Nicht vergleichbar: {why}. Kurven und Werte werden gezeigt, beurteilt wird nichts.</translation>
     </message>
     <message>
         <source>same exercise, same day, same set-up</source>
@@ -548,14 +468,6 @@
         <translation>nicht beurteilt: nur eine von beiden hat es</translation>
     </message>
     <message>
-        <source>improved, just beyond error</source>
-        <translation>verbessert, knapp über Fehler</translation>
-    </message>
-    <message>
-        <source>worse, just beyond error</source>
-        <translation>schlechter, knapp über Fehler</translation>
-    </message>
-    <message>
         <source>improved, beyond error</source>
         <translation>verbessert, über Fehler</translation>
     </message>
@@ -566,22 +478,6 @@
     <message>
         <source>no difference beyond error</source>
         <translation>kein Unterschied über Fehler</translation>
-    </message>
-    <message>
-        <source>less than the left, just beyond error</source>
-        <translation>weniger als links, knapp über Fehler</translation>
-    </message>
-    <message>
-        <source>less than the right, just beyond error</source>
-        <translation>weniger als rechts, knapp über Fehler</translation>
-    </message>
-    <message>
-        <source>more than the left, just beyond error</source>
-        <translation>mehr als links, knapp über Fehler</translation>
-    </message>
-    <message>
-        <source>more than the right, just beyond error</source>
-        <translation>mehr als rechts, knapp über Fehler</translation>
     </message>
     <message>
         <source>less than the left, beyond error</source>
@@ -606,18 +502,6 @@
     <message>
         <source>Middle joints of all fingers</source>
         <translation>Mittelgelenke aller Finger</translation>
-    </message>
-    <message>
-        <source>part of the repetition</source>
-        <translation>Anteil der Wiederholung</translation>
-    </message>
-    <message>
-        <source>start of the repetition</source>
-        <translation>Beginn der Wiederholung</translation>
-    </message>
-    <message>
-        <source>time</source>
-        <translation>Zeit</translation>
     </message>
     <message>
         <source>improved</source>
@@ -3058,34 +2942,6 @@
     <message>
         <source>Made by Carpus {version}</source>
         <translation>Erstellt mit Carpus {version}</translation>
-    </message>
-    <message>
-        <source>Side by side</source>
-        <translation>Nebeneinander</translation>
-    </message>
-    <message>
-        <source>solid: {first}, band ± sd; dashed: {second}</source>
-        <translation>durchgezogen: {first}, Band ± SD; gestrichelt: {second}</translation>
-    </message>
-    <message>
-        <source>Mean repetition: {angle}</source>
-        <translation>Mittlere Wiederholung: {angle}</translation>
-    </message>
-    <message>
-        <source>Differences</source>
-        <translation>Unterschiede</translation>
-    </message>
-    <message>
-        <source>{hand}, {date}</source>
-        <translation>{hand}, {date}</translation>
-    </message>
-    <message>
-        <source>First, solid</source>
-        <translation>Erste, durchgezogen</translation>
-    </message>
-    <message>
-        <source>Second, dashed</source>
-        <translation>Zweite, gestrichelt</translation>
     </message>
     <message>
         <source>measured by Carpus {versions}</source>
@@ -6384,22 +6240,6 @@
         <translation>{wrong}, was ein Bilderordner nicht sein kann</translation>
     </message>
     <message>
-        <source>No repetition was seen well enough.</source>
-        <translation>Keine Wiederholung war gut genug zu sehen.</translation>
-    </message>
-    <message>
-        <source>start</source>
-        <translation>Beginn</translation>
-    </message>
-    <message>
-        <source>half</source>
-        <translation>halb</translation>
-    </message>
-    <message>
-        <source>end</source>
-        <translation>Ende</translation>
-    </message>
-    <message>
         <source>The language can be changed when nothing is measured or worked on any more.</source>
         <translation>Die Sprache lässt sich ändern, wenn nichts mehr gemessen oder bearbeitet wird.</translation>
     </message>
@@ -7052,10 +6892,6 @@
         <translation>Zuhause</translation>
     </message>
     <message>
-        <source>side-by-side</source>
-        <translation>nebeneinander</translation>
-    </message>
-    <message>
         <source>progress</source>
         <translation>Verlauf</translation>
     </message>
@@ -7218,6 +7054,10 @@
     <message>
         <source>three discs of the palm are needed; say which of {there} they are</source>
         <translation>drei Punkte der Handfläche werden gebraucht; geben Sie an, welche von {there} es sind</translation>
+    </message>
+    <message>
+        <source>Not a fair pair: {why}. Figures are shown, nothing is judged.</source>
+        <translation>Nicht vergleichbar: {why}. Die Werte werden gezeigt, beurteilt wird nichts.</translation>
     </message>
 </context>
 <context>
@@ -7626,33 +7466,9 @@
         <source>Simulated hand: this is not a patient’s, and does not count.</source>
         <translation>Simulierte Hand: Sie gehört keinem Patienten und zählt nicht.</translation>
     </message>
-    <message>
-        <source>With which session?</source>
-        <translation>Mit welcher Sitzung?</translation>
-    </message>
-    <message>
-        <source>{session} stays.</source>
-        <translation>{session} bleibt.</translation>
-    </message>
-    <message>
-        <source>The first one</source>
-        <translation>Die erste</translation>
-    </message>
-    <message>
-        <source>Compare</source>
-        <translation>Vergleichen</translation>
-    </message>
-    <message>
-        <source>Save tables</source>
-        <translation>Tabellen speichern</translation>
-    </message>
 </context>
 <context>
     <name>BesidePlayer</name>
-    <message>
-        <source>In step by</source>
-        <translation>Gleichschritt nach</translation>
-    </message>
     <message>
         <source>repetition</source>
         <translation>Wiederholung</translation>
@@ -7664,22 +7480,6 @@
 </context>
 <context>
     <name>BesideScreen</name>
-    <message>
-        <source>Compare with &amp;another…</source>
-        <translation>Mit &amp;anderer vergleichen…</translation>
-    </message>
-    <message>
-        <source>Report</source>
-        <translation>Bericht</translation>
-    </message>
-    <message>
-        <source>How far reading is</source>
-        <translation>Wie weit das Lesen ist</translation>
-    </message>
-    <message>
-        <source>&amp;Another…</source>
-        <translation>&amp;Andere…</translation>
-    </message>
     <message>
         <source>Reading both sessions…</source>
         <translation>Beide Sitzungen werden gelesen…</translation>
@@ -8616,10 +8416,6 @@
     <message>
         <source>Show the left hand as it would look as a right one</source>
         <translation>Die linke Hand so zeigen, wie sie als rechte aussähe</translation>
-    </message>
-    <message>
-        <source>Export…</source>
-        <translation>Exportieren…</translation>
     </message>
     <message>
         <source>Differences</source>
@@ -9854,24 +9650,6 @@ Umschalt+F8 von der Seite</translation>
     <message>
         <source>All names are right</source>
         <translation>Alle Namen stimmen</translation>
-    </message>
-</context>
-<context>
-    <name>MeanCard</name>
-    <message>
-        <source>Mean repetition, ± sd</source>
-        <translation>Mittlere Wiederholung, ± SD</translation>
-    </message>
-    <message>
-        <source>Angle</source>
-        <translation>Winkel</translation>
-    </message>
-</context>
-<context>
-    <name>MeanCurves</name>
-    <message>
-        <source>Mean repetition of both sessions</source>
-        <translation>Mittlere Wiederholung beider Sitzungen</translation>
     </message>
 </context>
 <context>

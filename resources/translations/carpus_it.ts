@@ -420,92 +420,12 @@
         <translation>{movement}: a sinistra {size} più che a destra.</translation>
     </message>
     <message>
-        <source>The right forearm turns {size} less than the left.</source>
-        <translation>L’avambraccio destro ruota {size} meno del sinistro.</translation>
-    </message>
-    <message>
-        <source>The right forearm turns {size} more than the left.</source>
-        <translation>L’avambraccio destro ruota {size} più del sinistro.</translation>
-    </message>
-    <message>
-        <source>The left forearm turns {size} less than the right.</source>
-        <translation>L’avambraccio sinistro ruota {size} meno del destro.</translation>
-    </message>
-    <message>
-        <source>The left forearm turns {size} more than the right.</source>
-        <translation>L’avambraccio sinistro ruota {size} più del destro.</translation>
-    </message>
-    <message>
-        <source>The right wrist moves {size} less than the left.</source>
-        <translation>Il polso destro si muove {size} meno del sinistro.</translation>
-    </message>
-    <message>
-        <source>The right wrist moves {size} more than the left.</source>
-        <translation>Il polso destro si muove {size} più del sinistro.</translation>
-    </message>
-    <message>
-        <source>The left wrist moves {size} less than the right.</source>
-        <translation>Il polso sinistro si muove {size} meno del destro.</translation>
-    </message>
-    <message>
-        <source>The left wrist moves {size} more than the right.</source>
-        <translation>Il polso sinistro si muove {size} più del destro.</translation>
-    </message>
-    <message>
-        <source>TAM differs between the hands in {count} of {all} fingers.</source>
-        <translation>TAM diverso fra le mani in {count} dita su {all}.</translation>
-    </message>
-    <message>
-        <source>{count} of {all} ranges differ between the hands.</source>
-        <translation>Fra le mani {count} escursioni su {all} sono diverse.</translation>
-    </message>
-    <message>
-        <source>TAM is less on the right than on the left in {count} of {all} fingers.</source>
-        <translation>TAM minore a destra che a sinistra in {count} dita su {all}.</translation>
-    </message>
-    <message>
-        <source>TAM is more on the right than on the left in {count} of {all} fingers.</source>
-        <translation>TAM maggiore a destra che a sinistra in {count} dita su {all}.</translation>
-    </message>
-    <message>
-        <source>TAM is less on the left than on the right in {count} of {all} fingers.</source>
-        <translation>TAM minore a sinistra che a destra in {count} dita su {all}.</translation>
-    </message>
-    <message>
-        <source>TAM is more on the left than on the right in {count} of {all} fingers.</source>
-        <translation>TAM maggiore a sinistra che a destra in {count} dita su {all}.</translation>
-    </message>
-    <message>
-        <source>{count} of {all} ranges are less on the right than on the left.</source>
-        <translation>A destra {count} escursioni su {all} sono minori che a sinistra.</translation>
-    </message>
-    <message>
-        <source>{count} of {all} ranges are more on the right than on the left.</source>
-        <translation>A destra {count} escursioni su {all} sono maggiori che a sinistra.</translation>
-    </message>
-    <message>
-        <source>{count} of {all} ranges are less on the left than on the right.</source>
-        <translation>A sinistra {count} escursioni su {all} sono minori che a destra.</translation>
-    </message>
-    <message>
-        <source>{count} of {all} ranges are more on the left than on the right.</source>
-        <translation>A sinistra {count} escursioni su {all} sono maggiori che a destra.</translation>
-    </message>
-    <message>
         <source>{movement} {first} against {second}: more than the measurement error of {limit}.</source>
         <translation>{movement} {first} contro {second}: più dell’errore di misura di {limit}.</translation>
     </message>
     <message>
         <source>{movement} {first} against {second}: within the measurement error of {limit}.</source>
         <translation>{movement} {first} contro {second}: entro l’errore di misura di {limit}.</translation>
-    </message>
-    <message>
-        <source>{more} – {less}</source>
-        <translation>{more} – {less}</translation>
-    </message>
-    <message>
-        <source>Not a fair pair: {why}. Curves and figures are shown, nothing is judged.</source>
-        <translation>Confronto non corretto: {why}. Curve e valori sono mostrati, nulla è valutato.</translation>
     </message>
     <message>
         <source>same exercise, same day, same set-up</source>
@@ -548,14 +468,6 @@
         <translation>non valutato: c’è solo in una delle due</translation>
     </message>
     <message>
-        <source>improved, just beyond error</source>
-        <translation>miglioramento, appena oltre l’errore</translation>
-    </message>
-    <message>
-        <source>worse, just beyond error</source>
-        <translation>peggioramento, appena oltre l’errore</translation>
-    </message>
-    <message>
         <source>improved, beyond error</source>
         <translation>miglioramento, oltre l’errore</translation>
     </message>
@@ -566,22 +478,6 @@
     <message>
         <source>no difference beyond error</source>
         <translation>nessuna differenza oltre l’errore</translation>
-    </message>
-    <message>
-        <source>less than the left, just beyond error</source>
-        <translation>meno della sinistra, appena oltre l’errore</translation>
-    </message>
-    <message>
-        <source>less than the right, just beyond error</source>
-        <translation>meno della destra, appena oltre l’errore</translation>
-    </message>
-    <message>
-        <source>more than the left, just beyond error</source>
-        <translation>più della sinistra, appena oltre l’errore</translation>
-    </message>
-    <message>
-        <source>more than the right, just beyond error</source>
-        <translation>più della destra, appena oltre l’errore</translation>
     </message>
     <message>
         <source>less than the left, beyond error</source>
@@ -606,18 +502,6 @@
     <message>
         <source>Middle joints of all fingers</source>
         <translation>Articolazioni medie di tutte le dita</translation>
-    </message>
-    <message>
-        <source>part of the repetition</source>
-        <translation>parte della ripetizione</translation>
-    </message>
-    <message>
-        <source>start of the repetition</source>
-        <translation>inizio della ripetizione</translation>
-    </message>
-    <message>
-        <source>time</source>
-        <translation>tempo</translation>
     </message>
     <message>
         <source>improved</source>
@@ -3058,34 +2942,6 @@
     <message>
         <source>Made by Carpus {version}</source>
         <translation>Prodotto da Carpus {version}</translation>
-    </message>
-    <message>
-        <source>Side by side</source>
-        <translation>Fianco a fianco</translation>
-    </message>
-    <message>
-        <source>solid: {first}, band ± sd; dashed: {second}</source>
-        <translation>continua: {first}, fascia ± DS; tratteggio: {second}</translation>
-    </message>
-    <message>
-        <source>Mean repetition: {angle}</source>
-        <translation>Ripetizione media: {angle}</translation>
-    </message>
-    <message>
-        <source>Differences</source>
-        <translation>Differenze</translation>
-    </message>
-    <message>
-        <source>{hand}, {date}</source>
-        <translation>{hand}, {date}</translation>
-    </message>
-    <message>
-        <source>First, solid</source>
-        <translation>Prima, linea continua</translation>
-    </message>
-    <message>
-        <source>Second, dashed</source>
-        <translation>Seconda, tratteggio</translation>
     </message>
     <message>
         <source>measured by Carpus {versions}</source>
@@ -6372,22 +6228,6 @@
         <translation>{wrong}, cosa che una cartella di immagini non può essere</translation>
     </message>
     <message>
-        <source>No repetition was seen well enough.</source>
-        <translation>Nessuna ripetizione è stata vista abbastanza bene.</translation>
-    </message>
-    <message>
-        <source>start</source>
-        <translation>inizio</translation>
-    </message>
-    <message>
-        <source>half</source>
-        <translation>metà</translation>
-    </message>
-    <message>
-        <source>end</source>
-        <translation>fine</translation>
-    </message>
-    <message>
         <source>The language can be changed when nothing is measured or worked on any more.</source>
         <translation>La lingua si può cambiare quando non è più in corso nessuna misura o elaborazione.</translation>
     </message>
@@ -7052,10 +6892,6 @@
         <translation>a-casa</translation>
     </message>
     <message>
-        <source>side-by-side</source>
-        <translation>a-confronto</translation>
-    </message>
-    <message>
         <source>progress</source>
         <translation>andamento</translation>
     </message>
@@ -7218,6 +7054,10 @@
     <message>
         <source>three discs of the palm are needed; say which of {there} they are</source>
         <translation>servono tre dischi del palmo; indicare quali sono tra {there}</translation>
+    </message>
+    <message>
+        <source>Not a fair pair: {why}. Figures are shown, nothing is judged.</source>
+        <translation>Coppia non confrontabile: {why}. I valori sono mostrati, nulla è valutato.</translation>
     </message>
 </context>
 <context>
@@ -7626,33 +7466,9 @@
         <source>Simulated hand: this is not a patient’s, and does not count.</source>
         <translation>Mano simulata: non è di un paziente, e non conta.</translation>
     </message>
-    <message>
-        <source>With which session?</source>
-        <translation>Con quale seduta?</translation>
-    </message>
-    <message>
-        <source>{session} stays.</source>
-        <translation>{session} resta.</translation>
-    </message>
-    <message>
-        <source>The first one</source>
-        <translation>La prima</translation>
-    </message>
-    <message>
-        <source>Compare</source>
-        <translation>Confronta</translation>
-    </message>
-    <message>
-        <source>Save tables</source>
-        <translation>Salva le tabelle</translation>
-    </message>
 </context>
 <context>
     <name>BesidePlayer</name>
-    <message>
-        <source>In step by</source>
-        <translation>Sincronizza su</translation>
-    </message>
     <message>
         <source>repetition</source>
         <translation>ripetizione</translation>
@@ -7664,22 +7480,6 @@
 </context>
 <context>
     <name>BesideScreen</name>
-    <message>
-        <source>Compare with &amp;another…</source>
-        <translation>Confronta con un’&amp;altra…</translation>
-    </message>
-    <message>
-        <source>Report</source>
-        <translation>Relazione</translation>
-    </message>
-    <message>
-        <source>How far reading is</source>
-        <translation>Avanzamento della lettura</translation>
-    </message>
-    <message>
-        <source>&amp;Another…</source>
-        <translation>Un’&amp;altra…</translation>
-    </message>
     <message>
         <source>Reading both sessions…</source>
         <translation>Lettura delle due sedute…</translation>
@@ -8616,10 +8416,6 @@
     <message>
         <source>Show the left hand as it would look as a right one</source>
         <translation>Mostra la mano sinistra come apparirebbe se fosse la destra</translation>
-    </message>
-    <message>
-        <source>Export…</source>
-        <translation>Esporta…</translation>
     </message>
     <message>
         <source>Differences</source>
@@ -9854,24 +9650,6 @@ Maiusc+F8 di lato</translation>
     <message>
         <source>All names are right</source>
         <translation>Tutti i nomi sono giusti</translation>
-    </message>
-</context>
-<context>
-    <name>MeanCard</name>
-    <message>
-        <source>Mean repetition, ± sd</source>
-        <translation>Ripetizione media, ± DS</translation>
-    </message>
-    <message>
-        <source>Angle</source>
-        <translation>Angolo</translation>
-    </message>
-</context>
-<context>
-    <name>MeanCurves</name>
-    <message>
-        <source>Mean repetition of both sessions</source>
-        <translation>Ripetizione media delle due sedute</translation>
     </message>
 </context>
 <context>

@@ -1,15 +1,13 @@
-"""In the real window: two sessions are ticked, shown side by side, played, written as tables and as a page."""
+"""In the real window: two sessions are ticked, shown side by side and played."""
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from carpus.app.desktop.window import Desktop
@@ -36,9 +34,7 @@ def desktop(open_desktop: Callable[..., Desktop], recorded: tuple[Path, Path], t
     return opened
 
 
-def test_from_two_ticks_to_tables_and_a_page_and_back(
-    qtbot: QtBot, desktop: Desktop, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_from_two_ticks_to_both_in_step_and_back(qtbot: QtBot, desktop: Desktop) -> None:
     journey, screen = desktop.journey, desktop.journey.beside.screen
     shown_list = journey.sessions.screen.list
     qtbot.waitUntil(lambda: all(line.figure for line in shown_list.rows.lines))
@@ -49,9 +45,9 @@ def test_from_two_ticks_to_tables_and_a_page_and_back(
     assert "Compare the 2 ticked" in journey.sessions.screen.pair_button.text()
     qtbot.keyClick(shown_list, Qt.Key.Key_C)
     assert journey.place == "beside"
-    qtbot.waitUntil(lambda: screen.shown is not None)
+    qtbot.waitUntil(lambda: screen.both is not None)
     assert screen.answer.text() == "The whole arc has improved by 30° since 13 Nov."
-    assert [row.words for row in screen.differences.table.rows][:3] == ["improved, beyond error"] * 3
+    assert [row.words for row in screen.differences.rows][:3] == ["improved, beyond error"] * 3
 
     start, starts = screen.playing.time_s, screen.together.step.starts_s
     assert start == starts[0]
@@ -64,37 +60,11 @@ def test_from_two_ticks_to_tables_and_a_page_and_back(
     playing_from = screen.playing.time_s
     qtbot.waitUntil(lambda: screen.playing.time_s > playing_from)
     qtbot.keyClick(screen, Qt.Key.Key_Space)
-    screen.player.step.setCurrentIndex(screen.player.step.findData("time"))
-    step = screen.together.step
-    first_s, second_s = step.at(screen.playing.time_s)
-    assert first_s == pytest.approx(second_s, abs=1e-6) or second_s == step.at(step.end_s)[1]
-
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", staticmethod(lambda *_: (str(tmp_path / "pair.csv"), "")))
-    qtbot.keyClick(screen, Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
-    qtbot.waitUntil(lambda: journey.messages.busy)
-    with (tmp_path / "pair.csv").open(encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
-    assert [row["movement"] for row in rows] == ["arc", "flexion", "extension"]
-    assert {row["verdict"] for row in rows} == {"improved"}
-    assert float(rows[0]["difference_deg"]) == pytest.approx(30.0, abs=1.0)
-    with (tmp_path / "pair-curves.csv").open(encoding="utf-8") as file:
-        curves = list(csv.DictReader(file))
-    assert len(curves) == 3 * 101
-    journey.messages.card.close_sheet()
-    qtbot.waitUntil(lambda: not journey.messages.busy)
-
-    screen.report_button.click()
-    assert journey.place == "report"
-    with qtbot.waitSignal(journey.report.screen.saved, timeout=60_000):
-        journey.report.screen.save(str(tmp_path / "pair.pdf"))
-    assert (tmp_path / "pair.pdf").read_bytes().startswith(b"%PDF")
-    journey.way.back()
-    assert journey.place == "beside"
     journey.way.back()
     assert journey.place == "sessions"
     assert len(journey.sessions.screen.list.rows.ticked) == 2, "they stay ticked"
     deeds = [entry.did for entry in read_log(desktop.library.store)]
-    assert [deeds.count(did) for did in ("opened", "exported", "reported")] == [2, 2, 2]
+    assert [deeds.count(did) for did in ("opened", "exported", "reported")] == [2, 0, 0]
 
 
 def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: Desktop) -> None:
@@ -105,13 +75,13 @@ def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: Deskto
     assert journey.review.screen.card.beside_button.isEnabled()
     qtbot.keyClick(journey.review.screen, Qt.Key.Key_B)
     assert journey.place == "beside"
-    qtbot.waitUntil(lambda: screen.shown is not None)
+    qtbot.waitUntil(lambda: screen.both is not None)
     assert screen.ids == (newest, older)
     qtbot.keyClick(desktop.shell, Qt.Key.Key_F1)
     assert journey.place == "help"
     journey.way.back()
     assert journey.place == "beside", "as it was left"
-    assert screen.shown is not None
+    assert screen.both is not None
     opened = [entry.did for entry in read_log(desktop.library.store)].count("opened")
     assert opened == 3, "the review's one, and the two once"
     journey.way.back()
@@ -128,6 +98,5 @@ def test_from_the_review_and_a_file_that_went_away(qtbot: QtBot, desktop: Deskto
     screen.told.connect(told.append)
     journey.beside.show(newest, older)
     qtbot.waitUntil(lambda: len(told) == 1)
-    assert screen.shown is None
+    assert screen.both is None
     assert "could not be read" in screen.answer.text()
-    assert not screen.report_button.isEnabled()

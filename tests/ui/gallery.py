@@ -60,7 +60,6 @@ from carpus.ui.records.cards import BackupCard, BackupFacts, LockCard, RecordsCa
 from carpus.ui.records.erasing import EraseSheet, ErasureFacts
 from carpus.ui.records.lists import DeedLine, ListedRecord, LogSheet, RecordsSheet
 from carpus.ui.records.locking import LockSheet, PinSheet
-from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.pages import Report
 from carpus.ui.report.pdf import progress_report, session_report
@@ -665,13 +664,10 @@ class Gallery(GalleryWindow):
         self._beside(store, "hand-3", "hand-left")
 
     def beside_reading(self) -> None:
-        screen = BesideScreen(self.theme, self.keys, Background(), self.sessions)
-        screen.reader._background.run = lambda *_: None  # type: ignore[method-assign]
+        never = Background()
+        never.run = lambda *_: None  # type: ignore[method-assign]
+        screen = BesideScreen(self.theme, self.keys, never, self.sessions)
         self.show(screen, tab=1, camera="").begin(("session-1", "session-7"))
-
-    def report_beside(self) -> None:
-        now = self.beside().shown
-        self._report(BesideReport(now, now.main_quantity, "Linden 42", "MK", "1.0.0"))
 
     def retest(self) -> None:
         screen = self.retest_empty()

@@ -10,7 +10,6 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication, QScrollArea, QStyleOptionComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
-from carpus.ui.beside.screen import BesideScreen
 from carpus.ui.by_hand.screen import ByHandScreen
 from carpus.ui.controls.field import Combo, number_field
 from carpus.ui.controls.layouts import ScrollArea
@@ -55,9 +54,6 @@ def test_tables_are_read_whole_and_no_finger_loses_the_end_of_its_name(gallery: 
         (page,) = (area for area in screen.findChildren(ScrollArea) if area.parent() is screen)
         assert page.verticalScrollBar().maximum() > 0
 
-    gallery.beside_hand()
-    beside = gallery.shown(BesideScreen)
-    has_whole(beside.differences._scroll, beside)
     gallery.review_hand()
     review = gallery.shown(ReviewScreen)
     has_whole(review.card.tables, review)

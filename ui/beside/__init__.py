@@ -1,1 +1,1 @@
-"""Two sessions side by side: pictures in step, mean repetitions over each other, differences beyond error."""
+"""Two sessions side by side: pictures in step, and their differences beyond error."""

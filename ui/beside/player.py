@@ -7,46 +7,43 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout
 
+from carpus.core.hand.exercises import FLEXION, SIDES
+from carpus.core.results.figures import SessionFigures
+from carpus.core.results.motion_curves import seen_angle
 from carpus.core.results.repetition_rows import ShownRepetition
-from carpus.core.results.side_by_side import InStep, Step, in_step
-from carpus.ui import numbers
+from carpus.core.results.seen import best_motion
+from carpus.core.results.side_by_side import InStep, in_step
+from carpus.core.session.values import Session
+from carpus.core.types import FloatArray
+from carpus.ui import numbers, terms
 from carpus.ui.controls.card import Card, KeyCaps
-from carpus.ui.controls.field import Combo
 from carpus.ui.controls.layouts import fill, in_grid, in_line
 from carpus.ui.controls.text import MEDIUM, REGULAR, Text
+from carpus.ui.figures import figure_of, with_side
 from carpus.ui.playback.transport import Playing, Scrubber, Transport
 from carpus.ui.plot.session import row_at
-from carpus.ui.report.beside_shown import Watched
-from carpus.ui.report.beside_words import step_words
 from carpus.ui.theme import Theme
+from carpus.ui.translate import tr
 
 
 class BesidePlayer(Card):
-    """``step_chosen`` carries how both are kept in step, ``sought`` which of the two was pointed at (0 or 1) and a time
-    in it."""
+    """``sought`` carries which of the two was pointed at (0 or 1) and a time in it."""
 
-    step_chosen = Signal(str)
     sought = Signal(int, float)
 
     def __init__(self, theme: Theme, playing: Playing) -> None:
         super().__init__(theme, 0)
         self.transport = Transport(theme, playing, 4)
-        self._step_name = Text(theme, self.tr("In step by"), 14, REGULAR, "text2")
-        self.step = Combo()
-        self.step.setAccessibleName(self.tr("In step by"))
-        self.step.setFocusPolicy(Qt.FocusPolicy.TabFocus)  # a click leaves Space and the arrows to the player
-        self.step.offer(step_words())
         self._names = (Text(theme, "", 14, REGULAR, "text2"), Text(theme, "", 14, REGULAR, "text2"))
         self.tracks = (Scrubber(theme), Scrubber(theme))
         self._times = (Text(theme, "", 14, MEDIUM), Text(theme, "", 14, MEDIUM))
         self._hints = KeyCaps(theme, [("[ ]", self.tr("repetition"))])
-        line = in_line(self.transport, 8, self._step_name, 4, self.step, 16, gap=4, margins=(12, 4, 16, 4))
+        line = in_line(self.transport, 16, gap=4, margins=(12, 4, 16, 4))
         fill(line, (self._both_tracks(), 1), 12, self._hints)
         self.body.addLayout(line)
-        self.step.currentIndexChanged.connect(lambda _: self.step_chosen.emit(str(self.step.currentData())))
 
     def _both_tracks(self) -> QGridLayout:
         grid = in_grid(12, 0, margins=(0, 0, 0, 0))
@@ -59,8 +56,7 @@ class BesidePlayer(Card):
         return grid
 
     def show_tight(self, tight: bool) -> None:
-        for shown in (self._hints, self._step_name):
-            shown.setVisible(not tight)
+        self._hints.setVisible(not tight)
 
     def show_names(self, names: Sequence[str]) -> None:
         for line, name in enumerate(names):
@@ -82,6 +78,44 @@ BACK_S = 0.3
 
 
 @dataclass(frozen=True, slots=True)
+class Watched:
+    """One session that was opened: ``time_s`` (N,) after the first frame, and its trained angle ``value_deg`` (N,)
+    where that was seen."""
+
+    session: Session
+    figures: SessionFigures
+    time_s: FloatArray
+    value_deg: FloatArray
+
+    @classmethod
+    def of(cls, session: Session, figures: SessionFigures) -> Watched:
+        joint, angle = trained_angle(figures)
+        time_s = session.timestamp_s - session.timestamp_s[:1]
+        return cls(session, figures, time_s, seen_angle(session, joint, angle))
+
+
+def value_words(watched: Watched, row: int) -> str:
+    """``Flexion 37° ± 2°`` where the trained angle was seen."""
+    joint, angle = trained_angle(watched.figures)
+    value = float(watched.value_deg[row]) if 0 <= row < len(watched.value_deg) else math.nan
+    if not math.isfinite(value):
+        return tr("not seen")
+    if joint:
+        figure = figure_of(joint)
+        value *= figure.sign  # from the angle in every file to the one that is spoken of
+        said = with_side(value, figure.finger) if figure.row == "spread" else numbers.signed_degrees(value)
+        return f"{figure.long_name} {said}"
+    sd = float(np.degrees(best_motion(watched.session).angles_sd_rad[row, angle]))
+    return f"{terms.movement_name(SIDES[angle][0 if value >= 0 else 1])} {numbers.with_spread(value, sd)}"
+
+
+def trained_angle(figures: SessionFigures) -> tuple[str, int]:
+    """The joint that an exercise trains, or nothing and the wrist's angle."""
+    angle = figures.exercise.angle
+    return figures.exercise.joint, FLEXION if angle is None else angle
+
+
+@dataclass(frozen=True, slots=True)
 class Together:
     """Times are the player's unless they are said to be of one of the two."""
 
@@ -89,9 +123,9 @@ class Together:
     step: InStep
 
     @classmethod
-    def of(cls, watched: tuple[Watched, Watched], step: Step) -> Together:
+    def of(cls, watched: tuple[Watched, Watched]) -> Together:
         one, other = watched
-        return cls(watched, in_step(one.figures.repetitions, other.figures.repetitions, ends_s(watched), step))
+        return cls(watched, in_step(one.figures.repetitions, other.figures.repetitions, ends_s(watched)))
 
     @property
     def repetitions(self) -> tuple[tuple[ShownRepetition, ...], tuple[ShownRepetition, ...]]:
@@ -99,30 +133,13 @@ class Together:
         return one.figures.repetitions, other.figures.repetitions
 
     def row(self, place: int, time_s: float) -> int:
-        return row_at(self.watched[place].seen.time_s, self.step.at(time_s)[place])
+        return row_at(self.watched[place].time_s, self.step.at(time_s)[place])
 
     def current(self, place: int, time_s: float) -> int:
         """The repetition that one of the two is in, from 0; -1 between them."""
         own_s = self.step.at(time_s)[place]
         found = enumerate(self.repetitions[place])
         return max((n for n, one in found if one.start_s - 1e-6 <= own_s <= one.end_s + 1e-6), default=-1)
-
-    def share(self, place: int, time_s: float) -> float:
-        """How far one of the two is in its repetition; NaN between them."""
-        number = self.current(place, time_s)
-        if number < 0:
-            return math.nan
-        one = self.repetitions[place][number]
-        share = (self.step.at(time_s)[place] - one.start_s) / max(one.end_s - one.start_s, 1e-6)
-        return min(max(share, 0.0), 1.0)
-
-    def at_share(self, time_s: float, share: float) -> float:
-        """Elsewhere in the repetition that the first is in; the same time between repetitions."""
-        number = self.current(0, time_s)
-        if number < 0:
-            return time_s
-        one = self.repetitions[0][number]
-        return self.step.when_first(one.start_s + share * (one.end_s - one.start_s))
 
     def next_start(self, time_s: float, by: int) -> float:
         """The start of the next repetition, or of this one or the one before; the same time where there is none."""
@@ -132,11 +149,11 @@ class Together:
         return next((start for start in reversed(starts) if start < time_s - BACK_S), starts[0] if starts else time_s)
 
     def period_s(self) -> float:
-        times = self.watched[0].seen.time_s
+        times = self.watched[0].time_s
         return float(np.median(np.diff(times))) if len(times) > 1 else 1.0 / 30.0
 
 
 def ends_s(watched: tuple[Watched, Watched]) -> tuple[float, float]:
     """How long both are."""
-    one, other = (float(of.seen.time_s[-1]) if len(of.seen.time_s) else 0.0 for of in watched)
+    one, other = (float(of.time_s[-1]) if len(of.time_s) else 0.0 for of in watched)
     return one, other

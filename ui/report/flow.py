@@ -15,7 +15,6 @@ from carpus.core.records import of_clinic, patients
 from carpus.core.records.of_clinic import keep_form, read_form
 from carpus.core.results.report_form import ReportForm, usual_paper
 from carpus.ui.flow import Flow, ScreenContext
-from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.home_page import HomeReport, own_way
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.pages import Report
@@ -30,7 +29,7 @@ T = TypeVar("T")
 
 
 class ReportFlow(Flow):
-    """One report of a session, of the progress, or of two sessions side by side."""
+    """One report of a session, of the progress."""
 
     place, guide = "report", "figures"
     screen: ReportScreen
@@ -55,7 +54,7 @@ class ReportFlow(Flow):
         )
         screen.saved.connect(self._saved)
 
-    def show(self, of: str | ProgressReport | BesideReport, sessions: Sequence[str] = ()) -> None:
+    def show(self, of: str | ProgressReport, sessions: Sequence[str] = ()) -> None:
         """Of a session, by its identity; or one that is made, and the ``sessions`` that went into it."""
         if isinstance(of, str):
             self._show_session(of)
@@ -68,10 +67,7 @@ class ReportFlow(Flow):
         return self.screen.save_button
 
     def up(self) -> None:
-        if isinstance(self.screen.shown, BesideReport):
-            self.context.way.go("beside")
-        else:
-            self.to_session()
+        self.to_session()
 
     def show_research(self, *, on: bool) -> None:
         self._research = on

@@ -7,7 +7,6 @@ from functools import partial
 
 from carpus.ui.fonts import SEMIBOLD
 from carpus.ui.language import speaking
-from carpus.ui.report.beside_page import BesideReport, paint_beside_page
 from carpus.ui.report.framed import paint_framed
 from carpus.ui.report.home_page import HomeReport, paint_home_page
 from carpus.ui.report.letter_page import LetterReport, paint_letter_page
@@ -29,7 +28,7 @@ from carpus.ui.report.session_page import (
 from carpus.ui.terms import LEGAL_SENTENCE
 from carpus.ui.translate import tr
 
-Report = SessionReport | ProgressReport | BesideReport | LetterReport | HomeReport
+Report = SessionReport | ProgressReport | LetterReport | HomeReport
 
 
 def pages_of(report: Report) -> list[Callable[[Page], None]]:
@@ -38,8 +37,6 @@ def pages_of(report: Report) -> list[Callable[[Page], None]]:
     paints: list[Callable[[Page], None]] = []
     if isinstance(report, ProgressReport):
         paints = [lambda page: paint_progress_page(page, report)]
-    elif isinstance(report, BesideReport):
-        paints = [lambda page: paint_beside_page(page, report)]
     elif isinstance(report, LetterReport):
         paints = [lambda page: paint_letter_page(page, report)]
     elif isinstance(report, HomeReport):

@@ -18,7 +18,6 @@ from carpus.ui.controls.card import Card
 from carpus.ui.controls.layouts import RING_PX, STRETCH, fill, in_column, in_line, scrolled
 from carpus.ui.controls.text import REGULAR, SEMIBOLD, StateText, Text
 from carpus.ui.keys import Keys, bind_screen
-from carpus.ui.report.beside_page import BesideReport
 from carpus.ui.report.home_page import HomeReport
 from carpus.ui.report.letter_page import LetterReport
 from carpus.ui.report.page import Page
@@ -218,11 +217,11 @@ def suggested_name(report: Report) -> str:
     """``Linden-42_2026-11-20_15-29_wrist-fe_report.pdf``: the made-up name, when, and what was done."""
     kinds: dict[type, str] = {
         SessionReport: tr("report"), LetterReport: tr("letter"), HomeReport: tr("home"),
-        BesideReport: tr("side-by-side"), ProgressReport: tr("progress"),
+        ProgressReport: tr("progress"),
     }  # fmt: skip
     kind = kinds[type(report)]
     name, when = report.pseudonym.replace(" ", "-"), max(figures.when for figures in report.sessions)
-    if isinstance(report, ProgressReport | BesideReport):
+    if isinstance(report, ProgressReport):
         return f"{name}_{when:%Y-%m-%d}_{kind}.pdf"
     what = report.sessions[0].exercise.id.lower().replace("_", "-")
     return f"{name}_{when:%Y-%m-%d_%H-%M}_{what}_{kind}.pdf"

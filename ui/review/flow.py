@@ -30,7 +30,7 @@ class ReviewFlow(Flow):
         screen.report.connect(lambda session_id: way.show("report", session_id))
         screen.export.connect(self.exporting.ask)
         screen.hand_picture_wanted.connect(self.save_hand_picture)
-        screen.beside.connect(lambda one, other: way.show("beside", one, other, screen.charts.number))
+        screen.beside.connect(lambda one, other: way.show("beside", one, other))
         screen.correct.connect(lambda *where: way.show("correct", *where))
         screen.result.connect(self.show)
         screen.result_wanted.connect(self._use_again)
